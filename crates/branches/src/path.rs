@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use intervals::lever;
 use model::Problem;
+use numerics::lever;
 
 use crate::frame::Frames;
 use crate::parameter::apply::{PointError, UncheckedChain};

@@ -94,7 +94,7 @@ pub use degenerate::bound::Bound;
 pub use degenerate::unloaded::DegenerateEquilibrium;
 pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
-pub use intervals::Interval;
+pub use numerics::Interval;
 pub use plane::face::Face;
 pub use search::Progress;
 pub use search::undecided::{Reason, Undecided};

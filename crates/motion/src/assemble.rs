@@ -12,7 +12,7 @@ use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::simulation::at_the_beginning;
 use crate::state::State;
-use crate::vector::{add_times, norm, plus, times};
+use numerics::vector::{add_times, norm, plus, times};
 
 /// Corrections of a guess: far ones move at most [`Stepper::LARGEST_CORRECTION`] of a bar each.
 const MOST_CORRECTIONS: usize = 400;

@@ -21,7 +21,7 @@ use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::simulation::CLOSED_TOLERANCE;
 use crate::state::{State, half_excess};
-use crate::vector::{dot, minus};
+use numerics::vector::{dot, minus};
 
 /// A gap that is less than this, in units of the length of its member or of all members, is closed.
 pub(crate) const CLOSED: f64 = 1e-12;

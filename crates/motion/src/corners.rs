@@ -17,7 +17,7 @@ use model::{Bar, Vector};
 
 use crate::error::MotionError;
 use crate::inertia::EndInertia;
-use crate::vector::{add_times, cross, dot, minus, norm, plus, times};
+use numerics::vector::{add_times, cross, dot, minus, norm, plus, times};
 
 /// Largest relative difference of the two moments across a bar that counts as rounding.
 const EQUAL_MOMENTS: f64 = 1e-12;

@@ -17,7 +17,7 @@ use crate::mechanism::{Link, Mechanism};
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
 use crate::state::State;
-use crate::vector::{add_times, cross, dot, minus, plus, times};
+use numerics::vector::{add_times, cross, dot, minus, plus, times};
 
 /// Forces of the damping.
 pub(crate) struct Damping {

@@ -5,7 +5,7 @@ use model::system::Kind;
 
 use crate::mechanism::{Mechanism, Spring};
 use crate::state::State;
-use crate::vector::{add_times, cross, dot, minus, norm, plus, times};
+use numerics::vector::{add_times, cross, dot, minus, norm, plus, times};
 
 /// A force at a joint as a function of time, N.
 pub type ForceOfTime = Box<dyn Fn(f64) -> Vector + Send + Sync>;

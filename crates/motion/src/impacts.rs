@@ -18,7 +18,7 @@ use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::simulation::{Simulation, at_the_beginning};
 use crate::state::State;
-use crate::vector::{norm, worse};
+use numerics::vector::{norm, worse};
 
 /// Impacts in one step after which it is given up: they follow each other ever faster.
 const MOST_IMPACTS: usize = 200;

@@ -16,7 +16,7 @@ use model::Vector;
 use model::system::System;
 
 use crate::snapshot::Snapshot;
-use crate::vector::{add_times, cross, dot, minus, norm, plus, times, worse};
+use numerics::vector::{add_times, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations, in units of the largest force (weights and inertia counted), and of it times
 /// the total length.

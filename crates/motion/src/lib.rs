@@ -120,7 +120,6 @@ mod stable;
 mod state;
 mod unequal;
 mod unilateral;
-mod vector;
 
 pub use assemble::{assemble, random_places, random_position};
 pub use contacts::{Contact, Impact, has_impacts};

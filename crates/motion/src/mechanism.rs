@@ -9,7 +9,7 @@ use crate::inertia::EndInertia;
 use crate::order::order;
 use crate::unequal::smaller;
 use crate::unilateral::refuse_inextensible;
-use crate::vector::{add_times, minus};
+use numerics::vector::{add_times, minus};
 
 /// A system of bars as the mechanics of the places of its joints (natural coordinates).
 ///
@@ -310,13 +310,13 @@ pub(crate) fn end_loads(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
 /// Two unit vectors across a unit vector and each other.
 fn across(direction: Vector) -> [Vector; 2] {
     let unit = |v: Vector| {
-        let length = crate::vector::norm(v);
+        let length = numerics::vector::norm(v);
         v.map(|x| x / length)
     };
     // The axis that the direction has least of.
     let least = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()));
     let mut axis = [0.0; 3];
     axis[least.unwrap_or(0)] = 1.0;
-    let first = unit(crate::vector::cross(direction, axis));
-    [first, unit(crate::vector::cross(direction, first))]
+    let first = unit(numerics::vector::cross(direction, axis));
+    [first, unit(numerics::vector::cross(direction, first))]
 }

@@ -18,7 +18,7 @@ use crate::krylov;
 use crate::mechanism::Mechanism;
 use crate::saddle::{Saddle, Singular};
 use crate::state::{State, half_excess};
-use crate::vector::{dot, minus, plus, worse};
+use numerics::vector::{dot, minus, plus, worse};
 
 /// Largest relative violation of a length, and of its derivative in units of the largest speed,
 /// after any step.

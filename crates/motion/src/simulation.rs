@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use crate::snapshot::Snapshot;
 use crate::stable::longest_step_s;
 use crate::state::State;
-use crate::vector::{add_times, cross, dot, minus, plus, times};
+use numerics::vector::{add_times, cross, dot, minus, plus, times};
 
 /// Largest relative violation of a length in places that a motion may begin with; what is less is
 /// taken for the rounding of printed digits, and corrected.

@@ -8,7 +8,7 @@ use crate::force::couple;
 use crate::laws::{self, Laws};
 use crate::mechanism::end_loads;
 use crate::simulation::Simulation;
-use crate::vector::{add_times, dot, minus, norm, plus, times};
+use numerics::vector::{add_times, dot, minus, norm, plus, times};
 
 /// Everything about a motion at one time. Arrays are by joint, or by member, in the order of the
 /// system.

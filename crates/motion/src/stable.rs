@@ -14,7 +14,7 @@ use model::Vector;
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::saddle::Saddle;
-use crate::vector::{add_times, dot, minus, times};
+use numerics::vector::{add_times, dot, minus, times};
 
 /// Longest step in units of `1/ω`: half of what is stable, where the energy of the oscillation is
 /// kept to a quarter.

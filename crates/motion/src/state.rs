@@ -1,10 +1,10 @@
 //! Places and velocities, with the rounding of the places kept.
 
-use intervals::two_sum;
 use model::Vector;
+use numerics::two_sum;
 
 use crate::mechanism::Mechanism;
-use crate::vector::{dot, minus, plus, worse};
+use numerics::vector::{dot, minus, plus, worse};
 
 /// Places and velocities by slot.
 ///

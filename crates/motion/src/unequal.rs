@@ -20,8 +20,8 @@ use crate::error::MotionError;
 use crate::inertia::EndInertia;
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
-use crate::vector::{cross, times};
 use model::Vector;
+use numerics::vector::{cross, times};
 
 /// How far a moment may be above the sum of the other two, relative, and count as equal to it.
 const ROUNDING: f64 = 1e-12;

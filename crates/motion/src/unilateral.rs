@@ -10,8 +10,8 @@ use model::system::{Joint, Kind, Support, System};
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::modes::LeftOver;
-use crate::vector::{minus, norm, worse};
 use model::Vector;
+use numerics::vector::{minus, norm, worse};
 
 /// How far the ends of a taut member may be from its length, relative: what lengths may be off in
 /// an equilibrium.

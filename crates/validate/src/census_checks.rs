@@ -9,6 +9,7 @@
 use census::{Census, Interval};
 use lagrange::{Seed, Settings, SolveError, Solver};
 use model::{Chain, Equilibrium, NoCertificate, Problem, Vector};
+use numerics::vector::worse;
 
 use crate::certificate::{certify, certify_highest};
 use crate::free::stored_rounding_m;
@@ -89,11 +90,6 @@ fn beyond(chain: &Chain, boxes: &[[Interval; 3]], joints_m: &[Vector]) -> f64 {
 /// How far a number lies outside of an interval.
 fn outside(part: Interval, x: f64) -> f64 {
     if part.contains(x) { 0.0 } else { worse(part.lo() - x, x - part.hi()) }
-}
-
-/// The larger; NaN is the worst of all (`f64::max` would forget it).
-fn worse(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// The joints turned about the vertical through `origin` so that they come closest to the middles

@@ -47,8 +47,8 @@ pub use highest::certify_highest;
 
 use crate::free::stored_rounding_m;
 use crate::lever::{carried_kg, far_kg};
-use crate::vector::norm;
 use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
+use numerics::vector::norm;
 
 /// Unit roundoff of doubles.
 const U: f64 = 0.5 * f64::EPSILON;

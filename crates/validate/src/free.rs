@@ -10,8 +10,8 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use intervals::DoubleDouble;
 use model::{Bar, Chain, Vector};
+use numerics::DoubleDouble;
 
 use crate::lever::carried_kg;
 use crate::systems::STORED_ULPS;

@@ -1,11 +1,11 @@
-//! The lever rule for bars, as the judge uses it: that of [`intervals::lever`].
+//! The lever rule for bars, as the judge uses it: that of [`numerics::lever`].
 //!
 //! A bar's weight is linear in the places of its two ends, so a bar weighs on its joints as two
 //! point masses do: with the centre of weight at the distance `r` from its first end, `(1 − r/l) m`
 //! there and `(r/l) m` at its second end.
 
-use intervals::lever;
 use model::{Bar, Chain};
+use numerics::lever;
 
 /// Where the centre of weight is, as a part of the length from the first end: `r/l`.
 ///

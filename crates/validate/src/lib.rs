@@ -33,7 +33,6 @@ pub mod question;
 pub mod systems;
 pub mod table;
 pub mod tolerances;
-mod vector;
 mod verdict;
 
 pub use question::{Equations, Question, Solvers, UseCensus};

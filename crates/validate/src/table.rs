@@ -13,7 +13,7 @@ use crate::free::stored_rounding_m;
 use crate::question::{Equations, Question, UseCensus};
 use crate::systems::turn::turned_onto;
 use crate::systems::{SystemAgreement, SystemStatics, ask_with};
-use crate::vector::{beyond, norm, worse};
+use numerics::vector::{beyond, norm, worse};
 
 /// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends,
 /// the energy and the largest differences.

@@ -19,8 +19,8 @@
 
 use std::collections::HashMap;
 
-use intervals::Interval;
 use model::{Chain, Problem};
+use numerics::Interval;
 use rayon::prelude::*;
 
 use crate::census::Census;

@@ -5,8 +5,8 @@
 //! kept, 120 bytes whatever the number of bars, with what is proved of the index; and everything
 //! else is made from them when it is asked for, to the same bits as in a [`Census`].
 
-use intervals::{Interval, atan2};
 use model::{Equilibrium, Problem};
+use numerics::{Interval, atan2};
 use rayon::prelude::*;
 
 use crate::census::check::{CheckError, zero_again};

@@ -1,10 +1,10 @@
 //! The census in the words of the model: plain numbers with their evidence.
 
-use intervals::Interval;
 use model::{
     Complete, Equilibrium, Evidence, InPlane, InSpace, NoCertificate, Optimal, Reactions, Reason,
     SolverName, Stability, Status, Vector, Verified,
 };
+use numerics::Interval;
 
 use crate::census::Census;
 use crate::census::position::Position;

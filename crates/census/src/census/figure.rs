@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use figures::{Anchor, BLUE, Colour, Look, Svg, VERMILION};
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::census::Census;
 use crate::census::position::Position;

@@ -1,6 +1,6 @@
 //! The equilibria of one vertical plane, one by one.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::census::Census;
 use crate::equilibrium::Neighbourhood;

@@ -1,6 +1,6 @@
 //! One bar over a whole cell of pulls: its direction and how the direction turns.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;

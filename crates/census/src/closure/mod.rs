@@ -2,7 +2,7 @@
 
 pub(crate) mod bar;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::bar::BarTerm;
 use crate::plane::cell::Cell;

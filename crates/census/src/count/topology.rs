@@ -21,8 +21,8 @@
 //! M. Farber, D. Schütz, "Homology of planar polygon spaces", Geometriae Dedicata 125 (2007) 75-92,
 //! doi:10.1007/s10711-007-9139-7, Theorem 1
 
-use intervals::Interval;
 use model::Problem;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::plane::loads::JointLoads;

@@ -21,7 +21,7 @@
 //! Varchenko, "Singularities of Differentiable Maps" I (1985), chapters 4 and 5,
 //! doi:10.1007/978-1-4612-5154-5
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::degenerate::maps::Pair;
 use crate::degenerate::series::{ORDER, Series};

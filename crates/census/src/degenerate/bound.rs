@@ -1,6 +1,6 @@
 //! How many equilibria an undecided box can hold.
 
-use intervals::Interval;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::{Closure, Pattern};

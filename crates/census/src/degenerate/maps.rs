@@ -1,6 +1,6 @@
 //! The closure and its kin as series over boxes of their coordinates.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::signed;
 use crate::degenerate::series::Series;

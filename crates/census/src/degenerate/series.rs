@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use intervals::Interval;
+use numerics::Interval;
 
 /// Derivatives up to this order.
 pub(crate) const ORDER: usize = 5;

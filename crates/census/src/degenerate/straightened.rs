@@ -24,7 +24,7 @@
 //! at which two slack positions and the one in line meet. With more a sphere of slack positions shrinks
 //! to the point.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::degenerate::unloaded::DegenerateEquilibrium;
 use crate::slack::axial::AxialClosure;

@@ -18,7 +18,7 @@
 //! the multiplicity is the order of the first term that does not vanish. That no other zero is near
 //! is proved as in [`arc`](crate::degenerate::arc).
 
-use intervals::Interval;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::degenerate::arc::widest;

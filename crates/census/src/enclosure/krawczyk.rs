@@ -13,7 +13,7 @@
 //! 4 (1969) 187-201, doi:10.1007/BF02234767; R. E. Moore, SIAM J. Numer. Anal. 14 (1977) 611-615,
 //! doi:10.1137/0714040
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::Closure;
 use crate::plane::cell::Cell;

@@ -1,7 +1,7 @@
 //! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
 
-use intervals::{DoubleDouble, Interval, lever};
 use model::{Bar, Chain};
+use numerics::{DoubleDouble, Interval, lever};
 
 use crate::closure::Closure;
 use crate::enclosure::krawczyk::{Zero, image, inside, inverse};

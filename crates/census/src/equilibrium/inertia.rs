@@ -20,7 +20,7 @@
 //! Y. Chabrillac, J.-P. Crouzeix, "Definiteness and semidefiniteness of quadratic forms revisited",
 //! Linear Algebra Appl. 63 (1984) 283-292, doi:10.1016/0024-3795(84)90150-2
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::bar::unit;
 use crate::closure::signed;

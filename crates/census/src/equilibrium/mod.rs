@@ -3,7 +3,7 @@
 pub(crate) mod inertia;
 pub(crate) mod stress;
 
-use intervals::{Interval, atan2};
+use numerics::{Interval, atan2};
 use serde::{Deserialize, Serialize};
 
 use crate::closure::bar::unit;

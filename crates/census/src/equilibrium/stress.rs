@@ -15,7 +15,7 @@
 //!
 //! R. Connelly, "Rigidity and energy", Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::signed;
 

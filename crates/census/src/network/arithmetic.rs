@@ -1,6 +1,6 @@
 //! Vectors of intervals, exact zeros and ones kept exact.
 
-use intervals::Interval;
+use numerics::Interval;
 
 /// A vector of intervals.
 pub(super) type Vector = [Interval; 3];

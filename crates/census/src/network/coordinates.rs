@@ -1,7 +1,7 @@
 //! In which directions each joint can move.
 
-use intervals::Interval;
 use model::system::Support;
+use numerics::Interval;
 
 use super::arithmetic::{NOWHERE, Vector, cross, plus, points, times};
 use super::frame::Frame;

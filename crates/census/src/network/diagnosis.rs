@@ -1,8 +1,8 @@
 //! Why there is no box: what double precision says of the derivative. No proof.
 
 use faer::Mat;
-use intervals::Interval;
 use model::NoBox;
+use numerics::Interval;
 
 use super::equations::Equations;
 use super::newton::dense;

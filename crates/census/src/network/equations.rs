@@ -1,8 +1,8 @@
 //! The equations (1)-(3) and their derivative, over boxes of unknowns.
 
-use intervals::Interval;
 use model::system::System;
 use model::{NoBox, Vector as Point};
+use numerics::Interval;
 
 use super::activity::Activity;
 use super::arithmetic::{Vector, difference, dot, minus, norm, plus, product, squared, sum, times};

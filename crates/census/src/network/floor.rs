@@ -4,9 +4,9 @@
 //! one of the system above the floor as well, if in all of it the floor pushes what lies and the
 //! other joints are above.
 
-use intervals::Interval;
 use model::system::{Joint, Support, System};
 use model::{NoBox, Vector as Point};
+use numerics::Interval;
 
 use super::arithmetic::{minus, norm};
 use super::frame::Frame;

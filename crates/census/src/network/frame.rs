@@ -1,8 +1,8 @@
 //! Units in which lengths and forces of a system are of order one, and its loads in them.
 
-use intervals::{Interval, lever};
 use model::system::{Member, System};
 use model::{Bar, Vector as Point};
+use numerics::{Interval, lever};
 
 use super::arithmetic::{NOWHERE, Vector, plus, points, sum, times};
 

@@ -15,8 +15,8 @@
 //! (inflation).
 
 use faer::Mat;
-use intervals::Interval;
 use model::NoBox;
+use numerics::Interval;
 
 use super::equations::Equations;
 use super::newton::Refined;

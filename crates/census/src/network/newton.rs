@@ -3,8 +3,8 @@
 
 use faer::Mat;
 use faer::linalg::solvers::DenseSolveCore;
-use intervals::Interval;
 use model::NoBox;
+use numerics::Interval;
 
 use super::equations::{Entry, Equations};
 

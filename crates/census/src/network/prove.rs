@@ -1,8 +1,8 @@
 //! From an answer to a proof.
 
-use intervals::Interval;
 use model::system::{Joint, Kind, Support, System};
 use model::{NoBox, Vector as Point};
+use numerics::Interval;
 
 use super::activity::{Activity, activities};
 use super::arithmetic::{dot, minus, squared};

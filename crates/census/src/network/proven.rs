@@ -1,7 +1,7 @@
 //! What is proved.
 
-use intervals::Interval;
 use model::system::{Kind, Member, System};
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use super::activity::Activity;

@@ -10,7 +10,7 @@
 //! rounding would hide a zero close by; so cells near it move to a chart whose origin is that very
 //! point.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::plane::face::Face;
 use crate::plane::system::System;

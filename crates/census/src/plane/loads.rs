@@ -1,6 +1,6 @@
 //! Weights at the joints of a chain besides those of its bars.
 
-use intervals::{DoubleDouble, Interval};
+use numerics::{DoubleDouble, Interval};
 
 /// What hangs at each joint, kg: none of it is negative.
 #[derive(Debug, Clone, Default)]

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use intervals::{Interval, lever};
 use model::{Bar, Chain, Vector};
+use numerics::{Interval, lever};
 
 use crate::plane::face::Face;
 use crate::plane::loads::JointLoads;
@@ -273,8 +273,8 @@ fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use intervals::DoubleDouble;
     use model::Anchors;
+    use numerics::DoubleDouble;
 
     use super::*;
 

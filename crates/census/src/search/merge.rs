@@ -75,7 +75,7 @@ mod tests {
     use super::*;
     use crate::plane::face::Face;
     use crate::plane::loads::JointLoads;
-    use intervals::Interval;
+    use numerics::Interval;
 
     fn system() -> System {
         System::new(model::cases::paper().chain(), JointLoads::NONE)

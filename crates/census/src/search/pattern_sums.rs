@@ -14,7 +14,7 @@
 //! J. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 4.2,
 //! doi:10.1137/1.9780898718027)
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::Pattern;
 use crate::closure::bar::BarTerm;

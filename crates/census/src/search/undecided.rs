@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use intervals::Interval;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::Pattern;

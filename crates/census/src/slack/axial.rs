@@ -21,7 +21,7 @@
 
 use std::ops::Range;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::bar::unit;
 use crate::closure::signed;

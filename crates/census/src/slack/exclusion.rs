@@ -18,7 +18,7 @@
 
 use std::ops::Range;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::bar::BarTerm;
 use crate::closure::{Pattern, signed};

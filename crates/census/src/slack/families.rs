@@ -18,8 +18,8 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-use intervals::Interval;
 use model::{Bar, Problem};
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::signed;
@@ -236,8 +236,8 @@ fn counted(
 
 #[cfg(test)]
 mod tests {
-    use intervals::Interval;
     use model::{Anchors, Bar, Chain, Problem};
+    use numerics::Interval;
 
     use crate::census::Census;
     use crate::search::undecided::Reason;

@@ -47,7 +47,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use intervals::Interval;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::{Pattern, signed};

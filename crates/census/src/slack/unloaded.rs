@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::{Pattern, signed};
 use crate::degenerate::straightened;

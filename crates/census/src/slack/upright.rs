@@ -40,7 +40,7 @@
 //! NIST Digital Library of Mathematical Functions, <https://dlmf.nist.gov/18.12>, (18.12.11), and
 //! <https://dlmf.nist.gov/18.9>, (18.9.1)
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::closure::bar::unit;
 use crate::closure::{Pattern, signed};

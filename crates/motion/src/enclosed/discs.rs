@@ -5,8 +5,8 @@
 //! `t` at which the disc stays apart from all others gives an isolated eigenvalue with an error of
 //! the second order in what is beside the diagonal.
 
-use intervals::Interval;
 use nalgebra::DMatrix;
+use numerics::Interval;
 
 /// Largest scale of a row: some digits beyond the rounding of a double are none.
 const LARGEST_SCALE: f64 = (1_u64 << 40) as f64;

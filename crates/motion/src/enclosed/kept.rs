@@ -4,8 +4,8 @@
 //! independent, and `S W = R X̃` has one solution with `|W − C R X̃| ≤ β/(1 − β) ‖C R X̃‖`, column by
 //! column. `X = X̃ − R̃ᵀ W` has `R X = 0`.
 
-use intervals::Interval;
 use nalgebra::DMatrix;
+use numerics::Interval;
 
 use super::pencil::Pencil;
 use super::{NotEnclosed, less_unit, norm};
@@ -43,7 +43,7 @@ pub(super) fn displacements(
     let mut multipliers = product(&inverse, &times(about));
     let gain = Interval::point(beta) / (Interval::ONE - Interval::point(beta));
     for mut column in multipliers.column_iter_mut() {
-        let largest = column.iter().map(|w| w.mag()).fold(0.0, crate::vector::worse);
+        let largest = column.iter().map(|w| w.mag()).fold(0.0, numerics::vector::worse);
         let off = (gain * Interval::point(largest)).hi();
         column.apply(|w| *w = *w + Interval::new(-off, off));
     }

@@ -25,9 +25,9 @@ mod discs;
 mod kept;
 mod pencil;
 
-use intervals::Interval;
 use model::system::System;
 use nalgebra::DMatrix;
+use numerics::Interval;
 
 use crate::error::MotionError;
 use crate::modes::{about_equilibrium, approximate_modes};
@@ -122,7 +122,7 @@ pub enum NotEnclosed {
 /// [`NotEnclosed`], why there is no such proof.
 ///
 /// ```
-/// use intervals::Interval;
+/// use numerics::Interval;
 /// use model::Bar;
 /// use model::system::{Joint, Member, System};
 /// use motion::EquilibriumBox;
@@ -206,5 +206,5 @@ fn less_unit(mut matrix: DMatrix<Interval>) -> DMatrix<Interval> {
 /// for symmetric matrices, of the 2-norm.
 fn norm(matrix: &DMatrix<Interval>) -> f64 {
     let row = |i: usize| matrix.row(i).iter().map(|x| Interval::point(x.mag())).sum::<Interval>();
-    (0..matrix.nrows()).map(|i| row(i).hi()).fold(0.0, crate::vector::worse)
+    (0..matrix.nrows()).map(|i| row(i).hi()).fold(0.0, numerics::vector::worse)
 }

@@ -1,9 +1,10 @@
 //! Stiffness, inertia and constraints about an equilibrium in a box.
 
-use intervals::Interval;
 use model::Bar;
 use model::system::{Kind, Support, System};
 use nalgebra::DMatrix;
+use numerics::Interval;
+use numerics::vector::{cross, dot, minus};
 
 use super::{EquilibriumBox, NotEnclosed};
 use crate::corners::{is_symmetric, second_axis};
@@ -257,16 +258,4 @@ fn inertia(bar: &Bar) -> [Interval; 3] {
 
 fn moments(bar: &Bar) -> [Interval; 3] {
     bar.inertia_kg_m2().map(|moment| Interval::around(moment, MOMENT_ROUNDING * moment))
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

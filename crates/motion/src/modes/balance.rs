@@ -6,7 +6,7 @@ use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::state::State;
 use crate::unilateral::BALANCE;
-use crate::vector::{add_times, dot, norm, plus, times, worse};
+use numerics::vector::{add_times, dot, norm, plus, times, worse};
 
 /// What loads and members leave over, by slot: what supports bear, and what is out of balance.
 pub(crate) struct LeftOver {

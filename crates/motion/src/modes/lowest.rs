@@ -17,8 +17,8 @@ use super::shifted::Shifted;
 use super::solved::Solved;
 use super::stiffness::{Entries, Stiffness};
 use crate::error::MotionError;
-use crate::vector;
 use model::Vector;
+use numerics::vector;
 
 /// Shift of the first attempt, in units of [`Stiffness::unit`]: below zero, where a mode may be.
 const FIRST_SHIFT: f64 = -0.1;

@@ -5,7 +5,7 @@ use model::Vector;
 use crate::mechanism::Mechanism;
 use crate::state::State;
 use crate::unequal::Excess;
-use crate::vector::{cross, dot, minus, norm, times};
+use numerics::vector::{cross, dot, minus, norm, times};
 
 /// Which way the joints of a mode move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

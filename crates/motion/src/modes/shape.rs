@@ -9,7 +9,7 @@ use super::stiffness::Stiffness;
 use super::{Mode, What};
 use crate::mechanism::Mechanism;
 use crate::state::State;
-use crate::vector::{add_times, dot, norm, times};
+use numerics::vector::{add_times, dot, norm, times};
 
 /// Part of a turn that may lie outside of the modes of `ω² = 0`, relative.
 const IS_A_TURN: f64 = 1e-6;

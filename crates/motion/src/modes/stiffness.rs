@@ -7,7 +7,7 @@ use super::planes::{Direction, FLAT, Sector};
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
 use crate::unequal::{Excess, excesses};
-use crate::vector::{dot, norm, times};
+use numerics::vector::{dot, norm, times};
 
 /// Stiffness, inertia and constraints about an equilibrium.
 pub(super) struct Stiffness<'a> {

@@ -20,7 +20,7 @@ use model::Vector;
 
 use super::orthogonal::eliminate;
 use super::{Layout, Singular};
-use crate::vector::{add_times, dot, times};
+use numerics::vector::{add_times, dot, times};
 
 /// Symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
 pub(super) type Symmetric = [f64; 6];

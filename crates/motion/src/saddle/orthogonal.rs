@@ -14,7 +14,7 @@
 use model::Vector;
 
 use super::forest::Symmetric;
-use crate::vector::{add_times, dot, times};
+use numerics::vector::{add_times, dot, times};
 
 /// Least diagonal of `U` relative to its column: below it is rounding.
 const LEAST_DIAGONAL: f64 = 1e-13;

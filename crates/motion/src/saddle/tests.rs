@@ -32,7 +32,7 @@ fn apply(
     x: &[Vector],
     rho: &[f64],
 ) -> (Vec<Vector>, Vec<f64>) {
-    use crate::vector::{add_times, dot};
+    use numerics::vector::{add_times, dot};
     let mut f: Vec<Vector> = x.iter().zip(&layout.mass).map(|(x, m)| x.map(|x| m * x)).collect();
     let mut phi = vec![0.0; rho.len()];
     let mut row = |f: &mut Vec<Vector>, slot: usize, row: usize, sign: f64| {

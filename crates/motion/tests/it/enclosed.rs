@@ -1,9 +1,9 @@
 //! Enclosures of `ω²` against closed forms, and what they do not claim.
 
-use intervals::{DoubleDouble, Interval};
 use model::Bar;
 use model::system::{Joint, Kind, Member, Support, System};
 use motion::{Enclosures, EquilibriumBox, NotEnclosed, enclose_modes};
+use numerics::{DoubleDouble, Interval};
 use proptest::prelude::*;
 
 use crate::common::{hanging, links, rods};

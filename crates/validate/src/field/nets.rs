@@ -4,7 +4,7 @@ use formats::system::parse_net;
 
 use super::entry::{BothSolvers, Compared, Entry};
 use crate::foreign::{ForcesJudged, ForeignAnswer, judge_foreign};
-use crate::vector::{minus, norm, plus, times, worse};
+use numerics::vector::{minus, norm, plus, times, worse};
 
 const SOURCE: &str = "R. Pastrana, jax_fdm, tests/test_reference_solver.py and tests/data/reference, \
     github.com/arpastrana/jax_fdm, commit 71d449076d73";

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::bounds::{Bounds, IMPLAUSIBLE};
 use super::least_squares::{Column, Found, Problem};
-use crate::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, minus, norm, plus, times};
 
 /// Forces found for positions that came without.
 #[derive(Debug, Clone, PartialEq, Serialize)]

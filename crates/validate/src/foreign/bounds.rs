@@ -3,7 +3,7 @@
 use model::system::System;
 use serde::Serialize;
 
-use crate::vector::{minus, norm, worse};
+use numerics::vector::{minus, norm, worse};
 
 /// Forces this many times larger than those found, or than all loads together, are no explanation
 /// of a residual.

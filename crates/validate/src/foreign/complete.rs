@@ -4,7 +4,7 @@ use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, InSpace, SolverName, Vector, sum};
 
 use super::best_forces::{free_part, joint_loads, law_n, shares_n, spans};
-use crate::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, minus, norm, plus, times};
 
 /// Positions and axial forces with end forces, reactions and energy by the lever rule and the
 /// members' laws. Its second-order behaviour is nobody's finding and must not be read.

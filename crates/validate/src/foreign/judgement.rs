@@ -18,7 +18,7 @@ use super::violation::{
     Measured, Violation, balance_found, balance_given, geometry_and_laws, whole,
 };
 use crate::systems::{ABSURD, Scale, SystemStatics, certify, judge};
-use crate::vector::norm;
+use numerics::vector::norm;
 
 /// What the judgement comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

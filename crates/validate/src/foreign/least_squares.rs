@@ -20,7 +20,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 use model::{Vector, sum};
 
-use crate::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, minus, norm, plus, times};
 
 /// The ridge, in units of the diagonal (a member adds 1 to each end): its square root is far above
 /// the rounding, and itself far below what changes a residual.

@@ -10,7 +10,7 @@ use crate::systems::free::free_joints;
 use crate::systems::turn::turned_onto;
 use crate::systems::{SystemFailure, ask};
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm, worse};
+use numerics::vector::{minus, norm, worse};
 
 /// What a solver that starts at the answer's positions finds.
 #[derive(Debug, Clone, PartialEq, Serialize)]

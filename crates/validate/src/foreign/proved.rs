@@ -1,9 +1,9 @@
 //! How large the error of an answer is, with proof.
 
 use census::network::prove;
-use intervals::Interval;
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
+use numerics::Interval;
 use serde::Serialize;
 
 /// Enclosures of the errors of an answer: of its difference from the one equilibrium of which

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::best_forces::{BestForces, free_part, joint_loads, law_n, spans};
 use super::bounds::Bounds;
-use crate::vector::{minus, norm, plus, times};
+use numerics::vector::{minus, norm, plus, times};
 
 /// A law that an answer breaks by more than its tolerance explains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

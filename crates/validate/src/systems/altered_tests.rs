@@ -9,7 +9,7 @@ use super::tests::{four_legs, lamp};
 use super::{ask_with, compare};
 use crate::question::{Question, UseCensus};
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, plus, times};
+use numerics::vector::{minus, plus, times};
 
 /// An answer altered by a size.
 type Alteration = fn(&System, &SystemEquilibrium, f64) -> SystemEquilibrium;
@@ -23,7 +23,7 @@ fn added(
     let mut other = answer.clone();
     for (k, member) in system.members().iter().enumerate() {
         let d = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
-        let pull = times(axial(k) / crate::vector::norm(d), d);
+        let pull = times(axial(k) / numerics::vector::norm(d), d);
         other.axial_n[k] += axial(k);
         other.start_forces_n[k] = minus(other.start_forces_n[k], pull);
         other.end_forces_n[k] = plus(other.end_forces_n[k], pull);

@@ -24,7 +24,7 @@ use self::program::{Affine, Program};
 use super::certificate::joint_loads;
 use super::family::motions;
 use super::near::potential_j;
-use crate::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, minus, norm, plus, times};
 
 mod program;
 

@@ -40,7 +40,7 @@ use model::{NoCertificate, Optimal, Vector, sum};
 
 use super::definite::{Symmetric, gamma};
 use super::floor::push_n;
-use crate::vector::{dot, minus, norm, plus, times, worse};
+use numerics::vector::{dot, minus, norm, plus, times, worse};
 
 /// The largest gap that still counts as none, in units of the loads times the size of the system:
 /// what the solvers' own budget of energies allows.

@@ -16,8 +16,8 @@ use super::scale::Scale;
 use super::statics::{SystemStatics, judge};
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm, worse};
 use crate::verdict::{Verdict, with_sentences};
+use numerics::vector::{minus, norm, worse};
 
 /// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
 /// differences of any two.

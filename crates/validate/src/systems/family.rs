@@ -14,7 +14,7 @@ use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
 use super::statics::rounding_m;
-use crate::vector::{cross, dot, minus, norm, plus, times, worse};
+use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
 const COUNTED: usize = 240;

@@ -4,7 +4,7 @@ use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
 use super::family::motions;
-use crate::vector::{cross, dot, norm, plus, times};
+use numerics::vector::{cross, dot, norm, plus, times};
 
 /// A direction that rises less than this is level: the floor cannot push along it.
 const LEVEL: f64 = 1e-9;

@@ -6,7 +6,7 @@ use model::{Choices, ForceChoice, LargeForce, Vector};
 
 use super::family::Family;
 use super::scale::Scale;
-use crate::vector::{minus, norm, plus, worse};
+use numerics::vector::{minus, norm, plus, worse};
 
 /// Forces of this many times all that acts on the system are a finding of their own: the shape is
 /// nearly singular.

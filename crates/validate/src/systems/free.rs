@@ -14,7 +14,7 @@ use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::{largest_force_n, total_load_n};
 use super::floor::{push_n, sliding};
-use crate::vector::{cross, dot, minus, norm, times};
+use numerics::vector::{cross, dot, minus, norm, times};
 
 /// Slack by this part of the length: far above the rounding of places, far below what anybody calls
 /// slack.

@@ -8,7 +8,7 @@ use super::compare::SystemAgreement;
 use super::tests::lamp;
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm};
+use numerics::vector::{minus, norm};
 
 /// Two answers that differ by the places of joints which nothing pulls.
 fn compared(

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::ask::SystemFailure;
 use super::certificate::total_load_n;
 use crate::question::{Question, Solvers};
-use crate::vector::{dot, minus, norm, plus, times, worse};
+use numerics::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was
 /// drawn: half a member is about what turns a triangle of bars over.

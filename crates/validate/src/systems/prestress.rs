@@ -22,7 +22,7 @@ use model::Vector;
 use model::system::{Kind, System};
 
 use super::family::motions;
-use crate::vector::{cross, dot, minus, norm, times};
+use numerics::vector::{cross, dot, minus, norm, times};
 
 /// Coordinates up to which it is decided: dense decompositions.
 const COUNTED: usize = 300;

@@ -18,7 +18,7 @@ use model::{Proved, Vector};
 
 use super::definite::{Symmetric, gamma};
 use super::family::motions;
-use crate::vector::{dot, minus, norm, times};
+use numerics::vector::{dot, minus, norm, times};
 
 /// A member that is this near its length, as a part of it, has it.
 const TAUT: f64 = model::system::LENGTH_ROUNDING;

@@ -20,7 +20,7 @@ use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::{joint_loads, size_m, total_load_n};
 use super::statics::STORED_ULPS;
-use crate::vector::{minus, norm, worse};
+use numerics::vector::{minus, norm, worse};
 
 /// Elastic members are not stretched by more than their length by any prestress: an answer with
 /// absurd places does not set the size of forces.

@@ -21,7 +21,7 @@ use super::family::Family;
 use super::floor::{push_n, rising};
 use super::free::free_joints;
 use super::scale::{MOST_FORCE, Scale};
-use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
+use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
 ///

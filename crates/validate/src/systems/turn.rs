@@ -11,7 +11,7 @@ use super::bodies::Bodies;
 use super::statics::judge;
 use super::verticals::firsts;
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm, plus, worse};
+use numerics::vector::{minus, norm, plus, worse};
 
 /// Verticals through several joints are looked at where their number times that of the joints is
 /// at most this: each costs a visit of the joints.

@@ -8,7 +8,7 @@ use model::{NoBox, Reason, Status, Verified, VerifiedSystem};
 use super::certificate::largest_force_n;
 use super::scale::Scale;
 use crate::tolerances::Tolerances;
-use crate::vector::worse;
+use numerics::vector::worse;
 
 /// Prove each answer and say so on its ladder. Answers in one box share the proof.
 pub fn verify(system: &System, answers: &mut [SystemEquilibrium]) {

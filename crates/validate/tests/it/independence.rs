@@ -50,8 +50,8 @@ fn the_guard_fires_on_doctored_graphs() {
         (vec![("motion", "energy")], "motion -> energy"),
         (vec![("figures", "sweep"), ("sweep", "energy")], "figures -> sweep -> energy"),
         // Mechanics that both could take from a third, tests included.
-        (vec![("lagrange", "intervals")], "lagrange -> intervals"),
-        (vec![("samples", "intervals")], "energy -> samples -> intervals"),
+        (vec![("lagrange", "numerics")], "lagrange -> numerics"),
+        (vec![("samples", "numerics")], "energy -> samples -> numerics"),
         (vec![("samples", "nalgebra")], "samples -> nalgebra"),
         // Random chains outside tests.
         (vec![("model", "samples")], "model -> samples"),

@@ -1,7 +1,7 @@
 //! Positions of a part, one after the other.
 
-use intervals::Interval;
 use model::system::System;
+use numerics::Interval;
 
 use super::parts::Part;
 use crate::network::arithmetic::Vector;

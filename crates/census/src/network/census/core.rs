@@ -5,9 +5,9 @@
 //! joints, to twice the usual precision: a bar that is told against the direction of the chain
 //! would have its centre rounded.
 
-use intervals::{DoubleDouble, Interval};
 use model::system::{Kind, System};
 use model::{Anchors, Bar, Chain, NoCensus};
+use numerics::{DoubleDouble, Interval};
 
 use super::choice::Choice;
 use super::parts::Hanging;

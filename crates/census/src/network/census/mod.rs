@@ -24,9 +24,9 @@ mod weights;
 
 use std::time::Instant;
 
-use intervals::Interval;
 use model::NoCensus;
 use model::system::{Support, System};
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 pub use self::bridle::bridle_seconds;

@@ -1,11 +1,11 @@
 //! One equilibrium of a system, proved.
 
-use intervals::Interval;
 use model::system::{Kind, System, SystemEquilibrium, SystemStability};
 use model::{
     Complete, CompleteSystem, Evidence, InSpace, NoCensus, NoCertificate, Reason, SolverName,
     Status, Vector as Point, Verified, VerifiedSystem,
 };
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use super::SystemCensus;

@@ -4,9 +4,9 @@
 //! upright: the members before g hang plumb from the first anchor, or stand, those behind it from
 //! the last, and what is between their ends must be shorter than a cable, or longer than a strut.
 
-use intervals::Interval;
 use model::NoCensus;
 use model::system::{Kind, System};
+use numerics::Interval;
 
 use super::choice::Choice;
 use super::core::LoadedChain;

@@ -1,8 +1,8 @@
 //! Lists of equilibria against closed forms, and against the census of chains.
 
-use intervals::Interval;
 use model::system::{Joint, Kind, Member, PointLoad, System};
 use model::{Bar, NoCensus};
+use numerics::Interval;
 
 use super::SystemCensus;
 use crate::census::Census;

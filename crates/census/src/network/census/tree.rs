@@ -7,9 +7,9 @@
 //! member in tension and falls in both across one in compression. An elastic member is as long as
 //! its force makes it, $l_e (1 + s_e |F_e|/EA)$.
 
-use intervals::Interval;
 use model::NoCensus;
 use model::system::{Kind, System};
+use numerics::Interval;
 
 use super::choice::Choice;
 use super::parts::Hanging;

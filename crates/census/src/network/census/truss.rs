@@ -13,9 +13,9 @@
 //! along the radius: outward, a minimum, or inward, a maximum. So a frame with k joints of the one
 //! and the other kind has at most $2^k$ positions, by closed forms.
 
-use intervals::Interval;
 use model::NoCensus;
 use model::system::{Kind, System};
+use numerics::Interval;
 
 use super::choice::Choice;
 use crate::network::arithmetic::{

@@ -1,8 +1,8 @@
 //! Loads of joints that are weights alone, to twice the usual precision.
 
-use intervals::{DoubleDouble, lever};
 use model::system::{PointLoad, System};
 use model::{NoCensus, Vector};
+use numerics::{DoubleDouble, lever};
 
 /// What hangs at each joint in kg, all loads of joints and members shared by the lever rule;
 /// nothing where nothing hangs, exactly.

@@ -12,7 +12,7 @@
 //!
 //! hold for every equilibrium, by Cramer's rule.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::pulls::{Pulls, density};
 use super::strand::{Span, Strand};

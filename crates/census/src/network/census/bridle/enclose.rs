@@ -1,8 +1,8 @@
 //! From a zero found by the search to places of all joints and forces of all members, enclosed by
 //! the proof that knows nothing of the search; and its index.
 
-use intervals::Interval;
 use model::Vector as Point;
+use numerics::Interval;
 
 use super::newton::{Found, cell};
 use super::pulls::density;

@@ -29,8 +29,8 @@ mod strand;
 #[cfg(test)]
 mod tests;
 
-use intervals::Interval;
 use model::NoCensus;
+use numerics::Interval;
 
 use self::enclose::{Enclosed, enclosed};
 use self::newton::Found;

@@ -5,7 +5,7 @@
 //! with the horizontal distance $r_i$ and the rise $z_i$ from its anchor to the knot, or the length
 //! of the bar; and three of balance, $\sum_i d_i/w_i - L = 0$.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::pulls::density;
 use super::strand::{Bridle, Span, Strand};

@@ -6,7 +6,7 @@
 //! compression. Cells of the half cube of pulls that miss the box are dropped, narrowed by Newton's
 //! method, or cut until they are no coarser than the box is.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::strand::{Span, Strand};
 use crate::closure::Pattern;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::balance::{Held, balanced, densities};
 use super::newton::{Charts, Found, Verdict, cell, examine};

@@ -1,7 +1,7 @@
 //! A bridle taken apart into its knot and the strands that hold it.
 
-use intervals::Interval;
 use model::system::Kind;
+use numerics::Interval;
 
 use crate::network::arithmetic::Vector;
 use crate::network::census::net::Core;

@@ -8,7 +8,7 @@
 
 use std::array::from_fn;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::dense::Dense;
 use super::jet::{Jets, minus, values};

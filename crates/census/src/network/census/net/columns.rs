@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::cell::{Cell, Pattern};
 use super::dense::Dense;

@@ -1,8 +1,8 @@
 //! What a net is made of.
 
-use intervals::Interval;
 use model::Vector as Point;
 use model::system::System;
+use numerics::Interval;
 
 use crate::network::arithmetic::Vector;
 use crate::network::frame::Frame;

@@ -1,6 +1,6 @@
 //! Small dense matrices: approximate inverses in double precision, and products with intervals.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::network::arithmetic::{product, sum};
 

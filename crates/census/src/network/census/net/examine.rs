@@ -1,6 +1,6 @@
 //! One box and one pattern: excluded, narrowed, or proved to hold one equilibrium at most.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::cell::{self, Cell, Pattern};
 use super::columns::{Columns, Forces};

@@ -17,7 +17,7 @@
 //! doi:10.1007/BF01585660
 
 use faer::{Mat, Side};
-use intervals::Interval;
+use numerics::Interval;
 
 use super::dense::Dense;
 use crate::network::equations::Equations;

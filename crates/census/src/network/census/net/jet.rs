@@ -3,7 +3,7 @@
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
-use intervals::Interval;
+use numerics::Interval;
 
 use crate::network::arithmetic::{difference, product, sum};
 

@@ -1,9 +1,9 @@
 //! A net taken apart into knots, whose places are unknown, joints that swing between two others,
 //! and bars between knots.
 
-use intervals::Interval;
 use model::NoCensus;
 use model::system::Kind;
+use numerics::Interval;
 
 use super::core::Core;
 use crate::network::arithmetic::{NOWHERE, Vector};

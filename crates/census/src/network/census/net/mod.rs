@@ -46,8 +46,8 @@ mod swing;
 #[cfg(test)]
 pub(super) mod tests;
 
-use intervals::Interval;
 use model::NoCensus;
+use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 pub(super) use self::core::Core;

@@ -1,6 +1,6 @@
 //! The interval Newton method on a dense system of equations.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::dense::Dense;
 use crate::network::arithmetic::sum;

@@ -1,6 +1,6 @@
 //! Where the knots can be at all: boxes narrowed by the distances that bars reach.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::layout::{End, Layout};
 

@@ -1,7 +1,7 @@
 //! Branch and bound over the places of the knots, for all patterns of the swinging joints, level by
 //! level.
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::cell::Pattern;
 use super::examine::{Examined, Found, Verdict};

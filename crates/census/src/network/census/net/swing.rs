@@ -20,7 +20,7 @@
 
 use std::array::from_fn;
 
-use intervals::Interval;
+use numerics::Interval;
 
 use super::jet::{Jet, Jets, across, along, cross, minus, plus, scaled, squared, values};
 use super::layout::{End, Swing};

@@ -2,9 +2,9 @@
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
-use intervals::Interval;
 use model::system::{Joint, Member, System};
 use model::{Bar, NoCensus, Reason, Status, Vector};
+use numerics::Interval;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::assert_frozen;

@@ -9,7 +9,7 @@ use std::ops::{Div, Sub};
 /// is the one place of the rule outside the two solvers, each of which derives its own.
 ///
 /// ```
-/// use intervals::{Interval, lever};
+/// use numerics::{Interval, lever};
 /// assert_eq!(lever(2.0, 0.5), [0.75, 0.25]);
 /// let [near, far] = lever(Interval::point(3.0), Interval::ONE);
 /// assert!(near.contains(2.0 / 3.0) && far.contains(1.0 / 3.0));

@@ -4,7 +4,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 use proptest::prelude::*;
 
-use intervals::{Interval, down, up};
+use numerics::{Interval, down, up};
 
 fn exact(x: f64) -> BigRational {
     BigRational::from_float(x).expect("finite")

@@ -1,7 +1,7 @@
-//! Numbers that know their rounding error: what makes a computation a proof.
+//! Numbers that know their rounding error, what makes a computation a proof, and [`vector`]s of three.
 //!
 //! ```
-//! use intervals::{Interval, PI, atan2};
+//! use numerics::{Interval, PI, atan2};
 //! // 1/3 is no double; its enclosure is one rounding wide.
 //! let third = Interval::ONE / Interval::point(3.0);
 //! assert!(third.width() < 2e-16 && (third * Interval::point(3.0)).contains(1.0));
@@ -27,6 +27,7 @@ mod interval_sum;
 mod lever;
 mod rounding;
 mod sum;
+pub mod vector;
 
 pub use angle::{PI, atan2};
 pub use double_double::DoubleDouble;

@@ -1,6 +1,6 @@
 //! What intervals say of each other, against the sets of numbers that they are.
 
-use intervals::{DoubleDouble, Interval};
+use numerics::{DoubleDouble, Interval};
 
 /// Ends are whole; the numbers looked at lie on and between them.
 const ENDS: std::ops::RangeInclusive<i32> = -3..=3;

@@ -8,7 +8,7 @@ use crate::rounding::two_sum;
 /// the result, however many there are.
 ///
 /// ```
-/// use intervals::{Interval, IntervalSum};
+/// use numerics::{Interval, IntervalSum};
 /// let mut sum = IntervalSum::ZERO;
 /// for term in [1e16, 1.0, -1e16] {
 ///     sum.add(Interval::point(term));
@@ -32,7 +32,7 @@ impl IntervalSum {
     /// Add a term.
     ///
     /// ```
-    /// use intervals::{Interval, IntervalSum};
+    /// use numerics::{Interval, IntervalSum};
     /// let mut sum = IntervalSum::ZERO;
     /// sum.add(Interval::new(1.0, 2.0));
     /// assert!(sum.value().encloses(Interval::new(1.0, 2.0)));
@@ -47,7 +47,7 @@ impl IntervalSum {
     /// What all the terms add up to.
     ///
     /// ```
-    /// assert!(intervals::IntervalSum::ZERO.value().contains(0.0));
+    /// assert!(numerics::IntervalSum::ZERO.value().contains(0.0));
     /// ```
     #[must_use]
     pub fn value(&self) -> Interval {

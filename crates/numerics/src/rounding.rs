@@ -30,8 +30,8 @@ const ETA: f64 = f64::from_bits(1);
 /// At or above the double after `x`.
 ///
 /// ```
-/// assert!(intervals::up(1.0) >= 1.0_f64.next_up());
-/// assert!(intervals::up(0.0) > 0.0);
+/// assert!(numerics::up(1.0) >= 1.0_f64.next_up());
+/// assert!(numerics::up(0.0) > 0.0);
 /// ```
 #[must_use]
 #[inline]
@@ -42,8 +42,8 @@ pub fn up(x: f64) -> f64 {
 /// At or below the double before `x`.
 ///
 /// ```
-/// assert!(intervals::down(1.0) <= 1.0_f64.next_down());
-/// assert!(intervals::down(0.0) < 0.0);
+/// assert!(numerics::down(1.0) <= 1.0_f64.next_down());
+/// assert!(numerics::down(0.0) < 0.0);
 /// ```
 #[must_use]
 #[inline]
@@ -54,7 +54,7 @@ pub fn down(x: f64) -> f64 {
 /// The rounded sum of two doubles and its rounding error, both exactly (Knuth's two-sum).
 ///
 /// ```
-/// let (sum, error) = intervals::two_sum(1.0, 1e-20);
+/// let (sum, error) = numerics::two_sum(1.0, 1e-20);
 /// assert_eq!([sum, error], [1.0, 1e-20]);
 /// ```
 #[must_use]

@@ -7,7 +7,7 @@ use crate::interval::Interval;
 /// π: the double below and the one above (3.14159265358979311 < π < 3.14159265358979357).
 ///
 /// ```
-/// assert!(intervals::PI.width() < 5e-16);
+/// assert!(numerics::PI.width() < 5e-16);
 /// ```
 pub const PI: Interval =
     Interval::ordered(std::f64::consts::PI, f64::from_bits(std::f64::consts::PI.to_bits() + 1));
@@ -24,7 +24,7 @@ const TERMS: usize = 13;
 /// [−π, π].
 ///
 /// ```
-/// use intervals::{Interval, PI, atan2};
+/// use numerics::{Interval, PI, atan2};
 /// let angle = atan2(Interval::ONE, Interval::ONE);
 /// assert!(!angle.disjoint(PI.scale(0.25)) && angle.width() < 4e-15);
 /// ```

@@ -16,7 +16,7 @@ use crate::rounding::{down, up};
 /// All real numbers from `lo` to `hi`, both included.
 ///
 /// ```
-/// use intervals::Interval;
+/// use numerics::Interval;
 /// let third = Interval::ONE / Interval::point(3.0);
 /// assert!(third.lo() < third.hi() && third.width() < 2e-16);
 /// let one = third * Interval::point(3.0);
@@ -40,7 +40,7 @@ impl Interval {
     /// The negatives of all its numbers; what the operator does, for constants.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// const MINUS_ONE: Interval = Interval::ONE.negated();
     /// assert_eq!(MINUS_ONE, -Interval::ONE);
     /// ```
@@ -52,7 +52,7 @@ impl Interval {
     /// All numbers from `lo` to `hi`; the whole line if `lo <= hi` does not hold.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let one_to_two = Interval::new(1.0, 2.0);
     /// assert!(one_to_two.contains(1.5));
     /// assert_eq!(Interval::new(2.0, 1.0), Interval::LINE);
@@ -71,7 +71,7 @@ impl Interval {
     /// A number that is exact as it stands.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert!(Interval::point(0.5).width() <= 0.0);
     /// ```
     #[must_use]
@@ -83,7 +83,7 @@ impl Interval {
     /// All numbers within `radius` of `middle`, rounded outward.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let x = Interval::around(1.0, 0.25);
     /// assert!(x.lo() <= 0.75 && x.hi() >= 1.25);
     /// ```
@@ -102,7 +102,7 @@ impl Interval {
     /// The lower end.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).lo(), 1.0);
     /// ```
     #[must_use]
@@ -114,7 +114,7 @@ impl Interval {
     /// The upper end.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).hi(), 2.0);
     /// ```
     #[must_use]
@@ -126,7 +126,7 @@ impl Interval {
     /// A double inside, next to the middle.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).mid(), 1.5);
     /// ```
     #[must_use]
@@ -139,7 +139,7 @@ impl Interval {
     /// At least the distance of [`mid`](Self::mid) to either end.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let radius = Interval::new(1.0, 2.0).rad();
     /// assert!((0.5..0.5000001).contains(&radius));
     /// ```
@@ -153,7 +153,7 @@ impl Interval {
     /// At least the distance of the ends.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let width = Interval::new(1.0, 2.0).width();
     /// assert!((1.0..1.0000001).contains(&width));
     /// ```
@@ -166,7 +166,7 @@ impl Interval {
     /// The largest absolute value.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(-3.0, 2.0).mag(), 3.0);
     /// ```
     #[must_use]
@@ -178,7 +178,7 @@ impl Interval {
     /// The smallest absolute value.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(-3.0, -2.0).mig(), 2.0);
     /// assert_eq!(Interval::new(-3.0, 2.0).mig(), 0.0);
     /// ```
@@ -191,7 +191,7 @@ impl Interval {
     /// Whether `x` lies in it.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert!(Interval::new(1.0, 2.0).contains(2.0));
     /// assert!(!Interval::LINE.contains(f64::NAN));
     /// ```
@@ -204,7 +204,7 @@ impl Interval {
     /// Whether all of `other` lies in it.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert!(Interval::new(1.0, 2.0).encloses(Interval::point(2.0)));
     /// ```
     #[must_use]
@@ -216,7 +216,7 @@ impl Interval {
     /// Whether it lies in `other` without touching its ends.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert!(Interval::point(1.5).interior_to(Interval::new(1.0, 2.0)));
     /// assert!(!Interval::point(2.0).interior_to(Interval::new(1.0, 2.0)));
     /// ```
@@ -229,7 +229,7 @@ impl Interval {
     /// Whether it has no number in common with `other`.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert!(Interval::new(1.0, 2.0).disjoint(Interval::new(3.0, 4.0)));
     /// assert!(!Interval::new(1.0, 2.0).disjoint(Interval::new(2.0, 4.0)));
     /// ```
@@ -242,7 +242,7 @@ impl Interval {
     /// The sign of all its numbers, if they have the same: −1, 0 (the number 0 alone) or +1.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).sign(), Some(1));
     /// assert_eq!(Interval::new(-1.0, 2.0).sign(), None);
     /// assert_eq!(Interval::ZERO.sign(), Some(0));
@@ -264,7 +264,7 @@ impl Interval {
     /// −1 or +1 according to the sign of all its numbers; everything between if they differ.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(-3.0, -2.0).unit_sign(), Interval::point(-1.0));
     /// assert_eq!(Interval::new(-3.0, 2.0).unit_sign(), Interval::new(-1.0, 1.0));
     /// ```
@@ -281,7 +281,7 @@ impl Interval {
     /// The numbers that are in both, if any.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let common = Interval::new(1.0, 3.0).intersect(Interval::new(2.0, 4.0));
     /// assert_eq!(common, Some(Interval::new(2.0, 3.0)));
     /// ```
@@ -295,7 +295,7 @@ impl Interval {
     /// The smallest interval around both.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let around = Interval::point(1.0).hull(Interval::point(3.0));
     /// assert_eq!(around, Interval::new(1.0, 3.0));
     /// ```
@@ -308,7 +308,7 @@ impl Interval {
     /// The absolute values.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(-3.0, 2.0).abs(), Interval::new(0.0, 3.0));
     /// ```
     #[must_use]
@@ -320,7 +320,7 @@ impl Interval {
     /// The squares; never negative.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let square = Interval::new(-3.0, 2.0).square();
     /// assert!(square.lo() >= 0.0 && square.contains(9.0) && square.hi() < 9.0000001);
     /// ```
@@ -334,7 +334,7 @@ impl Interval {
     /// The square roots of what is not negative.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// let root = Interval::new(-1.0, 4.0).sqrt();
     /// assert!(root.lo() >= 0.0 && root.contains(2.0) && root.hi() < 2.0000001);
     /// ```
@@ -347,7 +347,7 @@ impl Interval {
     /// Times a power of two: exact unless the result is subnormal, which is rounded outward.
     ///
     /// ```
-    /// use intervals::Interval;
+    /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 3.0).scale(0.5), Interval::new(0.5, 1.5));
     /// ```
     #[must_use]

@@ -30,7 +30,7 @@ const TINY: f64 = f64::MIN_POSITIVE;
 /// A number `hi + lo`, off by at most `error`.
 ///
 /// ```
-/// use intervals::DoubleDouble;
+/// use numerics::DoubleDouble;
 /// // The doubles next to √2 are 2e-16 apart; its square as a double is off by 4e-16.
 /// let two = DoubleDouble::point(2.0).sqrt().square() - DoubleDouble::point(2.0);
 /// assert!(two.interval().mag() < 1e-28);
@@ -49,7 +49,7 @@ impl DoubleDouble {
     /// A double, exactly.
     ///
     /// ```
-    /// use intervals::DoubleDouble;
+    /// use numerics::DoubleDouble;
     /// assert!(DoubleDouble::point(0.1).interval().contains(0.1));
     /// ```
     #[must_use]
@@ -66,7 +66,7 @@ impl DoubleDouble {
     /// Times a power of two; both parts must stay normal, else the loss goes into the error.
     ///
     /// ```
-    /// use intervals::DoubleDouble;
+    /// use numerics::DoubleDouble;
     /// let quarter = DoubleDouble::point(1.0).scale(0.25);
     /// assert!(quarter.interval().contains(0.25));
     /// ```
@@ -82,7 +82,7 @@ impl DoubleDouble {
     /// An interval around it.
     ///
     /// ```
-    /// use intervals::DoubleDouble;
+    /// use numerics::DoubleDouble;
     /// let third = (DoubleDouble::point(1.0) / DoubleDouble::point(3.0)).interval();
     /// assert!(third.contains(1.0 / 3.0) && third.width() < 2e-16);
     /// ```
@@ -99,7 +99,7 @@ impl DoubleDouble {
     /// Its square.
     ///
     /// ```
-    /// use intervals::DoubleDouble;
+    /// use numerics::DoubleDouble;
     /// assert!(DoubleDouble::point(1.5).square().interval().contains(2.25));
     /// ```
     #[must_use]
@@ -110,7 +110,7 @@ impl DoubleDouble {
     /// The square root of a positive number; an infinite error for any other.
     ///
     /// ```
-    /// use intervals::DoubleDouble;
+    /// use numerics::DoubleDouble;
     /// assert!(DoubleDouble::point(2.25).sqrt().interval().contains(1.5));
     /// ```
     #[must_use]

@@ -6,7 +6,7 @@ use crate::rounding::two_sum;
 /// once.
 ///
 /// ```
-/// use intervals::CompensatedSum;
+/// use numerics::CompensatedSum;
 /// let mut sum = CompensatedSum::default();
 /// for term in [1e16, 1.0, -1e16] {
 ///     sum.add(term);
@@ -28,7 +28,7 @@ impl CompensatedSum {
     /// Add a term.
     ///
     /// ```
-    /// let mut sum = intervals::CompensatedSum::default();
+    /// let mut sum = numerics::CompensatedSum::default();
     /// sum.add(0.5);
     /// assert_eq!(sum.value(), 0.5);
     /// ```
@@ -42,7 +42,7 @@ impl CompensatedSum {
     /// What all the terms add up to.
     ///
     /// ```
-    /// assert_eq!(intervals::CompensatedSum::default().value(), 0.0);
+    /// assert_eq!(numerics::CompensatedSum::default().value(), 0.0);
     /// ```
     #[must_use]
     pub fn value(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! Enclosures against the rounding errors that fused operations tell exactly, and sums.
 
-use intervals::{Interval, IntervalSum};
+use numerics::{Interval, IntervalSum};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
