@@ -146,7 +146,7 @@ impl Batch {
 
 /// The largest violation of Newton's laws.
 fn judged(problem: &Problem, found: &Equilibrium) -> f64 {
-    judge_chain(problem.chain(), found).largest()
+    judge_chain(problem, found).largest()
 }
 
 fn unsolved(failures: &[SystemFailure]) -> Told {

@@ -172,7 +172,7 @@ pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, SolveErr
 #[must_use]
 pub fn statics(problem: &Problem, census: &Census) -> f64 {
     let answers = census.to_model();
-    let judged = answers.iter().map(|answer| judge_chain(problem.chain(), answer).largest());
+    let judged = answers.iter().map(|answer| judge_chain(problem, answer).largest());
     judged.fold(0.0, worse)
 }
 

@@ -313,7 +313,7 @@ impl Found {
     /// A position and the same as the answer of a solver.
     pub(super) fn of(problem: &Problem, mut equilibrium: Equilibrium, position: &Position) -> Self {
         let proven = &position.equilibrium;
-        let statics = judge_chain(problem.chain(), &equilibrium);
+        let statics = judge_chain(problem, &equilibrium);
         equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
             solver: SolverName::CENSUS,
             statics: statics.largest(),

@@ -21,6 +21,19 @@ pub struct Row {
     weights_n: Vec<f64>,
 }
 
+impl From<&Problem> for Row {
+    /// A chain as the row of the system that it is: joint k is joint k, bar k member k.
+    fn from(problem: &Problem) -> Self {
+        let bars = problem.chain().bars().len();
+        Self {
+            problem: problem.clone(),
+            joints: (0..=bars).collect(),
+            members: (0..bars).map(|bar| (bar, false)).collect(),
+            weights_n: vec![0.0; bars + 1],
+        }
+    }
+}
+
 /// Joints in their order, and members in theirs, with whether each runs the other way.
 type Walk = (Vec<usize>, Vec<(usize, bool)>);
 

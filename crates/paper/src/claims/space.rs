@@ -55,7 +55,7 @@ fn turned(facts: &Facts) -> Finding {
             reactions_n: Reactions { start, end },
             ..e1.clone()
         };
-        newton = largest([newton, judge_chain(problem.chain(), &found).largest()]);
+        newton = largest([newton, judge_chain(problem, &found).largest()]);
         let q = coordinates(problem.chain(), &joints, &bars);
         let lambda = DVector::from_vec(forces.concat());
         multipliers = largest([multipliers, relative_residual(problem.chain(), &q, &lambda)]);

@@ -12,7 +12,7 @@ use faer::Mat;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::{largest_force_n, total_load_n};
+use super::certificate::{joint_loads, largest_force_n, total_load_n};
 use super::floor::{push_n, sliding};
 use numerics::vector::{cross, dot, minus, norm, times};
 
@@ -60,6 +60,11 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
 
 /// The free joints of a row between two anchors: however long it is, the lengths tell.
 fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
+    // Bars bear nothing between joints without any load alone.
+    let still = |load: &Vector| load.iter().all(|x| x.abs() <= 0.0);
+    if !joint_loads(system).iter().any(still) {
+        return vec![];
+    }
     let Some(row) = system.as_row() else { return vec![] };
     let mut free = answers.iter().map(|answer| {
         let places: Vec<Vector> = row.joints().iter().map(|k| answer.joints_m[*k]).collect();

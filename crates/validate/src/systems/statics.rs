@@ -12,8 +12,8 @@
 //! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is
 //! slack.
 
-use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Chain, Equilibrium, Place, Vector, sum};
+use model::system::{Kind, Member, Row, Support, System, SystemEquilibrium};
+use model::{Equilibrium, Place, Problem, Vector, sum};
 use serde::Serialize;
 
 use super::certificate::total_load_n;
@@ -181,16 +181,16 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
 
 /// The same of an answer for a chain, which is judged as the system that it is.
 #[must_use]
-pub fn judge_chain(chain: &Chain, found: &Equilibrium) -> SystemStatics {
-    let system = System::from(chain);
-    let joints = chain.bars().len() + 1;
+pub fn judge_chain(problem: &Problem, found: &Equilibrium) -> SystemStatics {
+    let joints = problem.chain().bars().len() + 1;
     let fits = found.joints_m.len() == joints
         && found.multipliers_n.len() == joints
         && found.axial_n.len() + 1 == joints;
-    match system.as_row().filter(|_| fits) {
-        Some(row) => judge(&system, &row.equilibrium(found.clone())),
-        None => SystemStatics { balance: f64::NAN, ..SystemStatics::NOTHING },
+    if !fits {
+        return SystemStatics { balance: f64::NAN, ..SystemStatics::NOTHING };
     }
+    let answer = Row::from(problem).equilibrium(found.clone());
+    judge(&System::from(problem.chain()), &answer)
 }
 
 /// Rounding of the coordinates of an answer and of the lengths, m.

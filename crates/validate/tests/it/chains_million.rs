@@ -44,7 +44,7 @@ fn accurate(problem: &Problem, found: &Equilibrium) {
     let chain = problem.chain();
     let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
     let unit_n = found.multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, f64::max);
-    let statics = judge_chain(chain, found);
+    let statics = judge_chain(problem, found);
     println!("{} bars, {}: {statics:?}", chain.bars().len(), found.solver);
     assert!(statics.passes(ACCURACY), "{}: {statics:?}", found.solver);
     // The judge measures forces in the largest force; here they are asked for in weights.

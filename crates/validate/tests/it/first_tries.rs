@@ -119,11 +119,10 @@ fn a_light_bar_is_judged_by_its_own_forces() {
     let chain = Chain::new("light between heavy", 9.81, anchors, bars.to_vec()).unwrap();
     let problem = Problem::new(chain).unwrap();
     let mut answer = by_lagrange(&problem);
-    let chain = problem.chain();
-    assert!(judge_chain(chain, &answer).passes(1e-11));
+    assert!(judge_chain(&problem, &answer).passes(1e-11));
     // Only the joint between the two light bars moves, across the way and hardly changing lengths.
     answer.joints_m[2][1] += 1e-6;
-    let found = judge_chain(chain, &answer);
+    let found = judge_chain(&problem, &answer);
     assert!(found.length < 1e-11 && found.moment > 1e-7, "{found:?}");
     assert!([Place::Member(2), Place::Member(3)].contains(&found.worst), "{found:?}");
 }
@@ -179,7 +178,7 @@ fn indeterminate_forces_are_told() {
         // Any other member of the family is in balance, and is no disagreement.
         let mut shifted = answers.clone();
         shift(&mut shifted[1], 0.3);
-        let statics = judge_chain(problem.chain(), &shifted[1]);
+        let statics = judge_chain(&problem, &shifted[1]);
         assert!(statics.passes(1e-11), "{what} {statics:?}");
         let again = compare(&problem, &mut shifted, &tolerances);
         assert!(again.agrees(), "{what}: {}", again.disagreement);

@@ -8,7 +8,8 @@ use validate::systems::{SystemStatics, judge_chain};
 const ROUNDING: f64 = 1e-14;
 
 /// Places and forces with what follows from them: axial forces and energy.
-fn judge(chain: &Chain, joints: &[Vector], forces: &[Vector]) -> SystemStatics {
+fn judge(problem: &Problem, joints: &[Vector], forces: &[Vector]) -> SystemStatics {
+    let chain = problem.chain();
     let (bars, g) = (chain.bars().iter(), chain.gravity_m_s2());
     let ends =
         |k: usize| -> Option<(Vector, Vector)> { Some((*joints.get(k)?, *joints.get(k + 1)?)) };
@@ -36,7 +37,7 @@ fn judge(chain: &Chain, joints: &[Vector], forces: &[Vector]) -> SystemStatics {
         axial_n: axial.collect(),
         ..some.equilibrium
     };
-    judge_chain(chain, &found)
+    judge_chain(problem, &found)
 }
 
 /// E1 of the paper from the digits of 40-digit root finding (external): joints in m, forces in N.
@@ -68,7 +69,7 @@ fn e1() -> (Problem, Vec<Vector>, Vec<Vector>) {
 #[test]
 fn the_reference_digits_of_e1_are_in_balance() {
     let (problem, joints, forces) = e1();
-    let statics = judge(problem.chain(), &joints, &forces);
+    let statics = judge(&problem, &joints, &forces);
     assert!(statics.passes(ROUNDING), "{statics:?}");
 }
 
@@ -98,7 +99,7 @@ fn the_closed_form_of_two_bars_is_in_balance() {
     let world = |h: f64, v: f64| [h * cx, h * cy, v];
     let joints = vec![[0.0; 3], world(x, z), d];
     let forces = vec![world(-fx, weights[0] - fz), world(fx, fz), world(fx, fz + weights[1])];
-    let statics = judge(chain, &joints, &forces);
+    let statics = judge(&problem, &joints, &forces);
     assert!(statics.passes(ROUNDING), "{statics:?}");
     // And both solvers find this joint and these forces.
     for found in [
@@ -124,29 +125,29 @@ fn every_single_wrong_number_is_caught() {
         for c in 0..3 {
             let mut moved = joints.clone();
             moved[k][c] += 1e-3;
-            let statics = judge(problem.chain(), &moved, &forces);
+            let statics = judge(&problem, &moved, &forces);
             assert!(!statics.passes(CAUGHT), "joint {k}, component {c}: {statics:?}");
             let mut pulled = forces.clone();
             pulled[k][c] += 1e-3;
-            let statics = judge(problem.chain(), &joints, &pulled);
+            let statics = judge(&problem, &joints, &pulled);
             assert!(!statics.passes(CAUGHT), "force {k}, component {c}: {statics:?}");
             let mut nan = forces.clone();
             nan[k][c] = f64::NAN;
-            assert!(!judge(problem.chain(), &joints, &nan).passes(f64::INFINITY));
+            assert!(!judge(&problem, &joints, &nan).passes(f64::INFINITY));
             let mut nan = joints.clone();
             nan[k][c] = f64::NAN;
-            assert!(!judge(problem.chain(), &nan, &forces).passes(f64::INFINITY));
+            assert!(!judge(&problem, &nan, &forces).passes(f64::INFINITY));
         }
         let mut flipped = forces.clone();
         flipped[k] = flipped[k].map(|x| -x);
-        assert!(!judge(problem.chain(), &joints, &flipped).passes(CAUGHT), "force {k} flipped");
+        assert!(!judge(&problem, &joints, &flipped).passes(CAUGHT), "force {k} flipped");
     }
     let mut swapped = forces.clone();
     swapped.swap(1, 2);
-    assert!(!judge(problem.chain(), &joints, &swapped).passes(CAUGHT));
+    assert!(!judge(&problem, &joints, &swapped).passes(CAUGHT));
     // The mirror image of the forces belongs to the mirror image of the shape.
     let mirrored: Vec<Vector> = forces.iter().map(|[x, y, z]| [*x, -y, *z]).collect();
-    assert!(!judge(problem.chain(), &joints, &mirrored).passes(CAUGHT));
+    assert!(!judge(&problem, &joints, &mirrored).passes(CAUGHT));
 }
 
 #[test]
@@ -155,13 +156,13 @@ fn arrays_of_the_wrong_length_pass_nothing() {
     for (joints, forces) in
         [(&joints[1..], &forces[..]), (&joints[..], &forces[1..]), (&[][..], &[][..])]
     {
-        assert!(!judge(problem.chain(), joints, forces).passes(f64::INFINITY));
+        assert!(!judge(&problem, joints, forces).passes(f64::INFINITY));
     }
 }
 
 /// A million bars, exact by construction: with the pull of the first anchor given, every bar lies
 /// along the force in it, turned by `lean` rad.
-fn long(lean: f64) -> (Chain, Vec<Vector>, Vec<Vector>) {
+fn long(lean: f64) -> (Problem, Vec<Vector>, Vec<Vector>) {
     const BARS: usize = 1_000_000;
     let bars = vec![Bar::homogeneous(1e-6, 1e-6).unwrap(); BARS];
     let weight = 1e-6;
@@ -181,7 +182,8 @@ fn long(lean: f64) -> (Chain, Vec<Vector>, Vec<Vector>) {
         forces.push([0.4, 0.0, weight * (i as f64 + 1.0) - 0.55]);
     }
     let anchors = Anchors { start_m: [0.0; 3], end_m: place };
-    (Chain::new("long", 1.0, anchors, bars).unwrap(), joints, forces)
+    let chain = Chain::new("long", 1.0, anchors, bars).unwrap();
+    (Problem::new(chain).unwrap(), joints, forces)
 }
 
 /// The budget of the project.
@@ -191,13 +193,13 @@ fn budget() -> f64 {
 
 #[test]
 fn a_million_bars_in_balance_pass_and_one_wrong_bar_does_not() {
-    let (chain, joints, forces) = long(0.0);
-    let statics = judge(&chain, &joints, &forces);
+    let (problem, joints, forces) = long(0.0);
+    let statics = judge(&problem, &joints, &forces);
     println!("{statics:?}");
     assert!(statics.passes(budget()), "{statics:?}");
     let mut moved = joints.clone();
     moved[500_000][2] += 1e-11;
-    let found = judge(&chain, &moved, &forces);
+    let found = judge(&problem, &moved, &forces);
     assert!(!found.passes(budget()), "{found:?}");
     let places = [Place::Member(500_000), Place::Member(500_001)];
     assert!(places.contains(&found.worst), "{found:?}");
@@ -207,8 +209,8 @@ fn a_million_bars_in_balance_pass_and_one_wrong_bar_does_not() {
 /// not escape.
 #[test]
 fn errors_too_small_to_see_on_a_bar_are_seen_on_the_chain() {
-    let (chain, joints, forces) = long(1e-9);
-    let statics = judge(&chain, &joints, &forces);
+    let (problem, joints, forces) = long(1e-9);
+    let statics = judge(&problem, &joints, &forces);
     println!("{statics:?}");
     assert!(statics.moment <= budget() && statics.length <= budget(), "{statics:?}");
     assert!(statics.balance > budget() && !statics.passes(budget()), "{statics:?}");
