@@ -5,7 +5,7 @@
 //! constraints enters. With `u` its direction, `x_C` its centre of weight and `ω = u × u̇`:
 //!
 //! $$ m \ddot x_C = F_a + F_b + \sum F_k - m g e_z - c m \dot x_C, $$
-//! $$ J\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
+//! $$ J\\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
 //!    \sum (x_k - x_C) \times F_k + M_a + M_b - c J \omega $$
 //!
 //! across the member (its spin is apart); where the moments across differ, in all directions with

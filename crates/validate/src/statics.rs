@@ -5,7 +5,7 @@
 //! feels the force `f` of entry *i* at its far joint, and the opposite of entry *i*−1 at its near
 //! joint (for bar 1 entry 0 itself, the force of the ground), and its weight:
 //!
-//! $$ F_{i-1} + F_i - m_i g\, e_z = 0, \qquad
+//! $$ F_{i-1} + F_i - m_i g\\, e_z = 0, \qquad
 //!    (x_{i-1} - x_{C_i}) \times F_{i-1} + (x_i - x_{C_i}) \times F_i = 0 . $$
 
 use model::{Chain, Vector, sum};

@@ -30,8 +30,8 @@ pub enum Error {
     /// Occurs when the direction of a support is zero, infinite or not a number.
     #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
     Direction {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The direction as given.
         direction: Vector,
     },
@@ -41,8 +41,8 @@ pub enum Error {
          a force of {force_n} N"
     )]
     Falls {
-        /// Number of a joint of the part, from 0.
-        joint: usize,
+        /// Name of a joint of the part.
+        joint: String,
         /// Force along the motion, N.
         force_n: f64,
     },
@@ -87,8 +87,8 @@ pub enum Error {
     /// Occurs when joints are out of balance by more than a part of what loads them.
     #[error("joint {joint} is out of balance by {unbalance:e} of its load")]
     Unbalanced {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The unbalanced force over the load of the joint, or over the mean load where that is more.
         unbalance: f64,
     },
@@ -161,8 +161,8 @@ pub enum Error {
         "no minimum found: joint {joint} would balance with {force_n} N from the floor, which only pushes"
     )]
     FloorPulls {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The force that would balance, up positive, N.
         force_n: f64,
     },

@@ -121,7 +121,7 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
     table
 }
 
-/// The words for an outcome.
+/// The words for an outcome; equilibria are counted from 1.
 #[must_use]
 pub fn outcome(manifest: &Manifest, code: i16) -> String {
     let failures = if manifest.release.is_some() {
@@ -140,7 +140,7 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
         ]
     };
     let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
-    failure.map_or_else(|| format!("equilibrium {code}"), |(_, words)| (*words).to_owned())
+    failure.map_or_else(|| format!("equilibrium {}", i32::from(code) + 1), |(_, words)| (*words).to_owned())
 }
 
 fn percent(count: u64, all: u64) -> f64 {

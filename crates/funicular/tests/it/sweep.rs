@@ -94,7 +94,7 @@ fn the_tables_and_the_object_say_the_same() {
     let output = sweep(&out.join("a"), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    for wanted in ["4000 uniform seeds of number 1", "equilibrium 0", "95 % interval", "energy:"] {
+    for wanted in ["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"] {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
     }
     let output = sweep(&out.join("b"), &["--json"]);

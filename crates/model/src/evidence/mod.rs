@@ -24,6 +24,7 @@ mod certificate;
 mod complete;
 mod convergence;
 mod finite;
+mod from_one;
 mod force_choice;
 mod ladder;
 mod reason;

@@ -38,6 +38,16 @@ fn the_golden_copy_is_what_comes_out() {
 }
 
 #[test]
+fn links_of_the_markdown_lead_to_a_heading() {
+    let markdown = REPORT.markdown();
+    let links: Vec<_> = markdown.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(!links.is_empty());
+    for link in links {
+        assert!(markdown.contains(&format!("# <a id=\"{link}\"></a>")), "#{link} leads nowhere");
+    }
+}
+
+#[test]
 fn every_equation_has_a_verdict_and_every_verdict_a_number() {
     let judged = judged(&REPORT.reproduction().equations);
     assert_eq!(judged.len(), 41 + 26);
