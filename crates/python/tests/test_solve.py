@@ -434,9 +434,10 @@ def test_derivatives_are_those_of_the_triangle():
     assert set(found.table["parameter"]) >= {"bars.1.length_m", "bars.2.length_m"}
     with pytest.raises(KeyError):
         found["bars.3.length_m"]
-    by = fn.change(v, "bars.1.length_m")
+    assert v.derivatives(of="joints.P.at_m.z").data == found.data
+    by = v.derivatives(by="bars.1.length_m")
     assert by.joints_m.P[2] == pytest.approx(-0.625) and by.unit == "m"
-    pairs = {(pair.of, pair.by): pair.stiffness_n_m for pair in fn.anchor_stiffness(v)}
+    pairs = {(pair.of, pair.by): pair.stiffness_n_m for pair in v.derivatives()}
     # The pull W/2 a/sqrt(l^2 - a^2) of half the span a grows by W l^2/(4 h^3) with the span.
     assert pairs["B", "B"][0][0] == pytest.approx(8 * 25 / (4 * 64))
     for wrong in (lambda: fn.gradient(v, "joints.P.at_m.w"), lambda: fn.change(v, "bars.1.color")):

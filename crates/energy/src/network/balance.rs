@@ -53,7 +53,12 @@ impl Frame {
     ///
     /// What the rounding of the forces at a joint leaves is allowed: of places of size `X` the
     /// direction of a member of length `l` has `X / l` units in the last place.
-    pub(super) fn balance(&self, system: &System, shape: &Shape, tolerance: f64) -> Result<Balance, Error> {
+    pub(super) fn balance(
+        &self,
+        system: &System,
+        shape: &Shape,
+        tolerance: f64,
+    ) -> Result<Balance, Error> {
         let unbalance = self.lagrangian_gradient(&self.excesses(&shape.x), &shape.force);
         let loads: Vec<f64> = self.loads.iter().map(|load| norm(*load)).collect();
         let mean = loads.iter().sum::<f64>() / self.joints as f64;

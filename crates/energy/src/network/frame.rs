@@ -109,7 +109,9 @@ fn across(direction: Vector) -> [Vector; 2] {
 
 /// The directions that a support leaves free, and their number.
 fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
-    let straight = |direction| unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction });
+    let straight = |direction| {
+        unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction })
+    };
     Ok(match joint.support {
         Support::Free => (3, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         Support::Fixed { .. } => (0, [[0.0; 3]; 3]),

@@ -4,8 +4,8 @@ mod error;
 mod start;
 
 pub use self::error::SimulateError;
-pub use self::start::Start;
 pub(crate) use self::start::CENSUS_BARS;
+pub use self::start::Start;
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;

@@ -61,7 +61,11 @@ impl FromStr for Start {
 
 impl Start {
     /// Places of the joints at the beginning.
-    pub(super) fn position(&self, problem: &Problem, system: &System) -> Result<Vec<Vector>, Error> {
+    pub(super) fn position(
+        &self,
+        problem: &Problem,
+        system: &System,
+    ) -> Result<Vec<Vector>, Error> {
         match self {
             Self::Rest => named(equilibria::hanging(problem)?, "1"),
             Self::Equilibrium(label) => named(equilibria::all(problem, CENSUS_BARS)?, label),

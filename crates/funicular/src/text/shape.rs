@@ -116,7 +116,8 @@ impl Shape<'_> {
         if let Some(words) = table.column_mut(5) {
             words.set_cell_alignment(comfy_table::CellAlignment::Left);
         }
-        let title = format!("{title} (axial force at both ends: tension positive):");
+        let title =
+            format!("{title} (axial force at both ends: tension positive; rises from the level):");
         titled(&title, &table)
     }
 

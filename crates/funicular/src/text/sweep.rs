@@ -140,7 +140,10 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
         ]
     };
     let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
-    failure.map_or_else(|| format!("equilibrium {}", i32::from(code) + 1), |(_, words)| (*words).to_owned())
+    failure.map_or_else(
+        || format!("equilibrium {}", i32::from(code) + 1),
+        |(_, words)| (*words).to_owned(),
+    )
 }
 
 fn percent(count: u64, all: u64) -> f64 {

@@ -259,6 +259,18 @@ pub fn wrapped(paragraph: &str, indent: usize) -> String {
     lines
 }
 
+/// A text whose sentences fit into 80 columns: what is no line of a table is wrapped.
+pub(super) fn fitted(text: &str) -> String {
+    let is_prose = |line: &str| !line.starts_with([' ', PASTED, '\u{2500}', '\u{2550}']);
+    let fit = |line: &str| if is_prose(line) { wrapped(line, 2) } else { line.to_owned() };
+    text.split('\n').map(fit).collect::<Vec<_>>().join("\n")
+}
+
+/// A number of things, in words: `1 member`, `2 members`.
+pub(super) fn counted(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
 /// The highest rung that an answer has reached.
 #[must_use]
 pub fn rung(evidence: &Evidence) -> String {

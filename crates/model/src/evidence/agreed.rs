@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::finite;
-use super::from_one;
 use super::force_choice::ForceChoice;
+use super::from_one;
 use crate::solver_name::SolverName;
 
 /// Answers of several solvers are one, and each is in balance.

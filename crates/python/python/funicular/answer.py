@@ -190,14 +190,17 @@ class Equilibrium(Result):
         forces = {"start_force_n": self.start_forces_n[k], "end_force_n": self.end_forces_n[k]}
         return Record({"number": k, **numbers, **forces})
 
-    def svg(self) -> str:
-        """The picture to scale: joints, supports, loads, reactions, tension and compression."""
-        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_max_n, self.reactions_n))
-        return _native.draw(self.system._problem, *arrays)
+    def svg(self, view: str = "best") -> str:
+        """The picture to scale: joints, supports, loads, reactions, tension and compression.
 
-    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+        ``view``: from where it is seen, ``best``, ``front`` (x to the right, z up), ``side`` (y, z) or ``top`` (x, y).
+        """
+        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_max_n, self.reactions_n))
+        return _native.draw(self.system._problem, *arrays, view)
+
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
-        return plot(self, ax, space=space, forces=forces)
+        return plot(self, ax, space=space, forces=forces, view=view)
 
     def __repr__(self) -> str:
         where = printable(self.system.name)
@@ -385,13 +388,13 @@ class Answer(Result):
         """The largest compression anywhere along a member, N."""
         return self.equilibria[0].largest_compression_n
 
-    def svg(self) -> str:
-        """The picture to scale."""
-        return self.equilibria[0].svg()
+    def svg(self, view: str = "best") -> str:
+        """The picture to scale; see :meth:`Equilibrium.svg`."""
+        return self.equilibria[0].svg(view)
 
-    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed."""
-        return self.equilibria[0].plot(ax, space=space, forces=forces)
+        return self.equilibria[0].plot(ax, space=space, forces=forces, view=view)
 
     def __repr__(self) -> str:
         agreed = "agreed" if self.agrees else ", ".join(e.solver for e in self.equilibria)

@@ -71,9 +71,9 @@ class Census(Result):
             }
         )
 
-    def plot(self, most: int = 9) -> Any:
+    def plot(self, most: int = 9, *, view: str = "best") -> Any:
         """Draw the first equilibria side by side, each into axes of matplotlib, which must be installed; a figure."""
-        return plot_census(self, most)
+        return plot_census(self, most, view)
 
     def __len__(self) -> int:
         return len(self.equilibria)

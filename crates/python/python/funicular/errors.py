@@ -245,7 +245,7 @@ class NoLoad(Refused):
 
 
 class LoadOnAnchors(Refused):
-    """All loads rest on the anchors: every position is an equilibrium."""
+    """All loads rest on the supports: every position is an equilibrium."""
 
 
 class Unconnected(Refused):

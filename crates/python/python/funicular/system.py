@@ -458,6 +458,18 @@ class System:
 
         return study(self, *vary, **settings)
 
+    def derivatives(self, *, of: str | None = None, by: str | None = None, **settings: Any) -> Any:
+        """The derivatives ``of`` one number of the equilibrium by all parameters (:func:`funicular.gradient`), ``by`` one
+        parameter of all numbers (:func:`funicular.change`), or the stiffness of the anchors (:func:`funicular.anchor_stiffness`).
+        """
+        from .study import anchor_stiffness, change, gradient
+
+        if of is not None and by is not None:
+            raise InputError("derivatives: of or by, not both", argument="by")
+        if of is not None:
+            return gradient(self, of, **settings)
+        return anchor_stiffness(self, **settings) if by is None else change(self, by, **settings)
+
     def simulate(self, **settings: Any) -> Motion:
         """The system in motion. See :func:`funicular.simulate`."""
         from .motion import simulate

@@ -40,7 +40,8 @@ fn the_golden_copy_is_what_comes_out() {
 #[test]
 fn links_of_the_markdown_lead_to_a_heading() {
     let markdown = REPORT.markdown();
-    let links: Vec<_> = markdown.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    let links: Vec<_> =
+        markdown.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     assert!(!links.is_empty());
     for link in links {
         assert!(markdown.contains(&format!("# <a id=\"{link}\"></a>")), "#{link} leads nowhere");

@@ -426,7 +426,10 @@ fn refusals_of_energy_for_frames() {
     let refusals = [
         of(&Error::Misfit { misfits }, &["member 2 is 2.5e-1 m off, where 1.25e-1 m"]),
         of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.5e0 times the loads in member 2"]),
-        of(&Error::Unbalanced { joint: "U".into(), unbalance: 0.5 }, &["joint U is out of balance by 5e-1"]),
+        of(
+            &Error::Unbalanced { joint: "U".into(), unbalance: 0.5 },
+            &["joint U is out of balance by 5e-1"],
+        ),
     ];
     let test = "refusals_of_energy_for_frames";
     let mut output = output("a refusal of energy for a system", test, &refusals);
