@@ -50,6 +50,13 @@ impl Table {
         self.inner.add_row(cells.collect::<Vec<_>>());
     }
 
+    /// Whether no cell has to be broken over lines.
+    pub(super) fn fits(&self) -> bool {
+        let widths = self.inner.column_max_content_widths();
+        let wanted: usize = widths.iter().map(|width| usize::from(*width) + 2).sum();
+        wanted + 2 <= usize::from(self.inner.width().unwrap_or(WIDTH))
+    }
+
     /// All cells, the head first, each in one line.
     fn rows(&self) -> Vec<Vec<String>> {
         let line = |cell: &str| cell.replace('\n', " ");

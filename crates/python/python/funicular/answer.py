@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from difflib import get_close_matches
 from functools import cached_property
 from os import PathLike
 from typing import Any
@@ -17,7 +18,7 @@ from ._result import Result, printable
 from .errors import InputError
 from .evidence import Evidence, Proofs, Record
 from .plot import plot
-from .system import STANDARD_GRAVITY, System
+from .system import STANDARD_GRAVITY, System, described
 from .table import Table, vectors
 
 
@@ -151,7 +152,8 @@ class Equilibrium(Result):
         names = self.system.joint_names
         if isinstance(joint, str):
             if joint not in names:
-                raise InputError(f"there is no joint {joint!r:.80}")
+                meant = [*get_close_matches(joint, names, 1), None][0]
+                raise InputError(f"there is no joint {joint!r:.80}", suggestion=meant)
             return names.index(joint)
         number = whole("joint", joint)
         if number >= len(names):
@@ -459,7 +461,7 @@ def solve(
     True
     """
     if isinstance(system, (str, PathLike)):
-        system = System.read(system)
+        system = described(system)
     elif system is not None and not isinstance(system, System):
         if lengths is not None:
             raise InputError("the lengths of the chain are given twice")

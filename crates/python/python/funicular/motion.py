@@ -18,7 +18,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import SettingError
 from .plot import plot_mode
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 MOST_BYTES = 16e9
@@ -83,7 +83,7 @@ class Motion(Result):
 
 
 def simulate(
-    system: System,
+    system: Described,
     *,
     near: Numbers | None = None,
     start: Start = "rest",
@@ -134,6 +134,7 @@ def simulate(
     >>> bool(abs(m.velocities_m_s[-1, 0, 0] - 6) < 1e-3)
     True
     """
+    system = described(system)
     system = system._asked(near)
     word, joints = (start, None) if isinstance(start, str) else ("rest", array("start", start, ("joints", 3)))
     impulses = [(str(joint), vector(f"pushes[{joint!r}]", push)) for joint, push in (pushes or {}).items()]
@@ -256,7 +257,7 @@ class ModesOf(Result):
 
 
 def modes(
-    system: System,
+    system: Described,
     *,
     near: Numbers | None = None,
     max_bars: int | None = None,
@@ -277,7 +278,7 @@ def modes(
     >>> len(rope.modes(lowest=30)[0].omega2_s2)
     30
     """
-    system = system._asked(near)
+    system = described(system)._asked(near)
     bars = None if max_bars is None else whole("max_bars", max_bars)
     count = None if lowest is None else whole("lowest", lowest)
     with shown(progress) as callback:

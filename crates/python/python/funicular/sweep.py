@@ -15,7 +15,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class Sweep(Result):
 
 
 def sweep(
-    system: System,
+    system: Described,
     seeds: int,
     *,
     number: int = 1,
@@ -123,6 +123,7 @@ def sweep(
     >>> fn.sweep(fn.System.case("two-bars"), 100)
     <Sweep of 'two bars': 100 starts, 2 equilibria>
     """
+    system = described(system)
     starts = (whole("seeds", seeds), whole("number", number), str(spread), str(solver))
     pool = whole("threads", threads)
     problem = system._problem
