@@ -36,7 +36,7 @@ pub struct Modes {
     pub max_bars: usize,
     /// How many modes of each equilibrium, the lowest (negative omega^2 first); if not given, all
     /// of systems of up to 100 joints and 20 of larger ones
-    #[arg(long = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
+    #[arg(long, alias = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
     pub lowest: Option<usize>,
     /// Draw the lowest modes of one equilibrium, up to 24, as one SVG file
     #[arg(long, value_name = "FILE")]

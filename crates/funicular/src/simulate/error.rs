@@ -24,7 +24,9 @@ pub enum SimulateError {
         steps: f64,
     },
     /// Occurs when many positions are to come to rest, and there is no damping.
-    #[error("without damping nothing comes to rest: give a drag or friction in the joints")]
+    #[error(
+        "without damping nothing comes to rest: give damping by a medium or friction in the joints"
+    )]
     NoDamping,
     /// Occurs when a joint that is to be pushed, or on which a force is to act, is not there.
     #[error("there is no joint {name:?}")]

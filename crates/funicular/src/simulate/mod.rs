@@ -109,8 +109,8 @@ impl Simulate {
 
     /// Drag of a medium, 1/s: momentum falls at this rate.
     #[must_use]
-    pub fn drag_1_s(mut self, drag_1_s: f64) -> Self {
-        self.settings.drag_1_s = drag_1_s;
+    pub fn damping_1_s(mut self, damping_1_s: f64) -> Self {
+        self.settings.damping_1_s = damping_1_s;
         self
     }
 

@@ -8,7 +8,7 @@ use ::sweep::{
 };
 
 use super::printable::Printable;
-use super::tables::{Table, numbers_from, short, significant, table};
+use super::tables::{Table, numbers_from, short, significant, table, wrapped};
 use crate::sweep::SweepAnswer;
 
 /// As `funicular sweep` prints it.
@@ -56,14 +56,14 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     });
     let listed = summary.equilibria(manifest).count();
     if let Some(release) = &manifest.release {
-        let _ = writeln!(
-            text,
-            "let go at rest, followed for at most {} s in steps of {} s; drag {} 1/s, friction {} N m s",
+        let said = format!(
+            "let go at rest, followed for at most {} s in steps of {} s; damping {} 1/s, friction {} N m s",
             short(release.time_s),
             short(release.step_s),
-            short(release.drag_1_s),
+            short(release.damping_1_s),
             short(release.friction_n_m_s)
         );
+        let _ = writeln!(text, "{}", wrapped(&said, 2));
     }
     let _ = writeln!(text, "{listed} equilibria in the list{lowest}; {proof}\n");
     let tally = summary.outcomes.tally();

@@ -385,9 +385,9 @@ fn bad_usage_is_refused_with_a_reason() {
         (&["--shard", "1"], "a shard is K/N"),
         (&["--threads", "-1"], "--threads"),
         (&["--threads", "9999999"], "a whole number up to"),
-        (&["--source", "random"], "possible values: uniform, sobol, grid"),
+        (&["--spread", "random"], "possible values: uniform, sobol, grid"),
         (&["--format", "xml"], "possible values: parquet, csv"),
-        (&["--source", "grid"], "15^3 and 4096 = 16^3"),
+        (&["--spread", "grid"], "15^3 and 4096 = 16^3"),
         (&["--case", "nonsense"], "there is no case named `nonsense`"),
     ] {
         let mut all = vec!["sweep", "--out", new.to_str().unwrap()];
@@ -452,7 +452,7 @@ fn a_disk_that_fails_is_no_bad_input() {
 #[test]
 fn a_regular_grid_is_swept() {
     let out = folder("grid").join("out");
-    let arguments = ["--source", "grid", "--solver", "energy", "--json"];
+    let arguments = ["--spread", "grid", "--solver", "energy", "--json"];
     let output = funicular(
         &[
             &[

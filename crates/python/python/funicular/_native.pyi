@@ -174,7 +174,7 @@ def simulate(
     step_s: float,
     store_s: float | None,
     order: int,
-    drag_1_s: float,
+    damping_1_s: float,
     friction_n_m_s: float,
     pushes: list[tuple[str, _Vector]],
     forces: str | None,

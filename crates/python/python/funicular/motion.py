@@ -91,7 +91,7 @@ def simulate(
     step: float = 1e-3,
     store: float | None = None,
     order: int = 2,
-    drag: float = 0.0,
+    damping: float = 0.0,
     friction: float = 0.0,
     pushes: Mapping[Any, Vector] | None = None,
     forces: Mapping[Any, Any] | None = None,
@@ -107,7 +107,7 @@ def simulate(
         vertical, degrees), ``seed:7`` (at random), or (joints, 3) places, m
     time, step, store : s; ``store`` is the time between stored times, a thousandth of the whole if not given
     order : 2, 4 or 8 in the step; 4 takes five times the work, 8 seventeen times
-    drag : 1/s, momentum falls at this rate; friction : N m s, in the joints
+    damping : of a medium, 1/s, momentum falls at this rate; friction : N m s, in the joints
     pushes : {joint: (3,) N s}, impulses at the beginning
     forces : {joint: (k, 4)}, forces over time, a row ``time_s, x_n, y_n, z_n`` for each of rising times: linear
         between them, zero before the first and after the last
@@ -148,7 +148,7 @@ def simulate(
             number("step", step),
             None if store is None else number("store", store),
             whole("order", order),
-            number("drag", drag),
+            number("damping", damping),
             number("friction", friction),
             impulses,
             _force_table(forces),

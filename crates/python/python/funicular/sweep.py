@@ -90,7 +90,7 @@ def sweep(
     system: Described,
     seeds: int,
     *,
-    number: int = 1,
+    seed: int = 1,
     spread: str = "uniform",
     solver: str = "both",
     out: str | PathLike[str] | None = None,
@@ -107,7 +107,7 @@ def sweep(
     Parameters
     ----------
     seeds : how many starts
-    number : what all starts come from; another number gives others
+    seed : what all starts come from; another number gives others
     spread : ``uniform``, ``sobol`` or ``grid``
     solver : ``both``, ``lagrange`` or ``energy``
     out : a folder for a row per start, ``format`` ``parquet`` or ``csv``; ``angles`` writes the starts, too;
@@ -124,7 +124,7 @@ def sweep(
     <Sweep of 'two bars': 100 starts, 2 equilibria>
     """
     system = described(system)
-    starts = (whole("seeds", seeds), whole("number", number), str(spread), str(solver))
+    starts = (whole("seeds", seeds), whole("seed", seed), str(spread), str(solver))
     pool = whole("threads", threads)
     problem = system._problem
     if client is not None:

@@ -51,8 +51,8 @@ pub struct Sweep {
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// How the starts are spread over the angles of the bars
-    #[arg(long, value_enum, default_value_t = Spread::Uniform)]
-    pub source: Spread,
+    #[arg(long, alias = "source", value_enum, default_value_t = Spread::Uniform)]
+    pub spread: Spread,
     /// Which solver
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,

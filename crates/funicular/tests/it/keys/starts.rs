@@ -409,7 +409,7 @@ fn releases() {
     output.is("release.step_s", 0.02);
     // Four steps.
     output.is("release.span_s", 0.08);
-    output.is("release.drag_1_s", 3.0);
+    output.is("release.damping_1_s", 3.0);
     output.is("release.friction_n_m_s", 0.0);
     output.is("release.order", 2);
     output.is("release.rest", 1e-7);
