@@ -72,7 +72,7 @@ impl Rows {
         let counts: Vec<f64> = found.iter().map(|(_, rows)| rows.len() as f64).collect();
         output.is(&at("outcome"), found.iter().map(|(outcome, _)| *outcome).collect::<Vec<_>>());
         let meaning: Vec<String> =
-            found.iter().map(|(outcome, _)| format!("equilibrium {}", outcome + 1)).collect();
+            found.iter().map(|(outcome, _)| format!("equilibrium {}", outcome + 1.0)).collect();
         output.is(&at("meaning"), meaning);
         output.is(&at("count"), counts.clone());
         let rates: Vec<f64> = counts.iter().map(|count| count / all).collect();
