@@ -359,7 +359,7 @@ fn check_line(census: &Summary) -> String {
             format!("{listed}. That the list is complete rests on the search alone.")
         }
         (None, _) if census.decided => format!(
-            "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
+            "{listed}. That the list is complete rests on the search: the check would see if one alone, the lowest \
              or the highest were missing, not every pair."
         ),
         (None, _) => format!("{listed}."),
@@ -404,7 +404,7 @@ fn sums(census: &Summary) -> String {
             let _ = writeln!(
                 text,
                 "By index in the plane: {:?}, without the families marked *, whose part in the sum of (-1)^index is not \
-                 known.\nSum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
+                 known. Sum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
                  {euler}.",
                 census.count_by_index, census.alternating_sum,
             );
@@ -413,7 +413,7 @@ fn sums(census: &Summary) -> String {
             let _ = writeln!(
                 text,
                 "By index in the plane: {:?}. Sum of (-1)^index: {}. Euler characteristic of the configuration space, from \
-                 the lengths alone:\n{euler} (Betti numbers {betti:?}).",
+                 the lengths alone: {euler} (Betti numbers {betti:?}).",
                 census.count_by_index, census.alternating_sum,
             );
         }
