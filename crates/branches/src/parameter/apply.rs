@@ -168,10 +168,11 @@ impl UncheckedBar {
                 let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
                 self.inertia_kg_m2.get_or_insert(slender)[axis] = value;
             }
-            // Of the member around the bar.
-            BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance => {}
-            // Of its row.
-            BarField::Count => {}
+            // Of the member around the bar, and of its row.
+            BarField::Stiffness
+            | BarField::Prestress
+            | BarField::LengthTolerance
+            | BarField::Count => {}
         }
     }
 

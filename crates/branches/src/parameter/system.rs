@@ -31,9 +31,8 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
                     set_joint(&mut joints[joint], field, *value);
                 }
             }
-            Number::Bar(_, BarField::Count) => {}
-            // Of no row of bars; such variations are refused before.
-            Number::Anchor(..) | Number::Row(..) => {}
+            // Counts come last; what is of no row of bars is refused before.
+            Number::Bar(_, BarField::Count) | Number::Anchor(..) | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 of_members.push((which, field, *value));
             }

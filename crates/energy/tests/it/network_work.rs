@@ -238,9 +238,9 @@ fn work_on_exhibits() {
             let joints = solution.equilibrium.joints_m.iter().enumerate();
             joints.map(|(j, at)| std::array::from_fn(|k| off(3 * j + k, at[k]))).collect()
         });
-        add(&mut row, first);
+        add(&mut row, &system, first);
         if let Some(seed) = seed {
-            add(&mut row, minimise_from(&system, &seed, &settings));
+            add(&mut row, &system, minimise_from(&system, &seed, &settings));
         }
         found.push((exhibit.name, row));
     }

@@ -69,7 +69,7 @@ impl Shape<'_> {
         text += &if long {
             self.largest()
         } else {
-            self.bars("Bars", &Vec::from_iter(0..self.axial.len()))
+            self.bars("Bars", &(0..self.axial.len()).collect::<Vec<_>>())
         };
         text + &self.reactions() + &self.summary()
     }

@@ -198,7 +198,7 @@ fn only_the_last_part_knows_where_it_was_made() {
     let golden = REPORT.golden();
     let markdown = REPORT.markdown();
     let run = markdown.strip_prefix(&golden).unwrap();
-    assert!(run.contains("## This run") && run.contains("`funicular reproduce --out report`"));
+    assert!(run.contains("</a>This run") && run.contains("`funicular reproduce --out report`"));
     assert!(run.contains("rustc ") && run.contains("nalgebra "));
     assert!(
         !golden.contains("rustc ") && !golden.contains("e-1"),
