@@ -197,8 +197,8 @@ class Equilibrium(Result):
 
         ``view``: from where it is seen, ``best``, ``front`` (x to the right, z up), ``side`` (y, z) or ``top`` (x, y).
         """
-        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_max_n, self.reactions_n))
-        return _native.draw(self.system._problem, *arrays, view)
+        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_max_n, self.reactions_n))
+        return _native.draw(self.system._problem, joints, axial, ground, view)
 
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""

@@ -38,7 +38,7 @@ def _axes(ax: Any) -> Any:
     return _pyplot().figure().add_subplot() if ax is None else ax
 
 
-VIEWS = {"front": "xz", "side": "yz", "top": "xy"}
+VIEWS = {"front": ("x", "z"), "side": ("y", "z"), "top": ("x", "y")}
 """The axes to the right and up that are seen from there."""
 
 
@@ -57,11 +57,11 @@ def plot(
     joints = equilibrium.joints_m
     if view in VIEWS:
         space, seen = False, np.array([np.eye(3)["xyz".index(axis)] for axis in VIEWS[view]]).T
-        labels, origin = VIEWS[view], np.zeros(3)
+        (right, up), origin = VIEWS[view], np.zeros(3)
     else:
         level = np.append(_level(joints), 0.0)
         seen = np.column_stack([level, [0.0, 0.0, 1.0]])
-        labels, origin = ("level", "z"), joints[0] * [1.0, 1.0, 0.0]
+        (right, up), origin = ("level", "z"), joints[0] * [1.0, 1.0, 0.0]
     if space is None:
         off = np.abs((joints - joints[0]) @ np.array([-level[1], level[0], 0.0])).max(initial=0.0)
         space = bool(off > FLAT * np.ptp(joints, axis=0).max())
@@ -83,7 +83,7 @@ def plot(
     if space:
         ax.set(xlabel="x / m", ylabel="y / m", zlabel="z / m")
     else:
-        ax.set(xlabel=f"{labels[0]} / m", ylabel=f"{labels[1]} / m")
+        ax.set(xlabel=f"{right} / m", ylabel=f"{up} / m")
     ax.set_aspect("equal")
     ax.set_title(equilibrium.system.name.replace("$", r"\$"))
     return ax
