@@ -5,7 +5,7 @@ use serde::Serialize;
 /// A branch: one equilibrium followed over the parameter, as far as it goes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Branch {
-    /// Its number.
+    /// Its number, from 1.
     pub id: usize,
     /// Its points, by rising position.
     pub points: Vec<BranchPoint>,
@@ -21,7 +21,7 @@ pub struct Branch {
 pub enum BranchEnd {
     /// At an end of the path.
     Path,
-    /// In the event of this number.
+    /// In the event of this number, from 1.
     Event(usize),
     /// Next to a point that is refused or undecided, at an end of the path.
     Border,
@@ -38,13 +38,13 @@ pub struct BranchPoint {
     pub values: Vec<f64>,
     /// Distance of the anchors, m.
     pub span_m: f64,
-    /// Number of the point on the grid; none between its points.
+    /// Number of the point on the grid, from 1; none between its points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<usize>,
     /// Whether a census proves it (the middles of its enclosures are shown); else it comes from the
     /// curve.
     pub proved: bool,
-    /// The event that happens here.
+    /// Number of the event that happens here.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub event: Option<usize>,
     /// Pull of the chain on the first anchor along the plane's horizontal direction and along Z, N;

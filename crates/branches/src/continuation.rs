@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::assemble::{Assembly, Link};
-use crate::branch::Branch;
+use crate::branch::{Branch, BranchEnd};
 use crate::census_point::{CensusPoint, PathPoint, PointStatus};
 use crate::checks::{Checks, agrees, incomplete};
 use crate::error::ContinuationError;
@@ -156,6 +156,8 @@ impl Continuation {
             work.checks.undecided =
                 census_points.iter().map(|census_point| census_point.position).collect();
         }
+        let (mut branches, mut events) = (branches, events);
+        from_one(&mut branches, &mut events);
         let mut checks = work.checks;
         count_disagreements(&census_points, &mut checks);
         let points = census_points.iter().filter(|census_point| census_point.grid.is_some()).map(
@@ -175,6 +177,26 @@ impl Continuation {
             events,
             checks,
         })
+    }
+}
+
+/// Branches, events and points of the grid counted from 1, as readers count.
+fn from_one(branches: &mut [Branch], events: &mut [Event]) {
+    for branch in branches {
+        branch.id += 1;
+        for end in [&mut branch.start, &mut branch.end] {
+            if let BranchEnd::Event(id) = end {
+                *id += 1;
+            }
+        }
+        for point in &mut branch.points {
+            point.grid = point.grid.map(|k| k + 1);
+            point.event = point.event.map(|k| k + 1);
+        }
+    }
+    for event in events {
+        event.id += 1;
+        event.branches.iter_mut().for_each(|branch| *branch += 1);
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 /// A position at which branches meet or change.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Event {
-    /// Its number.
+    /// Its number, from 1.
     pub id: usize,
     /// What happens.
     #[serde(flatten)]
@@ -20,7 +20,7 @@ pub struct Event {
     pub values_error: Vec<f64>,
     /// Distance of the anchors there, m.
     pub span_m: f64,
-    /// The branches that take part: those that end or begin in it, or the one that passes.
+    /// Numbers of the branches that take part: those that end or begin in it, or the one that passes.
     pub branches: Vec<usize>,
     /// Angles of the bars, rad.
     pub angles_rad: Vec<f64>,

@@ -41,8 +41,8 @@
 //!
 //! # Columns
 //!
-//! `funicular trace --csv` writes the points of the branches, one line each: `path` (from 1),
-//! `branch`, `position`, a column for each parameter, `span_m`, `grid` (empty between the points),
+//! `funicular trace --csv` writes the points of the branches, one line each: `path`,
+//! `branch` (both from 1), `position`, a column for each parameter, `span_m`, `grid` (empty between the points),
 //! `proved`, `event` (its number, or empty), `pull_horizontal_n`, `pull_vertical_n`, `energy_j`,
 //! `index_in_plane`, `index_in_space`, and for each bar `angle_1_rad`, `axial_1_n`, ...: the fields
 //! of [`BranchPoint`].

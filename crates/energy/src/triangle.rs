@@ -11,8 +11,8 @@
 //! allows. That the gradient vanishes, `h_i up + mu = -N_i u_i`, are two equations in the plane
 //! for the forces along the bars:
 //!
-//! $$ N_1 = -(h_1 - h_2)\, l_1\, \frac{h\, up_e + b\, up_n}{h\, d}, \qquad
-//!    N_2 =  (h_1 - h_2)\, l_2\, \frac{h\, up_e - a\, up_n}{h\, d}, \qquad b = d - a . $$
+//! $$ N_1 = -(h_1 - h_2)\\, l_1\\, \frac{h\\, up_e + b\\, up_n}{h\\, d}, \qquad
+//!    N_2 =  (h_1 - h_2)\\, l_2\\, \frac{h\\, up_e - a\\, up_n}{h\\, d}, \qquad b = d - a . $$
 //!
 //! Two bars folded back to 1e-8 of their length differ in direction by that angle, and its square
 //! is rounding: what a minimiser sees of the closure has lost it. To twice the digits of a double

@@ -6,7 +6,7 @@ fn main() -> Result<(), Error> {
     let problem = Problem::case("three-equal-bars-oblique")?;
     let moved = Simulate::new()
         .start(Start::Seed(7))
-        .drag_1_s(2.0)
+        .damping_1_s(2.0)
         .time_s(30.0)
         .step_s(5e-3)
         .run(&problem)?;

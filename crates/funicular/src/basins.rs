@@ -378,7 +378,7 @@ impl BasinsAnswer {
     }
 }
 
-/// An equilibrium in the legend: its number, energy and kind.
+/// An equilibrium in the legend: its number from 1, energy and kind.
 fn name((number, member): (usize, &Member)) -> String {
     let kind = match member.index() {
         Some(0) => ", minimum",
@@ -386,5 +386,5 @@ fn name((number, member): (usize, &Member)) -> String {
         None => "",
     };
     let mirrored = if member.mirrored { " (mirror image)" } else { "" };
-    format!("{number}: {:.4} J{kind}{mirrored}", member.energy_j)
+    format!("{}: {:.4} J{kind}{mirrored}", number + 1, member.energy_j)
 }

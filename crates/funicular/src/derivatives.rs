@@ -361,7 +361,7 @@ impl DerivativesAnswer {
             let bar = bar.filter(|bar| *bar < self.system.members().len());
             return Ok(Of::Axial(bar.ok_or_else(none)?));
         }
-        let parameter = parsed(text)?;
+        let parameter = parsed(text).map_err(|_| none())?;
         let Number::Joint(name, JointField::Place(axis)) = parameter.number else {
             return Err(none().into());
         };

@@ -23,7 +23,7 @@ use crate::sweep::Format;
 /// use funicular::prelude::*;
 /// // The chain of the paper has one circle of stable positions: all releases end there.
 /// let problem = Problem::case("three-equal-bars")?;
-/// let damped = Simulate::new().time_s(60.0).step_s(5e-3).drag_1_s(3.0);
+/// let damped = Simulate::new().time_s(60.0).step_s(5e-3).damping_1_s(3.0);
 /// let prepared = Ensemble::new(damped, 4).prepare(&problem)?;
 /// let ends = prepared.run(0..4);
 /// assert_eq!(ends.of("motion").unwrap().outcome, [0; 4]);
@@ -83,7 +83,7 @@ impl Ensemble {
         let system = system_of(problem);
         let settings = self.simulate.settings;
         settings.validate()?;
-        if settings.drag_1_s.max(settings.friction_n_m_s) <= 0.0 {
+        if settings.damping_1_s.max(settings.friction_n_m_s) <= 0.0 {
             return Err(SimulateError::NoDamping.into());
         }
         let (steps, _) = self.simulate.steps()?;
@@ -102,7 +102,7 @@ impl Ensemble {
             time_s: self.simulate.time_s,
             step_s,
             span_s: step_s * steps_per_look as f64,
-            drag_1_s: settings.drag_1_s,
+            damping_1_s: settings.damping_1_s,
             friction_n_m_s: settings.friction_n_m_s,
             order: match settings.order {
                 Order::Second => 2,

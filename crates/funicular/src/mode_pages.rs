@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use figures::{ModeShape, ModeShapes, StructureError};
+use figures::{ModeShape, ModeShapes, Seen, StructureError};
 use model::system::System;
 
 use crate::modes::{Mode, ModesAnswer, WithModes};
@@ -14,14 +14,14 @@ const MOST_DRAWN: usize = 24;
 const PAGE: &str = include_str!("modes.html");
 
 /// The lowest modes of an equilibrium as an SVG file, up to 24 of them: at rest, and displaced to
-/// both sides. Displacements are to first order, and exaggerated.
+/// both sides, seen from where it is asked for. Displacements are to first order, and exaggerated.
 ///
 /// ```
 /// use funicular::prelude::*;
 /// let problem = Problem::case("two-bars")?;
 /// let found = Modes::new().run(&problem)?;
 /// let system = funicular::system_of(&problem);
-/// let svg = funicular::drawn_modes(&system, &found.equilibria[0]).unwrap();
+/// let svg = funicular::drawn_modes(&system, &found.equilibria[0], funicular::picture::Seen::Best).unwrap();
 /// assert!(svg.starts_with("<svg") && svg.contains("Hz"));
 /// # Ok::<(), Error>(())
 /// ```
@@ -29,7 +29,11 @@ const PAGE: &str = include_str!("modes.html");
 /// # Errors
 ///
 /// [`StructureError`] when a place is not finite.
-pub fn drawn_modes(system: &System, found: &WithModes) -> Result<String, StructureError> {
+pub fn drawn_modes(
+    system: &System,
+    found: &WithModes,
+    seen: Seen,
+) -> Result<String, StructureError> {
     let joints_m: Vec<_> = found.joints.iter().map(|joint| joint.at_m).collect();
     let drawn = found.modes.len().min(MOST_DRAWN);
     let modes = found.modes.iter().take(drawn).enumerate().map(|(k, mode)| ModeShape {
@@ -44,7 +48,7 @@ pub fn drawn_modes(system: &System, found: &WithModes) -> Result<String, Structu
         "all modes".to_owned()
     };
     let note = format!("equilibrium {}: {which}; displacements are exaggerated", found.label);
-    ModeShapes { system, note: &note, joints_m: &joints_m, modes: &modes }.svg()
+    ModeShapes { system, note: &note, joints_m: &joints_m, modes: &modes, seen }.svg()
 }
 
 /// Number and frequency of a mode.

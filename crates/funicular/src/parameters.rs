@@ -59,7 +59,7 @@ impl Parameters {
 
 /// A parameter has values; what they are does not matter here.
 pub(crate) fn parsed(path: &str) -> Result<Parameter, Error> {
-    let parameter = format!("{path}=0").parse();
+    let parameter = format!("{path}=1").parse();
     parameter.map_err(|error| without_value(error, path).into())
 }
 

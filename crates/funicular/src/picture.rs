@@ -45,6 +45,7 @@ pub fn of_answer(
     joints_m: &[Vector],
     axial_n: &[f64],
     reactions_n: &[Vector],
+    seen: Seen,
 ) -> Result<String, StructureError> {
-    SystemShape { system, joints_m, axial_n, reactions_n, seen: Seen::Best }.svg()
+    SystemShape { system, joints_m, axial_n, reactions_n, seen }.svg()
 }

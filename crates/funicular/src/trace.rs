@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use branches::{
-    Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, PointStatus, Progress,
-    Variation,
+    Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, ParameterError,
+    PointStatus, Progress, Variation,
 };
 
 use model::SystemSummary;
@@ -83,7 +83,16 @@ impl Trace {
     ///
     /// [`Error::Parameter`] when a parameter does not fit the chain.
     pub fn variation(&self, problem: &Problem) -> Result<Variation, Error> {
-        self.parameters.of(problem, "a trace")
+        let variation = self.parameters.of(problem, "a trace")?;
+        match variation.numbers().iter().find(|number| number.is_count()) {
+            None => Ok(variation),
+            Some(count) => {
+                let text = count.to_string();
+                let what = "no branch is followed from one count to another".to_owned();
+                let help = "`funicular study` varies counts".to_owned();
+                Err(ParameterError { span: 0..text.len(), text, what, help }.into())
+            }
+        }
     }
 
     /// Processor time of the censuses at all points, s, good to an order of magnitude, as the

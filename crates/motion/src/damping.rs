@@ -50,7 +50,7 @@ pub(crate) fn forces(
     vectors: &[Vector],
 ) -> Damping {
     let v = &state.velocity;
-    let c = settings.drag_1_s;
+    let c = settings.damping_1_s;
     let joints = mechanism.system.joints();
     let mut found = Damping {
         on_joints: (0..v.len())
@@ -158,15 +158,15 @@ pub(crate) fn damp(
     stepper: &mut Stepper,
     h: f64,
 ) -> Result<(), Failure> {
-    if settings.drag_1_s > 0.0 {
-        let factor = (-settings.drag_1_s * h).exp();
+    if settings.damping_1_s > 0.0 {
+        let factor = (-settings.damping_1_s * h).exp();
         state.velocity.iter_mut().for_each(|v| *v = times(factor, *v));
     }
     if settings.friction_n_m_s <= 0.0 {
         return Ok(());
     }
     let before_j = kinetic_j(mechanism, state);
-    let only_friction = Settings { drag_1_s: 0.0, ..*settings };
+    let only_friction = Settings { damping_1_s: 0.0, ..*settings };
     // exp(h F) v to the fourth order: v + h F (v + h/2 F (v + h/3 F (v + h/4 F v))).
     let begin = state.velocity.clone();
     for part in [4.0, 3.0, 2.0, 1.0] {

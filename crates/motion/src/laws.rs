@@ -5,7 +5,7 @@
 //! constraints enters. With `u` its direction, `x_C` its centre of weight and `ω = u × u̇`:
 //!
 //! $$ m \ddot x_C = F_a + F_b + \sum F_k - m g e_z - c m \dot x_C, $$
-//! $$ J\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
+//! $$ J\\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
 //!    \sum (x_k - x_C) \times F_k + M_a + M_b - c J \omega $$
 //!
 //! across the member (its spin is apart); where the moments across differ, in all directions with
@@ -58,12 +58,12 @@ struct Balance {
     turning: Vector,
 }
 
-/// Judge the laws at one time. `drag_1_s` is the drag of the medium, `of_time` the forces of time
+/// Judge the laws at one time. `damping_1_s` is the drag of the medium, `of_time` the forces of time
 /// by joint, N, and `moments` those on the members, N m.
 pub(crate) fn judge(
     system: &System,
     at: &Snapshot,
-    drag_1_s: f64,
+    damping_1_s: f64,
     of_time: &[Vector],
     moments: &[Vector],
 ) -> Laws {
@@ -76,7 +76,7 @@ pub(crate) fn judge(
     let mut found = Laws::default();
     let (mut needed, mut turning) = ([0.0; 3], [0.0; 3]);
     for (number, given) in moments.iter().enumerate() {
-        let balance = member_balance(system, number, at, drag_1_s, *given);
+        let balance = member_balance(system, number, at, damping_1_s, *given);
         found.force = worse(found.force, norm(balance.force));
         let along = if balance.spins { 0.0 } else { dot(balance.moment, balance.direction) };
         let left = add_times(balance.moment, -along, balance.direction);
@@ -87,7 +87,7 @@ pub(crate) fn judge(
     for (joint, data) in system.joints().iter().enumerate() {
         let x = minus(at.joints_m[joint], reference);
         let weight = [0.0, 0.0, -data.mass_kg * system.gravity_m_s2()];
-        let drag = times(-drag_1_s * data.mass_kg, at.velocities_m_s[joint]);
+        let drag = times(-damping_1_s * data.mass_kg, at.velocities_m_s[joint]);
         let given = plus(plus(weight, data.force_n), plus(of_time[joint], drag));
         let own = minus(times(data.mass_kg, at.accelerations_m_s2[joint]), given);
         let left = minus(own, at.reactions_n[joint]);
@@ -120,7 +120,7 @@ fn member_balance(
     system: &System,
     number: usize,
     at: &Snapshot,
-    drag_1_s: f64,
+    damping_1_s: f64,
     own_n_m: Vector,
 ) -> Balance {
     let member = &system.members()[number];
@@ -148,10 +148,10 @@ fn member_balance(
     );
     let mass = body.mass_kg();
     let weight = [0.0, 0.0, -mass * system.gravity_m_s2()];
-    let mut given = add_times(weight, -drag_1_s * mass, v_c);
+    let mut given = add_times(weight, -damping_1_s * mass, v_c);
     // What of the member's own moment is along it is taken by nothing, and does nothing.
     let own_n_m = add_times(own_n_m, -dot(own_n_m, u), u);
-    let mut moment = add_times(own_n_m, -drag_1_s, spin);
+    let mut moment = add_times(own_n_m, -damping_1_s, spin);
     for load in &member.loads {
         let fraction = load.at_m / body.length_m();
         given = plus(given, load.force_n);

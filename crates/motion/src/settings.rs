@@ -22,7 +22,7 @@ pub struct Settings {
     /// Order in the length of the step.
     pub order: Order,
     /// Drag of a medium, 1/s: the force `−c M v` opposes the momentum. At least zero; default zero.
-    pub drag_1_s: f64,
+    pub damping_1_s: f64,
     /// Friction in the joints, N m s: each member turns against a pin with the moment `−k (ω_member
     /// − ω_pin)`, less its part along the member. The pin of an anchor stands still, the pin of any
     /// other joint has no inertia and turns so that the moments on it cancel. At least zero;
@@ -32,7 +32,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { order: Order::Second, drag_1_s: 0.0, friction_n_m_s: 0.0 }
+        Self { order: Order::Second, damping_1_s: 0.0, friction_n_m_s: 0.0 }
     }
 }
 
@@ -44,7 +44,7 @@ impl Settings {
     /// [`MotionError::Input`] when a damping is negative or not finite.
     pub fn validate(&self) -> Result<(), MotionError> {
         let dampings = [
-            ("drag of the medium, 1/s", self.drag_1_s),
+            ("damping, 1/s", self.damping_1_s),
             ("friction in the joints, N m s", self.friction_n_m_s),
         ];
         for (what, value) in dampings {

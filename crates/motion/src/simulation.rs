@@ -399,8 +399,8 @@ impl Simulation {
         Snapshot::new(self, &solved.0, &solved.1, &damping)
     }
 
-    pub(crate) fn drag_1_s(&self) -> f64 {
-        self.settings.drag_1_s
+    pub(crate) fn damping_1_s(&self) -> f64 {
+        self.settings.damping_1_s
     }
 
     pub(crate) fn state(&self) -> &State {

@@ -147,7 +147,7 @@ impl Snapshot {
             rates_off,
             laws: Laws::default(),
         };
-        found.laws = laws::judge(system, &found, simulation.drag_1_s(), &of_time, &moments);
+        found.laws = laws::judge(system, &found, simulation.damping_1_s(), &of_time, &moments);
         found
     }
 

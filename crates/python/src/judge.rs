@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use funicular::judge::{ForeignAnswer, Judge};
+use funicular::picture::Seen;
 use funicular::prelude::Vector;
 use funicular::system_of;
 use numpy::PyReadonlyArrayDyn;
@@ -42,7 +43,12 @@ pub fn judge<'py>(
         let judged = judge.run_watched(&of, &answer, &|what| watch.tell(what, 0, 0))?;
         let judgement = judged.judgement();
         let verdict = (judgement.is_confirmed(), judgement.is_refuted());
-        Ok((serde_json::to_string(&judged), verdict, judged.html(&[]), judged.to_string()))
+        Ok((
+            serde_json::to_string(&judged),
+            verdict,
+            judged.html(&[], Seen::Best),
+            judged.to_string(),
+        ))
     })?;
     let (text, (confirmed, refuted), page, said) =
         found.map_err(|error: funicular::Error| raise(&error))?;

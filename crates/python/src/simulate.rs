@@ -72,7 +72,7 @@ pub fn simulate<'py>(
     step_s: f64,
     store_s: Option<f64>,
     order: usize,
-    drag_1_s: f64,
+    damping_1_s: f64,
     friction_n_m_s: f64,
     pushes: Vec<(String, Vector)>,
     forces: Option<String>,
@@ -83,7 +83,7 @@ pub fn simulate<'py>(
         .start(start(start_word, start_joints_m)?)
         .time_s(time_s)
         .step_s(step_s)
-        .drag_1_s(drag_1_s)
+        .damping_1_s(damping_1_s)
         .friction_n_m_s(friction_n_m_s)
         .order(self::order(order)?);
     if let Some(text) = forces {

@@ -144,7 +144,9 @@ pub fn draw(
     joints_m: PyReadonlyArrayDyn<'_, f64>,
     axial_n: PyReadonlyArrayDyn<'_, f64>,
     reactions_n: PyReadonlyArrayDyn<'_, f64>,
+    view: &str,
 ) -> PyResult<String> {
+    let seen = words::seen(view)?;
     let (joints, reactions) = (vectors(&joints_m)?, vectors(&reactions_n)?);
     let axial = numbers(&axial_n)?;
     let system = problem.system();
@@ -154,6 +156,6 @@ pub fn draw(
     {
         return Err(internal("the arrays are not those of the system"));
     }
-    let drawn = py.detach(|| picture::of_answer(&system, &joints, &axial, &reactions));
+    let drawn = py.detach(|| picture::of_answer(&system, &joints, &axial, &reactions, seen));
     drawn.map_err(|error| internal(&error.to_string()))
 }

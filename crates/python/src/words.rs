@@ -1,5 +1,6 @@
 //! Settings that Python says in words.
 
+use funicular::picture::Seen;
 use funicular::prelude::{Equations, Solvers, UseCensus};
 use funicular::{Plane, Spread};
 use pyo3::PyErr;
@@ -32,6 +33,17 @@ pub fn census(word: &str) -> Result<UseCensus, PyErr> {
         "always" => Ok(UseCensus::Always),
         "never" => Ok(UseCensus::Never),
         _ => Err(bad_word("census", word, &["auto", "always", "never"])),
+    }
+}
+
+/// `best`, `front`, `side` or `top`.
+pub fn seen(word: &str) -> Result<Seen, PyErr> {
+    match word {
+        "best" => Ok(Seen::Best),
+        "front" => Ok(Seen::Front),
+        "side" => Ok(Seen::Side),
+        "top" => Ok(Seen::Top),
+        _ => Err(bad_word("view", word, &["best", "front", "side", "top"])),
     }
 }
 

@@ -42,7 +42,7 @@ def kill_a_busy_worker(client, shards):
 
 def test_a_sweep_with_a_worker_killed_is_the_same_bytes(client, tmp_path):
     system = fn.System.case("three-equal-bars")
-    settings = {"number": 5, "solver": "lagrange", "angles": True}
+    settings = {"seed": 5, "solver": "lagrange", "angles": True}
     whole = system.sweep(SEEDS, out=tmp_path / "whole", **settings)
     killer = threading.Thread(target=kill_a_busy_worker, args=(client, tmp_path / "dask" / "shards"))
     killer.start()

@@ -79,6 +79,38 @@ def test_places_in_texts_and_files(tmp_path):
     with pytest.raises(fn.UnknownCase) as error:
         fn.System.case("three-equal-bar")
     assert error.value.suggestion == "three-equal-bars"
+    assert "did you mean `three-equal-bars`?" in str(error.value)
+    with pytest.raises(fn.InputError, match="did you mean `lamp`"):
+        fn.System.case("lamp").solve().joint("lmap")
+    with pytest.raises(fn.FileError, match=r"System\.case\('lamp'\)"):
+        fn.solve("lamp")
+
+
+def test_every_question_takes_a_path(tmp_path):
+    path = tmp_path / "v.toml"
+    path.write_text(fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0)).to_toml())
+    vary = "anchors.end_m.x=1,1.5"
+    asked = {
+        "solve": lambda of: fn.solve(of),
+        "study": lambda of: fn.study(of, vary).data,
+        "trace": lambda of: fn.trace(of, vary).data["traces"],
+        "census": lambda of: fn.census(of).complete,
+        "modes": lambda of: fn.modes(of)[0].omega2_s2.tolist(),
+        "gradient": lambda of: fn.gradient(of, "joints.1.at_m.z").data,
+        "change": lambda of: fn.change(of, "bars.1.length_m").data,
+        "anchor_stiffness": lambda of: len(fn.anchor_stiffness(of)),
+        "basins": lambda of: fn.basins(of, size=4).outcome("energy").tolist(),
+        "sweep": lambda of: fn.sweep(of, seeds=10).data["seeds"],
+        "simulate": lambda of: fn.simulate(of, time=0.01).joints_m.tolist(),
+        "judge": lambda of: fn.judge(of, fn.solve(of).joints_m).confirmed,
+    }
+    for name, ask in asked.items():
+        by_path, by_text, by_system = ask(path), ask(str(path)), ask(fn.System.read(path))
+        if name != "solve":
+            assert by_path == by_text == by_system, name
+        for wrong in (7, None, {}):
+            with pytest.raises(fn.InputError):
+                ask(wrong)
 
 
 @pytest.mark.parametrize(

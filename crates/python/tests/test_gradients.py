@@ -154,6 +154,10 @@ def test_torch_differentiates(net):
     expected = gradients.pullback(net, {name: NUMBERS[name] for name in given}, *WEIGHTS)
     for name, by in expected.items():
         assert np.allclose(given[name].grad.numpy(), by, rtol=1e-12, atol=1e-12)
+    # Differences by PyTorch itself.
+    assert torch.autograd.gradcheck(lambda *t: function(dict(zip(given, t))), list(given.values()), atol=1e-4)
+    with pytest.raises(fn.InputError):
+        function({})
 
 
 def test_what_is_not_installed_is_named(net, monkeypatch):

@@ -63,9 +63,9 @@ def call(draw, system):
     if which == 8:
         return system.trace(anything(draw), max_points=5)
     if which == 9:
-        return system.simulate(time=0.01, **{draw.choice(["start", "step", "drag", "pushes"]): anything(draw)})
+        return system.simulate(time=0.01, **{draw.choice(["start", "step", "damping", "pushes"]): anything(draw)})
     if which == 10:
-        return system.sweep(10, **{draw.choice(["number", "spread", "solver", "threads"]): anything(draw)})
+        return system.sweep(10, **{draw.choice(["seed", "spread", "solver", "threads"]): anything(draw)})
     if which == 11:
         return fn.Table({"a": anything(draw)}).__arrow_c_stream__()
     if which == 12:

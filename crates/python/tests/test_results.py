@@ -93,6 +93,21 @@ def test_starts_of_a_system_are_places_of_its_joints():
         lamp.sweep(20, spread="sobol")
 
 
+def test_pictures_are_seen_from_where_one_asks():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("Agg")
+    answer = fn.System.case("bridle").solve()
+    pictures = {answer.svg(view) for view in ("best", "front", "side", "top")}
+    assert len(pictures) == 4 and answer.svg() == answer.svg("best")
+    for view, (x, y) in {"front": (0, 2), "side": (1, 2), "top": (0, 1)}.items():
+        marks = answer.plot(view=view).lines[-1]
+        assert np.allclose(marks.get_xdata(), answer.joints_m[:, x]) and np.allclose(marks.get_ydata(), answer.joints_m[:, y])
+    for wrong in (lambda: answer.svg("below"), lambda: answer.plot(view="below")):
+        with pytest.raises(fn.SettingError, match="below"):
+            wrong()
+    pyplot.close("all")
+
+
 def test_plots_have_the_numbers():
     pyplot = pytest.importorskip("matplotlib.pyplot")
     pyplot.switch_backend("Agg")

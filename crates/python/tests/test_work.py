@@ -61,7 +61,7 @@ def test_ctrl_c_stops_long_work(work):
 def test_a_cancelled_sweep_leaves_what_goes_on(tmp_path):
     system = fn.System.case("three-equal-bars")
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"
-    settings = {"solver": "lagrange", "number": 5}
+    settings = {"solver": "lagrange", "seed": 5}
     system.sweep(2_000_000, out=whole, **settings)
 
     class Enough(Exception):

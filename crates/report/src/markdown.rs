@@ -14,7 +14,10 @@ pub fn markdown(blocks: &[Block]) -> String {
 
 fn one(block: &Block) -> String {
     match block {
-        Block::Heading(level, _, text) => format!("{} {text}\n", "#".repeat(usize::from(*level))),
+        // Links lead to these names, whatever a viewer makes of the words.
+        Block::Heading(level, id, text) => {
+            format!("{} <a id=\"{id}\"></a>{text}\n", "#".repeat(usize::from(*level)))
+        }
         Block::Text(text) => format!("{text}\n"),
         Block::List(items) => format!("- {}\n", items.join("\n- ")),
         Block::Table(table) => rows(table),

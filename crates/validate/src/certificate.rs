@@ -2,25 +2,25 @@
 //!
 //! # The bound
 //!
-//! With $c_i = g\,(l_i \sum_{j>i} m_j + m_i r_i)$ the energy of the chain is linear in the
-//! directions of its bars, $V = \sum_i c_i\, u_{i,z}$, and closure says $\sum_i l_i u_i = D$. So
+//! With $c_i = g\\,(l_i \sum_{j>i} m_j + m_i r_i)$ the energy of the chain is linear in the
+//! directions of its bars, $V = \sum_i c_i\\, u_{i,z}$, and closure says $\sum_i l_i u_i = D$. So
 //! for any vector $P$ and any numbers $\nu_i \ne 0$, with $G_i = l_i P - c_i e_z$ and
 //! $\hat u_i = G_i/\nu_i$, every configuration has
 //!
 //! $$ V = P\cdot D - \sum_i \Big(\frac{|G_i|^2}{2\nu_i} + \frac{\nu_i}{2}\Big)
-//!        + \frac12 \sum_i \nu_i\,|u_i - \hat u_i|^2 . $$
+//!        + \frac12 \sum_i \nu_i\\,|u_i - \hat u_i|^2 . $$
 //!
 //! If all $\nu_i$ are positive the last sum can be dropped, and what remains is a lower bound; with
 //! $\nu_i = |G_i|$ it is the energy of the chain as cables. If just one is negative, $\nu_k$, the
 //! last sum is still bounded below, because closure ties $u_k$ to the others: with the force
-//! densities $\tau_i = \nu_i / l_i^2$ it is at least $-|\tau_k|\,(|s||e| + |e|^2/2)$ as soon as
+//! densities $\tau_i = \nu_i / l_i^2$ it is at least $-|\tau_k|\\,(|s||e| + |e|^2/2)$ as soon as
 //! $|\tau_k| \sum_{i\ne k} 1/\tau_i \le 1$, where $e = D - \sum_i l_i \hat u_i$ is the closure
 //! error of the directions $\hat u_i$ (nothing but rounding at an equilibrium) and
 //! $|s| \le |e| + l_k (1 + |\hat u_k|)$.
 //!
 //! That condition is the positive semidefiniteness of the stress matrix, the tridiagonal
 //! $\Omega = \mathrm{tridiag}(-\tau_k,\ \tau_k + \tau_{k+1},\ -\tau_{k+1})$: its LDLᵀ pivots are
-//! $\delta_k = \tau_{k+1}\,\gamma_{k+1}/\gamma_k$ with the compliances
+//! $\delta_k = \tau_{k+1}\\,\gamma_{k+1}/\gamma_k$ with the compliances
 //! $\gamma_k = \sum_{i\le k} 1/\tau_i$, so its inertia is read from the signs of the $\tau_i$ and
 //! of the running sums, without a factorisation that could lose them. Connelly's super stability
 //! for a chain.

@@ -6,6 +6,7 @@ use model::system_file::nearest;
 
 use crate::parameter::error::ParameterError;
 use crate::parameter::number::{AnchorEnd, BarField, JointField, Number, Which, equals};
+use crate::parameter::rows;
 use crate::parameter::values::Parameter;
 
 /// So many names of joints are listed.
@@ -41,16 +42,29 @@ impl Base for Chain {
             }
             Number::Bar(which, _) => bar(parameter, *which, self.bars().len(), "chain"),
             Number::Gravity | Number::Anchor(..) => Ok(()),
-        }
+        }?;
+        one_row(parameter, &self.resolved(&parameter.number))
+    }
+
+    /// A count is that of a whole row.
+    fn resolved(&self, number: &Number) -> Number {
+        let bars = self.bars();
+        let row = |bar| rows::run(bar, bars.len(), |k| bars[k] == bars[k + 1]);
+        row_of(number, bars.len(), row)
     }
 }
 
 impl Base for System {
-    /// An end of a row of bars is a joint, and the bars of a row have numbers.
+    /// An end of a row of bars is a joint, the bars of a row have numbers, and a count is that of a whole row.
     fn resolved(&self, number: &Number) -> Number {
         if let Number::Row(name, field) = number {
-            return row(self, name)
-                .map_or(number.clone(), |[a, b]| Number::Bar(Which::Range(a, b), *field));
+            return row(self, name).map_or(number.clone(), |[a, b]| {
+                self.resolved(&Number::Bar(Which::Range(a, b), *field))
+            });
+        }
+        if number.is_count() {
+            let (joints, members) = (self.joints(), self.members());
+            return row_of(number, members.len(), |bar| rows::row(joints, members, bar));
         }
         let Number::Anchor(end, axis) = number else { return number.clone() };
         let ends = ends(self).map(|[start, last]| match end {
@@ -81,6 +95,12 @@ impl Base for System {
             }
             Number::Joint(name, field) => {
                 if let Some(number) = self.joint(name) {
+                    let sides = || rows::sides(self.joints(), self.members(), number);
+                    if *field == JointField::Share && sides().is_none() {
+                        let what = format!("joint `{name}` is not where two rows of bars meet");
+                        let help = "it has a share of the rope on both sides of it";
+                        return Err(of_path(parameter, what, help));
+                    }
                     return held(parameter, &self.joints()[number], *field);
                 }
                 let names: Vec<_> = self.joints().iter().map(|joint| joint.name.as_str()).collect();
@@ -91,7 +111,32 @@ impl Base for System {
                 };
                 Err(of_path(parameter, format!("there is no joint `{name}`"), help))
             }
+        }?;
+        one_row(parameter, &self.resolved(&parameter.number))
+    }
+}
+
+/// The count of some bars as that of the whole row that they are of; of all bars where they are of several,
+/// which is that of no row.
+fn row_of(number: &Number, bars: usize, row: impl Fn(usize) -> [usize; 2]) -> Number {
+    match number {
+        Number::Bar(which, BarField::Count) => rows::whole(*which, bars, row)
+            .map_or(Number::Bar(Which::All, BarField::Count), |row| {
+                Number::Bar(row, BarField::Count)
+            }),
+        _ => number.clone(),
+    }
+}
+
+/// Refuse a count of bars that are not of one row.
+fn one_row(parameter: &Parameter, resolved: &Number) -> Result<(), ParameterError> {
+    match resolved {
+        Number::Bar(Which::Range(..), BarField::Count) => Ok(()),
+        number if number.is_count() => {
+            let help = "bars.1.count is that of the row of equal bars that bar 1 is in";
+            Err(of_path(parameter, "these bars are of several rows", help))
         }
+        _ => Ok(()),
     }
 }
 

@@ -43,6 +43,8 @@ pub enum JointField {
     Mass,
     /// `force_n`, 0 for x to 2 for z.
     Force(usize),
+    /// `share`, of a joint between two rows of one rope: the part of its length that is on the first side.
+    Share,
 }
 
 /// Which anchor.
@@ -83,11 +85,14 @@ pub enum BarField {
     Prestress,
     /// `length_tolerance_m`, of a system.
     LengthTolerance,
+    /// `count`: how many equal bars make the row that a bar is of, with the length, mass and loads of all of
+    /// them as they are.
+    Count,
 }
 
 const TOP: &[&str] = &["gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
 const ANCHORS: &[&str] = &["start_m", "end_m"];
-const JOINT: &[&str] = &["at_m", "mass_kg", "force_n"];
+const JOINT: &[&str] = &["at_m", "mass_kg", "force_n", "share"];
 const BAR: &[&str] = &[
     "length_m",
     "mass_kg",
@@ -96,6 +101,7 @@ const BAR: &[&str] = &[
     "stiffness_n",
     "prestress_n",
     "length_tolerance_m",
+    "count",
 ];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -108,7 +114,7 @@ impl Which {
     }
 
     /// The first bar and the last.
-    fn ends(self) -> (usize, usize) {
+    pub(super) fn ends(self) -> (usize, usize) {
         match self {
             Self::One(bar) => (bar, bar),
             Self::Range(first, last) => (first, last),
@@ -129,6 +135,7 @@ impl BarField {
             Self::Mass => "kg",
             Self::Inertia(_) => "kg m^2",
             Self::Stiffness | Self::Prestress => "N",
+            Self::Count => "bars",
         }
     }
 }
@@ -143,6 +150,7 @@ impl fmt::Display for BarField {
             Self::Stiffness => f.write_str("stiffness_n"),
             Self::Prestress => f.write_str("prestress_n"),
             Self::LengthTolerance => f.write_str("length_tolerance_m"),
+            Self::Count => f.write_str("count"),
         }
     }
 }
@@ -157,7 +165,14 @@ impl Number {
             Self::Bar(_, field) | Self::Row(_, field) => field.unit(),
             Self::Joint(_, JointField::Mass) => "kg",
             Self::Joint(_, JointField::Force(_)) => "N",
+            Self::Joint(_, JointField::Share) => "1",
         }
+    }
+
+    /// Whether it counts bars: its values are whole numbers, and nothing is followed over it.
+    #[must_use]
+    pub fn is_count(&self) -> bool {
+        matches!(self, Self::Bar(_, BarField::Count) | Self::Row(_, BarField::Count))
     }
 
     /// Whether both set one number of a system file: `bars.1.length_m` and `bars.*.length_m` do.
@@ -180,6 +195,7 @@ impl Number {
                 let field = match parts.key(JOINT, "a joint")? {
                     "at_m" => JointField::Place(parts.axis()?),
                     "mass_kg" => JointField::Mass,
+                    "share" => JointField::Share,
                     _ => JointField::Force(parts.axis()?),
                 };
                 Self::Joint(joint, field)
@@ -200,6 +216,7 @@ impl Number {
                     "stiffness_n" => BarField::Stiffness,
                     "prestress_n" => BarField::Prestress,
                     "length_tolerance_m" => BarField::LengthTolerance,
+                    "count" => BarField::Count,
                     _ => BarField::Inertia(parts.axis()?),
                 };
                 match bars {
@@ -232,8 +249,11 @@ impl fmt::Display for Number {
                 Which::Range(first, last) => write!(f, "bars.{first}-{last}.{field}"),
                 Which::All => write!(f, "bars.*.{field}"),
             },
-            Self::Row(row, field) if needs_quotes(row) => write!(f, "bars.\"{row}\".*.{field}"),
-            Self::Row(row, field) => write!(f, "bars.{row}.*.{field}"),
+            Self::Row(row, field) => {
+                let row = if needs_quotes(row) { format!("\"{row}\"") } else { row.clone() };
+                let all = if *field == BarField::Count { "" } else { ".*" };
+                write!(f, "bars.{row}{all}.{field}")
+            }
             Self::Joint(joint, field) => {
                 if needs_quotes(joint) {
                     write!(f, "joints.\"{joint}\".")?;
@@ -243,6 +263,7 @@ impl fmt::Display for Number {
                 match field {
                     JointField::Place(axis) => write!(f, "at_m.{}", AXES[*axis]),
                     JointField::Mass => f.write_str("mass_kg"),
+                    JointField::Share => f.write_str("share"),
                     JointField::Force(axis) => write!(f, "force_n.{}", AXES[*axis]),
                 }
             }
@@ -461,6 +482,7 @@ mod tests {
             ("bars.1.stiffness_n", "bars.1.stiffness_n"),
             ("bars.2-5.mass_kg", "bars.2-5.mass_kg"),
             ("bars.A-P.*.mass_kg", "bars.A-P.*.mass_kg"),
+            ("bars.A-P.*.count", "bars.A-P.count"),
             ("bars.A-P.inertia_kg_m2.z", "bars.A-P.*.inertia_kg_m2.z"),
             ("bars.\"A.1-P\".*.mass_kg", "bars.\"A.1-P\".*.mass_kg"),
         ] {

@@ -1,15 +1,18 @@
 //! From numbers to systems.
 
 use model::Vector;
+use model::budget::Budget;
 use model::system::{Joint, Member, Support, System};
 
-use crate::parameter::apply::{PointError, UncheckedBar};
+use crate::parameter::apply::{PointError, UncheckedBar, counts};
 use crate::parameter::base::Base;
 use crate::parameter::number::{BarField, JointField, Number};
+use crate::parameter::rows;
 
 /// The system with these numbers in place of its own, validated.
 ///
-/// A force in the middle of a bar stays in the middle, others stay where they are.
+/// A force in the middle of a bar stays in the middle, others stay where they are. Shares and then
+/// counts of rows change last: the numbers of bars are those of the base.
 ///
 /// # Errors
 ///
@@ -17,18 +20,19 @@ use crate::parameter::number::{BarField, JointField, Number};
 pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
     let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
-    let mut of_members = Vec::new();
+    let (mut of_members, mut shares) = (Vec::new(), Vec::new());
     for (number, value) in numbers {
         match base.resolved(number) {
             Number::Gravity => gravity_m_s2 = *value,
             Number::Floor => floor_m = Some(*value),
+            Number::Joint(name, JointField::Share) => shares.push((name, *value)),
             Number::Joint(name, field) => {
                 if let Some(joint) = base.joint(&name) {
                     set_joint(&mut joints[joint], field, *value);
                 }
             }
-            // Of no row of bars; such variations are refused before.
-            Number::Anchor(..) | Number::Row(..) => {}
+            // Counts come last; what is of no row of bars is refused before.
+            Number::Bar(_, BarField::Count) | Number::Anchor(..) | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 of_members.push((which, field, *value));
             }
@@ -41,10 +45,19 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
                 with(member.clone(), k + 1, numbers.map(|(_, field, value)| (*field, *value)))?;
         }
     }
+    for (name, value) in shares {
+        if let Some(joint) = base.joint(&name) {
+            rows::share(&joints, &mut members, joint, value)?;
+        }
+    }
+    for (row, value) in counts(base, numbers) {
+        rows::set(&mut joints, &mut members, row, value)?;
+    }
     let mut system = System::new(base.name(), gravity_m_s2, joints, members)?;
     if let Some(floor_m) = floor_m {
         system = system.with_floor(floor_m)?;
     }
+    Budget::default().fits_solve(&system)?;
     system.refusal().map_err(Box::new)?;
     Ok(system)
 }
@@ -58,6 +71,8 @@ fn set_joint(joint: &mut Joint, field: JointField, value: f64) {
         }
         JointField::Mass => joint.mass_kg = value,
         JointField::Force(axis) => joint.force_n[axis] = value,
+        // Of the rows that meet there.
+        JointField::Share => {}
     }
 }
 

@@ -50,9 +50,45 @@ impl FromStr for Parameter {
             return Err(ParameterError::new(text, span, "`=` and the values are missing", VALUES));
         };
         let number = Number::parse(text, equals)?;
-        let values = values(text, equals + 1..text.len())?;
+        let values = if number.is_count() {
+            counts(text, equals + 1..text.len())?
+        } else {
+            values(text, equals + 1..text.len())?
+        };
         Ok(Self { number, values, text: text.to_owned() })
     }
+}
+
+/// Counts of bars: a list, or all of a range.
+fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
+    const COUNTS: &str =
+        "counts are whole numbers from 1: a list, `2,5,10`, or all of a range, `2..10`";
+    let wrong = |span: Range<usize>| {
+        let what = format!("`{}` is no count", text[span.clone()].trim());
+        ParameterError::new(text, span, what, COUNTS)
+    };
+    let one = |span: Range<usize>| {
+        let count = text[span.clone()].trim().parse::<u32>().ok().filter(|count| *count > 0);
+        count.ok_or_else(|| wrong(span))
+    };
+    let mut list = vec![];
+    let mut start = all.start;
+    for word in text[all.clone()].split(',') {
+        let end = start + word.len();
+        match word.split_once("..") {
+            None => list.push(f64::from(one(start..end)?)),
+            Some((from, _)) => {
+                let dots = start + from.len();
+                let (from, to) = (one(start..dots)?, one(dots + 2..end)?);
+                if from > to || (to - from) as usize >= MAX_POINTS {
+                    return Err(wrong(start..end));
+                }
+                list.extend((from..=to).map(f64::from));
+            }
+        }
+        start = end + 1;
+    }
+    if list.len() > MAX_POINTS { Err(wrong(all)) } else { Ok(list) }
 }
 
 fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {

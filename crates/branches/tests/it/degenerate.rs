@@ -50,7 +50,7 @@ fn two_curves_that_touch_are_one_event_at_a_round_number() {
         }
         assert_eq!(event.branches.len(), 4, "{grid}");
         for id in &event.branches {
-            let branch = &trace.branches[*id];
+            let branch = &trace.branches[*id - 1];
             let tip = if branch.end == BranchEnd::Event(event.id) {
                 branch.points.last()
             } else {

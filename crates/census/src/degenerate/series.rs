@@ -1,6 +1,6 @@
 //! Taylor series in two variables over a box, cut off at an order.
 //!
-//! Coefficient (i, j) is an enclosure of $\partial_x^i \partial_y^j f / (i!\,j!)$ over the whole box.
+//! Coefficient (i, j) is an enclosure of $\partial_x^i \partial_y^j f / (i!\\,j!)$ over the whole box.
 //! The recurrences of products, quotients and roots of series hold at each point, and so for the
 //! ranges: R. E. Moore, R. B. Kearfott, M. J. Cloud, "Introduction to Interval Analysis" (2009),
 //! chapter 9, doi:10.1137/1.9780898717716.

@@ -15,7 +15,7 @@
 //! gap g. The other bars, upright with the signed forces $\mu_i$, must lean by $x = \delta |g|/g_x$ in sum, and
 //! with $C = \sum_i l_i/\mu_i$ the energy is
 //!
-//! $$ V = V_0 + \frac{|g|^2 \delta^2}{2\,g_x^2\,C} + \dots, $$
+//! $$ V = V_0 + \frac{|g|^2 \delta^2}{2\\,g_x^2\\,C} + \dots, $$
 //!
 //! of the fourth order in the g − 1 turns that are free, and definite. (C ≠ 0 where the derivative by
 //! the force of the group is regular, as Krawczyk's test proves.) The energy rises with all of

@@ -3,7 +3,7 @@
 //! With $\tilde x$ and a box $\tilde x + D$ around it, Y near the inverse of the derivative and
 //! $z = -Y F(\tilde x)$: if
 //!
-//! $$ K(D) = z + (I - Y F'(\tilde x + D))\, D $$
+//! $$ K(D) = z + (I - Y F'(\tilde x + D))\\, D $$
 //!
 //! lies inside D, then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x +
 //! K(D)$. The box D is found by inflating $K$ a little, again and again.

@@ -10,7 +10,7 @@
 //! The azimuth of one joint p of the set is therefore fixed by the equation $e \cdot (x_p - x_c) =
 //! 0$, e being the horizontal direction across the answer's arm from the vertical to p, and $\mu e$
 //! is added to the forces at p with an unknown $\mu$. In a solution of these equations the identity
-//! of moments reads $\mu\, e \times (x_p - x_c) = 0$, and as the arm is proved not to vanish, $\mu
+//! of moments reads $\mu\\, e \times (x_p - x_c) = 0$, and as the arm is proved not to vanish, $\mu
 //! = 0$: it is an equilibrium. Sets are nested or apart; p is in none of the sets inside, so that
 //! this holds for one set after the other.
 

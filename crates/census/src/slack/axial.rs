@@ -4,7 +4,7 @@
 //! function of the pull has no derivative there. It has one in other coordinates: the axial force ρ
 //! of bar k, with its sign, and the direction e of bar k. For
 //!
-//! $$ F_k = \varrho\, e, \qquad F_i = \varrho\, e + (c_i - c_k) e_z, \qquad
+//! $$ F_k = \varrho\\, e, \qquad F_i = \varrho\\, e + (c_i - c_k) e_z, \qquad
 //!    G(\varrho, e) = \sum_{i \ne k} s_i l_i \frac{F_i}{|F_i|} + l_k e - D = 0 $$
 //!
 //! tension (ρ > 0) and compression (ρ < 0) of bar k are one smooth system, as long as no other
@@ -16,7 +16,7 @@
 //! Bars in a row whose common joints carry no weight share one force. Pointing along e or against
 //! it, they are one bar of the length $\sum_k \sigma_k l_k$ with their ways σ.
 //!
-//! The direction is written without trigonometry, $e = (a + t\,n)/|a + t\,n|$ about an axis a with
+//! The direction is written without trigonometry, $e = (a + t\\,n)/|a + t\\,n|$ about an axis a with
 //! its normal n.
 
 use std::ops::Range;
@@ -195,7 +195,7 @@ impl AxialClosure<'_> {
     /// $$ \sum_{i \ne k} h_i \dot\theta_i^2 + h_k (w \cdot \dot\theta)^2, \qquad
     ///    b \cdot \dot\theta = 0, $$
     ///
-    /// $h_i = s_i l_i |F_i|$, $b_i = l_i\,e \cdot n_i$, $w_i = l_i\,n_k \cdot n_i / l_k$. It has
+    /// $h_i = s_i l_i |F_i|$, $b_i = l_i\\,e \cdot n_i$, $w_i = l_i\\,n_k \cdot n_i / l_k$. It has
     /// one negative direction less than bars are compressed where $b^T H^{-1} b < 0$. Out of the
     /// plane the closure is one equation, which bar k can meet without force: as many as are
     /// compressed. Of a group that carries nothing, ρ = 0 exactly, these are the directions across

@@ -2,12 +2,12 @@
 //!
 //! The same question as [`minimise_from`](crate::minimise_from) with
 //! [`Motion::Plane`](crate::Motion), for many seeds of one problem: which minimum does the chain
-//! slide into? The energy is $V = \sum_i l_i h_i\, z_i$ with the weight $h_i$ that bar i lifts and
+//! slide into? The energy is $V = \sum_i l_i h_i\\, z_i$ with the weight $h_i$ that bar i lifts and
 //! its direction $u_i = (x_i, z_i)$; the closure is $\sum_i l_i u_i = D$. Everything is measured by
 //! $\sum_i l_i \delta_i^2$, where $\delta_i$ turns bar i along $t_i = (-z_i, x_i)$.
 //!
 //! 1. *Close* the chain: the least turns that take the gap away to first order,
-//!    $\delta_i = -t_i\cdot\nu$, $(\sum l_i t_i t_i^T + d I)\,\nu$ = gap; the damping d goes to
+//!    $\delta_i = -t_i\cdot\nu$, $(\sum l_i t_i t_i^T + d I)\\,\nu$ = gap; the damping d goes to
 //!    zero with the gap. Directions stay unit vectors by normalising,
 //!    $u_i \gets (u_i + \delta_i t_i)/\sqrt{1+\delta_i^2}$.
 //! 2. On the closed chains the *projected slope* is $s_i = t_i\cdot(h_i e_z + \mu)$ with the

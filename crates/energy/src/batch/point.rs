@@ -42,7 +42,7 @@ pub(crate) struct Sums {
     pub(crate) gap: [Wide; 2],
     /// $\sum l_i t_i t_i^T$ as xx, xz, zz.
     pub(crate) spread: [Wide; 3],
-    /// $\sum l_i h_i (t_i\cdot e_z)\, t_i$.
+    /// $\sum l_i h_i (t_i\cdot e_z)\\, t_i$.
     pub(crate) weight: [Wide; 2],
     /// Energy.
     pub(crate) value: Wide,

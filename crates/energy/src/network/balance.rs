@@ -4,6 +4,8 @@
 //! without loads it is the largest force of an elastic member. A force found is no scale: an absurd
 //! one would forgive everything.
 
+use model::system::System;
+
 use crate::network::error::Error;
 use crate::network::frame::Frame;
 use crate::network::polish::rounding_floor;
@@ -51,7 +53,12 @@ impl Frame {
     ///
     /// What the rounding of the forces at a joint leaves is allowed: of places of size `X` the
     /// direction of a member of length `l` has `X / l` units in the last place.
-    pub(super) fn balance(&self, shape: &Shape, tolerance: f64) -> Result<Balance, Error> {
+    pub(super) fn balance(
+        &self,
+        system: &System,
+        shape: &Shape,
+        tolerance: f64,
+    ) -> Result<Balance, Error> {
         let unbalance = self.lagrangian_gradient(&self.excesses(&shape.x), &shape.force);
         let loads: Vec<f64> = self.loads.iter().map(|load| norm(*load)).collect();
         let mean = loads.iter().sum::<f64>() / self.joints as f64;
@@ -73,6 +80,7 @@ impl Frame {
             let allowed = (searched * most / scale).min(kept) + rounded;
             let here = Balance { unbalance: rest / scale, allowed };
             if here.unbalance > kept + rounded {
+                let joint = system.joints()[joint].name.clone();
                 return Err(Error::Unbalanced { joint, unbalance: here.unbalance });
             }
             if here.unbalance * worst.allowed > worst.unbalance * here.allowed {

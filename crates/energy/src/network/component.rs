@@ -1,6 +1,7 @@
 //! Parts of a system that hang together, and what holds them.
 
 use model::Vector;
+use model::system::System;
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, Spot};
@@ -63,7 +64,7 @@ fn left_free(space: Vec<Vector>, spot: &Spot) -> Vec<Vector> {
 }
 
 /// Refuse a part that its supports leave free to move along its load.
-pub(super) fn check_held(frame: &Frame) -> Result<(), Error> {
+pub(super) fn check_held(system: &System, frame: &Frame) -> Result<(), Error> {
     let part = parts(frame);
     let all = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut space: Vec<Option<Vec<Vector>>> = vec![None; part.len()];
@@ -78,6 +79,7 @@ pub(super) fn check_held(frame: &Frame) -> Result<(), Error> {
         let free = space.unwrap_or_default();
         let falling = free.iter().map(|b| dot(load[joint], *b).powi(2)).sum::<f64>().sqrt();
         if falling > NO_LOAD {
+            let joint = system.joints()[joint].name.clone();
             return Err(Error::Falls { joint, force_n: falling * frame.force_n });
         }
     }

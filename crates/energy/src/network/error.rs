@@ -30,8 +30,8 @@ pub enum Error {
     /// Occurs when the direction of a support is zero, infinite or not a number.
     #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
     Direction {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The direction as given.
         direction: Vector,
     },
@@ -41,8 +41,8 @@ pub enum Error {
          a force of {force_n} N"
     )]
     Falls {
-        /// Number of a joint of the part, from 0.
-        joint: usize,
+        /// Name of a joint of the part.
+        joint: String,
         /// Force along the motion, N.
         force_n: f64,
     },
@@ -87,8 +87,8 @@ pub enum Error {
     /// Occurs when joints are out of balance by more than a part of what loads them.
     #[error("joint {joint} is out of balance by {unbalance:e} of its load")]
     Unbalanced {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The unbalanced force over the load of the joint, or over the mean load where that is more.
         unbalance: f64,
     },
@@ -161,8 +161,8 @@ pub enum Error {
         "no minimum found: joint {joint} would balance with {force_n} N from the floor, which only pushes"
     )]
     FloorPulls {
-        /// Number of the joint, from 0.
-        joint: usize,
+        /// Name of the joint.
+        joint: String,
         /// The force that would balance, up positive, N.
         force_n: f64,
     },
@@ -245,13 +245,13 @@ mod tests {
             ),
             (Error::NoMember, "no member"),
             (Error::NoLoad, "no load"),
-            (Error::Direction { joint: 0, direction: [0.0; 3] }, "bad support"),
-            (Error::Falls { joint: 0, force_n: 1.0 }, "falls"),
+            (Error::Direction { joint: "P".into(), direction: [0.0; 3] }, "bad support"),
+            (Error::Falls { joint: "P".into(), force_n: 1.0 }, "falls"),
             (Error::Seed { joints: 2, given: 1 }, "bad seed"),
             (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
             (Error::Misfit { misfits: Vec::new() }, "misfit"),
             (Error::Absurd { member: 1, ratio: 1e9 }, "absurd forces"),
-            (Error::Unbalanced { joint: 1, unbalance: 0.1 }, "out of balance"),
+            (Error::Unbalanced { joint: "P".into(), unbalance: 0.1 }, "out of balance"),
             (
                 Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
                 "iteration limit",
@@ -261,7 +261,7 @@ mod tests {
             (Error::NoMinimum { index: 1 }, "no minimum"),
             (Error::NoMinimumNear { joint: "P".to_owned(), moved_m: 1.0 }, "no minimum near"),
             (Error::WrongSign { member: 1, force_n: 1.0 }, "wrong sign of a force"),
-            (Error::FloorPulls { joint: 1, force_n: 1.0 }, "floor pulls"),
+            (Error::FloorPulls { joint: "P".into(), force_n: 1.0 }, "floor pulls"),
             (Error::NotFinite { quantity: "energy" }, "not finite"),
             (Error::Memory { coordinates: 3 }, "out of memory"),
             (Error::Ended { reason: "interrupt".to_owned() }, "ended by argmin"),

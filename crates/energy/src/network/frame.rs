@@ -108,9 +108,11 @@ fn across(direction: Vector) -> [Vector; 2] {
 }
 
 /// The directions that a support leaves free, and their number.
-fn free_axes(joint: usize, support: &Support) -> Result<(usize, [Vector; 3]), Error> {
-    let straight = |direction| unit(direction).ok_or(Error::Direction { joint, direction });
-    Ok(match *support {
+fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
+    let straight = |direction| {
+        unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction })
+    };
+    Ok(match joint.support {
         Support::Free => (3, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         Support::Fixed { .. } => (0, [[0.0; 3]; 3]),
         Support::Line { direction, .. } => (1, [straight(direction)?, [0.0; 3], [0.0; 3]]),
@@ -137,8 +139,8 @@ impl Frame {
         }
         let mut freedom = 0;
         let mut spots = Vec::with_capacity(loads_n.len());
-        for (number, joint) in system.joints().iter().enumerate() {
-            let (count, axes) = free_axes(number, &joint.support)?;
+        for joint in system.joints() {
+            let (count, axes) = free_axes(joint)?;
             spots.push(Spot { first: freedom, freedom: count, axes });
             freedom += count;
         }

@@ -117,7 +117,7 @@ fn within(
     let clock = Instant::now();
     let meter = Meter::until(settings.max_work);
     let frame = Arc::new(Frame { meter: meter.clone(), ..Frame::new(system)? });
-    check_held(&frame)?;
+    check_held(system, &frame)?;
     let found = minimum(&frame, settings);
     meter.judged(found.and_then(|found| Solution::new(system, &frame, found, settings, clock)))
 }

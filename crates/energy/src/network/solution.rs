@@ -94,11 +94,12 @@ impl Solution {
         if let Some(absurd) = frame.absurd(&shape) {
             return Err(absurd);
         }
-        let balance = frame.balance(&shape, settings.tolerance)?;
+        let balance = frame.balance(system, &shape, settings.tolerance)?;
         if let Some(member) = wrong_sign(frame, &shape) {
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
-                return Err(Error::FloorPulls { joint: frame.rods[member].to, force_n });
+                let joint = system.joints()[frame.rods[member].to].name.clone();
+                return Err(Error::FloorPulls { joint, force_n });
             }
             return Err(Error::WrongSign { member: member + 1, force_n });
         }

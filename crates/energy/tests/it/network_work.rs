@@ -15,7 +15,7 @@ use crate::network_support::G;
 /// of the numbers of members and joints that refusals name.
 type Row = [u64; 6];
 
-fn add(row: &mut Row, outcome: Result<Solution, Error>) {
+fn add(row: &mut Row, system: &System, outcome: Result<Solution, Error>) {
     row[0] += 1;
     match outcome {
         Ok(solution) => {
@@ -27,7 +27,9 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
         Err(Error::NotClosed { member, .. } | Error::WrongSign { member, .. }) => {
             row[5] += member as u64;
         }
-        Err(Error::FloorPulls { joint, .. } | Error::Falls { joint, .. }) => row[5] += joint as u64,
+        Err(Error::FloorPulls { joint, .. } | Error::Falls { joint, .. }) => {
+            row[5] += system.joint(&joint).expect("a name") as u64;
+        }
         Err(_) => {}
     }
 }
@@ -67,7 +69,7 @@ fn work(make: impl Fn(&mut ChaCha8Rng) -> System, count: u64, expected: &[Row; 6
     for stream in 1000..1000 + count {
         let system = make(&mut ChaCha8Rng::seed_from_u64(stream));
         for (row, system) in found.iter_mut().zip(variants(system)) {
-            add(row, minimise(&system, &Settings::default()));
+            add(row, &system, minimise(&system, &Settings::default()));
         }
     }
     assert_frozen(&found, expected);
@@ -149,7 +151,7 @@ fn work_from_seeds() {
             .map(|_| std::array::from_fn(|_| rng.random_range(-1.5..1.5)))
             .collect();
         for (row, system) in found.iter_mut().zip(variants(system)) {
-            add(row, minimise_from(&system, &seed, &Settings::default()));
+            add(row, &system, minimise_from(&system, &seed, &Settings::default()));
         }
     }
     let expected = [
@@ -236,9 +238,9 @@ fn work_on_exhibits() {
             let joints = solution.equilibrium.joints_m.iter().enumerate();
             joints.map(|(j, at)| std::array::from_fn(|k| off(3 * j + k, at[k]))).collect()
         });
-        add(&mut row, first);
+        add(&mut row, &system, first);
         if let Some(seed) = seed {
-            add(&mut row, minimise_from(&system, &seed, &settings));
+            add(&mut row, &system, minimise_from(&system, &seed, &settings));
         }
         found.push((exhibit.name, row));
     }

@@ -6,7 +6,7 @@ use model::system::System;
 use crate::look::{Colour, Look};
 use crate::palette::{BLUE, SKY_BLUE, VERMILION};
 use crate::structure::StructureError;
-use crate::structure::view::View;
+use crate::structure::view::{Seen, View};
 use crate::svg::{Anchor, Svg};
 
 /// Panels in a row.
@@ -43,7 +43,7 @@ pub struct ModeShape<'a> {
 /// let swing = [[0.0; 3], [1.0, 0.0, 0.0]];
 /// let mode = ModeShape { heading: "1: 0.6 Hz".into(), what: "oscillation", shape: &swing };
 /// let joints_m = [[0.0; 3], [0.0, 0.0, -1.0]];
-/// let modes = ModeShapes { system: &system, note: "", joints_m: &joints_m, modes: &[mode] };
+/// let modes = ModeShapes { system: &system, note: "", joints_m: &joints_m, modes: &[mode], seen: Seen::Best };
 /// assert!(modes.svg()?.contains("0.6 Hz"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -57,6 +57,8 @@ pub struct ModeShapes<'a> {
     pub joints_m: &'a [Vector],
     /// The modes, each with as many displacements as there are joints.
     pub modes: &'a [ModeShape<'a>],
+    /// From where all of them are seen.
+    pub seen: Seen,
 }
 
 impl ModeShapes<'_> {
@@ -100,7 +102,7 @@ impl ModeShapes<'_> {
         };
         let positions = [self.joints_m.to_vec(), moved(-amplitude), moved(amplitude)];
         let all: Vec<Vector> = positions.iter().flatten().copied().collect();
-        let view = View::of(&all, &[]);
+        let view = View::from(self.seen, &all, &[]);
         let seen: Vec<[f64; 2]> = all.iter().map(|point| view.seen(*point)).collect();
         let bound = |k: usize, best: fn(f64, f64) -> f64| {
             seen.iter().map(|point| point[k]).reduce(best).unwrap_or_default()

@@ -15,6 +15,7 @@ pub use validate::foreign::{Finding, ForeignAnswer, GivenError, Judgement, Law, 
 pub use self::subject::{Ruling, Subject};
 use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::picture::Seen;
 use crate::problem::Problem;
 use crate::threads;
 
@@ -128,10 +129,10 @@ impl Judged {
     }
 
     /// The judgement as a page that needs nothing else: the verdict, what is broken, a picture.
-    /// `notes` are sentences about how the system was read.
+    /// `notes` are sentences about how the system was read; the picture is seen from `seen`.
     #[must_use]
-    pub fn html(&self, notes: &[String]) -> String {
-        page::html(self, notes)
+    pub fn html(&self, notes: &[String], seen: Seen) -> String {
+        page::html(self, notes, seen)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use figures::Escaped;
 
 use super::Judged;
-use crate::picture;
+use crate::picture::{self, Seen};
 
 /// Violations up to this many are listed; of more those that come first.
 const LISTED: usize = 200;
@@ -24,7 +24,7 @@ figure { margin: 1rem 0; overflow-x: auto; background: #fff; } figure svg { max-
 ";
 
 /// The page.
-pub(super) fn html(judged: &Judged, notes: &[String]) -> String {
+pub(super) fn html(judged: &Judged, notes: &[String], seen: Seen) -> String {
     let (system, judgement) = (judged.system(), judged.judgement());
     let finding = &judgement.finding;
     let title = format!("{}: {}", system.name(), finding.word());
@@ -50,7 +50,7 @@ pub(super) fn html(judged: &Judged, notes: &[String]) -> String {
     body += "<h2>How large the error is</h2>\n";
     body += &list(&judgement.error_sentences(system));
     body += &rungs(judged);
-    body += &drawing(judged);
+    body += &drawing(judged, seen);
     if !notes.is_empty() {
         body += "<h2>How the system was read</h2>\n";
         body += &list(notes);
@@ -127,13 +127,14 @@ fn rungs(judged: &Judged) -> String {
 }
 
 /// The answer to scale. What cannot be drawn is said.
-fn drawing(judged: &Judged) -> String {
+fn drawing(judged: &Judged, seen: Seen) -> String {
     let judgement = judged.judgement();
     let drawn = picture::of_answer(
         judged.system(),
         &judgement.joints_m,
         &judgement.axial_n,
         &judgement.reactions_n,
+        seen,
     );
     let figure = match drawn {
         Ok(svg) => {

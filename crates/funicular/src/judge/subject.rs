@@ -6,6 +6,7 @@ use model::system::System;
 
 use super::{Finding, ForeignAnswer, Judge, Judged, fit};
 use crate::error::Error;
+use crate::picture::Seen;
 use crate::problem::Problem;
 
 /// What an answer from elsewhere is an answer to: a system, as we have it or as another program's
@@ -158,10 +159,10 @@ impl Ruling {
         }
     }
 
-    /// The judgement as a page that needs nothing else.
+    /// The judgement as a page that needs nothing else, its picture seen from there.
     #[must_use]
-    pub fn html(&self) -> String {
-        self.judged.html(&self.notes)
+    pub fn html(&self, seen: Seen) -> String {
+        self.judged.html(&self.notes, seen)
     }
 }
 

@@ -20,6 +20,7 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
+use crate::view::View;
 
 /// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of
 /// `--svg` says so.
@@ -45,6 +46,9 @@ pub struct Census {
     /// chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// From where the pictures of a system are seen; shapes of a chain are drawn in their own planes
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
+    pub view: View,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
@@ -78,6 +82,11 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
     let is_system = problem.as_system().is_some();
+    if !is_system && arguments.view != View::Best {
+        return Err(Failure::bad_input(
+            "--view: the shapes of a chain are drawn side by side, each in its own vertical plane",
+        ));
+    }
     let most = match &arguments.svg {
         Some(path) if is_system => output::numbered(path, SHAPES),
         _ => vec![],
@@ -100,7 +109,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         .map_err(refuse)?;
 
     if let Some(path) = &arguments.svg {
-        draw(path, &problem, &answer)?;
+        draw(path, &problem, &answer, arguments.view)?;
     }
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| answer.write_csv(file))?;
@@ -115,7 +124,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
 }
 
 /// The shapes of a chain side by side, of a system each into a file of its own.
-fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer) -> Result<(), Failure> {
+fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer, view: View) -> Result<(), Failure> {
     let found = match answer {
         CensusAnswer::Chain(found) => {
             return output::write_whole(path, &found.proven.figure(problem.name(), SHAPES));
@@ -124,9 +133,8 @@ fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer) -> Result<(), Fai
     };
     let shown = &found.equilibria()[..found.equilibria().len().min(SHAPES)];
     for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
-        let drawn =
-            funicular::picture::of_system(found.system(), shape, funicular::picture::Seen::Best)
-                .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
+        let drawn = funicular::picture::of_system(found.system(), shape, view.into())
+            .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_whole(path, &drawn)?;
     }
     Ok(())

@@ -13,6 +13,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
+use crate::view::View;
 
 /// The end of the help.
 const EXIT_CODES: &str = "\
@@ -59,6 +60,9 @@ pub struct Judge {
     /// FILE-2.html, ...)
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// From where the picture of the page is seen
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "html")]
+    pub view: View,
 }
 
 /// How a system is written.
@@ -101,7 +105,7 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     let one = |answer| subject.judge(&judge, answer, &|what| progress.say(what));
     let all = answers.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
     for (page, one) in pages.iter().zip(&all) {
-        output::write_whole(page, &one.html())?;
+        output::write_whole(page, &one.html(arguments.view.into()))?;
     }
     drop(progress);
     if arguments.json {

@@ -36,6 +36,7 @@ mod sweep;
 mod threads;
 mod trace;
 mod varied;
+mod view;
 mod which;
 
 use clap::CommandFactory;

@@ -13,6 +13,7 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
+use crate::view::View;
 
 /// What is taken for granted of positions at rest.
 const HELP: &str = "\
@@ -35,11 +36,14 @@ pub struct Modes {
     pub max_bars: usize,
     /// How many modes of each equilibrium, the lowest (negative omega^2 first); if not given, all
     /// of systems of up to 100 joints and 20 of larger ones
-    #[arg(long = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
+    #[arg(long, alias = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
     pub lowest: Option<usize>,
     /// Draw the lowest modes of one equilibrium, up to 24, as one SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// From where the picture is seen
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
+    pub view: View,
     /// Which equilibrium --svg draws, as it is numbered here: `2`, or `2'`
     #[arg(long, value_name = "LABEL", default_value = "1", requires = "svg")]
     pub equilibrium: String,
@@ -94,7 +98,8 @@ fn write_pictures(arguments: &Modes, system: &System, answer: &ModesAnswer) -> R
                 labels.join(", ")
             )));
         };
-        let svg = funicular::drawn_modes(system, found).map_err(Failure::undecided)?;
+        let svg = funicular::drawn_modes(system, found, arguments.view.into())
+            .map_err(Failure::undecided)?;
         output::write_whole(path, &svg)?;
     }
     if let Some(path) = &arguments.html {

@@ -191,7 +191,7 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
     let mut simulate = funicular::Simulate::new()
         .time_s(arguments.time)
         .step_s(arguments.step)
-        .drag_1_s(arguments.damping)
+        .damping_1_s(arguments.damping)
         .friction_n_m_s(arguments.friction)
         .order(arguments.order);
     if let Some(store_s) = arguments.store {

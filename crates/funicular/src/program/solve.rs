@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use funicular::picture::{self, Seen};
+use funicular::picture;
 use funicular::{Error, Lists, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
@@ -21,6 +21,7 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
+use crate::view::View;
 use crate::which::Which;
 
 /// `funicular solve`.
@@ -92,30 +93,6 @@ pub struct Solve {
     /// From where the picture is seen
     #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
     pub view: View,
-}
-
-/// From where a picture is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum View {
-    /// A planar system at right angles to its plane, others from above and from their wider side
-    Best,
-    /// X to the right, Z up
-    Front,
-    /// Y to the right, Z up
-    Side,
-    /// X to the right, Y up
-    Top,
-}
-
-impl From<View> for Seen {
-    fn from(view: View) -> Self {
-        match view {
-            View::Best => Self::Best,
-            View::Front => Self::Front,
-            View::Side => Self::Side,
-            View::Top => Self::Top,
-        }
-    }
 }
 
 /// Which of the systems of equations `lagrange` solves.

@@ -49,12 +49,16 @@ A system with joints by name has besides
 Forces on bars and directions of supports do not vary.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
   --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
-are a range and a row of a system, by the joints at its ends. A rider moves along a rope of 10 m by
-  --zip --vary bars.A-rider.*.length_m=1..9:17 --vary bars.rider-B.*.length_m=9..1:17
-and the masses of both sides with it, where the rope has one. The count of a table does not vary.
+are a range and a row of a system, by the joints at its ends. A rider between two rows of one rope
+moves along it, with length, mass and loads of both sides, by the share of the first side:
+  --vary joints.rider.share=0.1..0.9:17
+The bars of a row, of the length, mass
+and loads that all of them have together, are more or fewer by
+  --vary bars.1.count=2..10                 --vary bars.A-P.count=5,10,20
+(the row of equal bars that bar 1 is in; numbers of bars and joints elsewhere stay those of the file).
 
 --of shows, in the place of sag and forces,
-  --of joints.rider.z     where a joint is (or .x, .y)
+  --of joints.rider       where a joint is (joints.rider.z: its height alone)
   --of sag.A-B            how deep the row of members from A to B hangs below the line between them
   --of bars.3.axial_max_n the axial force of a bar where it is largest, tension positive
                           (axial_from_n and axial_to_n: at its ends)
@@ -80,7 +84,7 @@ pub struct Arguments {
     pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
-    /// Show a number of each shape: `joints.rider.z`, `sag.A-B`, `bars.3.axial_max_n`, `height=-2.5`
+    /// Show a number of each shape: `joints.rider`, `sag.A-B`, `bars.3.axial_max_n`, `height=-2.5`
     /// (repeatable)
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,

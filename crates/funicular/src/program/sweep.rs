@@ -34,7 +34,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let progress = Progress::start();
     let sweep = funicular::Sweep::new(arguments.seeds)
         .number(arguments.seed)
-        .spread(arguments.source.into())
+        .spread(arguments.spread.into())
         .solvers(arguments.solver.into())
         .shard(arguments.shard)
         .angles(arguments.angles)

@@ -23,11 +23,11 @@ const CSV: &str = "\
 Write all points of all branches, a line each, to this CSV file
 
 Columns:
-  path, branch               numbers of the path, from 1, and of the branch, from 0
+  path, branch               numbers of the path and of the branch, from 1
   position                   on the path: 0 at its first point, 1 at its last
   one for each parameter     its value, in the unit of the system file
   span_m                     distance of the anchors
-  grid                       number of the point among the values asked for, from 0; empty in between
+  grid                       number of the point among the values asked for, from 1; empty in between
   proved                     true: from a census; false: from the curve
   event                      number of the event that happens here (--json has them all); else empty
   pull_horizontal_n, pull_vertical_n

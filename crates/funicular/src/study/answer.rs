@@ -108,17 +108,6 @@ impl StudyAnswer {
         }
     }
 
-    /// What to call a joint by its number: its name, or in a chain the number.
-    #[must_use]
-    pub fn joint(&self, number: usize) -> String {
-        match &self.subject {
-            Subject::Chain(_) => number.to_string(),
-            Subject::System(system) => {
-                system.joints().get(number).map_or_else(String::new, |joint| joint.name.clone())
-            }
-        }
-    }
-
     /// The supports by name, in the order of [`StudyShape::reactions_n`]: `start` and `end` of a
     /// chain, the joints of a system that are held.
     #[must_use]
@@ -132,11 +121,13 @@ impl StudyAnswer {
         }
     }
 
+    /// The most bars that a point has.
     fn bars(&self) -> usize {
-        match &self.subject {
+        let bars = match &self.subject {
             Subject::Chain(summary) => summary.bars,
             Subject::System(system) => system.members().len(),
-        }
+        };
+        self.shapes().map(|shape| shape.rises_deg.len()).max().unwrap_or(bars)
     }
 
     /// The points, the last parameter changing fastest.
@@ -217,7 +208,8 @@ impl StudyAnswer {
         for support in self.supports() {
             columns.extend(["x", "y", "z"].map(|axis| format!("{support}_{axis}_n")));
         }
-        columns.extend((1..=self.bars()).map(|bar| format!("rise_{bar}_deg")));
+        let bars = self.bars();
+        columns.extend((1..=bars).map(|bar| format!("rise_{bar}_deg")));
         columns.extend(self.of.iter().map(|(name, _)| name.clone()));
         for column in &columns {
             write!(to, ",{}", quoted(column))?;
@@ -229,7 +221,7 @@ impl StudyAnswer {
                 write!(to, ",{value:?}")?;
             }
             match &point.shape {
-                Ok(shape) => self.write_shape(shape, &mut to)?,
+                Ok(shape) => Self::write_shape(shape, bars, &mut to)?,
                 Err(none) => {
                     write!(to, "{}", ",".repeat(columns.len()))?;
                     writeln!(to, ",{}", quoted(&none.reason))?;
@@ -240,8 +232,8 @@ impl StudyAnswer {
     }
 
     /// The cells of a line after the values of the parameters.
-    fn write_shape(&self, shape: &StudyShape, to: &mut impl Write) -> io::Result<()> {
-        let StudyShape { agrees, energy_j, extremes, .. } = shape;
+    fn write_shape(shape: &StudyShape, bars: usize, to: &mut impl Write) -> io::Result<()> {
+        let StudyShape { agrees, energy_j, extremes, lowest_joint, .. } = shape;
         if let Some(span_m) = shape.span_m {
             write!(to, ",{span_m:?}")?;
         }
@@ -250,7 +242,7 @@ impl StudyAnswer {
         if let Some(sag_m) = extremes.sag_m {
             write!(to, "{sag_m:?}")?;
         }
-        write!(to, ",{}", quoted(&self.joint(extremes.lowest_joint)))?;
+        write!(to, ",{}", quoted(lowest_joint))?;
         for x in extremes.lowest_m {
             write!(to, ",{x:?}")?;
         }
@@ -263,8 +255,11 @@ impl StudyAnswer {
         for force in shape.reactions_n.as_flattened() {
             write!(to, ",{force:?}")?;
         }
-        for rise in &shape.rises_deg {
-            write!(to, ",{rise:?}")?;
+        for bar in 0..bars {
+            match shape.rises_deg.get(bar) {
+                Some(rise) => write!(to, ",{rise:?}")?,
+                None => write!(to, ",")?,
+            }
         }
         for value in &shape.of {
             match value {
@@ -296,8 +291,6 @@ impl Serialize for StudyAnswer {
             #[serde(flatten)]
             at: &'a StudyPoint,
             #[serde(skip_serializing_if = "Option::is_none")]
-            lowest_joint: Option<String>,
-            #[serde(skip_serializing_if = "Option::is_none")]
             reactions_n: Option<BTreeMap<&'a str, Vector>>,
         }
         #[derive(Serialize)]
@@ -321,11 +314,7 @@ impl Serialize for StudyAnswer {
             |shape: &StudyShape| supports.iter().copied().zip(shape.reactions_n.clone()).collect();
         let points = points.iter().map(|point| {
             let shape = point.shape.as_ref().ok();
-            Point {
-                at: point,
-                lowest_joint: shape.map(|shape| self.joint(shape.extremes.lowest_joint)),
-                reactions_n: shape.map(reactions),
-            }
+            Point { at: point, reactions_n: shape.map(reactions) }
         });
         let points = points.collect();
         Object { schema_version: SCHEMA_VERSION, system, parameters, units, of, points }

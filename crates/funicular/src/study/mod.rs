@@ -73,7 +73,7 @@ impl Study {
         Ok(Self { parameters: self.parameters.vary(text)?, ..self })
     }
 
-    /// Shows one more number of each shape: a place `joints.NAME.z`, the `sag.NAME-NAME` of the row of
+    /// Shows one more number of each shape: a place `joints.NAME` (or one coordinate, `joints.NAME.z`), the `sag.NAME-NAME` of the row of
     /// members between two joints, an axial force of a member, `bars.NUMBER.axial_max_n` (or `axial_n`, `axial_from_n`, `axial_to_n`), or the
     /// `height` of the lowest joint over the floor, Z = 0 where there is none, or over `height=DATUM`.
     ///
@@ -159,21 +159,22 @@ impl Study {
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
         if let Some(system) = problem.as_system() {
-            let of = self.observables(system)?;
+            let of = self.units(system)?;
             let variation = self.parameters.over(system.clone())?;
             let at = |values: &[f64]| variation.system(values).map(Problem::from);
             let drawn = system.drawing().is_some();
-            return self.all(&variation, &of, Subject::of_system(system), drawn, &at, watch);
+            return self.all(&variation, of, Subject::of_system(system), drawn, &at, watch);
         }
         let variation = self.parameters.of(problem, "a study")?;
-        let of = self.observables(&System::from(variation.base()))?;
+        let of = self.units(&System::from(variation.base()))?;
         let at = |values: &[f64]| variation.problem(values).map(Problem::from);
-        self.all(&variation, &of, Subject::of_chain(variation.base()), false, &at, watch)
+        self.all(&variation, of, Subject::of_chain(variation.base()), false, &at, watch)
     }
 
-    /// What is to be shown besides.
-    fn observables(&self, system: &System) -> Result<Vec<Observable>, Error> {
-        self.of.iter().map(|text| Ok(Observable::parse(text, system)?)).collect()
+    /// What is to be shown besides, with its units.
+    fn units(&self, system: &System) -> Result<Vec<(String, &'static str)>, Error> {
+        let named = self.of.iter().map(|text| Observable::named(text, system));
+        Ok(named.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
     /// All points. Of a system that is drawn each is solved next to the one before it on its path: the
@@ -181,7 +182,7 @@ impl Study {
     fn all<B: Base + Sync>(
         &self,
         variation: &Variation<B>,
-        of: &[Observable],
+        of: Vec<(String, &'static str)>,
         subject: Subject,
         drawn: bool,
         at: &(dyn Fn(&[f64]) -> Result<Problem, PointError> + Sync),
@@ -190,7 +191,7 @@ impl Study {
         let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
         let point = |path: usize, values: &Vec<f64>, before: &mut Option<Vec<Vector>>| {
             let shape =
-                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve, of));
+                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve, &of));
             watch();
             StudyPoint { path, values: values.clone(), shape }
         };
@@ -210,7 +211,7 @@ impl Study {
             subject,
             parameters: numbers.iter().map(ToString::to_string).collect(),
             units: numbers.iter().map(Number::unit).collect(),
-            of: self.of.iter().cloned().zip(of.iter().map(|one| one.unit())).collect(),
+            of,
             paths: variation.paths().len(),
             points,
         })

@@ -8,7 +8,7 @@ use branches::ParameterError;
 use crate::extremes::Extremes;
 use crate::sag::Sag;
 
-const HELP: &str = "`joints.NAME.z` (or x, y), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `height` or `height=DATUM`";
+const HELP: &str = "`joints.NAME` (or one coordinate of it, `joints.NAME.z`), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `height` or `height=DATUM`";
 
 /// Axial forces of a member, as the JSON of `solve` calls them: in the middle, at both ends, where it is largest.
 const AXIAL: [&str; 4] = ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"];
@@ -73,6 +73,21 @@ impl Observable {
             _ => None,
         };
         datum.filter(|z: &f64| z.is_finite()).map(Self::Height).ok_or_else(unknown)
+    }
+
+    /// What `text` names in a system, each with its unit: `joints.NAME` alone all three coordinates.
+    pub(super) fn named(
+        text: &str,
+        system: &System,
+    ) -> Result<Vec<(String, &'static str)>, ParameterError> {
+        let of = |text: String| Ok((text.clone(), Self::parse(&text, system)?.unit()));
+        let joint = text.strip_prefix("joints.").map(|name| name.trim_matches('"'));
+        match (of(text.to_owned()), joint.and_then(|name| system.joint(name))) {
+            (Err(_), Some(_)) => {
+                ["x", "y", "z"].iter().map(|axis| of(format!("{text}.{axis}"))).collect()
+            }
+            (one, _) => Ok(vec![one?]),
+        }
     }
 
     /// Its unit.

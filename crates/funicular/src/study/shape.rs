@@ -45,6 +45,8 @@ pub struct StudyShape {
     /// Sag, lowest joint, largest forces.
     #[serde(flatten)]
     pub extremes: Extremes,
+    /// The lowest joint by name; in a chain its number, from 0.
+    pub lowest_joint: String,
     /// Forces of the ground at the supports, N, in the order of
     /// [`StudyAnswer::supports`](super::StudyAnswer::supports).
     #[serde(skip)]
@@ -52,7 +54,7 @@ pub struct StudyShape {
     /// How steeply each bar rises from its first joint to its second, degrees from the level.
     pub rises_deg: Vec<f64>,
     /// What [`Study::of`](super::Study::of) asks for; `None` for a sag of joints that no members connect, or
-    /// of which one is above the other.
+    /// of which one is above the other, and for what is not there with another count of bars.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<Option<f64>>,
     /// The highest rung of evidence.
@@ -90,11 +92,12 @@ impl StudyShape {
         problem: &Problem,
         before: &mut Option<Vec<Vector>>,
         solve: &Solve,
-        of: &[Observable],
+        of: &[(String, &'static str)],
     ) -> Result<Self, NoShape> {
+        let joints = problem.as_system().map_or(0, |system| system.joints().len());
         let answer = match before {
-            Some(joints_m) => solve.threads(0).near(problem, joints_m),
-            None => solve.run_here(problem),
+            Some(joints_m) if joints_m.len() == joints => solve.threads(0).near(problem, joints_m),
+            _ => solve.run_here(problem),
         };
         let answer = answer.map_err(|error| NoShape::unsolved(&error))?;
         let first = answer.equilibria().first();
@@ -112,7 +115,7 @@ impl StudyShape {
         Ok(Self { span_m, ..shape })
     }
 
-    fn of(answer: &SolveAnswer, of: &[Observable]) -> Option<Self> {
+    fn of(answer: &SolveAnswer, of: &[(String, &'static str)]) -> Option<Self> {
         let (system, first) = (answer.system(), answer.equilibria().first()?);
         let places = &first.joints_m;
         let joints = system.joints().iter();
@@ -126,7 +129,11 @@ impl StudyShape {
         Some(Self {
             span_m: None,
             energy_j: first.energy_j,
-            of: of.iter().map(|one| one.of(system, first, &extremes)).collect(),
+            of: of
+                .iter()
+                .map(|(text, _)| Observable::parse(text, system).ok()?.of(system, first, &extremes))
+                .collect(),
+            lowest_joint: system.joints()[extremes.lowest_joint].name.clone(),
             extremes,
             reactions_n: reactions,
             rises_deg: rises.collect(),

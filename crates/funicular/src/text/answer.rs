@@ -8,7 +8,7 @@ use model::{Evidence, Rung, SolverName, Vector};
 use super::printable::Printable;
 use super::printed::{numbers, quantity};
 use super::shape::Shape;
-use super::tables::{duration, long, numbers_from, rung, short, table, word, wrapped};
+use super::tables::{counted, duration, long, numbers_from, rung, short, table, word, wrapped};
 use crate::extremes::Extremes;
 use crate::solve::SolveAnswer;
 
@@ -26,8 +26,9 @@ impl fmt::Display for SolveAnswer {
 #[must_use]
 pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
-    let (members, joints) = (system.members().len(), system.joints().len());
-    let name = format!("{}: {members} members between {joints} joints,", Printable(system.name()));
+    let members = counted(system.members().len(), "member");
+    let joints = counted(system.joints().len(), "joint");
+    let name = format!("{}: {members} between {joints},", Printable(system.name()));
     let mut text = format!(
         "{}\n{} long, {}, g = {} m/s^2{}\n\n",
         wrapped(&name, 0),

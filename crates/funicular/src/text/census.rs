@@ -5,8 +5,8 @@ use std::fmt::{self, Write as _};
 use model::Rung;
 
 use super::tables::{
-    duration, long, numbers_from, rung, short, significant, system_line, table, vector, word,
-    wrapped,
+    duration, fitted, long, numbers_from, rung, short, significant, system_line, table, vector,
+    word, wrapped,
 };
 use crate::census::{CensusAnswer, ChainCensusAnswer, Found, LargeCensusAnswer, Summary};
 
@@ -63,7 +63,7 @@ fn text(answer: &ChainCensusAnswer) -> String {
     text += &merged(&answer.census);
     text += &undecided(&answer.census);
     text += &sums(&answer.census);
-    text
+    fitted(&text)
 }
 
 fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
@@ -106,7 +106,6 @@ fn headline(census: &Summary) -> String {
 }
 
 fn overview(answer: &ChainCensusAnswer) -> String {
-    let mut head = vec!["#", "energy / J"];
     // The paper counts the energy of its example from the last anchor, 2 l below the first.
     let anchors = answer.problem.chain().anchors();
     let [start, end] = [anchors.start_m[2], anchors.end_m[2]];
@@ -115,43 +114,33 @@ fn overview(answer: &ChainCensusAnswer) -> String {
     let unit = answer.census.energy_symbol;
     let scaled = format!("V / {unit}");
     let from_end = format!("V / {unit} from end");
-    head.push(&scaled);
     let other_zero = answer.census.circles && shift.abs() > 0.0;
-    if other_zero {
-        head.push(&from_end);
-    }
-    head.extend(["bars", "in plane", "in space", "box", "rung"]);
-    let mut rows = table([""; 0]);
-    rows.set_header(head);
+    let mut rows = table(["#", "energy / J", "bars", "in plane", "in space", "box", "rung"]);
+    let mut energies = table(["#", &scaled].into_iter().chain(other_zero.then_some(&*from_end)));
     for found in answer.equilibria.iter().take(PRINTED) {
         let e = &found.equilibrium;
-        let mut row = vec![
+        let from_end = other_zero.then(|| long(found.energy_scaled + shift));
+        energies
+            .add_row([found.label.clone(), long(found.energy_scaled)].into_iter().chain(from_end));
+        rows.add_row([
             found.label.clone(),
             significant(e.energy_j, ENERGY_DIGITS),
-            long(found.energy_scaled),
-        ];
-        if other_zero {
-            row.push(long(found.energy_scaled + shift));
-        }
-        row.extend([
             pattern(&found.signs),
             format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
             format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
             format!("{:.0e}", found.box_width),
             rung(&e.evidence),
         ]);
-        rows.add_row(row);
     }
     numbers_from(&mut rows, 1);
+    numbers_from(&mut energies, 1);
     let mut text = format!("{rows}\n");
     left_out(&mut text, answer.census.count, PRINTED, "equilibria");
     let _ = writeln!(
         text,
-        "Energy V from the height of joint 0{}; {unit}: {}.\nBars from the start, T in tension, C in \
-         compression{}. In brackets: the number of directions in which the energy falls.\nBox: the largest relative \
-         width of the enclosures that prove the equilibrium.{}\n",
-        if other_zero { " (from end: of the last anchor)" } else { "" },
-        answer.census.energy_unit,
+        "Bars from the start, T in tension, C in compression{}. In brackets: the number of directions in which the \
+         energy falls.\nBox: the largest relative width of the enclosures that prove the equilibrium.{}\n\n\
+         Energy V from the height of joint 0{}; {unit}: {}:\n{energies}\n",
         if answer.equilibria.iter().any(|found| found.signs.contains(&0)) {
             ", a dot next to nothing"
         } else {
@@ -162,6 +151,8 @@ fn overview(answer: &ChainCensusAnswer) -> String {
         } else {
             ""
         },
+        if other_zero { " (from end: of the last anchor)" } else { "" },
+        answer.census.energy_unit,
     );
     text
 }
@@ -368,7 +359,7 @@ fn check_line(census: &Summary) -> String {
             format!("{listed}. That the list is complete rests on the search alone.")
         }
         (None, _) if census.decided => format!(
-            "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
+            "{listed}. That the list is complete rests on the search: the check would see if one alone, the lowest \
              or the highest were missing, not every pair."
         ),
         (None, _) => format!("{listed}."),
@@ -413,7 +404,7 @@ fn sums(census: &Summary) -> String {
             let _ = writeln!(
                 text,
                 "By index in the plane: {:?}, without the families marked *, whose part in the sum of (-1)^index is not \
-                 known.\nSum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
+                 known. Sum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
                  {euler}.",
                 census.count_by_index, census.alternating_sum,
             );
@@ -422,7 +413,7 @@ fn sums(census: &Summary) -> String {
             let _ = writeln!(
                 text,
                 "By index in the plane: {:?}. Sum of (-1)^index: {}. Euler characteristic of the configuration space, from \
-                 the lengths alone:\n{euler} (Betti numbers {betti:?}).",
+                 the lengths alone: {euler} (Betti numbers {betti:?}).",
                 census.count_by_index, census.alternating_sum,
             );
         }

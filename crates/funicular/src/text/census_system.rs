@@ -6,7 +6,9 @@ use model::system::{System, SystemEquilibrium};
 
 use super::answer::ladder;
 use super::printable::Printable;
-use super::tables::{duration, long, numbers_from, rung, short, table, vector, word, wrapped};
+use super::tables::{
+    counted, duration, fitted, long, numbers_from, rung, short, table, vector, word, wrapped,
+};
 use crate::census::SystemCensusAnswer;
 
 /// So many equilibria are printed, and so many joints and members of them one by one; `--json` has
@@ -24,10 +26,10 @@ impl fmt::Display for SystemCensusAnswer {
 fn text(answer: &SystemCensusAnswer) -> String {
     let system = answer.system();
     let mut text = format!(
-        "{}: {} members, {} joints\n",
+        "{}: {}, {}\n",
         Printable(system.name()),
-        system.members().len(),
-        system.joints().len()
+        counted(system.members().len(), "member"),
+        counted(system.joints().len(), "joint")
     );
     text += &headline(answer);
     let equilibria = answer.equilibria();
@@ -46,7 +48,7 @@ fn text(answer: &SystemCensusAnswer) -> String {
     if let Some(first) = equilibria.first() {
         text += &ladder(&[(&first.solver, &first.evidence)]);
     }
-    text
+    fitted(&text)
 }
 
 /// What was found, in a sentence.
@@ -99,7 +101,7 @@ fn one(system: &System, number: usize, e: &SystemEquilibrium) -> String {
         let held = joint.support.at_m().map(|_| vector(e.reactions_n[k]));
         joints.add_row([name(k), vector(e.joints_m[k]), held.unwrap_or_default()]);
     }
-    let mut members = table(["from", "to", "axial force / N"]);
+    let mut members = table(["from", "to", "largest axial force / N"]);
     for (member, along) in system.members().iter().zip(e.axial_forces(system)) {
         members.add_row([name(member.from), name(member.to), short(along.largest_n())]);
     }

@@ -5,7 +5,7 @@ use std::fmt::{self, Write as _};
 use comfy_table::{CellAlignment, ColumnConstraint};
 
 use super::printable::Printable;
-use super::tables::{Table, numbers_from, short, table, wrapped};
+use super::tables::{Table, counted, numbers_from, short, table, wrapped};
 use crate::enclosed::Enclosed;
 use crate::modes::{ModesAnswer, WithModes};
 
@@ -85,10 +85,11 @@ fn text(answer: &ModesAnswer) -> String {
         let (listed, all) = (found.modes.len(), found.modes_in_all);
         let _ = writeln!(
             out,
-            "\nequilibrium {}, {} J, by {}: {all} modes, {} leave it",
+            "\nequilibrium {}, {} J, by {}: {}, {} leave it",
             found.label,
             short(found.energy_j),
             found.solver,
+            counted(all, "mode"),
             found.index_by_modes
         );
         if listed < all {

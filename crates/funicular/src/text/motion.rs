@@ -6,7 +6,7 @@ use model::system::System;
 use motion::Snapshot;
 
 use super::printable::Printable;
-use super::tables::short;
+use super::tables::{fitted, short};
 use crate::simulate::Motion;
 
 /// What is said of a motion, gathered while it runs.
@@ -55,7 +55,7 @@ impl Summary {
         let lost = self.lost_j.map_or_else(String::new, |lost_j| {
             format!(", beside {} J lost in impacts", short(lost_j))
         });
-        format!(
+        fitted(&format!(
             "{}: {} s{ended}, {} stored times{parted}\n\
              energy at the beginning {} J, largest change {:.1e} J{lost}\n\
              lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
@@ -66,7 +66,7 @@ impl Summary {
             self.energy_off_j,
             self.lengths_off,
             self.laws_off,
-        )
+        ))
     }
 }
 

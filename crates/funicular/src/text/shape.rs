@@ -66,8 +66,11 @@ impl Shape<'_> {
         if !summary && !long {
             text += &self.joints();
         }
-        text +=
-            &if long { self.largest() } else { self.bars("Bars", (0..self.axial.len()).collect()) };
+        text += &if long {
+            self.largest()
+        } else {
+            self.bars("Bars", &(0..self.axial.len()).collect::<Vec<_>>())
+        };
         text + &self.reactions() + &self.summary()
     }
 
@@ -85,14 +88,22 @@ impl Shape<'_> {
 
     /// Some bars, each with its axial force and how steeply it rises from its first joint to its
     /// second.
-    fn bars(&self, title: &str, bars: Vec<usize>) -> String {
-        let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", "", "rises / deg"];
-        if self.ranges.is_some() {
-            head.push("may be / N");
-        }
+    fn bars(&self, title: &str, bars: &[usize]) -> String {
+        let table = self.bars_table(bars, true);
+        let fits = table.fits();
+        let table = if fits { table } else { self.bars_table(bars, false) };
+        let rises = if fits { "; rises from the level" } else { "" };
+        titled(&format!("{title} (axial force at both ends: tension positive{rises}):"), &table)
+    }
+
+    /// The table of some bars; how steeply they rise is left out where there is no room for it.
+    fn bars_table(&self, bars: &[usize], rises: bool) -> Table {
+        let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", ""];
+        head.extend(rises.then_some("rises / deg"));
+        head.extend(self.ranges.map(|_| "may be / N"));
         let mut table = table(head);
         let axial = self.rounded();
-        for bar in bars {
+        for &bar in bars {
             let [from, to] = (self.ends)(bar);
             let along = self.axial[bar];
             let what = match axial.number(along.largest_n()) {
@@ -107,8 +118,8 @@ impl Shape<'_> {
                 axial.short(along.from_n),
                 axial.short(along.to_n),
                 what.to_owned(),
-                self.rise([from, to]),
             ];
+            row.extend(rises.then(|| self.rise([from, to])));
             row.extend(self.ranges.map(|ranges| open(ranges[bar], &axial)));
             table.add_row(row);
         }
@@ -116,8 +127,7 @@ impl Shape<'_> {
         if let Some(words) = table.column_mut(5) {
             words.set_cell_alignment(comfy_table::CellAlignment::Left);
         }
-        let title = format!("{title} (axial force at both ends: tension positive):");
-        titled(&title, &table)
+        table
     }
 
     /// The angle of a bar above the level, degrees, to a hundredth.
@@ -144,7 +154,7 @@ impl Shape<'_> {
         least.sort_by(by_force);
         most.extend(least);
         let title = format!("Of {} bars those at both ends", self.axial.len());
-        self.bars(&title, most)
+        self.bars(&title, &most)
     }
 
     fn reactions(&self) -> String {

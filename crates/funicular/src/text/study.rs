@@ -132,7 +132,7 @@ fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
         let tension = shape.extremes.tension_n;
         let mut row = vec![
             number(shape.extremes.sag_m),
-            cut(&found.joint(shape.extremes.lowest_joint)),
+            cut(&shape.lowest_joint),
             tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
             tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
         ];

@@ -8,7 +8,7 @@ use ::sweep::{
 };
 
 use super::printable::Printable;
-use super::tables::{Table, numbers_from, short, significant, table};
+use super::tables::{Table, numbers_from, short, significant, table, wrapped};
 use crate::sweep::SweepAnswer;
 
 /// As `funicular sweep` prints it.
@@ -56,14 +56,14 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     });
     let listed = summary.equilibria(manifest).count();
     if let Some(release) = &manifest.release {
-        let _ = writeln!(
-            text,
-            "let go at rest, followed for at most {} s in steps of {} s; drag {} 1/s, friction {} N m s",
+        let said = format!(
+            "let go at rest, followed for at most {} s in steps of {} s; damping {} 1/s, friction {} N m s",
             short(release.time_s),
             short(release.step_s),
-            short(release.drag_1_s),
+            short(release.damping_1_s),
             short(release.friction_n_m_s)
         );
+        let _ = writeln!(text, "{}", wrapped(&said, 2));
     }
     let listed = match listed {
         1 => "1 equilibrium".to_owned(),
@@ -125,7 +125,7 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
     table
 }
 
-/// The words for an outcome.
+/// The words for an outcome; equilibria are counted from 1.
 #[must_use]
 pub fn outcome(manifest: &Manifest, code: i16) -> String {
     let failures = if manifest.release.is_some() {
@@ -144,7 +144,10 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
         ]
     };
     let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
-    failure.map_or_else(|| format!("equilibrium {code}"), |(_, words)| (*words).to_owned())
+    failure.map_or_else(
+        || format!("equilibrium {}", i32::from(code) + 1),
+        |(_, words)| (*words).to_owned(),
+    )
 }
 
 fn percent(count: u64, all: u64) -> f64 {

@@ -50,6 +50,13 @@ impl Table {
         self.inner.add_row(cells.collect::<Vec<_>>());
     }
 
+    /// Whether no cell has to be broken over lines.
+    pub(super) fn fits(&self) -> bool {
+        let widths = self.inner.column_max_content_widths();
+        let wanted: usize = widths.iter().map(|width| usize::from(*width) + 2).sum();
+        wanted + 2 <= usize::from(self.inner.width().unwrap_or(WIDTH))
+    }
+
     /// All cells, the head first, each in one line.
     fn rows(&self) -> Vec<Vec<String>> {
         let line = |cell: &str| cell.replace('\n', " ");
@@ -257,6 +264,18 @@ pub fn wrapped(paragraph: &str, indent: usize) -> String {
         column += length;
     }
     lines
+}
+
+/// A text whose sentences fit into 80 columns: what is no line of a table is wrapped.
+pub(super) fn fitted(text: &str) -> String {
+    let is_prose = |line: &str| !line.starts_with([' ', PASTED, '\u{2500}', '\u{2550}']);
+    let fit = |line: &str| if is_prose(line) { wrapped(line, 2) } else { line.to_owned() };
+    text.split('\n').map(fit).collect::<Vec<_>>().join("\n")
+}
+
+/// A number of things, in words: `1 member`, `2 members`.
+pub(super) fn counted(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
 /// The highest rung that an answer has reached.

@@ -67,7 +67,7 @@ fn text(trace: &Continuation, many: bool) -> String {
         checks.between,
         said(trace, proved == 0 && undecided > 0)
     );
-    text
+    tables::fitted(&text)
 }
 
 /// An equilibrium at which several have merged.

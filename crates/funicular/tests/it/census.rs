@@ -182,6 +182,7 @@ fn the_paper_in_tables() {
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty());
     let text = stdout(&output);
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for wanted in [
         "4 equilibria in a vertical plane, 2 circles in space",
         "proved to be all",
@@ -199,9 +200,10 @@ fn the_paper_in_tables() {
         "every equilibrium listed is proved again without the search",
         "That the list is complete rests on the search",
     ] {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+        let is_there = text.contains(wanted) || words.contains(wanted);
+        assert!(is_there, "{wanted} is not in\n{text}");
     }
-    assert!(text.lines().all(|line| line.chars().count() <= 160), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }
 
 #[test]

@@ -161,6 +161,11 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
     assert!(!out.contains("0.000e0") && !out.contains("0.00e0"), "{out}");
     let (code, out) = unwrapped(&["whole.csv", "--members", "wrong.csv"]);
     assert!(code == Some(1) && out.contains("The forces are those of the answer."), "{out}");
+    // The forces are wrong, not the places.
+    assert!(
+        out.contains("With --tolerance 1e-2 the answer") && !out.contains("look rounded"),
+        "{out}"
+    );
 }
 
 #[test]

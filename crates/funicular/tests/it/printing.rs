@@ -166,3 +166,63 @@ fn names_of_mirror_images_are_not_broken_over_lines() {
     let found = text.lines().find(|line| line.starts_with("4 equilibria")).unwrap();
     assert!(found.chars().count() <= 80, "{found}");
 }
+
+/// Whatever is printed without a terminal fits into 80 columns, and no name of a joint is broken for it.
+#[test]
+fn all_that_is_printed_fits_80_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = Command::cargo_bin("funicular").unwrap();
+        let command = command.env("LC_ALL", "C.UTF-8").current_dir(folder.path()).args(arguments);
+        let output = command.output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    run(&["new", "--net", "5x5", "net.toml"]);
+    let trace = ["--case", "three-equal-bars", "--vary", "anchors.end_m.z=-2.9..-0.5:4"];
+    let mut all: Vec<Vec<&str>> = vec![vec!["new"], vec!["solve", "net.toml"]];
+    all.extend(["study", "trace"].map(|command| [&[command], &trace[..]].concat()));
+    for case in ["three-equal-bars", "lamp", "six-orders"] {
+        all.extend(
+            ["census", "modes", "solve", "derivatives"]
+                .map(|command| vec![command, "--case", case]),
+        );
+        all.push(vec!["simulate", "--case", case, "--time", "0.01"]);
+    }
+    for arguments in &all {
+        let text = run(arguments);
+        for line in text.lines() {
+            assert!(line.chars().count() <= 80, "{arguments:?}: {line}");
+        }
+    }
+    // What each may bear stands in the row of its names.
+    let net = run(&["solve", "net.toml"]);
+    let row =
+        |line: &str| line.contains(" N1_2 ") && line.contains(" N2_2 ") && line.contains(" to ");
+    assert!(net.lines().any(row), "{net}");
+    // A thing alone is one thing.
+    let one = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+               bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 }]\n";
+    std::fs::write(folder.path().join("one.toml"), one).unwrap();
+    assert!(run(&["solve", "one.toml"]).starts_with("unnamed: 1 member between 2 joints,"));
+    assert!(run(&["census", "one.toml"]).starts_with("unnamed: 1 member, 2 joints\n"));
+}
+
+#[test]
+fn counts_begin_at_one() {
+    let run = |arguments: &[&str]| {
+        let output = Command::cargo_bin("funicular").unwrap().args(arguments).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let vary = "anchors.end_m.z=-2.9..-0.5:4";
+    let text = run(&["trace", "--case", "three-equal-bars", "--vary", vary]);
+    assert!(text.contains(" 1, 2 ") && !text.contains(" 0, 1 "), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("basins");
+    let arguments = ["basins", "--case", "two-bars", "--size", "4", "--out", out.to_str().unwrap()];
+    run(&arguments);
+    let pictures = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().path());
+    let svg: Vec<_> =
+        pictures.map(|path| std::fs::read_to_string(path).unwrap_or_default()).collect();
+    assert!(svg.iter().any(|svg| svg.contains(">1: ")), "the legend");
+    assert!(!svg.iter().any(|svg| svg.contains(">0: ")), "the legend");
+}

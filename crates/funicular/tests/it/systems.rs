@@ -396,6 +396,37 @@ fn pictures_are_seen_from_where_one_asks() {
         svg.matches("class=\"axis\"").count()
     };
     assert_eq!((axes(&[]), axes(&["--view", "top"]), axes(&["--view", "side"])), (3, 2, 2));
-    let output = run(&folder, &["solve", "--case", "bridle", "--view", "top"]);
-    assert_eq!(output.status.code(), Some(2), "a view without a picture");
+    let answer = run(&folder, &["solve", "--case", "bridle", "--json"]).stdout;
+    std::fs::write(folder.join("answer.json"), answer).unwrap();
+    let draws: [(&[&str], _, _); 3] = [
+        (&["census", "--case", "tripod", "--svg", "c.svg"], "c-1.svg", "class=\"axis\""),
+        (
+            &["judge", "--case", "bridle", "--answer", "answer.json", "--html", "j.html"],
+            "j-1.html",
+            "class=\"axis\"",
+        ),
+        (&["modes", "--case", "bridle", "--svg", "m.svg"], "m.svg", "<line"),
+    ];
+    for (arguments, file, what) in draws {
+        let drawn = |view: &str| {
+            let output = run(&folder, &[arguments, &["--view", view]].concat());
+            assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+            std::fs::read_to_string(folder.join(file)).unwrap()
+        };
+        let [best, top, side] = ["best", "top", "side"].map(drawn);
+        assert!(best != top && top != side, "{arguments:?}");
+        if what.contains("axis") {
+            assert_eq!(
+                [&best, &top].map(|page| page.matches(what).count()),
+                [3, 2],
+                "{arguments:?}"
+            );
+        }
+    }
+    let chain = run(&folder, &["census", "--case", "two-bars", "--svg", "c.svg", "--view", "top"]);
+    assert_eq!(chain.status.code(), Some(2), "each in its own plane");
+    for command in ["solve", "census", "modes"] {
+        let output = run(&folder, &[command, "--case", "bridle", "--view", "top"]);
+        assert_eq!(output.status.code(), Some(2), "a view without a picture");
+    }
 }

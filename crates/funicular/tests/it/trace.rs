@@ -100,7 +100,7 @@ fn a_degenerate_point_is_told_as_what_it_is() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let said = text(&output.stdout);
     let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("of multiplicity 4 is proved") && words.contains("-2 m"), "{said}");
+    assert!(words.contains("of multiplicity 4 is proved") && words.contains("-2 m"), "{said}");
     assert!(!said.contains("fold:") && !said.contains("-2.0000") && !said.contains("1.9999"));
 }
 

@@ -6,7 +6,7 @@
 //! weight and inner multipliers are linear and leave at once (module `point` of this crate does the
 //! same in space); what remains are the rows of the angles and the closure,
 //!
-//! $$ g_i = l_i\, t_i \cdot F_i = 0, \qquad h = \sum_i l_i u_i - D = 0, \qquad
+//! $$ g_i = l_i\\, t_i \cdot F_i = 0, \qquad h = \sum_i l_i u_i - D = 0, \qquad
 //!    F_i = p + c_i e_z, $$
 //!
 //! with $u_i = (\sin\varphi_i, -\cos\varphi_i)$, $t_i = du_i/d\varphi_i$ and the pull $p$ of the
@@ -14,8 +14,8 @@
 //! corrections of the angles are eliminated, bar by bar, and two equations are left for that of the
 //! pull:
 //!
-//! $$ \Big(\sum_i \frac{l_i}{N_i} t_i t_i^T\Big)\,\delta p
-//!    = -h - \sum_i \frac{l_i}{N_i}(t_i\cdot F_i)\,t_i,
+//! $$ \Big(\sum_i \frac{l_i}{N_i} t_i t_i^T\Big)\\,\delta p
+//!    = -h - \sum_i \frac{l_i}{N_i}(t_i\cdot F_i)\\,t_i,
 //! \qquad \delta\varphi_i = \frac{t_i\cdot(F_i + \delta p)}{N_i}, \qquad N_i = u_i\cdot F_i. $$
 //!
 //! No approximation is made: the step is that of the full system (a test compares it with the

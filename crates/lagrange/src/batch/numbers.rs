@@ -47,7 +47,7 @@ impl Numbers {
         Self { bars, span: [level, z], heading, unit_j: weight_n * total_m }
     }
 
-    /// $V = \sum_i (1 - c_i)\, l_i u_i \cdot e_z$: each bar lifts what hangs after it. J above
+    /// $V = \sum_i (1 - c_i)\\, l_i u_i \cdot e_z$: each bar lifts what hangs after it. J above
     /// joint 0.
     pub fn energy_j(&self, directions: &[[f64; 2]]) -> f64 {
         let bars = self.bars.iter().zip(directions);

@@ -7,7 +7,7 @@
 //! z = W^{-1} s$; with $\bar v = (z/\sqrt{\det z} + J s/\sqrt{\det s})/2\gamma$, $\det \bar v = 1$,
 //! $J = \mathrm{diag}(1, -1, -1, -1)$ and $\rho = \sqrt{\det z/\det s}$,
 //!
-//! $$ W^{-2} = \rho\,(2 \bar v \bar v^T - J), \qquad W^{-2} s = z . $$
+//! $$ W^{-2} = \rho\\,(2 \bar v \bar v^T - J), \qquad W^{-2} s = z . $$
 //!
 //! # References
 //!
@@ -173,7 +173,7 @@ mod tests {
         assert!(near(&z.divide(&z.product(&s)), &s));
     }
 
-    /// With the number eliminated by $\Delta s_0 = c\,\Delta z_0$.
+    /// With the number eliminated by $\Delta s_0 = c\\,\Delta z_0$.
     #[test]
     fn the_block_is_the_matrix_without_the_number() {
         let [z, s] = pairs();

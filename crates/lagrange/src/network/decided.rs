@@ -3,7 +3,7 @@
 //! With the rows $R$ of the taut inextensible members and $L$ their lengths, errors $e$ of the
 //! lengths have the part
 //!
-//! $$ e_d = R y, \qquad R^T L^{-1} R\, y = R^T L^{-1} e, $$
+//! $$ e_d = R y, \qquad R^T L^{-1} R\\, y = R^T L^{-1} e, $$
 //!
 //! that moves of the joints take away. The rest is in no shape: $L^{-1} (e - e_d)$ balances without
 //! loads, and rigid members do not say what force it is. The shape that meets the lengths best has

@@ -1,7 +1,7 @@
 //! A shape to start from: force densities.
 //!
-//! With $F = w\,d$ the balance of the joints is a linear system for their places, scalar where no
-//! joint slides, and $w \leftarrow w\,|d|/l$ brings the lengths nearer to $l$ (the iteration of
+//! With $F = w\\,d$ the balance of the joints is a linear system for their places, scalar where no
+//! joint slides, and $w \leftarrow w\\,|d|/l$ brings the lengths nearer to $l$ (the iteration of
 //! Weiszfeld).
 
 use nalgebra::{Matrix3, Vector3};

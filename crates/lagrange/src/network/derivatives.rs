@@ -12,10 +12,10 @@
 //! Parameters are the numbers that were given. A member that bears $F$ at the length $d$ has, with
 //! $EA = k$ and without a prestress $F = 0$, under the force $N$ the length
 //!
-//! $$ D = d\,\frac{k + N}{k + F}, \qquad
+//! $$ D = d\\,\frac{k + N}{k + F}, \qquad
 //!    \frac{\partial D}{\partial d} = \frac{k + N}{k + F}, \qquad
-//!    \frac{\partial D}{\partial k} = d\,\frac{F - N}{(k + F)^2}, \qquad
-//!    \frac{\partial D}{\partial F} = -d\,\frac{k + N}{(k + F)^2} . $$
+//!    \frac{\partial D}{\partial k} = d\\,\frac{F - N}{(k + F)^2}, \qquad
+//!    \frac{\partial D}{\partial F} = -d\\,\frac{k + N}{(k + F)^2} . $$
 //!
 //! There is no derivative where a motion meets no stiffness, where self-stresses leave the forces
 //! open, and where a member or the floor has just no force ([`Error`]).

@@ -2,7 +2,7 @@
 //!
 //! The span of a run whose first member has the pull $p$ is the sum of its members',
 //!
-//! $$ D(p) = \sum_k (l_k + c_k |F_k|)\,\frac{F_k}{|F_k|}, \qquad F_k = p + s_k, $$
+//! $$ D(p) = \sum_k (l_k + c_k |F_k|)\\,\frac{F_k}{|F_k|}, \qquad F_k = p + s_k, $$
 //!
 //! with the sums $s_k$ of the loads before them, and its derivative, the 3 x 3 matrix
 //!
@@ -104,7 +104,7 @@ struct Sums {
     span: Vector3<f64>,
     /// Of $l/|F| + c$.
     across: f64,
-    /// Of $l/|F|\,u u^T$.
+    /// Of $l/|F|\\,u u^T$.
     square: Matrix3<f64>,
     least: f64,
     most: f64,

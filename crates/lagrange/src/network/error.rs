@@ -28,7 +28,7 @@ pub enum Error {
     SeedNotFinite {
         /// `joint` or `member`.
         of: &'static str,
-        /// Its number, from 0.
+        /// Its number, from 1.
         number: usize,
     },
     /// Occurs when the supports of connected joints let them move along their total load.

@@ -1,8 +1,8 @@
 //! A system as a framework: forces at joints, members without weight, and units that suit it.
 //!
 //! A weight or a constant force $p$ at the fraction $s$ of a straight member does the work
-//! $p \cdot ((1 - s)\,x_a + s\,x_b)$, linear in the places of its two ends: it acts as $(1 - s)\,p$
-//! at the one and $s\,p$ at the other. That is the lever rule, and it holds for a member that
+//! $p \cdot ((1 - s)\\,x_a + s\\,x_b)$, linear in the places of its two ends: it acts as $(1 - s)\\,p$
+//! at the one and $s\\,p$ at the other. That is the lever rule, and it holds for a member that
 //! stretches uniformly as well. What remains of the member is a law between its length and its
 //! axial force.
 

@@ -1,7 +1,7 @@
 //! The hanging shape by its forces: least complementary energy, as a programme over cones.
 //!
 //! With every member in tension the forces $F$ of an equilibrium minimise the convex function
-//! $\sum_e l_e\,t_e + c_e\,t_e^2/2$ with $t_e \ge |F_e|$, minus the work at the supports, subject
+//! $\sum_e l_e\\,t_e + c_e\\,t_e^2/2$ with $t_e \ge |F_e|$, minus the work at the supports, subject
 //! to the balance of the joints. The multipliers of that balance are the places $x$ of the joints,
 //! and with the pairs (module `cone`)
 //!
@@ -12,7 +12,7 @@
 //! point method follows $z_e \circ s_e = \mu (1, 0)$ to $\mu \to 0$. Its linear equations in the
 //! scaling of Nesterov and Todd are
 //!
-//! $$ W \Delta z + W^{-1} \Delta s = g, \qquad \Delta s = (c\,\Delta t,\ -\Delta d) - r, $$
+//! $$ W \Delta z + W^{-1} \Delta s = g, \qquad \Delta s = (c\\,\Delta t,\ -\Delta d) - r, $$
 //!
 //! so that $\Delta F = K \Delta d + \dots$ with one symmetric positive definite 3 x 3 block $K$ a
 //! member, and balance is a system in the places alone. One factorisation serves the predictor,
@@ -40,7 +40,7 @@ use model::system::Kind;
 /// First length of a member in the programme, where it is as long as it may be or longer: this
 /// much more than it is.
 const FIRST_SLACK: f64 = 0.05;
-/// The mean of $z \cdot s$ over that of $t\,l$ at which the lengths of taut bars are right to some
+/// The mean of $z \cdot s$ over that of $t\\,l$ at which the lengths of taut bars are right to some
 /// 1e-7: often near enough for the final iteration.
 pub(super) const FIRST_END: f64 = 1e-7;
 /// Where it is not, this one is.
@@ -76,7 +76,7 @@ pub(super) struct Hanging {
     slacks: Vec<Pair>,
     /// Steps so far.
     pub steps: usize,
-    /// Mean of $z \cdot s$ over that of $t\,l$.
+    /// Mean of $z \cdot s$ over that of $t\\,l$.
     gap: f64,
     /// Largest part of the length by which a span does not belong to its places.
     misfit: f64,

@@ -1,8 +1,8 @@
 //! The laws of the members: elongation from force.
 //!
-//! A member that its ends pull with the force $F$ spans $d = (l + c\,|F|)\,F/|F|$ with the
+//! A member that its ends pull with the force $F$ spans $d = (l + c\\,|F|)\\,F/|F|$ with the
 //! compliance $c = l/EA$, if it is a bar in tension or a taut cable: the gradient of the
-//! complementary energy $l\,|F| + c\,|F|^2/2$, which is convex. That has a corner at $F = 0$, where
+//! complementary energy $l\\,|F| + c\\,|F|^2/2$, which is convex. That has a corner at $F = 0$, where
 //! a cable is slack and $d$ is anything shorter than $l$.
 
 use nalgebra::{Matrix3, Vector3};

@@ -2,7 +2,7 @@
 //!
 //! With the directions $u$ and lengths $d$ of the members the equations are the balance of the
 //! joints and
-//! $|d| = l + c\,N$ for every taut member, and their derivative is
+//! $|d| = l + c\\,N$ for every taut member, and their derivative is
 //!
 //! $$ \begin{bmatrix} \sum C^T \tfrac{N}{d} (1 - u u^T) C & C^T u \\\\ u^T C & -c \end{bmatrix}. $$
 //!

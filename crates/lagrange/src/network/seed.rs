@@ -36,11 +36,11 @@ impl Seed {
         }
         let infinite = |place: &Vector| place.iter().any(|c| !c.is_finite());
         if let Some(number) = self.joints_m.iter().position(infinite) {
-            return Err(Error::SeedNotFinite { of: "joint", number });
+            return Err(Error::SeedNotFinite { of: "joint", number: number + 1 });
         }
         let forces = self.axial_n.iter().flatten();
         if let Some(number) = forces.clone().position(|force| !force.is_finite()) {
-            return Err(Error::SeedNotFinite { of: "member", number });
+            return Err(Error::SeedNotFinite { of: "member", number: number + 1 });
         }
         Ok(())
     }

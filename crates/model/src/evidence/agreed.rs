@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::finite;
 use super::force_choice::ForceChoice;
+use super::from_one;
 use crate::solver_name::SolverName;
 
 /// Answers of several solvers are one, and each is in balance.
@@ -207,8 +208,8 @@ pub enum Quantity {
 pub enum Place {
     /// A member, counted from 1.
     Member(usize),
-    /// A joint, counted from 0.
-    Joint(usize),
+    /// A joint, counted from 0; in JSON from 1, as members are.
+    Joint(#[serde(with = "from_one")] usize),
     /// The system as a whole.
     Whole,
 }

@@ -25,6 +25,7 @@ mod complete;
 mod convergence;
 mod finite;
 mod force_choice;
+mod from_one;
 mod ladder;
 mod reason;
 mod rigidity;

@@ -80,6 +80,28 @@ impl Support {
         }
     }
 
+    /// Whether it takes all of a force: none of it is along a way that the joint can move. No rounding is
+    /// allowed for.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let along_x = Support::Line { at_m: [0.0; 3], direction: [1.0, 0.0, 0.0] };
+    /// assert!(along_x.bears([0.0, 2.0, -3.0]) && !along_x.bears([1e-9, 0.0, 0.0]));
+    /// ```
+    #[must_use]
+    pub fn bears(&self, force_n: Vector) -> bool {
+        let [x, y, z] = force_n;
+        let left: f64 = match *self {
+            Self::Free => x.abs() + y.abs() + z.abs(),
+            Self::Fixed { .. } => 0.0,
+            Self::Line { direction: [a, b, c], .. } => (a * x + b * y + c * z).abs(),
+            Self::Plane { normal: [a, b, c], .. } => {
+                (b * z - c * y).abs() + (c * x - a * z).abs() + (a * y - b * x).abs()
+            }
+        };
+        left <= 0.0
+    }
+
     /// Whether the joint can move at all.
     #[must_use]
     pub fn is_fixed(&self) -> bool {

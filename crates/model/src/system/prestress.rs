@@ -75,7 +75,7 @@ impl Member {
     /// The same elastic member with another unstretched length: so long that it bears the axial
     /// force `prestress_n` (N, tension positive) at the length `d` that it has,
     ///
-    /// $$ l = \frac{d}{1 + F/EA}, \qquad\text{since}\qquad F = EA\,\frac{d - l}{l}. $$
+    /// $$ l = \frac{d}{1 + F/EA}, \qquad\text{since}\qquad F = EA\\,\frac{d - l}{l}. $$
     ///
     /// Its mass stays, and with the length the places of its weight and of its loads are scaled:
     /// they are at the same parts of it. The moments of inertia across it are scaled by the square.

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 
 use super::graph::Graph;
-use super::{Support, System};
+use super::{Joint, Support, System};
+use crate::Vector;
 use crate::mass_range::{DOUBLE, too_wide};
 use crate::readable::{Computed, Readable};
 
@@ -42,10 +43,10 @@ pub enum SystemRefusal {
         "no mass and no force act on the system: without load every position is an equilibrium"
     )]
     NoLoad,
-    /// Occurs when all loads act on anchors, through members or at their ends: nothing loads what
+    /// Occurs when all loads act on supports, through members or at their ends, and none along a way that a joint
     /// can move.
     #[error(
-        "all loads of this system rest on its anchors: the energy is the same in every position, and \
+        "all loads of this system rest on its supports: the energy is the same in every position, and \
          every position is an equilibrium"
     )]
     LoadOnAnchors,
@@ -185,7 +186,7 @@ impl System {
         if self.is_unloaded() && !elastic {
             return Err(SystemRefusal::NoLoad);
         }
-        if self.is_loaded_on_anchors_alone() && !elastic {
+        if self.is_loaded_on_supports_alone() && !elastic {
             return Err(SystemRefusal::LoadOnAnchors);
         }
         if let Some((lightest_kg, heaviest_kg)) = too_wide(self.masses_kg(), DOUBLE)
@@ -208,23 +209,24 @@ impl System {
             && self.members().iter().all(|m| m.loads.iter().all(|load| still(load.force_n)))
     }
 
-    /// Whether no joint that can move feels a load, its own or one of a member: a question about
-    /// the data as they stand, without rounding. A load on a member is felt by both its joints
-    /// unless it acts at one of them.
-    fn is_loaded_on_anchors_alone(&self) -> bool {
-        let still = |force_n: [f64; 3]| force_n.iter().all(|x| x.abs() <= 0.0);
-        let held = |joint: usize| self.joints()[joint].support.is_fixed();
-        self.joints()
-            .iter()
-            .all(|joint| joint.support.is_fixed() || (joint.mass_kg <= 0.0 && still(joint.force_n)))
+    /// Whether no joint feels a load along a way that it can move, its own or one of a member: a
+    /// question about the data as they stand, without rounding. A load on a member is felt by both
+    /// its joints unless it acts at one of them.
+    fn is_loaded_on_supports_alone(&self) -> bool {
+        let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg];
+        let rests = |joint: usize, load: Vector| self.joints()[joint].support.bears(load);
+        let own = |(k, joint): (usize, &Joint)| {
+            rests(k, weight(joint.mass_kg)) && rests(k, joint.force_n)
+        };
+        self.joints().iter().enumerate().all(own)
             && self.members().iter().all(|member| {
                 let body = &member.body;
-                let on_anchors = |at_m: f64| {
-                    (at_m >= body.length_m() || held(member.from))
-                        && (at_m <= 0.0 || held(member.to))
+                let on_supports = |at_m: f64, load: Vector| {
+                    (at_m >= body.length_m() || rests(member.from, load))
+                        && (at_m <= 0.0 || rests(member.to, load))
                 };
-                (body.mass_kg() <= 0.0 || on_anchors(body.centre_m()))
-                    && member.loads.iter().all(|load| still(load.force_n) || on_anchors(load.at_m))
+                on_supports(body.centre_m(), weight(body.mass_kg()))
+                    && member.loads.iter().all(|load| on_supports(load.at_m, load.force_n))
             })
     }
 

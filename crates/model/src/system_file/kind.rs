@@ -461,7 +461,7 @@ fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
         SystemRefusal::NoLoad => {
             "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"
         }
-        SystemRefusal::LoadOnAnchors => "give a load to a joint that can move",
+        SystemRefusal::LoadOnAnchors => "give a load to a joint that can move along it",
         SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"
         }

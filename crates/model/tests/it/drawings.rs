@@ -64,7 +64,7 @@ fn joints_of_a_planar_system_stay_in_its_plane() {
     assert_eq!(read.joints()[1].support, along_x);
     // A plane of its own meets that of the drawing in a line.
     let slider = "plane = \"xy\"\n[joints]\nA = { at_m = [0, 0, 7] }\n\
-        B = { at_m = [3, 4, 7], normal = [0.6, 0.8, 0], mass_kg = 1 }\n";
+        B = { at_m = [3, 4, 7], normal = [0.6, 0.8, 0], force_n = [1, 0, 0] }\n";
     let read = system(&(slider.to_owned() + &bar("A", "B", "length_m = 6")));
     let Support::Line { at_m, direction } = read.joints()[1].support else { panic!() };
     assert_eq!((at_m, direction.map(f64::abs)), ([3.0, 4.0, 7.0], [0.8, 0.6, 0.0]));

@@ -293,6 +293,29 @@ fn prestressed_systems_need_no_load() {
     assert!(error.to_string().contains("no mass and no force"), "{error}");
 }
 
+/// A slider on a level line bears its weight there; any force along the line makes a problem of it.
+#[test]
+fn what_slides_needs_a_load_along_its_way() {
+    let slack = |load: &str, free: &str| {
+        format!(
+            "joints = {{ A = {{ at_m = [0, 0, 0] }}, S = {{ at_m = [2, 0, 0], free = \"{free}\", {load} }} }}\n\
+             bars = [{{ from = \"A\", to = \"S\", length_m = 3, mass_kg = 1, kind = \"cable\" }}]"
+        )
+    };
+    for (load, free) in [
+        ("mass_kg = 1", "x"),
+        ("mass_kg = 1", "xy"),
+        ("force_n = [0, 2, 0]", "x"),
+        ("force_n = [0, 2, 0]", "xz"),
+    ] {
+        let refused = parse(&slack(load, free), "f").map(|_| ()).map_err(|error| error.to_string());
+        let weighs = free == "xz";
+        assert_eq!(refused.is_ok(), weighs, "{load} {free} {refused:?}");
+        assert!(weighs || refused.unwrap_err().contains("rest on its supports"));
+    }
+    assert!(parse(&slack("force_n = [0, 2, 0]", "xy"), "f").is_ok());
+}
+
 #[test]
 fn a_floor_is_read_and_written() {
     let text = format!("floor_m = -2.5\n{LAMP}");

@@ -5,7 +5,7 @@
 //! displacements `y` that keep the lengths to first order (`R y = 0`):
 //!
 //! $$ K y = \omega^2 M y, \qquad
-//!    K = \sum_e \begin{bmatrix} 1 & -1 \\ -1 & 1 \end{bmatrix} \otimes
+//!    K = \sum_e \begin{bmatrix} 1 & -1 \\\\ -1 & 1 \end{bmatrix} \otimes
 //!        \left( \rho_e I + k_e' u_e u_e^T \right) . $$
 //!
 //! `ω² > 0` oscillates with the angular frequency `ω`; `ω² < 0` leaves the equilibrium like `exp(t

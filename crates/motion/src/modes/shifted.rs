@@ -1,6 +1,6 @@
 //! The stiffness less a shift, bordered by the constraints, and its sparse factorisation.
 //!
-//! $$ \begin{bmatrix} K - \sigma M + \gamma R^T R & R^T \\ R & 0 \end{bmatrix} $$
+//! $$ \begin{bmatrix} K - \sigma M + \gamma R^T R & R^T \\\\ R & 0 \end{bmatrix} $$
 //!
 //! has, with `m` independent rows, `m` negative eigenvalues and one more for each `ω² < σ`
 //! (Sylvester's law of inertia; N. I. M. Gould, Math. Programming 32 (1985) 90-99): the signs of

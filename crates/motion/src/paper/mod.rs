@@ -4,9 +4,9 @@
 //! Six coordinates for each bar, `q_i = (X_C, Y_C, Z_C, ψ, θ, φ)`, and three constraints for each
 //! joint, anchors included:
 //!
-//! $$ \begin{bmatrix} M & -B^T \\ B & 0 \end{bmatrix}
-//!    \begin{bmatrix} \ddot q \\ \lambda \end{bmatrix} =
-//!    \begin{bmatrix} F + \tilde F \\ -\dot B \dot q \end{bmatrix} . \qquad (33) $$
+//! $$ \begin{bmatrix} M & -B^T \\\\ B & 0 \end{bmatrix}
+//!    \begin{bmatrix} \ddot q \\\\ \lambda \end{bmatrix} =
+//!    \begin{bmatrix} F + \tilde F \\\\ -\dot B \dot q \end{bmatrix} . \qquad (33) $$
 //!
 //! Corrected are (5), of which two entries are misprinted; (18)-(20), where bar 3 ends, not bar 2;
 //! the sign of the first component of (24); two entries of (31); the matrix and the right-hand side

@@ -5,7 +5,7 @@
 //! its support. With `A` its 3 × 3 inertia, `W` the columns of its rows and `S` what the children
 //! left on them,
 //!
-//! $$ \begin{bmatrix} A & W \\ W^T & -S \end{bmatrix}, \quad T = S + W^T A^{-1} W, \quad
+//! $$ \begin{bmatrix} A & W \\\\ W^T & -S \end{bmatrix}, \quad T = S + W^T A^{-1} W, \quad
 //!    H = A^{-1} W T^{-1}, \quad P = A^{-1} - H T H^T , $$
 //!
 //! and its parent gets, with `b` the inertia between them and `d` the vector of the bar towards the

@@ -1,7 +1,7 @@
 //! The linear system of every step: inertia bordered by the constraints.
 //!
-//! $$ \begin{bmatrix} M & R^T \\ R & 0 \end{bmatrix}
-//!    \begin{bmatrix} x \\ \rho \end{bmatrix} = \begin{bmatrix} f \\ \varphi \end{bmatrix} $$
+//! $$ \begin{bmatrix} M & R^T \\\\ R & 0 \end{bmatrix}
+//!    \begin{bmatrix} x \\\\ \rho \end{bmatrix} = \begin{bmatrix} f \\\\ \varphi \end{bmatrix} $$
 //!
 //! `M` has one number for each joint and each member, the same for all three axes; `R` has for each
 //! rigid bar the row `(−d, +d)` with `d` the vector from its first to its second joint, and for

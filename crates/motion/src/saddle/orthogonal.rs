@@ -2,8 +2,8 @@
 //!
 //! With `A = L Lᵀ`, `W̃ = L⁻¹ W` and the roots of what the children left,
 //!
-//! $$ \begin{bmatrix} \tilde W \\ S^{1/2} \end{bmatrix} = \begin{bmatrix} Q_1 & Q_2 \\ \cdot & \cdot
-//!    \end{bmatrix} \begin{bmatrix} U \\ 0 \end{bmatrix} : \quad T = U^T U, \quad
+//! $$ \begin{bmatrix} \tilde W \\\\ S^{1/2} \end{bmatrix} = \begin{bmatrix} Q_1 & Q_2 \\\\ \cdot & \cdot
+//!    \end{bmatrix} \begin{bmatrix} U \\\\ 0 \end{bmatrix} : \quad T = U^T U, \quad
 //!    H = L^{-T} Q_1 U^{-T}, \quad P = F F^T, \quad F = L^{-T} Q_2 . $$
 //!
 //! Nothing is subtracted from `A⁻¹`: where rows are dependent up to an angle `δ`, `T` formed by

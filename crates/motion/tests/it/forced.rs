@@ -41,7 +41,7 @@ fn a_rod_follows_forces_and_moments_of_time_through_a_medium() {
     let (start, time_s) = (0.4_f64, 5.0);
     let settings = motion::Settings {
         order: Order::Eighth,
-        drag_1_s: DRAG_1_S,
+        damping_1_s: DRAG_1_S,
         friction_n_m_s: FRICTION_N_M_S,
     };
     let system = hanging(&[Bar::homogeneous(1.0, 1.0).unwrap()], &[]);

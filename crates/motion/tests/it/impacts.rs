@@ -221,7 +221,7 @@ fn net(floor_m: f64) -> (System, Vec<[f64; 3]>) {
 #[test]
 fn a_net_that_falls_keeps_its_laws_and_what_it_loses_is_told() {
     let (system, at) = net(-2.0);
-    let settings = Settings { drag_1_s: 0.5, ..Settings::default() };
+    let settings = Settings { damping_1_s: 0.5, ..Settings::default() };
     let mut fall = Simulation::new(&system, &at, settings).unwrap();
     let mut before_j = fall.energy_j();
     for _ in 0..30 {

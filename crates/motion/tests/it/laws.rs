@@ -69,7 +69,7 @@ fn mixed() -> (System, Vec<[f64; 3]>) {
 #[test]
 fn loads_springs_sliders_loops_damping_and_forces_of_time_obey_the_laws() {
     let (system, at) = mixed();
-    let damped = Settings { drag_1_s: 0.4, friction_n_m_s: 0.05, ..Settings::default() };
+    let damped = Settings { damping_1_s: 0.4, friction_n_m_s: 0.05, ..Settings::default() };
     for settings in [Settings::default(), damped] {
         let mut simulation = Simulation::new(&system, &at, settings).unwrap();
         let pull = |t: f64| [3.0 * (5.0 * t).sin(), 0.0, 1.0];
@@ -98,7 +98,7 @@ fn bars_with_three_moments_obey_the_laws() {
         members[member].body = Bar::new(l, m, r, [0.6 * j, j, 1.3 * j]).unwrap();
     }
     let system = System::new("mixed", 9.81, system.joints().to_vec(), members).unwrap();
-    let settings = Settings { drag_1_s: 0.4, friction_n_m_s: 0.01, ..Settings::default() };
+    let settings = Settings { damping_1_s: 0.4, friction_n_m_s: 0.01, ..Settings::default() };
     let mut simulation = Simulation::new(&system, &at, settings).unwrap();
     simulation.push(&[[0.1, 0.3, -0.2]; 5]).unwrap();
     for _ in 0..20 {
@@ -112,7 +112,7 @@ fn bars_with_three_moments_obey_the_laws() {
 #[test]
 fn accelerations_are_the_derivatives_of_the_velocities() {
     let (system, at) = mixed();
-    let settings = Settings { order: Order::Fourth, drag_1_s: 0.4, friction_n_m_s: 0.05 };
+    let settings = Settings { order: Order::Fourth, damping_1_s: 0.4, friction_n_m_s: 0.05 };
     let mut simulation = Simulation::new(&system, &at, settings).unwrap();
     simulation.push(&[[0.1, 0.3, -0.2]; 5]).unwrap();
     run(&mut simulation, 0.1, 1e-3);
@@ -135,7 +135,7 @@ fn accelerations_are_the_derivatives_of_the_velocities() {
 #[test]
 fn damping_takes_energy_at_the_rate_of_its_forces() {
     // A medium alone: d/dt T = -2 c T along a free flight; here of a pendulum without weight on it.
-    let settings = Settings { drag_1_s: 0.3, ..Settings::default() };
+    let settings = Settings { damping_1_s: 0.3, ..Settings::default() };
     let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_force([0.0, 0.0, 4.905])];
     let bar = Bar::homogeneous(1.0, 1.0).unwrap();
     let system = System::new("no weight", 9.81, joints, vec![Member::bar(0, 1, bar)]).unwrap();

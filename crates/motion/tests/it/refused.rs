@@ -71,7 +71,7 @@ fn places_off_the_lengths_are_refused_and_rounded_ones_tidied() {
     assert!((x.hypot(z) - 1.0).abs() < 1e-15);
     let few = Simulation::new(&system, &[[0.0; 3]], Settings::default());
     assert!(matches!(few, Err(MotionError::Input { .. })));
-    let negative = Settings { drag_1_s: -1.0, ..Settings::default() };
+    let negative = Settings { damping_1_s: -1.0, ..Settings::default() };
     assert!(matches!(Simulation::new(&system, &near, negative), Err(MotionError::Input { .. })));
 }
 

@@ -28,7 +28,7 @@ pub(super) fn planar(phi: [f64; 3]) -> DVector<f64> {
     q
 }
 
-/// $-[B]^T\{\lambda\}$ at planar coordinates, in the unit of `lambda`.
+/// $-[B]^T\\{\lambda\\}$ at planar coordinates, in the unit of `lambda`.
 pub(super) fn reactions(q: &DVector<f64>, lambda: &DVector<f64>) -> DVector<f64> {
     let paper = model::cases::paper();
     -(lagrange::constraint_matrix(paper.chain(), q).transpose() * lambda)

@@ -93,7 +93,7 @@ fn lying(u: &Vector3<f64>) -> [f64; 3] {
     [u.y.atan2(-u.z), u.x.acos(), 0.0]
 }
 
-/// $[B]\{\ddot q\}$ of a closed motion less the right-hand side of the lower rows of (33).
+/// $[B]\\{\ddot q\\}$ of a closed motion less the right-hand side of the lower rows of (33).
 fn lower_rows(as_printed: bool) -> f64 {
     let paper = model::cases::paper();
     let matrix = |q: &DVector<f64>| lagrange::constraint_matrix(paper.chain(), q);
@@ -111,7 +111,7 @@ fn lower_rows(as_printed: bool) -> f64 {
 }
 
 /// Rows that the matrix on the left of (33) has too few for its unknowns
-/// $\{\ddot q\}, \{\lambda\}$.
+/// $\\{\ddot q\\}, \\{\lambda\\}$.
 fn missing_rows(lower_rows: bool) -> f64 {
     let paper = model::cases::paper();
     let matrix = lagrange::constraint_matrix(paper.chain(), &DVector::<f64>::zeros(18));
@@ -120,7 +120,7 @@ fn missing_rows(lower_rows: bool) -> f64 {
     unknowns as f64 - equations as f64
 }
 
-/// Columns that the factor of $\{\ddot q\}, \{\lambda\}$ on the left of (33) has too few: $[B]^T$
+/// Columns that the factor of $\\{\ddot q\\}, \\{\lambda\\}$ on the left of (33) has too few: $[B]^T$
 /// alone, or the whole matrix.
 fn missing_columns(bracket: bool) -> f64 {
     let paper = model::cases::paper();

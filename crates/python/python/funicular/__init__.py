@@ -33,19 +33,19 @@ from . import gradients
 from .answer import Answer, Equilibrium, solve
 from .basins import Basins, basins
 from .batch import Batch, solve_many
-from .census import Census
+from .census import Census, census
 from .errors import *  # noqa: F403
 from .errors import __all__ as _errors
 from .evidence import Evidence, Proof, Proofs, Record
 from .judge import Judgement, judge
-from .motion import Modes, ModesOf, Motion, simulate
+from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
 from .study import Gradient, Study, anchor_stiffness, change, gradient, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
-from .trace import Trace
+from .trace import Trace, trace
 
 
 def cases() -> list[str]:
@@ -87,12 +87,14 @@ __all__ = [
     "anchor_stiffness",
     "basins",
     "cases",
+    "census",
     "change",
     "get_threads",
     "gradient",
     "gradients",
     "judge",
     "limit_work",
+    "modes",
     "reproduce",
     "set_threads",
     "simulate",
@@ -100,5 +102,6 @@ __all__ = [
     "solve_many",
     "study",
     "sweep",
+    "trace",
     *_errors,
 ]

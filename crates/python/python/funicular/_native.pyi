@@ -104,7 +104,7 @@ def solve(
     problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
 ) -> tuple[str, list[dict[str, Any]]]: ...
 def solve_text(problem: Problem, solver: str, equations: str, census: str) -> str: ...
-def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array) -> str: ...
+def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array, view: str) -> str: ...
 def solve_many(
     chains: int,
     bars: int,
@@ -181,7 +181,7 @@ def simulate(
     step_s: float,
     store_s: float | None,
     order: int,
-    drag_1_s: float,
+    damping_1_s: float,
     friction_n_m_s: float,
     pushes: list[tuple[str, _Vector]],
     forces: str | None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from difflib import get_close_matches
 from functools import cached_property
 from os import PathLike
 from typing import Any
@@ -17,7 +18,7 @@ from ._result import Result, printable
 from .errors import InputError
 from .evidence import Evidence, Proofs, Record
 from .plot import plot
-from .system import STANDARD_GRAVITY, System
+from .system import STANDARD_GRAVITY, System, described
 from .table import Table, vectors
 
 
@@ -151,7 +152,8 @@ class Equilibrium(Result):
         names = self.system.joint_names
         if isinstance(joint, str):
             if joint not in names:
-                raise InputError(f"there is no joint {joint!r:.80}")
+                meant = [*get_close_matches(joint, names, 1), None][0]
+                raise InputError(f"there is no joint {joint!r:.80}", suggestion=meant)
             return names.index(joint)
         number = whole("joint", joint)
         if number >= len(names):
@@ -190,14 +192,17 @@ class Equilibrium(Result):
         forces = {"start_force_n": self.start_forces_n[k], "end_force_n": self.end_forces_n[k]}
         return Record({"number": k, **numbers, **forces})
 
-    def svg(self) -> str:
-        """The picture to scale: joints, supports, loads, reactions, tension and compression."""
-        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_max_n, self.reactions_n))
-        return _native.draw(self.system._problem, *arrays)
+    def svg(self, view: str = "best") -> str:
+        """The picture to scale: joints, supports, loads, reactions, tension and compression.
 
-    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+        ``view``: from where it is seen, ``best``, ``front`` (x to the right, z up), ``side`` (y, z) or ``top`` (x, y).
+        """
+        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_max_n, self.reactions_n))
+        return _native.draw(self.system._problem, joints, axial, ground, view)
+
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
-        return plot(self, ax, space=space, forces=forces)
+        return plot(self, ax, space=space, forces=forces, view=view)
 
     def __repr__(self) -> str:
         where = printable(self.system.name)
@@ -385,13 +390,13 @@ class Answer(Result):
         """The largest compression anywhere along a member, N."""
         return self.equilibria[0].largest_compression_n
 
-    def svg(self) -> str:
-        """The picture to scale."""
-        return self.equilibria[0].svg()
+    def svg(self, view: str = "best") -> str:
+        """The picture to scale; see :meth:`Equilibrium.svg`."""
+        return self.equilibria[0].svg(view)
 
-    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed."""
-        return self.equilibria[0].plot(ax, space=space, forces=forces)
+        return self.equilibria[0].plot(ax, space=space, forces=forces, view=view)
 
     def __repr__(self) -> str:
         agreed = "agreed" if self.agrees else ", ".join(e.solver for e in self.equilibria)
@@ -456,7 +461,7 @@ def solve(
     True
     """
     if isinstance(system, (str, PathLike)):
-        system = System.read(system)
+        system = described(system)
     elif system is not None and not isinstance(system, System):
         if lengths is not None:
             raise InputError("the lengths of the chain are given twice")

@@ -13,7 +13,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError, SettingError
 from .plot import plot_basins
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 LARGEST = 4096
@@ -97,7 +97,7 @@ class Basins(Result):
 
 
 def basins(
-    system: System,
+    system: Described,
     *,
     size: int = 300,
     bars: tuple[int, int] = (1, 2),
@@ -115,6 +115,7 @@ def basins(
 
     Raises SettingError, SweepError.
     """
+    system = described(system)
     side = whole("size", size, 2)
     if side > LARGEST:
         raise SettingError(f"size: at most {LARGEST}, got {side}", setting="size", value=side)

@@ -16,7 +16,7 @@ from ._result import Result, printable
 from .answer import Equilibrium
 from .evidence import Record
 from .plot import plot_census
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 
@@ -71,9 +71,9 @@ class Census(Result):
             }
         )
 
-    def plot(self, most: int = 9) -> Any:
+    def plot(self, most: int = 9, *, view: str = "best") -> Any:
         """Draw the first equilibria side by side, each into axes of matplotlib, which must be installed; a figure."""
-        return plot_census(self, most)
+        return plot_census(self, most, view)
 
     def __len__(self) -> int:
         return len(self.equilibria)
@@ -93,8 +93,9 @@ class Census(Result):
         return f"{self.table._repr_html_()}<p>{said}</p>{''.join(map(picture, self.equilibria[:4]))}"
 
 
-def census(system: System, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Census:
+def census(system: Described, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Census:
     """The census of a system. ``max_bars``: refuse longer chains (16 if not said). Raises NoCensus, Refused."""
+    system = described(system)
     bars = None if max_bars is None else whole("max_bars", max_bars)
     with shown(progress) as callback:
         return Census(system, *_native.census(system._problem, bars, whole("threads", threads), callback))

@@ -79,7 +79,9 @@ class Error(Exception):
 
     def __str__(self) -> str:
         message = str(self.args[0]) if self.args else ""
-        helps = self.__dict__.get("details", {}).get("help")
+        details = self.__dict__.get("details", {})
+        meant = details.get("suggestion")
+        helps = details.get("help") or (meant and f"did you mean `{meant}`?")
         return f"{message}\nhelp: {helps}" if helps else message
 
     def __reduce__(self) -> Any:
@@ -245,7 +247,7 @@ class NoLoad(Refused):
 
 
 class LoadOnAnchors(Refused):
-    """All loads rest on the anchors: every position is an equilibrium."""
+    """All loads rest on the supports: every position is an equilibrium."""
 
 
 class Unconnected(Refused):

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _native
 from ._numbers import Array, array
-from .errors import Error, SettingError
+from .errors import Error, InputError, SettingError
 from .rows import numbers_of
 from .system import System
 
@@ -183,7 +183,10 @@ def for_torch(system: System) -> Callable[[Mapping[str, Any]], tuple[Any, Any]]:
             return (None, *(torch.from_numpy(found[name]).to(t) for name, t in zip(ctx.names, tensors)))
 
     def function(numbers: Mapping[str, Any]) -> tuple[Any, Any]:
-        joints, axial = Equilibrium.apply(tuple(numbers), *numbers.values())
+        tensors = [torch.as_tensor(values) for values in numbers.values()]
+        if not tensors:
+            raise InputError(f"numbers are wanted: {', '.join(SHAPES)}", argument="numbers")
+        joints, axial = Equilibrium.apply(tuple(numbers), *tensors)
         return joints, axial
 
     return function

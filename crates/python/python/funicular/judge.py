@@ -15,7 +15,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
 from .evidence import Proofs, Record
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 
@@ -91,7 +91,7 @@ class Judgement(Result):
 
 
 def judge(
-    system: System,
+    system: Described,
     joints: Numbers | Mapping[Any, Vector],
     forces: Numbers | None = None,
     *,
@@ -123,6 +123,7 @@ def judge(
     >>> wrong.refuted, round(wrong.broken[0].value, 6)                 # bars 0.8 mm too long
     (True, 0.0008)
     """
+    system = described(system)
     if isinstance(joints, Mapping):
         names = system.joint_names
         given = {str(name): at for name, at in joints.items()}

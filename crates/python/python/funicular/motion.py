@@ -18,7 +18,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import SettingError
 from .plot import plot_mode
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 MOST_BYTES = 16e9
@@ -83,7 +83,7 @@ class Motion(Result):
 
 
 def simulate(
-    system: System,
+    system: Described,
     *,
     near: Numbers | None = None,
     start: Start = "rest",
@@ -91,7 +91,7 @@ def simulate(
     step: float = 1e-3,
     store: float | None = None,
     order: int = 2,
-    drag: float = 0.0,
+    damping: float = 0.0,
     friction: float = 0.0,
     pushes: Mapping[Any, Vector] | None = None,
     forces: Mapping[Any, Any] | None = None,
@@ -107,7 +107,7 @@ def simulate(
         vertical, degrees), ``seed:7`` (at random), or (joints, 3) places, m
     time, step, store : s; ``store`` is the time between stored times, a thousandth of the whole if not given
     order : 2, 4 or 8 in the step; 4 takes five times the work, 8 seventeen times
-    drag : 1/s, momentum falls at this rate; friction : N m s, in the joints
+    damping : of a medium, 1/s, momentum falls at this rate; friction : N m s, in the joints
     pushes : {joint: (3,) N s}, impulses at the beginning
     forces : {joint: (k, 4)}, forces over time, a row ``time_s, x_n, y_n, z_n`` for each of rising times: linear
         between them, zero before the first and after the last
@@ -134,6 +134,7 @@ def simulate(
     >>> bool(abs(m.velocities_m_s[-1, 0, 0] - 6) < 1e-3)
     True
     """
+    system = described(system)
     system = system._asked(near)
     word, joints = (start, None) if isinstance(start, str) else ("rest", array("start", start, ("joints", 3)))
     impulses = [(str(joint), vector(f"pushes[{joint!r}]", push)) for joint, push in (pushes or {}).items()]
@@ -147,7 +148,7 @@ def simulate(
             number("step", step),
             None if store is None else number("store", store),
             whole("order", order),
-            number("drag", drag),
+            number("damping", damping),
             number("friction", friction),
             impulses,
             _force_table(forces),
@@ -256,7 +257,7 @@ class ModesOf(Result):
 
 
 def modes(
-    system: System,
+    system: Described,
     *,
     near: Numbers | None = None,
     max_bars: int | None = None,
@@ -277,7 +278,7 @@ def modes(
     >>> len(rope.modes(lowest=30)[0].omega2_s2)
     30
     """
-    system = system._asked(near)
+    system = described(system)._asked(near)
     bars = None if max_bars is None else whole("max_bars", max_bars)
     count = None if lowest is None else whole("lowest", lowest)
     with shown(progress) as callback:

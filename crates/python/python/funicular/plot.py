@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import Error, InputError
+from .errors import Error, InputError, SettingError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,23 +38,37 @@ def _axes(ax: Any) -> Any:
     return _pyplot().figure().add_subplot() if ax is None else ax
 
 
-def plot(equilibrium: Equilibrium, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+VIEWS = {"front": ("x", "z"), "side": ("y", "z"), "top": ("x", "y")}
+"""The axes to the right and up that are seen from there."""
+
+
+def plot(
+    equilibrium: Equilibrium, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best"
+) -> Any:
     """Draw an equilibrium into axes of matplotlib (new ones if none are given), and return them.
 
-    ``space``: in three dimensions; if not said, where the joints lie in no vertical plane. ``forces``: members in the
-    colour and width of their axial force (blue pulls, orange pushes), reactions as arrows.
+    ``space``: in three dimensions; if not said, where the joints lie in no vertical plane. ``view``: from the
+    ``front``, the ``side`` or the ``top``, along an axis. ``forces``: members in the colour and width of their axial
+    force (blue pulls, orange pushes), reactions as arrows.
     """
+    if view != "best" and view not in VIEWS:
+        raise SettingError(f"view: best, {', '.join(VIEWS)} are allowed, not {view!r:.80}", setting="view", value=view)
     pyplot = _pyplot()
     joints = equilibrium.joints_m
-    level = _level(joints)
-    across = joints[:, :2] - joints[0, :2]
-    off = np.abs(across @ np.array([-level[1], level[0]])).max(initial=0.0)
+    if view in VIEWS:
+        space, seen = False, np.array([np.eye(3)["xyz".index(axis)] for axis in VIEWS[view]]).T
+        (right, up), origin = VIEWS[view], np.zeros(3)
+    else:
+        level = np.append(_level(joints), 0.0)
+        seen = np.column_stack([level, [0.0, 0.0, 1.0]])
+        (right, up), origin = ("level", "z"), joints[0] * [1.0, 1.0, 0.0]
     if space is None:
+        off = np.abs((joints - joints[0]) @ np.array([-level[1], level[0], 0.0])).max(initial=0.0)
         space = bool(off > FLAT * np.ptp(joints, axis=0).max())
     if ax is None:
         figure = pyplot.figure()
         ax = figure.add_subplot(projection="3d") if space else figure.add_subplot()
-    places = joints if space else np.column_stack([across @ level, joints[:, 2]])
+    places = joints if space else (joints - origin) @ seen
     largest = float(np.abs(equilibrium.axial_max_n).max(initial=0.0)) or 1.0
     for (a, b), axial in zip(equilibrium.system.member_joints, equilibrium.axial_max_n):
         line = places[[a, b]].T
@@ -65,11 +79,11 @@ def plot(equilibrium: Equilibrium, ax: Any = None, *, space: bool | None = None,
         ax.plot(*line, color=color, linewidth=1.0 + 3.0 * abs(axial) / largest, solid_capstyle="round")
     ax.plot(*places.T, linestyle="", marker="o", markersize=3, color="black")
     if forces:
-        _reactions(ax, equilibrium, places, level, space)
+        _reactions(ax, equilibrium, places, seen, space)
     if space:
         ax.set(xlabel="x / m", ylabel="y / m", zlabel="z / m")
     else:
-        ax.set(xlabel="level / m", ylabel="z / m")
+        ax.set(xlabel=f"{right} / m", ylabel=f"{up} / m")
     ax.set_aspect("equal")
     ax.set_title(equilibrium.system.name.replace("$", r"\$"))
     return ax
@@ -84,7 +98,7 @@ def _level(joints: Any) -> Any:
     return direction if direction[np.abs(direction).argmax()] > 0 else -direction
 
 
-def _reactions(ax: Any, equilibrium: Equilibrium, places: Any, level: Any, space: bool) -> None:
+def _reactions(ax: Any, equilibrium: Equilibrium, places: Any, seen: Any, space: bool) -> None:
     """Forces of the ground as arrows, the longest a quarter of the size of the system."""
     forces = equilibrium.reactions_n
     sizes = np.linalg.norm(forces, axis=1)
@@ -95,18 +109,18 @@ def _reactions(ax: Any, equilibrium: Equilibrium, places: Any, level: Any, space
     if space:
         ax.quiver(*places[held].T, *(scale * forces[held]).T, color="black", linewidth=1)
         return
-    flat = scale * np.column_stack([forces[held][:, :2] @ level, forces[held][:, 2]])
+    flat = scale * forces[held] @ seen
     units = {"angles": "xy", "scale_units": "xy", "scale": 1.0}
     ax.quiver(*places[held].T, *flat.T, color="black", width=0.004, **units)
 
 
-def plot_census(census: Census, most: int) -> Any:
+def plot_census(census: Census, most: int, view: str) -> Any:
     """The first equilibria side by side, each with its number and how many directions lead down from it."""
     shown = census.equilibria[:most]
     across = max(1, int(np.ceil(np.sqrt(len(shown)))))
     figure = _pyplot().figure(layout="constrained")
     for k, equilibrium in enumerate(shown):
-        ax = plot(equilibrium, figure.add_subplot(-(-len(shown) // across), across, k + 1), space=False)
+        ax = plot(equilibrium, figure.add_subplot(-(-len(shown) // across), across, k + 1), space=False, view=view)
         label = equilibrium.data.get("label", k + 1)
         ax.set_title(f"{label}: {equilibrium.energy_j:.4g} J, index {equilibrium.stability.index_in_space}")
     return figure

@@ -15,7 +15,7 @@ from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
 from .plot import plot_study
-from .system import System
+from .system import Described, System, described
 from .table import Table, read_csv
 
 
@@ -86,7 +86,7 @@ TEXTS = ("evidence", "lowest_joint", "refused")
 
 
 def study(
-    system: System,
+    system: Described,
     *vary: str,
     zip: bool = False,
     of: Sequence[str] = (),
@@ -101,6 +101,7 @@ def study(
 
     Raises ParameterError.
     """
+    system = described(system)
     with shown(progress) as callback:
         found = _native.study(
             system._problem,
@@ -134,7 +135,7 @@ class Gradient(Record):
         )
 
 
-def gradient(system: System, of: str, *, threads: int = 0, progress: Progress = None) -> Gradient:
+def gradient(system: Described, of: str, *, threads: int = 0, progress: Progress = None) -> Gradient:
     """The derivatives of one number of the equilibrium, ``joints.P.at_m.z`` or ``bars.2.axial_n``, by lengths, masses, stiffnesses,
     prestresses, forces and anchors, by ``lagrange``.
 
@@ -149,27 +150,30 @@ def gradient(system: System, of: str, *, threads: int = 0, progress: Progress = 
 
     Raises DerivativesError where ``of`` is no such number, Error where the equilibrium has no derivatives.
     """
+    system = described(system)
     with shown(progress) as callback:
         text = _native.derivatives(system._problem, str(of), None, whole("threads", threads), callback)
     return Gradient(json.loads(text))
 
 
-def change(system: System, by: str, *, threads: int = 0, progress: Progress = None) -> Record:
+def change(system: Described, by: str, *, threads: int = 0, progress: Progress = None) -> Record:
     """How the whole equilibrium changes by one parameter, such as ``bars.1.length_m`` or ``anchors.end_m.x``: ``unit``, ``joints_m``
     and ``reactions_n`` by name, ``axial_n``, each per unit of the parameter.
 
     Raises DerivativesError where there are no derivatives by it, Error where the equilibrium has none.
     """
+    system = described(system)
     with shown(progress) as callback:
         text = _native.derivatives(system._problem, None, str(by), whole("threads", threads), callback)
     return Record(json.loads(text))
 
 
-def anchor_stiffness(system: System, *, threads: int = 0, progress: Progress = None) -> list[Record]:
+def anchor_stiffness(system: Described, *, threads: int = 0, progress: Progress = None) -> list[Record]:
     """The stiffness matrices of all pairs of anchors: ``of``, ``by``, ``stiffness_n_m`` (3 lists of 3), N/m.
 
     Raises Error where the equilibrium has no derivatives, or an anchor cannot move alone.
     """
+    system = described(system)
     with shown(progress) as callback:
         text = _native.derivatives(system._problem, None, None, whole("threads", threads), callback)
     return [Record(pair) for pair in json.loads(text)]

@@ -15,7 +15,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
-from .system import System
+from .system import Described, System, described
 from .table import Table
 
 if TYPE_CHECKING:
@@ -87,10 +87,10 @@ class Sweep(Result):
 
 
 def sweep(
-    system: System,
+    system: Described,
     seeds: int,
     *,
-    number: int = 1,
+    seed: int = 1,
     spread: str = "uniform",
     solver: str = "both",
     out: str | PathLike[str] | None = None,
@@ -110,7 +110,7 @@ def sweep(
     Parameters
     ----------
     seeds : how many starts
-    number : what all starts come from; another number gives others
+    seed : what all starts come from; another number gives others
     spread : ``uniform``, ``sobol`` or ``grid``
     solver : ``both``, ``lagrange`` or ``energy``
     out : a folder for a row per start, ``format`` ``parquet`` or ``csv``; ``angles`` writes the starts, too;
@@ -126,7 +126,8 @@ def sweep(
     >>> fn.sweep(fn.System.case("two-bars"), 100)
     <Sweep of 'two bars': 100 starts, 2 equilibria>
     """
-    starts = (whole("seeds", seeds), whole("number", number), str(spread), str(solver))
+    system = described(system)
+    starts = (whole("seeds", seeds), whole("seed", seed), str(spread), str(solver))
     pool = whole("threads", threads)
     problem = system._problem
     if client is not None:

@@ -128,7 +128,12 @@ class System:
 
         Raises FileError when the file cannot be read or used.
         """
-        return cls._of(_native.Problem.read(path))
+        try:
+            return cls._of(_native.Problem.read(path))
+        except FileError as error:
+            if str(path) in _native.Problem.cases():
+                error.details["help"] = f"there is a case of that name: System.case({str(path)!r})"
+            raise
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> System:
@@ -458,6 +463,18 @@ class System:
 
         return study(self, *vary, **settings)
 
+    def derivatives(self, *, of: str | None = None, by: str | None = None, **settings: Any) -> Any:
+        """The derivatives ``of`` one number of the equilibrium by all parameters (:func:`funicular.gradient`), ``by`` one
+        parameter of all numbers (:func:`funicular.change`), or the stiffness of the anchors (:func:`funicular.anchor_stiffness`).
+        """
+        from .study import anchor_stiffness, change, gradient
+
+        if of is not None and by is not None:
+            raise InputError("derivatives: of or by, not both", argument="by")
+        if of is not None:
+            return gradient(self, of, **settings)
+        return anchor_stiffness(self, **settings) if by is None else change(self, by, **settings)
+
     def simulate(self, **settings: Any) -> Motion:
         """The system in motion. See :func:`funicular.simulate`."""
         from .motion import simulate
@@ -537,3 +554,17 @@ def _by_joint(argument: str, value: Any, shape: tuple[int, ...], numbers: Mappin
     if np.ndim(value) == 0:
         return np.full((count, *shape), number(argument, value))
     return array(argument, value, (count, *shape))
+
+
+Described = System | str | PathLike[str]
+"""A system, or the path of its file."""
+
+
+def described(system: Described) -> System:
+    """The system itself, or that of the file."""
+    if isinstance(system, (str, PathLike)):
+        return System.read(system)
+    if isinstance(system, System):
+        return system
+    message = f"a system, or the path of a system file, is wanted, not {type(system).__name__}"
+    raise InputError(message, argument="system")

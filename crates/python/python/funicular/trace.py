@@ -11,7 +11,7 @@ from ._progress import Progress, shown
 from ._result import Result, printable
 from .evidence import Record
 from .plot import plot_trace
-from .system import System
+from .system import Described, System, described
 from .table import Table, read_csv
 
 
@@ -67,12 +67,13 @@ COUNTS = ("path", "branch", "grid", "event", "index_in_plane", "index_in_space")
 
 
 def trace(
-    system: System, *vary: str, max_points: int | None = None, threads: int = 0, progress: Progress = None
+    system: Described, *vary: str, max_points: int | None = None, threads: int = 0, progress: Progress = None
 ) -> Trace:
     """Follow all equilibria of a chain over numbers of its system file, such as ``anchors.end_m.z=-2.9..-0.1:500``.
 
     Raises ParameterError, ChainsOnly, NoCensus (longer chains than a census takes), TraceError.
     """
+    system = described(system)
     points = None if max_points is None else whole("max_points", max_points)
     with shown(progress) as callback:
         found = _native.trace(system._problem, list(map(str, vary)), points, whole("threads", threads), callback)

@@ -38,6 +38,17 @@ fn the_golden_copy_is_what_comes_out() {
 }
 
 #[test]
+fn links_of_the_markdown_lead_to_a_heading() {
+    let markdown = REPORT.markdown();
+    let links: Vec<_> =
+        markdown.split("](#").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(!links.is_empty());
+    for link in links {
+        assert!(markdown.contains(&format!("# <a id=\"{link}\"></a>")), "#{link} leads nowhere");
+    }
+}
+
+#[test]
 fn every_equation_has_a_verdict_and_every_verdict_a_number() {
     let judged = judged(&REPORT.reproduction().equations);
     assert_eq!(judged.len(), 41 + 26);
@@ -187,7 +198,7 @@ fn only_the_last_part_knows_where_it_was_made() {
     let golden = REPORT.golden();
     let markdown = REPORT.markdown();
     let run = markdown.strip_prefix(&golden).unwrap();
-    assert!(run.contains("## This run") && run.contains("`funicular reproduce --out report`"));
+    assert!(run.contains("</a>This run") && run.contains("`funicular reproduce --out report`"));
     assert!(run.contains("rustc ") && run.contains("nalgebra "));
     assert!(
         !golden.contains("rustc ") && !golden.contains("e-1"),

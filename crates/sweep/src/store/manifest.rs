@@ -68,7 +68,7 @@ pub struct Release {
     /// Time between two looks at whether it is at rest, s.
     pub span_s: f64,
     /// Drag of a medium, 1/s.
-    pub drag_1_s: f64,
+    pub damping_1_s: f64,
     /// Friction in the joints, N m s.
     pub friction_n_m_s: f64,
     /// Order of the steps: 2, 4 or 8.

@@ -214,8 +214,10 @@ impl Judgement {
         let rounded = digits::places(moving.flat_map(|(_, at_m)| *at_m)).and_then(|places| {
             let unit_m = 0.1_f64.powi(i32::try_from(places).ok()?);
             // Half a unit in every direction.
-            let explained =
-                self.nearest()?.joints_m <= 0.5 * 3.0_f64.sqrt() * unit_m * (1.0 + STORED);
+            // More than the tolerance allows, else something other than the places is wrong.
+            let explained = self.nearest()?.joints_m
+                <= 0.5 * 3.0_f64.sqrt() * unit_m * (1.0 + STORED)
+                && unit_m > self.bounds.position_m;
             explained.then(|| format!("Positions look rounded to {unit_m:.places$} m: "))
         });
         let capital = || format!("W{}", &confirmed[1..]);

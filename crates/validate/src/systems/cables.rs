@@ -2,7 +2,7 @@
 //!
 //! Hang a cable in the place of every bar, and the least energy is a convex problem, whatever the system:
 //!
-//! $$ \min_{x,\,e}\; \sum_m \tfrac{k_m}{2} e_m^2 - \sum_j f_j \cdot x_j \quad\text{with}\quad
+//! $$ \min_{x,\\,e}\\; \sum_m \tfrac{k_m}{2} e_m^2 - \sum_j f_j \cdot x_j \quad\text{with}\quad
 //!    |x_b - x_a| \le l_m + e_m, \quad z_j \ge h, $$
 //!
 //! with an elongation $e$ for elastic members alone and a floor at $h$ if there is one. clarabel's interior point method solves

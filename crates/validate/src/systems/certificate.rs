@@ -26,7 +26,7 @@
 //!
 //! # Rounding
 //!
-//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\, I$ in floating
+//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\\, I$ in floating
 //! point that runs to its end, and by what the rows of its factor say of its rounding (module
 //! `definite`). The larger $c$, the smaller what the gradient costs: $c$ is as large as the gap
 //! needs, where the matrix allows, else as small as rounding does.

@@ -27,7 +27,7 @@
 //!
 //! Two passes over the factor give that number. It knows the matrix by the longest row of its
 //! factor and not by its size: in a plane net of $n$ joints a row has some $\sqrt n$ entries, in a
-//! chain two. The bound by the trace, $\gamma_{n + 1}\,\mathrm{tr}(A)$, is larger by the number of
+//! chain two. The bound by the trace, $\gamma_{n + 1}\\,\mathrm{tr}(A)$, is larger by the number of
 //! joints and more.
 //!
 //! Underflow adds at most [`TINY`] times the largest entry to each operation.

@@ -4,11 +4,11 @@
 //! order are the kernel of the rigidity matrix $R$, the axial forces that balance without loads the
 //! kernel of its transpose. A motion $v$ of that kernel changes the energy by
 //!
-//! $$ \tfrac12 \sum_e w_e\,|v_b - v_a|^2, \qquad w_e = N_e/d_e , $$
+//! $$ \tfrac12 \sum_e w_e\\,|v_b - v_a|^2, \qquad w_e = N_e/d_e , $$
 //!
 //! to second order, whatever the stiffnesses. A framework is *prestress stable* where a stress that
 //! its members can bear (cables pull, struts push) makes this positive for every such motion. It is
-//! *super stable* where the stress matrix $\Omega = C^T \mathrm{diag}(w)\,C$ over all joints is
+//! *super stable* where the stress matrix $\Omega = C^T \mathrm{diag}(w)\\,C$ over all joints is
 //! positive semidefinite with no more than the affine motions in its kernel, and no affine motion
 //! keeps all lengths: then no other shape of its members exists in any dimension.
 //!

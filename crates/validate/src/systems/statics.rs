@@ -4,7 +4,7 @@
 //! and the loads between them, which act at fixed parts `a/l` of its length:
 //!
 //! $$ S + E + \sum P = 0, \qquad
-//!    d \times E + \sum \frac{a}{l}\, d \times P = 0, \qquad d = x_b - x_a . $$
+//!    d \times E + \sum \frac{a}{l}\\, d \times P = 0, \qquad d = x_b - x_a . $$
 //!
 //! A joint feels the opposites of these end forces, its own load and the force of its support. The
 //! axial force is that of the member with its loads lumped to its joints by the lever rule,

@@ -81,7 +81,7 @@ fn released_with_damping_the_papers_chain_comes_to_rest_on_the_circle_of_its_lea
         .max_by(|a, b| a.energy_j.total_cmp(&b.energy_j))
         .unwrap()
         .joints_m;
-    let settings = Settings { drag_1_s: 3.0, ..Settings::default() };
+    let settings = Settings { damping_1_s: 3.0, ..Settings::default() };
     let ends: Vec<(f64, f64)> = (0..seeds)
         .into_par_iter()
         .map(|seed| {

@@ -52,8 +52,8 @@ pub struct Sweep {
     pub seed: u64,
     /// How the starts are spread: over the angles of a chain's bars; of any other system its joints start
     /// at random in space (uniform)
-    #[arg(long, value_enum, default_value_t = Spread::Uniform)]
-    pub source: Spread,
+    #[arg(long, alias = "source", value_enum, default_value_t = Spread::Uniform)]
+    pub spread: Spread,
     /// Which solver
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,

@@ -152,10 +152,11 @@ fn too_low_with_forces() {
     let left_x = -1.8 * pulls[0] + 3.2 * pulls[1];
     let left_z = 2.5 * pulls[0] + 2.5 * pulls[1] - 20.0;
     output.is("forces", "given");
-    output.is("violations[].place.joint", 2);
+    // Counts begin at 1.
+    output.is("violations[].place.joint", 3);
     output.is("violations[].law", json!(["length", "length", "balance"]));
     output.is("violations[].left_n[]", json!([left_x, 0.0, left_z]));
-    output.is("broken[].place.joint", 2);
+    output.is("broken[].place.joint", 3);
     output.is("broken[].left_n[]", json!([left_x, 0.0, left_z]));
     // Over the load at the joint; and over all forces from outside together: 16, 12 and 20 N.
     let left = left_x.hypot(left_z);

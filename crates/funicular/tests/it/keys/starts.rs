@@ -72,7 +72,7 @@ impl Rows {
         let counts: Vec<f64> = found.iter().map(|(_, rows)| rows.len() as f64).collect();
         output.is(&at("outcome"), found.iter().map(|(outcome, _)| *outcome).collect::<Vec<_>>());
         let meaning: Vec<String> =
-            found.iter().map(|(outcome, _)| format!("equilibrium {outcome}")).collect();
+            found.iter().map(|(outcome, _)| format!("equilibrium {}", outcome + 1.0)).collect();
         output.is(&at("meaning"), meaning);
         output.is(&at("count"), counts.clone());
         let rates: Vec<f64> = counts.iter().map(|count| count / all).collect();
@@ -411,7 +411,7 @@ fn releases() {
     output.is("release.step_s", 0.02);
     // Four steps.
     output.is("release.span_s", 0.08);
-    output.is("release.drag_1_s", 3.0);
+    output.is("release.damping_1_s", 3.0);
     output.is("release.friction_n_m_s", 0.0);
     output.is("release.order", 2);
     output.is("release.rest", 1e-7);

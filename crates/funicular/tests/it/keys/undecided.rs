@@ -166,8 +166,8 @@ fn four_merge() {
     output.each(&event("energy_j"), -30.0);
     output.within(&event("residual"), 0.0..=NOTHING);
     output.within(&event("singular"), 0.0..=NOTHING);
-    output.is(&event("branches[]"), json!([2, 3, 4, 5, 3, 4]));
-    output.is("traces[].branches[].start.event", json!([0, 0, 0, 0]));
+    output.is(&event("branches[]"), json!([3, 4, 5, 6, 4, 5]));
+    output.is("traces[].branches[].start.event", json!([1, 1, 1, 1]));
     output.is("traces[].checks.mismatches[]", json!([]));
     output.done();
 }

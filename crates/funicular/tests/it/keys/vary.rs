@@ -283,7 +283,7 @@ fn branches_over_gravity() {
     output.each(&at("points[].circles"), false);
     output.each(&at("points[].families"), 0);
     output.each(&at("directions[][]"), json!([1.0, 0.0]));
-    output.is(&at("branches[].id"), json!([0, 1]));
+    output.is(&at("branches[].id"), json!([1, 2]));
     output.each(&at("branches[].start"), "path");
     output.each(&at("branches[].end"), "path");
     output.is(&at("events[]"), json!([]));
@@ -310,7 +310,7 @@ fn branches_over_gravity() {
     };
     output.is(&at("values[]"), each(&|_, w| json!(w)));
     output.each(&at("span_m"), 1.0);
-    output.is(&at("grid"), json!([0, 1, 0, 1]));
+    output.is(&at("grid"), json!([1, 2, 1, 2]));
     let ends = |position: &f64| position.rem_euclid(1.0).abs() <= 0.0;
     output.is(&at("proved"), positions.iter().map(ends).collect::<Vec<_>>());
     let down = 0.1 * H;
@@ -332,7 +332,7 @@ fn columns_of_branches(text: &str) {
     let positions = output.numbers("position");
     let each = |of: &dyn Fn(f64, f64) -> Value| -> Value {
         let rows = branches.iter().zip(&positions);
-        rows.map(|(branch, at)| of(1.0 - 2.0 * branch, 10.0 + 10.0 * at)).collect()
+        rows.map(|(branch, at)| of(3.0 - 2.0 * branch, 10.0 + 10.0 * at)).collect()
     };
     output.each("path", 1);
     output.is("gravity_m_s2", each(&|_, w| json!(w)));
@@ -342,7 +342,7 @@ fn columns_of_branches(text: &str) {
     let grid: Vec<Value> = positions
         .iter()
         .zip(&ends)
-        .map(|(at, end)| if *end { json!(at) } else { json!("") })
+        .map(|(at, end)| if *end { json!(at + 1.0) } else { json!("") })
         .collect();
     output.is("grid", grid);
     output.each("event", "");
@@ -368,7 +368,7 @@ fn folds_of_the_level_chain() {
     let text = good(folder.path(), &[&arguments[..], &more].concat());
     let mut output = Output::json("trace", "folds_of_the_level_chain", &text);
     let at = |key: &str| format!("traces[].events[].{key}");
-    output.is(&at("id"), json!([0, 1, 2, 3, 4]));
+    output.is(&at("id"), json!([1, 2, 3, 4, 5]));
     output.is(&at("kind"), json!(["fold", "fold", "fold", "fold", "straight"]));
     let span = 1.5_f64.sqrt();
     let spans = [span, span, span, span, 3.0];
@@ -411,11 +411,11 @@ fn folds_of_the_level_chain() {
     // Its last point says so, too.
     assert_eq!(output.numbers("traces[].branches[].points[].event"), ends);
     for (k, pair) in named.chunks(2).enumerate() {
-        let count = ends.iter().filter(|event| (*event - k as f64).abs() < 0.5).count();
+        let count = ends.iter().filter(|event| (*event - (k + 1) as f64).abs() < 0.5).count();
         assert!(count == 2 && pair[0] < pair[1], "{named:?} {ends:?}");
     }
     // The two that are left end where the chain is straight.
-    assert!(named[8].abs() < 0.5 && (named[9] - 9.0).abs() < 0.5, "{named:?}");
+    assert!((named[8] - 1.0).abs() < 0.5 && (named[9] - 10.0).abs() < 0.5, "{named:?}");
     output.is("traces[].points[].status", json!(["complete", "complete", "refused"]));
     output.is("traces[].points[].count", json!([10, 2]));
     let reason = "the anchors are 4 m apart and the bars reach only 3 m: 1 m are missing";

@@ -5,7 +5,7 @@
 //! i off the vertical by $H/|F_i|$, which takes $l_i H^2/(2 F_i^2)$ off its height, and both
 //! strands must lose the same,
 //!
-//! $$ \sum_i l_i\, \mathrm{sign}(F_i)/F_i^2 = 0, $$
+//! $$ \sum_i l_i\\, \mathrm{sign}(F_i)/F_i^2 = 0, $$
 //!
 //! a monotone function of the force at the bottom, with a pole at either end of its range.
 

@@ -5,7 +5,7 @@
 //! $F_1 = \tau_1 (x, z)$, $F_2 = \tau_2 (D_h - x, D_z - z)$, $F_2 - F_1 = w e_z$: the moments of the
 //! load about the anchors,
 //!
-//! $$ \tau_1 = w\,\frac{D_h - x}{K}, \qquad \tau_2 = w\,\frac{x}{K}, \qquad K = x D_z - z D_h , $$
+//! $$ \tau_1 = w\\,\frac{D_h - x}{K}, \qquad \tau_2 = w\\,\frac{x}{K}, \qquad K = x D_z - z D_h , $$
 //!
 //! K being twice the area between bars and anchors, which follows from the lengths (Heron). A
 //! closure that is summed up from the bars holds a rounding of their length, and the distance of

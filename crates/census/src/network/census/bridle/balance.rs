@@ -6,8 +6,8 @@
 //! known. With b, what the forces that are bounded leave of the load, and one, two or three forces
 //! without bound,
 //!
-//! $$ d_1 \times b = 0; \qquad w_1\,(b \times d_2) = d_1 \times d_2, \quad
-//!    w_2\,(d_1 \times b) = d_1 \times d_2; \qquad
+//! $$ d_1 \times b = 0; \qquad w_1\\,(b \times d_2) = d_1 \times d_2, \quad
+//!    w_2\\,(d_1 \times b) = d_1 \times d_2; \qquad
 //!    w_1 \det(b, d_2, d_3) = \det(d_1, d_2, d_3), \dots $$
 //!
 //! hold for every equilibrium, by Cramer's rule.

@@ -53,7 +53,7 @@ const SHORT: usize = 2;
 const MOST_STRANDS: usize = 3;
 
 /// Processor time of the census of a bridle of three strands of so many bars together, s: 3 s ·
-/// 2^(n − 9), good to an order of magnitude (`examples/bridle_speed.rs`): strands of four bars each
+/// 2^(n − 9), good to an order of magnitude (`examples/bridle_census.rs`): strands of four bars each
 /// take longer than that.
 ///
 /// ```

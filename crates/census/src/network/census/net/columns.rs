@@ -1,8 +1,8 @@
 //! Forces that are not known: the densities of bars between knots, and the tensions of swings that
 //! may lie straight, as unknowns of the linear balance of the knots.
 //!
-//! Over a box of places the balance is $C\,t + g = 0$ with a matrix C of intervals. With Y near the
-//! left inverse of its middle, $t = -Y g + (I - Y C)\,t$: so $|t|_\infty \le |Y g|_\infty/(1 -
+//! Over a box of places the balance is $C\\,t + g = 0$ with a matrix C of intervals. With Y near the
+//! left inverse of its middle, $t = -Y g + (I - Y C)\\,t$: so $|t|_\infty \le |Y g|_\infty/(1 -
 //! \|I - Y C\|_\infty)$, and the map narrows that. What a projection that takes out the middle of C
 //! leaves of the balance must vanish too.
 

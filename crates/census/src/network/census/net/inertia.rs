@@ -2,7 +2,7 @@
 //!
 //! The second derivative of the Lagrangian, bordered by that of the lengths,
 //!
-//! $$ K = \begin{pmatrix} \Omega & R^T \\ R & 0 \end{pmatrix}, $$
+//! $$ K = \begin{pmatrix} \Omega & R^T \\\\ R & 0 \end{pmatrix}, $$
 //!
 //! has as many negative eigenvalues as there are lengths and directions in which the energy falls
 //! together, where K is regular. With Q next to its eigenvectors $Q^T K Q$ is all but diagonal:

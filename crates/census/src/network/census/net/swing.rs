@@ -3,14 +3,14 @@
 //! The joint P hangs on bars of the lengths $l_1$ to a and $l_2$ to b; $c = b - a$, $q = |c|^2$. It
 //! lies on a circle about the line through a and b (in a plane, at two points),
 //!
-//! $$ P = a + \alpha c + \sigma h\,n, \qquad \alpha = \frac12 + \frac{l_1^2 - l_2^2}{2q}, \qquad
+//! $$ P = a + \alpha c + \sigma h\\,n, \qquad \alpha = \frac12 + \frac{l_1^2 - l_2^2}{2q}, \qquad
 //!    h^2 = \frac{((l_1 + l_2)^2 - q)(q - (l_1 - l_2)^2)}{4q}. $$
 //!
 //! With its load f, $\varrho = f\cdot c/q$ and $f_\perp = f - \varrho c$, balance across the line
 //! asks in space for $n = f_\perp/|f_\perp|$, and then the bars pull at b with
 //!
-//! $$ G_b = (1 - \alpha)\varrho\,c + \alpha f_\perp - \sigma\Bigl(\tau c
-//!    + \varrho\,h\,n\Bigr), \qquad \tau = \frac{|f_\perp|\,\alpha(1 - \alpha)}{h}, $$
+//! $$ G_b = (1 - \alpha)\varrho\\,c + \alpha f_\perp - \sigma\Bigl(\tau c
+//!    + \varrho\\,h\\,n\Bigr), \qquad \tau = \frac{|f_\perp|\\,\alpha(1 - \alpha)}{h}, $$
 //!
 //! and at a with $G_a = f - G_b$; in a plane n is the normal of c and $|f_\perp|$ is
 //! $f\cdot n$, of either sign. The force densities are $w_1 = \sigma |f_\perp|(1 - \alpha)/h +

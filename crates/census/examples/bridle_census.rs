@@ -1,6 +1,6 @@
 //! How long the census of a bridle of three strands takes, by the number of its bars.
 //!
-//! `cargo run --profile dist -p census --example bridle_speed [most bars]`
+//! `cargo run --profile dist -p census --example bridle_census [most bars]`
 
 use std::time::Instant;
 
