@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use formats::ForceTable;
 use model::Vector;
+use model::budget::BYTES_PER_MEMBER;
 use model::system::{Kind, System};
 use motion::{Order, Settings, Simulation, Snapshot};
 
@@ -295,6 +296,7 @@ impl Simulate {
         each: &mut dyn FnMut(&Snapshot) -> ControlFlow<()>,
     ) -> Result<Motion, Error> {
         let (steps, every) = self.steps()?;
+        problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         let at = self.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
