@@ -340,3 +340,17 @@ fn wrap(angle: f64) -> f64 {
     let turned = angle.rem_euclid(TAU);
     if turned > PI { turned - TAU } else { turned }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn angles_are_shown_between_half_a_turn_either_way() {
+        for (angle, wanted) in
+            [(PI, PI), (-PI, PI), (4.0, 4.0 - TAU), (-4.0, TAU - 4.0), (7.0, 7.0 - TAU), (0.5, 0.5)]
+        {
+            assert!((super::wrap(angle) - wanted).abs() < 1e-15, "{angle}");
+        }
+    }
+}

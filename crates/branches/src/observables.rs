@@ -125,3 +125,29 @@ fn out_of_plane(plane: &PlanarChain, along: &[f64]) -> (usize, f64) {
     }
     (values.iter().filter(|value| **value < 0.0).count(), values.iter().product())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One joint between bars of 2 m and 5 m that bear 3 N and -4 N: its density is 3/2 - 4/5. Two joints
+    /// have the determinant of [[a + b, -b], [-b, b + c]], ab + ac + bc.
+    #[test]
+    fn densities_are_forces_over_lengths() {
+        let plane = |length: &[f64]| PlanarChain {
+            length: length.to_vec(),
+            weight: vec![0.0; length.len()],
+            span: [1.0, 0.0],
+            length_unit_m: 1.0,
+            force_unit_n: 1.0,
+            offset_n: 0.0,
+            total_n: 1.0,
+        };
+        let (index, determinant) = out_of_plane(&plane(&[2.0, 5.0]), &[3.0, -4.0]);
+        assert!(index == 0 && (determinant - 0.7).abs() < 1e-15, "{determinant}");
+        let (index, determinant) = out_of_plane(&plane(&[2.0, 5.0, 0.5]), &[3.0, -4.0, 0.25]);
+        let [a, b, c] = [1.5, -0.8, 0.5];
+        assert!((determinant - (a * b + a * c + b * c)).abs() < 1e-14, "{determinant}");
+        assert_eq!(index, 1);
+    }
+}

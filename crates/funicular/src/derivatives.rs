@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use branches::{BarField, Base, JointField, Number, Which};
 use lagrange::network::{self, Gradient, Settings};
 use model::Vector;
+use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
@@ -145,6 +146,7 @@ impl Derivatives {
     ///
     /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
+        problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         system.refusal()?;
         let settings = Settings::default();

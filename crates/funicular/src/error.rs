@@ -10,6 +10,10 @@ pub enum Error {
     /// Occurs when a system file cannot be read, or describes no problem.
     #[error(transparent)]
     File(#[from] model::system_file::SystemFileError),
+    /// Occurs when more memory is needed than there may be: see
+    /// [`limit_memory`](model::system_file::limit_memory).
+    #[error(transparent)]
+    Memory(#[from] model::budget::OutOfMemory),
     /// Occurs when a number of a bar is out of range.
     #[error(transparent)]
     Bar(#[from] model::BarError),

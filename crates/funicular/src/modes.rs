@@ -1,6 +1,7 @@
 //! Small oscillations about equilibria.
 
 use model::Vector;
+use model::budget::{BYTES_PER_MEMBER_IN_MODES, BYTES_PER_MODE};
 use model::system::System;
 use motion::{Direction, What};
 use serde::Serialize;
@@ -104,6 +105,8 @@ impl Modes {
     /// [`Solve`](crate::Solve).
     pub fn run(&self, problem: &Problem) -> Result<ModesAnswer, Error> {
         threads::on(self.threads, || {
+            let modes = self.lowest.unwrap_or(LOWEST) as u64;
+            problem.fits(BYTES_PER_MEMBER_IN_MODES + modes.saturating_mul(BYTES_PER_MODE))?;
             let found = equilibria::all(problem, self.max_bars)?;
             let system = system_of(problem);
             let equilibria = found

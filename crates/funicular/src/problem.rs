@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use model::Vector;
+use model::budget::Budget;
 use model::system::System;
 use model::system_file::{self, Described, Readers, Rows};
 
@@ -120,6 +121,15 @@ impl Problem {
             Kind::Chain(problem) => Some(problem),
             Kind::System(_, row) => row.as_deref(),
         }
+    }
+
+    /// Refuse what would need more memory than readers may ask for, at so many bytes for each member.
+    pub(crate) fn fits(&self, each: u64) -> Result<(), Error> {
+        let members = match &self.0 {
+            Kind::Chain(problem) => problem.chain().bars().len(),
+            Kind::System(system, _) => system.members().len(),
+        };
+        Ok(Budget::default().fits_members(members, each)?)
     }
 
     /// The same problem with another question: the equilibrium next to this shape, a place for every

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::mass_range::{TWO_DOUBLES, too_wide};
+use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{Bar, Vector, sum};
 
@@ -175,9 +175,7 @@ impl Chain {
                 return Err(ChainError::Underflow { quantity, total });
             }
         }
-        if let Some((lightest_kg, heaviest_kg)) =
-            too_wide(bars.iter().map(Bar::mass_kg), TWO_DOUBLES)
-        {
+        if let Some((lightest_kg, heaviest_kg)) = too_wide(bars.iter().map(Bar::mass_kg)) {
             return Err(ChainError::MassRange { lightest_kg, heaviest_kg });
         }
         let name = name.into();

@@ -1,19 +1,14 @@
-//! Masses too far apart for the arithmetic that is used.
+//! Masses too far apart for doubles.
 
-/// Half a unit in the last place of a double-double: what is less is lost in the rounding of a sum even
-/// where solvers compute with twice the digits of a double, as they do for a row of bars.
-pub(crate) const TWO_DOUBLES: f64 = 0.25 * f64::EPSILON * f64::EPSILON;
+/// Half a unit in the last place of a double: what is less is lost in the rounding of a sum.
+const LOST: f64 = 0.5 * f64::EPSILON;
 
-/// The same of a double, in which nets and trees are solved.
-pub(crate) const DOUBLE: f64 = 0.5 * f64::EPSILON;
-
-/// The lightest and the heaviest of these masses, kg, where the lightest is this part of the heaviest
-/// or less: lost in its rounding, so that a balance of both would not contain it. Massless parts do not
-/// count.
-pub(crate) fn too_wide(masses_kg: impl IntoIterator<Item = f64>, lost: f64) -> Option<(f64, f64)> {
+/// The lightest and the heaviest of these masses, kg, where the lightest is lost in the rounding of the
+/// heaviest, so that a balance of both would not contain it. Massless parts do not count.
+pub(crate) fn too_wide(masses_kg: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     let (lightest, heaviest) = masses_kg
         .into_iter()
         .filter(|mass_kg| *mass_kg > 0.0)
         .fold((f64::INFINITY, 0.0_f64), |(low, high), kg| (low.min(kg), high.max(kg)));
-    (lightest <= lost * heaviest).then_some((lightest, heaviest))
+    (lightest <= LOST * heaviest).then_some((lightest, heaviest))
 }

@@ -151,3 +151,27 @@ pub(crate) fn check_forces(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::Bar;
+    use model::system::Member;
+
+    /// A member that is off its length by less than equilibria are is taut, one that has more to spare
+    /// is not: cables too short, struts too long.
+    #[test]
+    fn what_spares_more_than_rounding_is_slack() {
+        for (kind, sign) in [(Kind::Cable, -1.0), (Kind::Strut, 1.0)] {
+            for (part, holds) in [(0.5, true), (-3.0, true), (2.0, false)] {
+                let member =
+                    Member { kind, ..Member::bar(0, 1, Bar::homogeneous(2.0, 1.0).unwrap()) };
+                let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
+                let system = System::new("", 9.81, joints, vec![member]).unwrap();
+                let at = [[0.0; 3], [0.0, 0.0, -2.0 * (1.0 + sign * part * LENGTHS)]];
+                let found = with_what_holds(&system, &at).unwrap().members()[0].kind;
+                assert_eq!(found == Kind::Bar, holds, "{kind:?} {part}");
+            }
+        }
+    }
+}

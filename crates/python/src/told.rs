@@ -237,9 +237,6 @@ fn system_refused(refusal: &SystemRefusal) -> Parts {
         SystemRefusal::NothingMoves => ("NothingMoves", vec![]),
         SystemRefusal::NoLoad => ("NoLoad", vec![]),
         SystemRefusal::LoadOnAnchors => ("LoadOnAnchors", vec![]),
-        SystemRefusal::MassRange { lightest_kg, heaviest_kg } => {
-            ("Refused", fields!(lightest_kg, heaviest_kg))
-        }
         SystemRefusal::OutOfReach { from, to, distance_m, reach_m, .. } => {
             let (span_m, total_length_m) = (*distance_m, *reach_m);
             let (from_joint, to_joint, missing_m) = (from, to, span_m - total_length_m);

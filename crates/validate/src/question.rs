@@ -15,8 +15,9 @@ pub struct Question {
     /// How many threads `lagrange` uses for one long chain; the answer does not depend on it.
     /// Default one. (A census runs on the threads of rayon's pool.)
     pub threads: NonZeroUsize,
-    /// Work that each solver may do for a system that is no row between two anchors, numbers in all
-    /// factors of its matrices. Default what its own settings say.
+    /// Work that each solver may do, iterations times size: numbers in all factors of its matrices;
+    /// bars times passes where a row between two anchors needs none. Default what its own settings
+    /// say.
     pub max_work: Option<NonZeroU64>,
 }
 
@@ -24,15 +25,22 @@ impl Question {
     /// Settings of `lagrange` with the work that it may do.
     pub(crate) fn lagrange(&self) -> lagrange::network::Settings {
         let usual = lagrange::network::Settings::default();
-        let max_work = self.max_work.map_or(usual.max_work, NonZeroU64::get);
-        lagrange::network::Settings { max_work, ..usual }
+        lagrange::network::Settings { max_work: self.work(), ..usual }
     }
 
     /// The same of `energy`.
     pub(crate) fn energy(&self) -> energy::network::Settings {
         let usual = energy::network::Settings::default();
-        let max_work = self.max_work.map_or(usual.max_work, NonZeroU64::get);
-        energy::network::Settings { max_work, ..usual }
+        energy::network::Settings { max_work: self.work(), ..usual }
+    }
+
+    /// Passes over a chain of so many bars that the work allows, of this many at most.
+    pub(crate) fn passes(&self, bars: usize, most: u64) -> u64 {
+        (self.work() / bars as u64).clamp(1, most)
+    }
+
+    fn work(&self) -> u64 {
+        self.max_work.map_or_else(model::budget::max_work, NonZeroU64::get)
     }
 }
 

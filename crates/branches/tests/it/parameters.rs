@@ -5,6 +5,8 @@ use branches::{
     Variation,
 };
 use model::Chain;
+use model::system::System;
+use model::system_file::Described;
 
 fn vary(text: &str) -> Parameter {
     text.parse().unwrap_or_else(|error| panic!("{error}"))
@@ -153,4 +155,51 @@ fn more_points_than_memory_are_refused() {
     let watched = |_| panic!("a census was taken");
     let error = Continuation::follow(&variation.unwrap(), 0, &settings, &watched).unwrap_err();
     assert_eq!(error, ContinuationError::TooManyPoints { points: 101, most: 100 });
+}
+
+/// A bar, then a row of two between the same anchors, written the other way round: `B-A`.
+const ROWS: &str = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\nP = { mass_kg = 1 }\n\
+    [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 2\nmass_kg = 1\n\
+    [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 3\nmass_kg = 2\n\
+    [[bars]]\nfrom = \"B\"\nto = \"A\"\nlength_m = 0.7\nmass_kg = 0.5\ncount = 3\n";
+
+/// Numbers of the bars of a system count as its members do, and a row is called by its ends in their order.
+#[test]
+fn paths_reach_the_bars_of_a_system() {
+    let Ok(Described::System(system)) = model::system_file::parse(ROWS, "rows.toml") else {
+        panic!("a system")
+    };
+    for (path, changed) in [
+        ("bars.1.mass_kg", 1..2),
+        ("bars.2.mass_kg", 2..3),
+        ("bars.5.mass_kg", 5..6),
+        ("bars.P-B.mass_kg", 2..3),
+        ("bars.B-A.mass_kg", 3..6),
+        ("bars.*.mass_kg", 1..6),
+    ] {
+        let variation =
+            Variation::new(system.clone(), &[vary(&format!("{path}=9"))], Combine::Product);
+        let varied = variation.unwrap_or_else(|error| panic!("{error}")).system(&[9.0]).unwrap();
+        for (k, member) in varied.members().iter().enumerate() {
+            let is_nine = (member.body.mass_kg() - 9.0).abs() < 1e-15;
+            assert_eq!(is_nine, changed.contains(&(k + 1)), "{path}: member {}", k + 1);
+        }
+    }
+    for path in ["bars.B-P.mass_kg=9", "bars.A-B.mass_kg=9", "bars.6.mass_kg=9"] {
+        assert!(Variation::new(system.clone(), &[vary(path)], Combine::Product).is_err(), "{path}");
+    }
+}
+
+/// The anchors of a chain as a system are its first and its last joint.
+#[test]
+fn the_anchors_of_a_row_of_joints_move() {
+    let system = System::from(&paper());
+    for (path, moved) in [("anchors.start_m.y=0.5", 0), ("anchors.end_m.y=0.5", 3)] {
+        let variation = Variation::new(system.clone(), &[vary(path)], Combine::Product).unwrap();
+        let found = variation.system(&[0.5]).unwrap();
+        for (k, joint) in found.joints().iter().enumerate() {
+            let is_moved = joint.support.at_m().is_some_and(|at_m| at_m[1] > 0.0);
+            assert_eq!(is_moved, k == moved, "{path}: joint {k}");
+        }
+    }
 }

@@ -437,3 +437,41 @@ fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f
     }
     changed
 }
+
+#[cfg(test)]
+mod tests {
+    use model::system::{Joint, Member, System};
+    use model::{Bar, Vector};
+
+    use super::*;
+
+    /// A slack strut that is as long as it can be is taken back where it would push, not where it would pull;
+    /// and a misfit counts in units of what it may be.
+    #[test]
+    fn a_strut_that_pushes_is_taken_back() {
+        let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
+        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q")];
+        let strut = Member { kind: Kind::Strut, ..Member::bar(1, 2, bar(0.5)) };
+        let members = vec![Member::bar(0, 1, bar(1.0)), strut];
+        let system = System::new("row", 10.0, joints, members).unwrap();
+        let frame = Frame::new(&system).unwrap();
+        let [x, y, z] = frame.supports[0];
+        let (first, second) = (frame.rods[0].length, frame.rods[1].length);
+        let at: Vec<Vector> = [0.0, first, first + second].map(|way| [x + way, y, z]).to_vec();
+        for (stretch, wanted) in [(-0.5, true), (0.5, false)] {
+            let mut shape = Shape { x: at.clone(), force: vec![0.0; 2] };
+            let mut taut = [true, false];
+            let changed = change_taut(&frame, &mut shape, &mut taut, &[0.0, stretch]);
+            assert_eq!((changed, taut[1]), (wanted, wanted), "{stretch}");
+        }
+        let limit = Limit {
+            shape: Shape { x: at, force: vec![0.0; 2] },
+            taut: vec![true; 2],
+            stiffening: vec![],
+            residual: 0.0,
+            rank: 0.0,
+            misfits: vec![Misfit { member: 0, misfit_m: -3e-3, within_m: 2e-3 }],
+        };
+        assert!((limit.ratio() - 1.5).abs() < 1e-15 && !limit.fits());
+    }
+}

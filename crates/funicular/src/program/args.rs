@@ -62,16 +62,16 @@ pub struct Cli {
     pub command: Command,
     /// Refuse what would need more memory: 80 bytes for each byte of a system file, 120 for each of
     /// an answer in JSON, 900 for each bar of a chain, 1400 for each in another row of rigid bars
-    /// between two anchors, 5000 for each member of another system (420 of them while it is read),
+    /// between two anchors, 5000 for each member of another system (420 of them while it is read)
+    /// and of any that moves, is varied or has derivatives, 7000 and 100 for each mode with `modes`,
     /// and four times its name for each joint. A line of a batch may need all of it. A sweep needs 50 MB
     /// for each thread, basins 50 bytes for each start, a trace what its --max-points says. If not
     /// given, 24 GB, files of 64 MiB and 20 million bars
     #[arg(long, value_name = "SIZE", global = true, hide_short_help = true, value_parser = crate::memory::parse)]
     pub max_memory: Option<u64>,
-    /// Work that each solver may do for one system: numbers in all factors of its matrices, which
-    /// is iterations times size. What needs more ends without an answer (exit code 3). If not given,
-    /// 10000000000: up to an hour or so. A row of bars between two anchors needs no matrix, and has
-    /// a bound of its own
+    /// Work that each solver may do for one system: numbers in all factors of its matrices, or bars
+    /// times passes over a row between two anchors, which is iterations times size. What needs more
+    /// ends without an answer (exit code 3). If not given, 10000000000: up to an hour or so
     #[arg(long, value_name = "N", global = true, hide_short_help = true)]
     pub max_work: Option<std::num::NonZeroU64>,
 }

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 
 use formats::ForceTable;
 use model::Vector;
+use model::budget::BYTES_PER_MEMBER;
 use model::system::System;
 use motion::{Order, Settings, Simulation, Snapshot};
 
@@ -180,6 +181,7 @@ impl Simulate {
         each: &mut dyn FnMut(&Snapshot) -> ControlFlow<()>,
     ) -> Result<Motion, Error> {
         let (steps, every) = self.steps()?;
+        problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         let at = self.start.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;

@@ -76,9 +76,9 @@ impl Solve {
         Self { threads, ..self }
     }
 
-    /// The work that each solver may do, numbers in all factors of its matrices: iterations times
-    /// size, the same on every machine. What needs more has no answer, and says so. Without it
-    /// 10^10, up to an hour or so. A row of bars between two anchors has no matrix, and a bound of its own.
+    /// The work that each solver may do, numbers in all factors of its matrices, or bars times passes
+    /// over a row between two anchors: iterations times size, the same on every machine. What needs
+    /// more has no answer, and says so. Without it 10^10, up to an hour or so.
     ///
     /// ```
     /// use funicular::prelude::*;

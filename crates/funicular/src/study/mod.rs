@@ -10,6 +10,7 @@ pub use self::shape::{NoShape, StudyShape};
 
 use branches::{Base, Number, PointError, Variation};
 use model::Vector;
+use model::budget::BYTES_PER_MEMBER;
 use model::system::System;
 use rayon::prelude::*;
 use validate::{Solvers, UseCensus};
@@ -158,6 +159,7 @@ impl Study {
         problem: &Problem,
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
+        problem.fits(BYTES_PER_MEMBER)?;
         if let Some(system) = problem.as_system() {
             let of = self.units(system)?;
             let variation = self.parameters.over(system.clone())?;

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Joint, Member, Support};
-use crate::mass_range::{TWO_DOUBLES, too_wide};
+use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{SMALLEST_TOTAL, Vector};
 
@@ -390,7 +390,7 @@ fn check_totals(
             return Err(SystemError::Underflow { quantity, total });
         }
     }
-    match too_wide(masses, TWO_DOUBLES) {
+    match too_wide(masses) {
         Some((lightest_kg, heaviest_kg)) => {
             Err(SystemError::MassRange { lightest_kg, heaviest_kg })
         }

@@ -5,7 +5,6 @@ use std::collections::HashSet;
 use super::graph::Graph;
 use super::{Joint, Support, System};
 use crate::Vector;
-use crate::mass_range::{DOUBLE, too_wide};
 use crate::readable::{Computed, Readable};
 
 /// Why a system has no equilibrium to be found.
@@ -50,18 +49,6 @@ pub enum SystemRefusal {
          every position is an equilibrium"
     )]
     LoadOnAnchors,
-    /// Occurs when the lightest mass of a net or tree is lost in the rounding of the heaviest.
-    #[error(
-        "the masses of this system reach from {} kg to {} kg: in double precision, in which nets and \
-         trees are solved, the lightest is lost in the rounding of the heaviest",
-        Readable(*lightest_kg), Readable(*heaviest_kg)
-    )]
-    MassRange {
-        /// The lightest mass that is not zero.
-        lightest_kg: f64,
-        /// The heaviest mass.
-        heaviest_kg: f64,
-    },
     /// Occurs when two anchors are further apart than the members between them reach.
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach only {} m: \
@@ -188,11 +175,6 @@ impl System {
         }
         if self.is_loaded_on_supports_alone() && !elastic {
             return Err(SystemRefusal::LoadOnAnchors);
-        }
-        if let Some((lightest_kg, heaviest_kg)) = too_wide(self.masses_kg(), DOUBLE)
-            && self.as_row().is_none()
-        {
-            return Err(SystemRefusal::MassRange { lightest_kg, heaviest_kg });
         }
         self.anchors_in_reach(&graph)?;
         self.loops_close(&graph)

@@ -454,7 +454,6 @@ fn system_help(error: &SystemError) -> Option<&'static str> {
 
 fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
     match refusal {
-        SystemRefusal::MassRange { .. } => MASS_RANGE_HELP,
         SystemRefusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
         SystemRefusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
         SystemRefusal::NothingMoves => "leave one joint without at_m",

@@ -1,6 +1,6 @@
 //! What bars, chains and problems refuse, with the numbers of the refusal.
 
-use model::system::{Joint, Member, System, SystemError, SystemRefusal};
+use model::system::{Joint, Member, System, SystemError};
 use model::{
     Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, SMALLEST_TOTAL, STRAIGHT_TOLERANCE,
 };
@@ -117,34 +117,22 @@ fn chains_refuse_totals_that_overflow_or_vanish() {
     assert!(build(HERE, &[with(least, 0.0)]).is_ok());
 }
 
-/// Two doubles hold 106 bits: what is no more than 2^-106 of another mass is lost in it, and the next
-/// larger double is not. Massless bars do not count.
+/// A double holds 53 bits: 1 + 2^-53 = 1, and with the next larger double it is more. Massless bars do
+/// not count.
 #[test]
 fn masses_that_are_lost_in_others_are_refused() {
     let with = |mass| Bar::new(1.0, mass, 0.5, [0.0; 3]).unwrap();
     let build = |light: f64| Chain::new("", 1.0, HERE, vec![with(light), with(0.0), with(1.0)]);
-    let lost = (-106.0_f64).exp2();
+    let lost = (-53.0_f64).exp2();
     let refused = ChainError::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
     assert_eq!(build(lost), Err(refused));
     assert!(build(lost.next_up()).is_ok());
     // The same at joints.
-    let system = |light: f64| {
-        let chain = Chain::new("", 1.0, HERE, vec![with(0.0), with(0.0), with(1.0)]).unwrap();
-        let bare = System::from(&chain);
-        let mut joints = bare.joints().to_vec();
-        joints[1].mass_kg = light;
-        System::new("", 1.0, joints, bare.members().to_vec())
-    };
-    let refused = SystemError::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
-    assert_eq!(system(lost), Err(refused));
-    assert!(system(lost.next_up()).is_ok_and(|row| row.refusal().is_ok()));
-    // A pendulum is no row between anchors, and is solved in doubles: 1 + 2^-53 = 1.
     let pendulum = |light: f64| {
         let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
-        System::new("", 1.0, joints, vec![Member::bar(0, 1, with(light))]).unwrap().refusal()
+        System::new("", 1.0, joints, vec![Member::bar(0, 1, with(light))]).map(|_| ())
     };
-    let lost = 0.5 * f64::EPSILON;
-    let refused = SystemRefusal::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
+    let refused = SystemError::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
     assert_eq!(pendulum(lost), Err(refused));
     assert_eq!(pendulum(lost.next_up()), Ok(()));
 }
@@ -226,7 +214,7 @@ fn weight_on_the_anchors_alone_is_refused_and_weight_beside_them_is_not() {
     // The least part of a weight at a joint that can move, from either side, is one.
     for loaded in [
         [(2.0, 1e-300), (0.0, 0.5), (3.0, 1.0)],
-        [(2.0, 0.0), (1e-30, 0.5), (3.0, 1.0)],
+        [(2.0, 0.0), (1e-15, 0.5), (3.0, 1.0)],
         [(2.0, 0.0), (0.0, 0.5), (3.0, 1.0 - f64::EPSILON)],
         [(2.0, 1.0), (0.0, 0.5), (0.0, 1.0)],
     ] {

@@ -97,6 +97,16 @@ mod tests {
     }
 
     #[test]
+    fn discs_are_those_of_rows() {
+        let entries = [1.0, 4.0, -0.5, 0.25, 3.0, 2.0, 8.0, 16.0, 7.0].map(Interval::point);
+        let matrix = DMatrix::from_row_slice(3, 3, &entries);
+        for (i, wanted) in [4.5, 2.25, 24.0].into_iter().enumerate() {
+            let above = radius(&matrix, i) - wanted;
+            assert!((0.0..1e-14).contains(&above), "{i}: {above}");
+        }
+    }
+
+    #[test]
     fn equal_ones_share_their_component() {
         let e = 1e-9;
         let entries = [2.0, e, 0.0, e, 2.0, 0.0, 0.0, 0.0, -1.0].map(Interval::point);

@@ -270,3 +270,21 @@ fn positions_at_random_have_cables_within_their_lengths_and_joints_above_the_flo
     println!("{slack} slack, {taut} taut, {laid} on the floor");
     assert!(slack > 100 && taut > 20 && laid > 20);
 }
+
+/// A cable does not prop what stands above its anchor, however light that is beside the rest: 0.1 mg beside
+/// a tonne falls by g t^2 / 2.
+#[test]
+fn a_light_weight_above_its_cable_falls_beside_a_heavy_one() {
+    let joints = vec![
+        Joint::anchor("O", [0.0; 3]),
+        Joint::free("P").with_mass(1e-7),
+        Joint::free("Q").with_mass(1000.0),
+    ];
+    let light = Member { kind: Kind::Cable, ..Member::bar(0, 1, cord(1.0)) };
+    let members = vec![light, Member::bar(0, 2, cord(1.0))];
+    let system = System::new("light", G, joints, members).unwrap();
+    let mut fall = at_rest(&system, &[[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]], Order::Second);
+    run(&mut fall, 0.1, 1e-3);
+    let z = fall.snapshot().joints_m[1][2];
+    assert!((z - (1.0 - 0.5 * G * 0.01)).abs() < 1e-9, "{z}");
+}

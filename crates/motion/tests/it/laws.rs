@@ -4,7 +4,7 @@ use model::Bar;
 use model::system::{Joint, Member, PointLoad, Support, System};
 use motion::{Order, Settings, Simulation};
 
-use crate::common::{at_rest, closed, paper, run};
+use crate::common::{at_rest, closed, hanging, paper, run, string};
 
 /// Rounding of the accelerations, relative to the largest force.
 const LAWS: f64 = 1e-12;
@@ -156,4 +156,39 @@ fn damping_takes_energy_at_the_rate_of_its_forces() {
     let told = before_j * f64::exp(-2.0 * 0.1 * 3.0 * 2.0);
     let off = simulation.kinetic_j() / told - 1.0;
     assert!(off.abs() < 1e-12, "{off:e}");
+}
+
+/// A pin without inertia turns as the members it joins do in the mean, and each bears the friction of its
+/// own turn against that: bars of 1 m and 2 m that hang plumb and turn with -1/s and -3/s about OY.
+#[test]
+fn the_pins_of_a_member_bear_different_moments() {
+    let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
+    let system = hanging(&[bar(1.0), bar(2.0)], &[]);
+    let at = string(&[1.0, 2.0], &[0.0, 0.0]);
+    let settings = Settings { friction_n_m_s: 0.25, ..Settings::default() };
+    let mut simulation = Simulation::new(&system, &at, settings).unwrap();
+    simulation.set_velocities(&[[0.0; 3], [1.0, 0.0, 0.0], [7.0, 0.0, 0.0]]).unwrap();
+    let found = simulation.snapshot().pin_moments_n_m;
+    let wanted = [[0.25, -0.25], [0.25, 0.0]];
+    for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
+        let off = [found[0], found[1] - wanted, found[2]];
+        assert!(off.iter().all(|x| x.abs() < 1e-12), "{found:?} {wanted}");
+    }
+}
+
+/// What is left of the laws is a part of the forces and moments: masses a million times as large, with
+/// their moments, move alike and leave as much.
+#[test]
+fn the_laws_are_held_against_the_forces() {
+    let left = |masses: f64| {
+        let bar = |length: f64| Bar::homogeneous(length, masses).unwrap();
+        let system = hanging(&[bar(1.0), bar(0.7), bar(1.3)], &[]);
+        let at = string(&[1.0, 0.7, 1.3], &[0.3, -0.8, 1.9]);
+        let mut simulation = Simulation::new(&system, &at, Settings::default()).unwrap();
+        simulation.set_velocities(&[[0.0; 3]; 4]).unwrap();
+        simulation.snapshot().laws
+    };
+    let (light, heavy) = (left(1.0), left(20.0_f64.exp2()));
+    assert!(light.moment > 0.0 && light.force > 0.0, "{light:?}");
+    assert_eq!(light, heavy);
 }

@@ -133,3 +133,62 @@ fn a_long_rope_has_the_zeros_of_bessel() {
         assert!((mode.omega2_s2 / G / told - 1.0).abs() < 1e-8, "{} {told}", mode.omega2_s2 / G);
     }
 }
+
+/// Lengths 2^40 times as large swing 2^20 times as slowly, to the last digits.
+#[test]
+fn the_lowest_of_a_long_string_are_those_of_a_short_one() {
+    let lowest = |length: f64| {
+        let bars = vec![Bar::homogeneous(length, 0.0).unwrap(); 170];
+        let system = hanging(&bars, &[0.7; 170]);
+        let at = string(&[length; 170], &[0.0; 170]);
+        lowest_modes(&system, &at, None, 5).unwrap().modes
+    };
+    let scale = 40.0_f64.exp2();
+    for (long, short) in lowest(scale).iter().zip(lowest(1.0)) {
+        let off = (long.omega2_s2 * scale / short.omega2_s2 - 1.0).abs();
+        assert!(off < 1e-12, "{} {}", long.omega2_s2, short.omega2_s2);
+    }
+}
+
+/// A level net of springs of 1 m without weight, all with the tension T, and a mass m at each joint, has
+/// across its plane the frequencies of two strings, $\omega^2 = 4 T/m (\sin^2 + \sin^2)$ of the angles
+/// p pi / 2 (n + 1), the lowest of all where the springs are stiff. It is large enough for a factor by
+/// blocks of columns.
+#[test]
+fn the_lowest_of_a_level_net_are_those_of_its_strings() {
+    const SIDE: usize = 34;
+    let (tension, mass, width) = (3.0, 0.5, SIDE + 2);
+    let (mut joints, mut members, mut at) = (vec![], vec![], vec![]);
+    for i in 0..width {
+        for j in 0..width {
+            let place = [i as f64, j as f64, 0.0];
+            let rim = [i, j].iter().any(|k| *k == 0 || *k + 1 == width);
+            at.push(place);
+            let name = format!("{i},{j}");
+            joints.push(if rim {
+                Joint::anchor(name, place)
+            } else {
+                Joint::free(name).with_mass(mass).with_force([0.0, 0.0, mass * G])
+            });
+            for (k, l) in [(i + 1, j), (i, j + 1)] {
+                let both_on_rim = rim && [k, l].iter().any(|k| *k == 0 || *k + 1 >= width);
+                if k < width && l < width && !both_on_rim {
+                    let bar = Bar::homogeneous(1.0 - tension / 4000.0, 0.0).unwrap();
+                    let spring = Member::bar(i * width + j, k * width + l, bar);
+                    members.push(spring.with_stiffness(4000.0 - tension));
+                }
+            }
+        }
+    }
+    let system = System::new("level", G, joints, members).unwrap();
+    let found = lowest_modes(&system, &at, None, 6).unwrap().modes;
+    let angle =
+        |p: usize| (p as f64 * std::f64::consts::FRAC_PI_2 / (SIDE + 1) as f64).sin().powi(2);
+    let mut wanted: Vec<f64> = (1..=SIDE)
+        .flat_map(|p| (1..=SIDE).map(move |q| 4.0 * tension / mass * (angle(p) + angle(q))))
+        .collect();
+    wanted.sort_by(f64::total_cmp);
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((found.omega2_s2 / wanted - 1.0).abs() < 1e-9, "{} {wanted}", found.omega2_s2);
+    }
+}

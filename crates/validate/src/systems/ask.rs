@@ -220,7 +220,10 @@ fn by_lagrange(
         }
         // The bits of the answer do not depend on how many share the work.
         let mut solver = lagrange::condensed::Solver::with_processors(question.threads);
-        let settings = lagrange::condensed::Settings::default();
+        let usual = lagrange::condensed::Settings::default();
+        let passes = question.passes(system.members().len(), usual.max_passes as u64);
+        let max_passes = passes.try_into().unwrap_or(usual.max_passes);
+        let settings = lagrange::condensed::Settings { max_passes, ..usual };
         if let Ok(found) = solver.solve(row.problem(), &settings) {
             return Ok(row.equilibrium(found.equilibrium));
         }
@@ -235,8 +238,10 @@ fn by_energy(
     row: Option<&Row>,
     question: &Question,
 ) -> Result<SystemEquilibrium, SystemFailure> {
-    let over_directions =
-        |row: &Row| energy::minimise(row.problem(), &energy::Settings::default()).ok();
+    let usual = energy::Settings::default();
+    let max_iterations = question.passes(system.members().len(), usual.max_iterations);
+    let settings = energy::Settings { max_iterations, ..usual };
+    let over_directions = |row: &Row| energy::minimise(row.problem(), &settings).ok();
     if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
         return Ok(row.equilibrium(found.equilibrium));
     }

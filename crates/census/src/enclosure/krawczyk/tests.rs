@@ -51,6 +51,25 @@ fn a_zero_is_enclosed_to_its_last_places() {
     });
 }
 
+/// The slope over a cell says nothing of a zero beside it, whichever way that lies: the image is that about
+/// the middle then.
+#[test]
+fn a_zero_outside_of_the_cell_is_no_point_of_it() {
+    of_cells(|system, signs, cell| {
+        let (zero, _) = newton(system, signs, cell, cell.middle(), cell.half()).unwrap();
+        for axis in 0..2 {
+            let half = 1e-3;
+            let at = [0, 1].map(|k| {
+                let middle = if k == axis { zero[k] + 1.2 * half } else { zero[k] };
+                Interval::new(middle - half, middle + half)
+            });
+            let beside = Cell { face: cell.face, at };
+            let about_middle = krawczyk(system, signs, &beside, beside.middle());
+            assert_eq!(krawczyk_about_zero(system, signs, &beside), about_middle, "axis {axis}");
+        }
+    });
+}
+
 #[test]
 fn two_cells_have_in_common_what_both_hold() {
     let cell = |at: [[f64; 2]; 2]| Cell {

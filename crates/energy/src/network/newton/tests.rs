@@ -99,3 +99,14 @@ fn shifts_follow_the_part_of_a_step_that_was_made() {
         assert!((newton.shift - after).abs() < 1e-15, "{part} {before}");
     }
 }
+
+#[test]
+fn absurd_forces_name_the_member_with_the_largest() {
+    let frame = newton().frame;
+    for (force, named) in [([-1e14, 1.0], 1), ([1.0, -1e14], 2)] {
+        let shape =
+            Shape { x: vec![ZERO3, [1.0, 0.0, 0.0], [1.5, 0.0, 0.0]], force: force.to_vec() };
+        let Some(Error::Absurd { member, .. }) = frame.absurd(&shape) else { panic!("absurd") };
+        assert_eq!(member, named);
+    }
+}

@@ -18,7 +18,7 @@ mod sections;
 
 use std::collections::HashMap;
 
-use model::budget::Budget;
+use model::budget::{BYTES_PER_MEMBER, Budget};
 use model::system::{Joint, Member, PointLoad, System};
 use model::{Bar, Vector};
 
@@ -120,7 +120,12 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
         joints.push(joint);
     }
     let (mut members, budget) = (Vec::new(), Budget::default());
-    for row in sections.need(Section::Lines)?.rows(LINE_COLUMNS)? {
+    let lines = sections.need(Section::Lines)?.rows(LINE_COLUMNS)?;
+    // Of all lines, before the first is made.
+    let segments = lines.iter().map(segments).sum::<Result<usize, _>>()?;
+    let room = budget.fits_members(segments, BYTES_PER_MEMBER);
+    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
+    for row in lines {
         let gravity_m_s2 = options.gravity_m_s2;
         let into = (&mut joints, &mut members);
         notes.push(line(&row, &types, &numbers, gravity_m_s2, &budget, into)?);
@@ -129,8 +134,6 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
     let system = System::new(name, options.gravity_m_s2, joints, members).map_err(|error| {
         FormatError::new(file, None, Wrong::NoSystem { reason: error.to_string() })
     })?;
-    let room = budget.fits_solve(&system);
-    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
     if let Some(floor_m) = options.floor_m {
         notes.push(format!("the floor at {floor_m} m is not part of the system"));
     }
@@ -223,6 +226,16 @@ fn point(
     Ok(Joint::free(name).with_force([0.0, 0.0, -weight_n]))
 }
 
+/// Segments of a line.
+fn segments(row: &Row<'_>) -> Result<usize, FormatError> {
+    let segments = row.positive("segments")?;
+    if segments.fract() > 0.0 || segments > MOST_SEGMENTS {
+        let (what, found) = ("NumSegs".to_owned(), segments.to_string());
+        return Err(row.error(Wrong::Value { what, wanted: "a whole number up to 1e6", found }));
+    }
+    Ok(as_count(segments))
+}
+
 /// A line as a run of elastic cables, and how it was read.
 fn line(
     row: &Row<'_>,
@@ -244,16 +257,11 @@ fn line(
         found.ok_or_else(|| row.error(Wrong::Missing { what: format!("point {name:?}") }))
     };
     let (from, to, length_m) = (end("a")?, end("b")?, row.positive("length")?);
-    let segments = row.positive("segments")?;
-    if segments.fract() > 0.0 || segments > MOST_SEGMENTS {
-        let (what, found) = ("NumSegs".to_owned(), segments.to_string());
-        return Err(row.error(Wrong::Value { what, wanted: "a whole number up to 1e6", found }));
-    }
-    let count = as_count(segments);
+    let count = segments(row)?;
     let asked =
         budget.take_members(count).and_then(|()| budget.take_names(count, id.len() + DIGITS));
     asked.map_err(|error| row.error(Wrong::Memory(error)))?;
-    let piece_m = length_m / segments;
+    let piece_m = length_m / count as f64;
     let weight_n = line_type.weight_n_m * piece_m;
     let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
     let body = Bar::homogeneous(piece_m, mass_kg)
@@ -275,7 +283,7 @@ fn line(
         here = there;
     }
     Ok(format!(
-        "line {id}: {segments} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
+        "line {id}: {count} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
         line_type.stiffness_n, line_type.weight_n_m
     ))
 }

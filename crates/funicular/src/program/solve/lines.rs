@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read as _};
 
-use model::system_file::most_file_bytes;
+use model::system_file::{MAX_BARS_FILE_BYTES, most_file_bytes};
 
 /// A line that is not blank.
 pub struct Line {
@@ -31,7 +31,11 @@ impl Lines {
         self.from.by_ref().take(most_file_bytes() + 1).read_until(b'\n', &mut bytes)?;
         self.number += 1;
         if bytes.len() as u64 > most_file_bytes() {
-            skip_line(&mut self.from)?;
+            let rest = self.from.by_ref().take(MAX_BARS_FILE_BYTES).skip_until(b'\n')?;
+            if rest as u64 == MAX_BARS_FILE_BYTES {
+                let reason = format!("a line does not end within {MAX_BARS_FILE_BYTES} bytes");
+                return Err(io::Error::other(reason));
+            }
         }
         Ok(Some(bytes).filter(|bytes| !bytes.is_empty()))
     }
@@ -81,21 +85,6 @@ fn object(bytes: Vec<u8>) -> Result<String, String> {
     }
 }
 
-/// Pass over the rest of a line.
-fn skip_line(from: &mut dyn BufRead) -> io::Result<()> {
-    loop {
-        let buffer = from.fill_buf()?;
-        let (length, ended) = match buffer.iter().position(|byte| *byte == b'\n') {
-            Some(end) => (end + 1, true),
-            None => (buffer.len(), buffer.is_empty()),
-        };
-        from.consume(length);
-        if ended {
-            return Ok(());
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::io::{BufReader, Cursor, Read as _};
@@ -123,5 +112,12 @@ mod tests {
         let from = BufReader::new(endless.chain(Cursor::new("\n{2}\n")));
         let read: Vec<_> = Lines::of(from).map(|line| (line.number, line.text.is_ok())).collect();
         assert_eq!(read, [(1, false), (2, true)]);
+        // A device that never ends is not read for ever.
+        let device = Lines::of(BufReader::with_capacity(1 << 16, std::io::repeat(b'{')));
+        let told: Vec<_> = device.map(|line| line.text.unwrap_err()).collect();
+        assert!(
+            told.len() == 1 && told[0].contains("does not end within 2000000000 bytes"),
+            "{told:?}"
+        );
     }
 }
