@@ -1,5 +1,6 @@
 //! The equilibria of a problem, all of them where a census is complete.
 
+use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 
 use validate::systems::quick_census;
@@ -47,6 +48,7 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 /// system of which it is a matter of a second. The stable one otherwise, or the one next to a
 /// drawing.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
+    problem.fits(BYTES_PER_MEMBER)?;
     let known = match problem.as_chain() {
         Some(chain) if chain.chain().bars().len() <= max_bars => of_chain(chain, max_bars)?,
         Some(_) => None,
