@@ -21,7 +21,7 @@ fn sound(trace: &Continuation) {
     assert!(trace.checks.between > 0 && trace.checks.undecided.is_empty(), "{:?}", trace.checks);
     for (grid, point) in trace.points.iter().enumerate() {
         let here = trace.branches.iter().flat_map(|branch| &branch.points);
-        let here: Vec<_> = here.filter(|p| p.grid == Some(grid)).collect();
+        let here: Vec<_> = here.filter(|p| p.grid == Some(grid + 1)).collect();
         match &point.status {
             PointStatus::Complete { count, by_index, euler_characteristic, .. } => {
                 assert_eq!(here.len(), *count, "at {:?}", point.values);
