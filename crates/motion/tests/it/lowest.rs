@@ -152,8 +152,7 @@ fn the_lowest_of_a_long_string_are_those_of_a_short_one() {
 
 /// A level net of springs of 1 m without weight, all with the tension T, and a mass m at each joint, has
 /// across its plane the frequencies of two strings, $\omega^2 = 4 T/m (\sin^2 + \sin^2)$ of the angles
-/// p pi / 2 (n + 1), the lowest of all where the springs are stiff. It is large enough for a factor by
-/// blocks of columns.
+/// p pi / 2 (n + 1), the lowest of all where the springs are stiff.
 #[test]
 fn the_lowest_of_a_level_net_are_those_of_its_strings() {
     const SIDE: usize = 34;
