@@ -10,6 +10,7 @@ use model::Vector;
 
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Spot};
+use crate::network::law::Excess;
 use crate::network::limit::{Limit, stressed};
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, cross, dot, norm, unit};
@@ -18,10 +19,10 @@ use crate::vector::{along, cross, dot, norm, unit};
 pub(super) const DENSE: usize = 240;
 
 /// Eigenvalues below this part of the size of the matrix are zero.
-const ZERO: f64 = 1e-9;
+pub(super) const ZERO: f64 = 1e-9;
 
 /// Singular values of the rigidity matrix below this part of the largest are zero.
-const RANK: f64 = 1e-9;
+pub(super) const RANK: f64 = 1e-9;
 
 /// Strain of the springs that stand for the lengths in the sparse count.
 const STRAIN: f64 = 1e-6;
@@ -177,7 +178,7 @@ fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Optio
 }
 
 /// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots.
-fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize {
+pub(super) fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize {
     let excess = frame.excesses(&shape.x);
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
@@ -196,8 +197,25 @@ fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize
     factor.negative_pivots().unwrap_or(0)
 }
 
+/// The derivatives of the lengths of some members by the coordinates, a row each.
+pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> Mat<f64> {
+    let mut rows = Mat::<f64>::zeros(taut.len(), frame.freedom);
+    for (row, &e) in taut.iter().enumerate() {
+        let rod = &frame.rods[e];
+        // Of unit length also where the member is not quite as long as it should be.
+        let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
+        for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
+            let spot = &frame.spots[joint];
+            for k in 0..spot.freedom {
+                rows[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
+            }
+        }
+    }
+    rows
+}
+
 /// Dense matrices at an equilibrium.
-struct Dense {
+pub(super) struct Dense {
     /// The second derivative on the motions that keep the lengths.
     hessian: Mat<f64>,
     /// Size of the second derivative.
@@ -210,7 +228,7 @@ struct Dense {
 }
 
 impl Dense {
-    fn new(frame: &Frame, shape: &Shape) -> Self {
+    pub(super) fn new(frame: &Frame, shape: &Shape) -> Self {
         Self::with(frame, shape, |e| resists(frame, shape, e), RANK)
     }
 
@@ -221,18 +239,7 @@ impl Dense {
         let excess = frame.excesses(&shape.x);
         let taut: Vec<usize> =
             (0..frame.rods.len()).filter(|&e| taut(e) && !frame.rods[e].elastic()).collect();
-        let mut rigidity = Mat::<f64>::zeros(taut.len(), n);
-        for (row, &e) in taut.iter().enumerate() {
-            let rod = &frame.rods[e];
-            // Of unit length also where the member is not quite as long as it should be.
-            let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
-            for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
-                let spot = &frame.spots[joint];
-                for k in 0..spot.freedom {
-                    rigidity[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
-                }
-            }
-        }
+        let rigidity = rows(frame, &excess, &taut);
         let mut hessian = Mat::<f64>::zeros(n, n);
         for (e, rod) in frame.rods.iter().enumerate() {
             let elastic = rod.elastic() && resists(frame, shape, e);
@@ -260,7 +267,7 @@ impl Dense {
     }
 
     /// Negative and vanishing eigenvalues, and the ratio of the largest to the smallest other one.
-    fn count(&self) -> (usize, usize, f64) {
+    pub(super) fn count(&self) -> (usize, usize, f64) {
         if self.hessian.nrows() == 0 {
             return (0, 0, 1.0);
         }
@@ -274,6 +281,13 @@ impl Dense {
         let smallest = others.fold(f64::INFINITY, f64::min);
         let condition = if smallest.is_finite() { largest(&values) / smallest } else { 1.0 };
         (index, neutral, condition)
+    }
+
+    /// The eigenvalue nearest to zero, over the largest.
+    pub(super) fn nearest_to_zero(&self) -> Option<f64> {
+        let values = self.hessian.self_adjoint_eigenvalues(Side::Lower).ok()?;
+        let nearest = values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        Some(nearest / largest(&values).max(f64::MIN_POSITIVE))
     }
 
     /// An orthonormal basis of the self-stresses by members; what the floor bears follows from it.

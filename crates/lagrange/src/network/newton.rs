@@ -281,7 +281,7 @@ impl Derivative {
     }
 
     /// The step plus the solution for what is left.
-    fn refined(
+    pub fn refined(
         &self,
         step: &Step,
         framework: &Framework,
