@@ -35,7 +35,8 @@ pub struct Critical {
     pub misfit: f64,
     /// Number of directions in which the energy falls.
     pub index: usize,
-    /// The curvature nearest to zero over the largest one; nothing for large systems.
+    /// The curvature nearest to zero over the stiffness of the stiffest member, along it or by its
+    /// force across it; nothing for large systems.
     pub curvature: Option<f64>,
 }
 
@@ -91,12 +92,17 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         multipliers(&frame, &mut shape, taut.collect());
     }
     let slope = frame.slope(&shape);
+    let stiff = frame.rods.iter().zip(&shape.force).map(|(rod, force)| {
+        let along = if rod.elastic() { rod.flexibility.recip() } else { 0.0 };
+        along.max(force.abs() / rod.length)
+    });
+    let stiff = stiff.fold(f64::MIN_POSITIVE, f64::max);
     let stiffest = frame.rods.iter().filter(|rod| rod.elastic());
     let stiffest = stiffest.map(|rod| rod.length / rod.flexibility).fold(0.0, f64::max);
     let rounding = rounding_floor(&frame, &shape) * stiffest / frame.force_scale(&shape.force);
     let (index, curvature) = if frame.freedom <= DENSE {
         let dense = Dense::new(&frame, &shape);
-        (dense.count().0, dense.nearest_to_zero())
+        (dense.count().0, dense.nearest_to_zero().map(|nearest| nearest / stiff))
     } else {
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         (below(&frame, &shape, &mut factor, ZERO), None)

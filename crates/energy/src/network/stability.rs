@@ -283,11 +283,10 @@ impl Dense {
         (index, neutral, condition)
     }
 
-    /// The eigenvalue nearest to zero, over the largest.
+    /// The eigenvalue nearest to zero.
     pub(super) fn nearest_to_zero(&self) -> Option<f64> {
         let values = self.hessian.self_adjoint_eigenvalues(Side::Lower).ok()?;
-        let nearest = values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-        Some(nearest / largest(&values).max(f64::MIN_POSITIVE))
+        values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
     /// An orthonormal basis of the self-stresses by members; what the floor bears follows from it.

@@ -1,7 +1,7 @@
 //! How the program ends.
 
 use branches::{ContinuationError, ParameterError};
-use funicular::Error;
+use funicular::{Error, LoadError};
 use funicular::judge::GivenError;
 use model::steers;
 use validate::systems::SystemFailure;
@@ -118,6 +118,14 @@ impl Failure {
                 Self::bad_input(Diagnostic::from(error).with_help(help))
             }
             Error::Parameter(error) => Self::parameter(&error),
+            Error::Load(
+                LoadError::Solver(_)
+                | LoadError::NotNear { .. }
+                | LoadError::Start { .. }
+                | LoadError::Singular,
+            ) => {
+                Self::undecided(error)
+            }
             Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
                 let help = format!("with --max-points {points} it is done all the same");
                 Self::bad_input(Diagnostic::from(error).with_help(help))

@@ -21,6 +21,9 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
+/// A cable of a drawing that misses its length by less than this part of it is taut.
+const REACHES: f64 = 1e-12;
+
 /// A condition that holds on one side only: what it is of, and whether it is active.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
@@ -109,25 +112,29 @@ impl Equations {
         let lying = Framework::of(system, solution).lying;
         lying.iter().for_each(|lying| self.lies[lying.joint] = true);
         self.lay();
-        let mut y = self.drawn(&answer.joints_m);
-        let members = 3 * self.bare.nodes.len();
-        for (to, axial_n) in y[members..].iter_mut().zip(&answer.axial_n) {
-            *to = axial_n / self.units.force_n;
-        }
-        y
+        let units = self.units;
+        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
+        let places = answer.joints_m.iter().map(place).flat_map(|at| [at.x, at.y, at.z]);
+        places.chain(answer.axial_n.iter().map(|axial_n| axial_n / units.force_n)).collect()
     }
 
-    /// The unknowns of a drawing: its places, m, with what elastic members bear at their lengths.
+    /// The unknowns of a drawing: its places, m, with what elastic members bear at their lengths;
+    /// cables and struts that bear nothing there are slack from now on.
     #[must_use]
-    pub fn drawn(&self, joints_m: &[Vector]) -> Vec<f64> {
+    pub fn drawn(&mut self, joints_m: &[Vector]) -> Vec<f64> {
         let units = self.units;
         let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
         let places: Vec<_> = joints_m.iter().map(place).collect();
-        let bears = self.framework.links.iter().map(|link| {
+        let mut y: Vec<f64> =
+            places.iter().flat_map(|place| [place.x, place.y, place.z]).collect();
+        for (k, link) in self.framework.links.iter().enumerate() {
             let longer = link.span(&places).norm() - link.length;
-            if link.compliance > 0.0 && link.bears(longer) { longer / link.compliance } else { 0.0 }
-        });
-        places.iter().flat_map(|place| [place.x, place.y, place.z]).chain(bears).collect()
+            let just = longer.abs() <= REACHES * link.length;
+            self.taut[k] = just || link.bears(longer);
+            let elastic = link.compliance > 0.0 && self.taut[k];
+            y.push(if elastic { longer / link.compliance } else { 0.0 });
+        }
+        y
     }
 
     fn state(&self, y: &[f64]) -> State {
