@@ -24,7 +24,7 @@ pub(super) struct Singular {
 }
 
 /// A fixed vector without symmetry.
-fn without_symmetry(size: usize) -> Row {
+pub(super) fn without_symmetry(size: usize) -> Row {
     let y = DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
     Row { y, t: 0.0 }
 }

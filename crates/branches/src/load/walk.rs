@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::bordered::Row;
-use super::events::{Singular, kink, smooth};
+use super::events::{Singular, kink, smooth, without_symmetry};
 use super::here::{Here, Metric, by_parameter, correct};
 use super::{End, Equations, Event, Kind, LoadPath, NoPath, Point, Settings};
 
@@ -21,8 +21,10 @@ const GROWTH: f64 = 1.6;
 const SHORTEST: f64 = 1e-10;
 /// Conditions that change sides one after another without a step between, before the path is lost.
 const KINKS: usize = 64;
-/// A start whose places change by this many times their size over the range is singular.
+/// A start at which a unit load moves places by so many units of length is singular.
 const SINGULAR: f64 = 1e9;
+/// Places whose change over the range is less than this at the start count as if it were this.
+const STILL: f64 = 1e-3;
 /// Part of a step at which the side of a path after a kink is seen.
 const BESIDE: f64 = 1e-6;
 
@@ -73,11 +75,11 @@ fn begin<Q: Equations>(
     let here = Here::new(equations, only, found, &row).map_err(NoPath::Numbers)?;
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
-    if change > SINGULAR {
+    let gives = equations.solve(&without_symmetry(start.len()).y).amax();
+    if change.max(gives) > SINGULAR {
         return Err(NoPath::Singular);
     }
-    let square = if change > f64::EPSILON { change.powi(-2) } else { 1.0 };
-    let metric = Metric { places, square };
+    let metric = Metric { places, square: change.max(STILL).powi(-2) };
     let norm = metric.norm(&here.tangent.y, here.tangent.t);
     here.tangent = Row { y: here.tangent.y / norm, t: here.tangent.t / norm };
     Ok((metric, here))

@@ -157,16 +157,13 @@ fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
 
 fn ends(path: &LoadPath) -> String {
     let points = path.points.len();
-    match path.end {
-        LoadEnd::Range => format!("{points} points; the path ends at an end of the range"),
-        LoadEnd::MaxPoints => {
-            format!("{points} points; the path goes on: --max-points asks for more of it")
-        }
-        LoadEnd::Lost => format!("{points} points; the path is lost there: no step leads on"),
-        LoadEnd::Numbers => {
-            format!("{points} points; beyond the last one the numbers describe no system")
-        }
-    }
+    let why = match path.end {
+        LoadEnd::Range => "the path ends at an end of the range",
+        LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it",
+        LoadEnd::Lost => "the path is lost there: no step leads on",
+        LoadEnd::Numbers => "beyond the last one the numbers describe no system",
+    };
+    format!("{points} point{}; {why}", if points == 1 { "" } else { "s" })
 }
 
 fn confirmed(found: &Confirmed) -> String {

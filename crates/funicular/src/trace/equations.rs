@@ -42,6 +42,9 @@ impl<'a> Family<'a> {
                 if let Some(Near { joint, moved_m, .. }) = near.filter(|near| !near.is_neighbour) {
                     return Err(LoadError::NotNear { joint, moved_m });
                 }
+                if found.equilibrium.stability.neutral > 0 {
+                    return Err(LoadError::Singular);
+                }
                 equations.at(&system, &found)
             }
             // Without loads the drawing may be what there is.
@@ -145,9 +148,12 @@ impl From<NoPath<LoadError>> for LoadError {
 /// The values at the two ends of the line of a path, and the range of the line that its points take.
 pub(super) fn line(points: &[Vec<f64>]) -> Result<([&[f64]; 2], [f64; 2], f64), LoadError> {
     let first = points.first().ok_or(LoadError::NoRange)?;
-    let differs = |point: &&Vec<f64>| point.last() != first.last();
-    let far = points.iter().find(differs).ok_or(LoadError::NoRange)?;
-    let last = first.len() - 1;
+    let last = first.len().checked_sub(1).ok_or(LoadError::NoRange)?;
+    let off = |point: &Vec<f64>| point[last] - first[last];
+    let begin = points.iter().map(off).find(|off| off.abs() > 0.0).ok_or(LoadError::NoRange)?;
+    // The farthest on the side where the path begins.
+    let side = |point: &&Vec<f64>| off(point) * begin.signum();
+    let far = points.iter().max_by(|a, b| side(a).total_cmp(&side(b))).unwrap_or(first);
     let part = |point: &Vec<f64>| (point[last] - first[last]) / (far[last] - first[last]);
     let mut range = [0.0_f64, 1.0_f64];
     let mut longest = 0.0_f64;

@@ -57,7 +57,7 @@ pub enum LoadError {
     },
     /// Occurs when the equilibrium at the start is singular, as in a limit point.
     #[error(
-        "the start of the path is singular, as in a limit point or without any stiffness: begin at another value"
+        "the start of the path is singular, as in a limit point, or where something turns or moves freely"
     )]
     Singular,
 }
@@ -203,7 +203,7 @@ pub(super) fn trace(
     })
 }
 
-/// The coordinate that moves most along the paths, as `joints.NAME.z`.
+/// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
 fn most_moved<'a: 'b, 'b>(
     system: &System,
     paths: impl Iterator<Item = &'b Followed<Family<'a>>>,
@@ -225,7 +225,9 @@ fn most_moved<'a: 'b, 'b>(
             }
         }
     }
-    let (joint, axis) = most.1?;
+    let Some((joint, axis)) = most.1 else {
+        return (!system.members().is_empty()).then(|| "bars.1.axial_n".to_owned());
+    };
     let name = &system.joints()[joint].name;
     let quoted = name.contains(['.', '[', ']', '"']);
     let name = if quoted { format!("\"{name}\"") } else { name.clone() };

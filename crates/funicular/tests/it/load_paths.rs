@@ -269,8 +269,50 @@ fn where_no_path_begins_the_error_says_why() {
         .replace("stiffness_n = 1\n", &format!("length_m = {l0:?}\nstiffness_n = 1\n"));
     let said = run(&fold, &format!("loads={p:?}..1"));
     assert!(said.contains("singular") || said.contains("start of the path"), "{said}");
+    // A chain between anchors on one vertical turns about it.
+    let turns = Problem::case("three-equal-bars").unwrap();
+    let turns = Trace::new().vary("anchors.end_m.z=-2..-2.9").unwrap().run(&turns).unwrap_err();
+    assert!(turns.to_string().contains("turns or moves freely"), "{turns}");
     assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
     assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
+}
+
+/// Hrinda's truss of sixteen bars (AIAA 2010-2611): unloaded, turned over, it is itself, so under upward
+/// loads the path is that under downward ones turned over.
+#[test]
+fn the_path_of_a_symmetric_truss_is_symmetric() {
+    let (r, h) = (0.127, 0.0508);
+    let mut file = format!("[joints]\nN1 = {{ near_m = [0, 0, {}], force_n = [0, 0, -445e3] }}\n", 2.0 * h);
+    for (k, [x, y]) in [[1, -1], [1, 1], [-1, 1], [-1, -1]].iter().enumerate() {
+        let [x, y] = [f64::from(*x), f64::from(*y)];
+        file += &format!("R{k} = {{ near_m = [{}, {}, {h}] }}\n", r * x, r * y);
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][k];
+        file += &format!("F{k} = {{ at_m = [{}, {}, 0] }}\n", 2.0 * r * x, 2.0 * r * y);
+    }
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        for ends in [["N1".into(), format!("R{k}")], [format!("R{k}"), format!("R{next}")],
+                     [format!("R{k}"), format!("F{k}")], [format!("R{next}"), format!("F{k}")]] {
+            let [from, to]: [String; 2] = ends;
+            file += &format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 44482233.616\n");
+        }
+    }
+    let path = path(&file, "loads=0,4,-4");
+    let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
+    let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
+    assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
+    for (one, other) in limits.iter().zip(limits.iter().rev()) {
+        near(*one, -other);
+    }
+    let branches = path.events.iter().filter(|event| event.kind == LoadEventKind::BranchPoint);
+    let branches: Vec<_> = branches.map(|event| (event.values[0], event.index)).collect();
+    assert_eq!(branches.len(), 4);
+    for ((one, [a, b]), (other, [c, d])) in branches.iter().zip(branches.iter().rev()) {
+        near(*one, -other);
+        // Two modes at once among them.
+        assert_eq!([a, b], [d, c]);
+    }
+    assert_eq!(branches[1].1, [2, 4]);
 }
 
 #[test]

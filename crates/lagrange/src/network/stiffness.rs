@@ -178,7 +178,7 @@ impl Stiffness {
     /// The same where soft directions beside very stiff ones count.
     pub fn factorise_stiff(&mut self) {
         let signs = vec![1; self.size()];
-        self.factorise(Some(&signs), NO_STIFF_PIVOT, LEFT_OUT);
+        self.factorise(Some(&signs), NO_STIFF_PIVOT, NO_STIFF_PIVOT.recip());
     }
 
     /// Factorise a matrix as it is, positive and negative pivots alike; directions without
