@@ -1,6 +1,7 @@
 //! All equilibria of a chain over a parameter, and load paths of any system.
 
 mod confirm;
+mod enclosed;
 mod equations;
 mod figure;
 pub(crate) mod load;

@@ -139,7 +139,20 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
         LoadEventKind::Kink => happens(event),
     };
     let mode = mode(found, event);
-    format!("first loss of stability along this path at {at}, by {by}{mode}")
+    let proved = event.enclosed.map_or_else(String::new, |[low, high]| {
+        let [low, high] = outwards(low, high);
+        format!("; it is proved to lie between {low} and {high}")
+    });
+    format!("first loss of stability along this path at {at}, by {by}{proved}{mode}")
+}
+
+/// Two numbers rounded away from each other, to as many digits as are needed to tell them apart from the
+/// middle, or to nine.
+fn outwards(low: f64, high: f64) -> [String; 2] {
+    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+    #[expect(clippy::cast_possible_truncation, reason = "the exponent of a double")]
+    let unit = 10_f64.powi(size.log10().floor() as i32 + 1 - DIGITS as i32);
+    [(low / unit).floor() * unit, (high / unit).ceil() * unit].map(|x| significant(x, DIGITS))
 }
 
 /// The joints that move most in a mode.

@@ -68,6 +68,11 @@ impl<'a> Family<'a> {
         self.from.iter().zip(&self.to).map(between).collect()
     }
 
+    /// The numbers at 0 and at 1.
+    pub(super) fn ends(&self) -> [&[f64]; 2] {
+        [&self.from, &self.to]
+    }
+
     fn set(&mut self, t: f64) -> Result<(), LoadError> {
         if t.to_bits() != self.at.to_bits() {
             self.system =

@@ -10,6 +10,7 @@ use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
 use super::confirm::{Confirmed, confirm};
+use super::enclosed::enclosed;
 use super::equations::{Family, Kept, line};
 use super::figure;
 use crate::csv::quoted;
@@ -122,6 +123,10 @@ pub struct LoadEvent {
     pub index: [usize; 2],
     /// Whether the parameter turns back here.
     pub turns: bool,
+    /// Between these values of the last parameter exactly one limit point is proved to lie, next to this
+    /// shape: where loads alone vary, of systems that are not too large.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enclosed: Option<[f64; 2]>,
     /// Bars that become slack here, from 1.
     pub slack: Vec<usize>,
     /// Bars that become taut here, from 1.
@@ -258,7 +263,10 @@ fn told(
     });
     let points = points.collect();
     let events = found.events.iter().map(|event| event_told(system, family, event));
-    let events: Vec<LoadEvent> = events.collect();
+    let mut events: Vec<LoadEvent> = events.collect();
+    for event in events.iter_mut().filter(|event| event.kind == LoadEventKind::LimitPoint) {
+        event.enclosed = enclosed(variation, family.ends(), &found.points[event.point].record);
+    }
     let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
         .points
         .iter()
@@ -305,6 +313,7 @@ fn event_told(system: &System, family: &Family<'_>, event: &Event<Side>) -> Load
         point: event.point,
         index: event.index,
         turns: event.turns,
+        enclosed: None,
         slack: bars(false),
         taut: bars(true),
         lands: joints(true),
