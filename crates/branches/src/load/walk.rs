@@ -22,7 +22,7 @@ const SHORTEST: f64 = 1e-10;
 /// Conditions that change sides one after another without a step between, before the path is lost.
 const KINKS: usize = 64;
 /// A start at which a unit load moves places by so many units of length is singular.
-const SINGULAR: f64 = 1e9;
+const SINGULAR: f64 = 1e6;
 /// Places whose change over the range is less than this at the start count as if it were this.
 const STILL: f64 = 1e-3;
 /// Part of a step at which the side of a path after a kink is seen.

@@ -194,9 +194,11 @@ fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
             "no value of the parameters describes a chain that can hang; the first: {reason}"
         )));
     }
-    Ok(if found.checks_agree() {
+    // A load path that is lost is not decided, however well its points are confirmed.
+    let lost = found.load_paths().is_some() && !found.checks_decided();
+    Ok(if found.checks_agree() && !lost {
         Exit::Done
-    } else if found.checks_decided() {
+    } else if found.checks_decided() || (lost && !found.checks_agree()) {
         Exit::CheckFailed
     } else {
         Exit::Undecided
