@@ -48,8 +48,7 @@ pub(crate) fn sign_change<P: Clone>(
         // So it does if one of them is no number.
         return None;
     }
-    let mut best =
-        if at_low.abs() < at_high.abs() { (low, a.clone()) } else { (high, b.clone()) };
+    let mut best = if at_low.abs() < at_high.abs() { (low, a.clone()) } else { (high, b.clone()) };
     let mut kept = 0_i32;
     for round in 0..MOST {
         if high - low <= NARROW {

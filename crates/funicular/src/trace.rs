@@ -19,7 +19,7 @@ use model::SystemSummary;
 use model::system::System;
 use serde::Serialize;
 
-use self::load::{LoadPaths, LoadEnd};
+use self::load::{LoadEnd, LoadPaths};
 use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::parameters::Parameters;

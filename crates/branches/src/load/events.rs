@@ -25,7 +25,8 @@ pub(super) struct Singular {
 
 /// A fixed vector without symmetry.
 pub(super) fn without_symmetry(size: usize) -> Row {
-    let y = DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
+    let y =
+        DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
     Row { y, t: 0.0 }
 }
 
@@ -82,12 +83,7 @@ pub(super) fn smooth<Q: Equations>(
 }
 
 /// A branch point between two points, where the inertia changes.
-fn branch<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    a: &Here,
-    b: &Here,
-) -> Option<Singular> {
+fn branch<Q: Equations>(equations: &mut Q, metric: Metric, a: &Here, b: &Here) -> Option<Singular> {
     if a.index == b.index {
         return None;
     }
@@ -104,7 +100,11 @@ fn branch<Q: Equations>(
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             let Some(here) = a.between(equations, metric, b, middle) else { break };
-            if here.index == a.index { low = middle } else { high = middle }
+            if here.index == a.index {
+                low = middle
+            } else {
+                high = middle
+            }
             at = here;
         }
         at

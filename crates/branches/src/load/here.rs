@@ -6,7 +6,7 @@ use super::Equations;
 use super::bordered::{Bordered, Row};
 
 /// Newton's method ends at this size of the residual, or where it falls no further, below the other.
-const TIGHT: f64 = 1e-14;
+const TIGHT: f64 = 1e-16;
 const LOOSE: f64 = 1e-9;
 /// Iterations of the corrector; from a fair prediction it takes three.
 const ITERATIONS: usize = 12;

@@ -54,8 +54,7 @@ pub fn follow<Q: Equations>(
     watch: &dyn Fn(usize),
 ) -> Result<LoadPath<Q>, NoPath<Q::Error>> {
     let (metric, here) = begin(equations, start)?;
-    let mut walk =
-        Walk { equations, settings, metric, points: vec![], events: vec![], watch };
+    let mut walk = Walk { equations, settings, metric, points: vec![], events: vec![], watch };
     let end = walk.keep(&here, None).and_then(|()| walk.run(here));
     let end = end.unwrap_or_else(End::Numbers);
     Ok(LoadPath { points: walk.points, events: walk.events, end })

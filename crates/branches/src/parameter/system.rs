@@ -21,10 +21,7 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
 }
 
 /// The same whether or not it has an equilibrium.
-pub(crate) fn with_numbers(
-    base: &System,
-    numbers: &[(Number, f64)],
-) -> Result<System, PointError> {
+pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
     let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
     let mut of_members = Vec::new();

@@ -157,7 +157,8 @@ impl Zeros for Limit {
         let size = self.equations.size;
         let (y, mode) = (&unknowns[..size], &unknowns[size..2 * size]);
         let jacobian = self.equations.slope(y);
-        let shifted = jacobian.iter().map(|(row, column, entry)| (size + row, size + column, *entry));
+        let shifted =
+            jacobian.iter().map(|(row, column, entry)| (size + row, size + column, *entry));
         let mut entries: Vec<Entry> = shifted.collect();
         entries.extend(jacobian);
         entries.extend(self.by_load.iter().enumerate().map(|(row, entry)| (row, 2 * size, *entry)));
@@ -189,7 +190,8 @@ impl Limit {
                 (change, Interval::ZERO)
             } else {
                 let length = norm(span);
-                let unit = span.map(|part| if part == Interval::ZERO { part } else { part / length });
+                let unit =
+                    span.map(|part| if part == Interval::ZERO { part } else { part / length });
                 let stretch = dot(unit, change);
                 let across = minus(change, times(stretch, unit));
                 let across = times(member.shrink(w) / length, across);
@@ -247,8 +249,7 @@ mod tests {
         let by_load = (0..size).map(|k| Interval::point(0.1 * k as f64)).collect();
         let measure = (0..size).map(|k| (k as f64).cos()).collect();
         let limit = Limit { equations, by_load, measure };
-        let at: Vec<f64> =
-            (0..limit.size()).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();
+        let at: Vec<f64> = (0..limit.size()).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();
         let points = |at: &[f64]| at.iter().copied().map(Interval::point).collect::<Vec<_>>();
         let slope = dense(limit.size(), &limit.slope(&points(&at)));
         for column in 0..limit.size() {

@@ -86,11 +86,7 @@ pub(super) struct Posed {
 }
 
 impl Posed {
-    pub(super) fn new(
-        system: &System,
-        joints_m: &[Point],
-        axial_n: &[f64],
-    ) -> Result<Self, NoBox> {
+    pub(super) fn new(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Self, NoBox> {
         let frame = Frame::new(system, axial_n);
         let activities = activities(system, &frame, joints_m, axial_n)?;
         let loose = loose_joints(system, &activities);

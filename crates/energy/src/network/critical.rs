@@ -105,7 +105,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         (dense.count().0, dense.nearest_to_zero().map(|nearest| nearest / stiff))
     } else {
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        (below(&frame, &shape, &mut factor, ZERO), None)
+        (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
     let (unbalance, misfit) = (slope.unbalance, slope.misfit);
     Ok(Some(Critical { unbalance, allowed: BALANCE + rounding, misfit, index, curvature }))

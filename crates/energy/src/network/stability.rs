@@ -86,7 +86,7 @@ pub(super) fn second_order(
     } else {
         // A run ends with a positive definite matrix alone: no negative eigenvalue is left to
         // count.
-        let neutral = below(frame, shape, factor, -ZERO);
+        let neutral = below(frame, shape, factor, -ZERO, false);
         SecondOrder {
             index: 0,
             neutral,
@@ -122,7 +122,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
         return Some(Dense::new(&flat, shape).count().0);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
-    Some(below(&flat, shape, &mut factor, ZERO))
+    Some(below(&flat, shape, &mut factor, ZERO, false))
 }
 
 /// The joints with their motions in the vertical plane that holds places, loads and supports.
@@ -177,15 +177,26 @@ fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Optio
     Some(Spot { first: 0, freedom, axes })
 }
 
-/// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots.
-pub(super) fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize {
+/// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots;
+/// `exact`ly of elastic members, or of these with a spring in series that keeps stiff ones near the
+/// others.
+pub(super) fn below(
+    frame: &Frame,
+    shape: &Shape,
+    factor: &mut Factor,
+    shift: f64,
+    exact: bool,
+) -> usize {
     let excess = frame.excesses(&shape.x);
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
         let rod = &frame.rods[e];
         let spring = force / STRAIN / rod.length;
-        let stiffness =
-            if resists(frame, shape, e) { spring / (1.0 + spring * rod.flexibility) } else { 0.0 };
+        let stiffness = match resists(frame, shape, e) {
+            true if exact && rod.elastic() => rod.flexibility.recip(),
+            true => spring / (1.0 + spring * rod.flexibility),
+            false => 0.0,
+        };
         excess[e].block(shape.force[e], stiffness)
     };
     let sizes = frame.sizes(|_| force);

@@ -1,8 +1,8 @@
 //! How the program ends.
 
 use branches::{ContinuationError, ParameterError};
-use funicular::{Error, LoadError};
 use funicular::judge::GivenError;
+use funicular::{Error, LoadError};
 use model::steers;
 use validate::systems::SystemFailure;
 
@@ -123,9 +123,7 @@ impl Failure {
                 | LoadError::NotNear { .. }
                 | LoadError::Start { .. }
                 | LoadError::Singular,
-            ) => {
-                Self::undecided(error)
-            }
+            ) => Self::undecided(error),
             Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
                 let help = format!("with --max-points {points} it is done all the same");
                 Self::bad_input(Diagnostic::from(error).with_help(help))

@@ -124,7 +124,11 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let trace = arguments.of.iter().fold(trace, Trace::of);
     let trace = arguments.max_points.map_or(trace.clone(), |most| trace.max_points(most));
     let load = trace.is_load_path(&problem);
-    let paths = if load { trace.load_variation(&problem)?.paths().len() } else { all(arguments, &trace, &problem)? };
+    let paths = if load {
+        trace.load_variation(&problem)?.paths().len()
+    } else {
+        all(arguments, &trace, &problem)?
+    };
     let diagrams =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
@@ -133,7 +137,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let watch = |path, branches::Progress { done, total }| {
         let which =
             if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
-        let what = if load { format!("{done} points") } else { format!("census {done} of {total}") };
+        let what =
+            if load { format!("{done} points") } else { format!("census {done} of {total}") };
         progress.say(&format!("{which}{what}"));
     };
     let found = trace.run_watched(&problem, &watch).map_err(refuse)?;

@@ -157,11 +157,13 @@ fn outwards(low: f64, high: f64) -> [String; 2] {
 
 /// The joints that move most in a mode.
 fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
-    let size = |joint: &usize| event.mode[*joint].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let size =
+        |joint: &usize| event.mode[*joint].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let mut joints: Vec<usize> = (0..event.mode.len()).filter(|joint| size(joint) > 1e-6).collect();
     joints.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
     let moves = joints.iter().take(MODE).map(|joint| {
-        let [x, y, z] = event.mode[*joint].map(|x| significant(if x.abs() < 1e-6 { 0.0 } else { x }, 3));
+        let [x, y, z] =
+            event.mode[*joint].map(|x| significant(if x.abs() < 1e-6 { 0.0 } else { x }, 3));
         format!("{} by ({x}, {y}, {z})", Printable(&found.system().joints()[*joint].name))
     });
     let moves: Vec<String> = moves.collect();

@@ -94,7 +94,8 @@ pub(super) fn confirm(
         }
         if *index == 0 && !event {
             stable += 1;
-            if stable % every == 0 && !system.is_unloaded() {
+            // The last one, next to a limit point, would be a minimum to few digits.
+            if stable % every == every / 2 && !system.is_unloaded() {
                 found.minimised += 1;
                 found.minima += usize::from(is_minimum(&system, equilibrium));
             }

@@ -28,7 +28,8 @@ pub(super) fn enclosed(
 /// Whether two systems differ in forces and masses alone.
 fn loads_alone(a: &System, b: &System) -> bool {
     let joint = |(a, b): (&Joint, &Joint)| a.support == b.support;
-    let body = |member: &Member| (member.body.length_m().to_bits(), member.body.centre_m().to_bits());
+    let body =
+        |member: &Member| (member.body.length_m().to_bits(), member.body.centre_m().to_bits());
     let places = |member: &Member| -> Vec<u64> {
         member.loads.iter().map(|load| load.at_m.to_bits()).collect()
     };

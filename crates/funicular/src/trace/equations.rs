@@ -1,7 +1,7 @@
 //! The equations of `lagrange` along a straight line of numbers of the file.
 
-use branches::load::{self, NoPath};
 use branches::Variation;
+use branches::load::{self, NoPath};
 use lagrange::network::{Equations, Seed, Settings, Side, solve, solve_from};
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
@@ -51,14 +51,8 @@ impl<'a> Family<'a> {
             (Err(_), Some(drawing_m)) if system.is_unloaded() => equations.drawn(drawing_m),
             (Err(error), _) => return Err(error.into()),
         };
-        let family = Self {
-            variation,
-            from: from.to_vec(),
-            to: to.to_vec(),
-            at: 0.0,
-            system,
-            equations,
-        };
+        let family =
+            Self { variation, from: from.to_vec(), to: to.to_vec(), at: 0.0, system, equations };
         Ok((family, DVector::from_vec(start)))
     }
 
@@ -75,8 +69,7 @@ impl<'a> Family<'a> {
 
     fn set(&mut self, t: f64) -> Result<(), LoadError> {
         if t.to_bits() != self.at.to_bits() {
-            self.system =
-                self.variation.unloaded(&self.values(t)).map_err(LoadError::Numbers)?;
+            self.system = self.variation.unloaded(&self.values(t)).map_err(LoadError::Numbers)?;
             self.equations.set(&self.system);
             self.at = t;
         }

@@ -2,7 +2,7 @@
 
 use figures::{Anchor, Axes, Axis, BLUE, Look, Svg, Unit, VERMILION};
 
-use super::load::{LoadPath, LoadPaths, LoadEventKind, LoadPoint};
+use super::load::{LoadEventKind, LoadPath, LoadPaths, LoadPoint};
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 560.0;

@@ -40,7 +40,9 @@ pub enum LoadError {
     #[error("no equilibrium at the start of the path: {0}")]
     Solver(#[from] lagrange::network::Error),
     /// Occurs when the equilibrium at the start is another one than the shape given shows.
-    #[error("the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m:.3e} m away")]
+    #[error(
+        "the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m:.3e} m away"
+    )]
     NotNear {
         /// The joint that is farthest, in units of its shortest member.
         joint: String,

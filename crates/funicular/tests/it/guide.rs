@@ -89,7 +89,8 @@ fn its_load_path_is_followed() {
     let (code, text) = run(folder.path(), &arguments);
     assert_eq!(code, Some(0));
     let said = page.split_once("```text\n").unwrap().1.split_once("```").unwrap().0;
-    let trimmed = |text: &str| text.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>();
+    let trimmed =
+        |text: &str| text.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>();
     assert_eq!(trimmed(said), trimmed(&text));
     // EA = 1e6 N, limit where l^3 = l0 a^2, in units of 1e3 N.
     let l0 = 1.25_f64.sqrt();

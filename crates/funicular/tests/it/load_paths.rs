@@ -146,10 +146,13 @@ fn dead_load_an_elastic_support_and_an_apex_off_the_centre() {
     // The apex 0.3 m off the centre.
     let oblique = gable(0.5, "z", "").replace("[0, 0, 0.5]", "[0.3, 0, 0.5]");
     let bears = |w: f64| {
-        [0.7_f64, 1.3].iter().map(|a| {
-            let (l, l0) = (w.hypot(*a), a.hypot(0.5));
-            w / l * (l0 - l) / l0
-        }).sum::<f64>()
+        [0.7_f64, 1.3]
+            .iter()
+            .map(|a| {
+                let (l, l0) = (w.hypot(*a), a.hypot(0.5));
+                w / l * (l0 - l) / l0
+            })
+            .sum::<f64>()
     };
     let w = root(derivative(bears), [0.05, 0.5]);
     near(path(&oblique, "loads=0..1").first_loss().unwrap().values[0], bears(w));
@@ -287,7 +290,8 @@ fn where_no_path_begins_the_error_says_why() {
 #[test]
 fn the_path_of_a_symmetric_truss_is_symmetric() {
     let (r, h) = (0.127, 0.0508);
-    let mut file = format!("[joints]\nN1 = {{ near_m = [0, 0, {}], force_n = [0, 0, -445e3] }}\n", 2.0 * h);
+    let mut file =
+        format!("[joints]\nN1 = {{ near_m = [0, 0, {}], force_n = [0, 0, -445e3] }}\n", 2.0 * h);
     for (k, [x, y]) in [[1, -1], [1, 1], [-1, 1], [-1, -1]].iter().enumerate() {
         let [x, y] = [f64::from(*x), f64::from(*y)];
         file += &format!("R{k} = {{ near_m = [{}, {}, {h}] }}\n", r * x, r * y);
@@ -296,17 +300,27 @@ fn the_path_of_a_symmetric_truss_is_symmetric() {
     }
     for k in 0..4 {
         let next = (k + 1) % 4;
-        for ends in [["N1".into(), format!("R{k}")], [format!("R{k}"), format!("R{next}")],
-                     [format!("R{k}"), format!("F{k}")], [format!("R{next}"), format!("F{k}")]] {
+        for ends in [
+            ["N1".into(), format!("R{k}")],
+            [format!("R{k}"), format!("R{next}")],
+            [format!("R{k}"), format!("F{k}")],
+            [format!("R{next}"), format!("F{k}")],
+        ] {
             let [from, to]: [String; 2] = ends;
-            file += &format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 44482233.616\n");
+            file += &format!(
+                "[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 44482233.616\n"
+            );
         }
     }
     let path = path(&file, "loads=0,4,-4");
     let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
     let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
     assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
-    assert!(path.events.iter().all(|event| event.enclosed.is_some() == (event.kind == LoadEventKind::LimitPoint)));
+    assert!(
+        path.events
+            .iter()
+            .all(|event| event.enclosed.is_some() == (event.kind == LoadEventKind::LimitPoint))
+    );
     for (one, other) in limits.iter().zip(limits.iter().rev()) {
         near(*one, -other);
     }

@@ -125,8 +125,7 @@ impl Equations {
         let units = self.units;
         let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
         let places: Vec<_> = joints_m.iter().map(place).collect();
-        let mut y: Vec<f64> =
-            places.iter().flat_map(|place| [place.x, place.y, place.z]).collect();
+        let mut y: Vec<f64> = places.iter().flat_map(|place| [place.x, place.y, place.z]).collect();
         for (k, link) in self.framework.links.iter().enumerate() {
             let longer = link.span(&places).norm() - link.length;
             let just = longer.abs() <= REACHES * link.length;
@@ -150,7 +149,8 @@ impl Equations {
     #[must_use]
     pub fn onto(&self, y: &[f64]) -> Vec<f64> {
         let state = with_held(&self.framework, self.state(y));
-        let axial = state.axial.iter().zip(&state.taut).map(|(n, taut)| if *taut { *n } else { 0.0 });
+        let axial =
+            state.axial.iter().zip(&state.taut).map(|(n, taut)| if *taut { *n } else { 0.0 });
         state.places.iter().flat_map(|place| [place.x, place.y, place.z]).chain(axial).collect()
     }
 
@@ -162,7 +162,8 @@ impl Equations {
         let rows = self.flat(&residual.forces, &residual.lengths);
         let forces = &rows[..3 * self.framework.nodes.len()];
         let unit = residual.unit.max(1.0);
-        let largest = |most: f64, value: f64| if value > most || value.is_nan() { value } else { most };
+        let largest =
+            |most: f64, value: f64| if value > most || value.is_nan() { value } else { most };
         let size = forces.iter().map(|force| force.abs() / unit).fold(residual.length.0, largest);
         (rows, size)
     }
@@ -212,8 +213,7 @@ impl Equations {
     pub fn apply(&self, y: &[f64]) -> Vec<f64> {
         let Some(derivative) = &self.derivative else { return vec![0.0; y.len()] };
         let zero = (vec![Vector3::zeros(); self.lies.len()], vec![0.0; self.taut.len()]);
-        let (forces, lengths) =
-            derivative.left(&self.step(y), &self.framework, &zero.0, &zero.1);
+        let (forces, lengths) = derivative.left(&self.step(y), &self.framework, &zero.0, &zero.1);
         self.flat(&forces, &lengths)
     }
 
@@ -233,8 +233,7 @@ impl Equations {
             if !self.framework.moves(link) {
                 return None;
             }
-            let value =
-                if self.taut[k] { state.axial[k] } else { link.length - directions[k].1 };
+            let value = if self.taut[k] { state.axial[k] } else { link.length - directions[k].1 };
             Some((Side::Member(k), sign * value))
         });
         let mut sides: Vec<_> = members.collect();
