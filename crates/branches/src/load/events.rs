@@ -14,6 +14,9 @@ const HALVINGS: usize = 50;
 /// A condition below this has changed sides; above it, it is at zero to rounding.
 pub(super) const WRONG: f64 = 1e-10;
 
+/// A point with the conditions that change sides there.
+pub(super) type Switching<S> = (Here, Vec<S>);
+
 /// A point where the matrix is singular.
 pub(super) struct Singular {
     pub(super) at: Here,
@@ -101,9 +104,9 @@ fn branch<Q: Equations>(equations: &mut Q, metric: Metric, a: &Here, b: &Here) -
             let middle = 0.5 * (low + high);
             let Some(here) = a.between(equations, metric, b, middle) else { break };
             if here.index == a.index {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
             at = here;
         }
@@ -120,7 +123,7 @@ pub(super) fn kink<Q: Equations>(
     metric: Metric,
     a: &Here,
     b: &Here,
-) -> Result<Option<(Here, Vec<Q::Side>)>, Q::Error> {
+) -> Result<Option<Switching<Q::Side>>, Q::Error> {
     let begin = equations.sides(&a.y, a.t)?;
     let mut end = b.clone();
     let mut at_end = equations.sides(&b.y, b.t)?;

@@ -6,7 +6,7 @@ use super::Equations;
 use super::bordered::{Bordered, Row};
 
 /// Newton's method ends at this size of the residual, or where it falls no further, below the other.
-const TIGHT: f64 = 1e-16;
+const TIGHT: f64 = 1e-14;
 const LOOSE: f64 = 1e-9;
 /// Iterations of the corrector; from a fair prediction it takes three.
 const ITERATIONS: usize = 12;
@@ -16,6 +16,9 @@ const FALLS: f64 = 0.5;
 /// Step of the difference for the derivative by the parameter: exact but for rounding where loads
 /// vary, and of second order elsewhere.
 const DIFFERENCE: f64 = 1e-5;
+
+/// An equilibrium, or what is left of the equations where there is none.
+pub(super) type Corrected = Result<(DVector<f64>, f64), f64>;
 
 /// A point with its tangent.
 #[derive(Debug, Clone)]
@@ -69,7 +72,7 @@ pub(super) fn correct<Q: Equations>(
     guess: (&DVector<f64>, f64),
     column: &DVector<f64>,
     row: &Row,
-) -> Result<Result<(DVector<f64>, f64), f64>, Q::Error> {
+) -> Result<Corrected, Q::Error> {
     let (mut y, mut t) = (equations.onto(guess.0, guess.1)?, guess.1);
     let (mut last, mut best) = (f64::INFINITY, None);
     for _ in 0..ITERATIONS {

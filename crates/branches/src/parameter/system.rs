@@ -34,7 +34,6 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
     }
     for (number, value) in numbers {
         match base.resolved(number) {
-            Number::Loads => {}
             Number::Gravity => gravity_m_s2 = *value,
             Number::Floor => floor_m = Some(*value),
             Number::Joint(name, field) => {
@@ -42,8 +41,8 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
                     set_joint(&mut joints[joint], field, *value);
                 }
             }
-            // Of no row of bars; such variations are refused before.
-            Number::Anchor(..) | Number::Row(..) => {}
+            // Set before; of no row of bars: such variations are refused before.
+            Number::Loads | Number::Anchor(..) | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 of_members.push((which, field, *value));
             }

@@ -126,7 +126,7 @@ fn null_vector(inverse: &Mat<f64>) -> Vec<f64> {
     for _ in 0..STEPS {
         mode = inverse * mode;
         let norm = mode.norm_l2();
-        mode = mode * faer::Scale(norm.recip());
+        mode *= faer::Scale(norm.recip());
     }
     (0..inverse.nrows()).map(|k| mode[(k, 0)]).collect()
 }

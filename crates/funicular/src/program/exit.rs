@@ -100,7 +100,13 @@ impl Failure {
             | Error::Network(_)
             | Error::Basins(_)
             | Error::Reproduction(_)
-            | Error::Report(_) => Self::undecided(error),
+            | Error::Report(_)
+            | Error::Load(
+                LoadError::Solver(_)
+                | LoadError::NotNear { .. }
+                | LoadError::Start { .. }
+                | LoadError::Singular,
+            ) => Self::undecided(error),
             // A disk that fails says nothing about the input, and those who run many may try again.
             Error::Store(error) => {
                 let help = error.help().map(Into::into);
@@ -118,12 +124,6 @@ impl Failure {
                 Self::bad_input(Diagnostic::from(error).with_help(help))
             }
             Error::Parameter(error) => Self::parameter(&error),
-            Error::Load(
-                LoadError::Solver(_)
-                | LoadError::NotNear { .. }
-                | LoadError::Start { .. }
-                | LoadError::Singular,
-            ) => Self::undecided(error),
             Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
                 let help = format!("with --max-points {points} it is done all the same");
                 Self::bad_input(Diagnostic::from(error).with_help(help))

@@ -33,7 +33,8 @@ fn fixed(found: &LoadPaths, path: &LoadPath) -> String {
     let (names, units) = found.parameters();
     let Some(first) = path.points.first() else { return String::new() };
     let others = 0..names.len().saturating_sub(1);
-    others.map(|k| format!(", {}", valued(&names[k], first.values[k], units[k]))).collect()
+    let all = others.map(|k| valued(&names[k], first.values[k], units[k]));
+    std::iter::once(String::new()).chain(all).collect::<Vec<_>>().join(", ")
 }
 
 /// `loads = 0.5`, `joints.P.force_n.z = -3 N`.
@@ -75,7 +76,8 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
 /// All points if they are few; else events, both ends and some between them.
 fn spread(points: &[LoadPoint]) -> Vec<&LoadPoint> {
     let every = points.len().div_ceil(PRINTED).max(1);
-    let shown = |k: usize| k % every == 0 || k + 1 == points.len() || points[k].event.is_some();
+    let shown =
+        |k: usize| k.is_multiple_of(every) || k + 1 == points.len() || points[k].event.is_some();
     (0..points.len()).filter(|k| shown(*k)).map(|k| &points[k]).collect()
 }
 
@@ -150,8 +152,7 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
 /// middle, or to nine.
 fn outwards(low: f64, high: f64) -> [String; 2] {
     let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
-    #[expect(clippy::cast_possible_truncation, reason = "the exponent of a double")]
-    let unit = 10_f64.powi(size.log10().floor() as i32 + 1 - DIGITS as i32);
+    let unit = 10_f64.powf(size.log10().floor() + 1.0 - DIGITS as f64);
     [(low / unit).floor() * unit, (high / unit).ceil() * unit].map(|x| significant(x, DIGITS))
 }
 

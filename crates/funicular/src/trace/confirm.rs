@@ -36,7 +36,8 @@ pub struct Confirmed {
     pub singular: usize,
     /// Those where it vanishes.
     pub flat: usize,
-    /// The largest violation of the laws of statics at any point, in the units of the judge.
+    /// The largest violation of the laws of statics at any point, in the units of the judge with the
+    /// largest load on the path in the place of that of the point.
     pub statics: f64,
 }
 
@@ -68,18 +69,18 @@ pub(super) fn confirm(
         flat: 0,
         statics: 0.0,
     };
+    let loads = points.iter().filter_map(|(values, ..)| variation.unloaded(values).ok());
+    let most_n = loads.map(|system| load_n(&system)).fold(0.0, f64::max);
     let stable = points.iter().filter(|(_, _, index, event)| *index == 0 && !event).count();
     let large = variation.base().joints().len() > SMALL;
     let every = stable.div_ceil(if large { 1 } else { MINIMISED }).max(1);
     let mut stable = 0;
     for (number, (values, equilibrium, index, event)) in points.iter().enumerate() {
         let Ok(system) = variation.unloaded(values) else { continue };
-        // Without loads there is nothing to measure forces in.
-        if !system.is_unloaded() {
-            let statics = judge(&system, equilibrium).largest();
-            let worse = statics > found.statics || statics.is_nan();
-            found.statics = if worse { statics } else { found.statics };
-        }
+        let of_most = load_n(&system) / most_n.max(f64::MIN_POSITIVE);
+        let statics = judge(&system, equilibrium).largest() * of_most;
+        let worse = statics > found.statics || (statics.is_nan() && of_most > 0.0);
+        found.statics = if worse { statics } else { found.statics };
         let Ok(Some(critical)) = energy::network::critical(&system, &equilibrium.joints_m) else {
             continue;
         };
@@ -102,6 +103,15 @@ pub(super) fn confirm(
         }
     }
     found
+}
+
+/// All loads together, N.
+fn load_n(system: &System) -> f64 {
+    let size = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+    let joints = system.joints().iter().map(|joint| size(joint.force_n));
+    let bars = system.members().iter().flat_map(|member| &member.loads);
+    let forces = joints.chain(bars.map(|load| size(load.force_n)));
+    model::sum(forces) + system.total_mass_kg() * system.gravity_m_s2()
 }
 
 /// Whether the energy has its minimum here.

@@ -143,8 +143,18 @@ impl From<NoPath<LoadError>> for LoadError {
     }
 }
 
-/// The values at the two ends of the line of a path, and the range of the line that its points take.
-pub(super) fn line(points: &[Vec<f64>]) -> Result<([&[f64]; 2], [f64; 2], f64), LoadError> {
+/// A straight line of values.
+pub(super) struct Line<'a> {
+    /// The values at 0 and at 1.
+    pub(super) ends: [&'a [f64]; 2],
+    /// The range of the points given.
+    pub(super) range: [f64; 2],
+    /// Their largest distance.
+    pub(super) longest: f64,
+}
+
+/// The line of a path.
+pub(super) fn line(points: &[Vec<f64>]) -> Result<Line<'_>, LoadError> {
     let first = points.first().ok_or(LoadError::NoRange)?;
     let last = first.len().checked_sub(1).ok_or(LoadError::NoRange)?;
     let off = |point: &Vec<f64>| point[last] - first[last];
@@ -169,7 +179,7 @@ pub(super) fn line(points: &[Vec<f64>]) -> Result<([&[f64]; 2], [f64; 2], f64), 
         }
         range = [range[0].min(t), range[1].max(t)];
     }
-    Ok(([first, far], range, longest))
+    Ok(Line { ends: [first, far], range, longest })
 }
 
 /// Values in step are on a line to this part of them.

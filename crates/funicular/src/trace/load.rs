@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::confirm::{Confirmed, confirm};
 use super::enclosed::enclosed;
-use super::equations::{Family, Kept, line};
+use super::equations::{Family, Kept, Line, line};
 use super::figure;
 use crate::csv::quoted;
 use crate::error::Error;
@@ -185,9 +185,9 @@ pub(super) fn trace(
     let of = of.collect::<Result<Vec<_>, _>>()?;
     let mut all = Vec::new();
     for (number, points) in variation.paths().iter().enumerate() {
-        let (ends, range, spacing) = line(points)?;
+        let Line { ends, range, longest } = line(points)?;
         let (mut family, start) = Family::new(variation, ends)?;
-        let settings = Settings { range, longest: spacing.min(1.0 / STEPS), max_points };
+        let settings = Settings { range, longest: longest.min(1.0 / STEPS), max_points };
         let told = |points| watch(number, points);
         let found = follow(&mut family, &start, settings, &told).map_err(LoadError::from)?;
         all.push((family, found));
@@ -199,7 +199,7 @@ pub(super) fn trace(
         Some(moved) => vec![Observable::parse(&moved, system)?],
         None => of,
     };
-    let paths = all.into_iter().map(|(family, found)| told(&family, variation, &of, found));
+    let paths = all.into_iter().map(|(family, found)| told(&family, variation, &of, &found));
     let numbers = variation.numbers();
     Ok(LoadPaths {
         system: system.clone(),
@@ -246,7 +246,7 @@ fn told(
     family: &Family<'_>,
     variation: &Variation<System>,
     of: &[Observable],
-    found: Followed<Family<'_>>,
+    found: &Followed<Family<'_>>,
 ) -> LoadPath {
     let system = variation.base();
     let points = found.points.iter().map(|point| {
@@ -278,7 +278,7 @@ fn told(
         })
         .collect();
     let confirmed = confirm(variation, &equilibria, &events);
-    let end = match found.end {
+    let end = match &found.end {
         End::Range => LoadEnd::Range,
         End::MaxPoints => LoadEnd::MaxPoints,
         End::Lost => LoadEnd::Lost,

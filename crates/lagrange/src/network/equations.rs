@@ -107,10 +107,13 @@ impl Equations {
     pub fn at(&mut self, system: &System, solution: &Solution) -> Vec<f64> {
         let answer = &solution.equilibrium;
         self.taut = vec![true; self.bare.links.len()];
-        solution.slack.iter().for_each(|member| self.taut[*member] = false);
+        for &member in &solution.slack {
+            self.taut[member] = false;
+        }
         self.lies = vec![false; self.bare.nodes.len()];
-        let lying = Framework::of(system, solution).lying;
-        lying.iter().for_each(|lying| self.lies[lying.joint] = true);
+        for lying in Framework::of(system, solution).lying {
+            self.lies[lying.joint] = true;
+        }
         self.lay();
         let units = self.units;
         let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
