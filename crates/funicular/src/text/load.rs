@@ -158,9 +158,10 @@ fn outwards(low: f64, high: f64) -> [String; 2] {
 
 /// The joints that move most in a mode.
 fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
-    let size =
-        |joint: &usize| event.mode[*joint].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let mut joints: Vec<usize> = (0..event.mode.len()).filter(|joint| size(joint) > 1e-6).collect();
+    let largest = |joint: &usize| event.mode[*joint].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    // Moves that differ by rounding are in the order of the joints.
+    let size = |joint: &usize| (1e6 * largest(joint)).round();
+    let mut joints: Vec<usize> = (0..event.mode.len()).filter(|joint| size(joint) > 1.0).collect();
     joints.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
     let moves = joints.iter().take(MODE).map(|joint| {
         let [x, y, z] =
