@@ -83,6 +83,7 @@ mod equations;
 mod error;
 mod event;
 mod frame;
+pub mod load;
 mod locate;
 mod multiple;
 mod observables;

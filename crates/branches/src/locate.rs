@@ -12,8 +12,7 @@ const MOST: usize = 80;
 const NARROW: f64 = 1e-14;
 
 /// The point on the curve between `a` and `b`, near to each other, where `test` changes its sign:
-/// points are named by their foot on the chord, and found by regula falsi (the Illinois rule) with
-/// bisection.
+/// points are named by their foot on the chord.
 ///
 /// `test` sees the point and the chord. `None` if it does not change its sign, or the curve is
 /// lost.
@@ -25,21 +24,31 @@ pub(crate) fn on_chord(
 ) -> Option<DVector<f64>> {
     let chord = b - a;
     let row = &chord / chord.norm();
-    let point = |part: f64| correct(path, a + part * &chord, &row);
+    sign_change([a, b], |part| correct(path, a + part * &chord, &row), |y| test(y, &row))
+        .map(|(_, y)| y)
+}
+
+/// Where `test` changes its sign between two ends, by regula falsi (the Illinois rule) with
+/// bisection: the part of the way, and the point there.
+pub(crate) fn sign_change<P: Clone>(
+    [a, b]: [&P; 2],
+    mut point: impl FnMut(f64) -> Option<P>,
+    mut test: impl FnMut(&P) -> Option<f64>,
+) -> Option<(f64, P)> {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    let (mut at_low, mut at_high) = (test(a, &row)?, test(b, &row)?);
+    let (mut at_low, mut at_high) = (test(a)?, test(b)?);
     if at_low.abs() <= 0.0 {
-        return Some(a.clone());
+        return Some((low, a.clone()));
     }
     if at_high.abs() <= 0.0 {
-        return Some(b.clone());
+        return Some((high, b.clone()));
     }
     let changes = at_low * at_high < 0.0;
     if !changes {
         // So it does if one of them is no number.
         return None;
     }
-    let mut best = if at_low.abs() < at_high.abs() { a.clone() } else { b.clone() };
+    let mut best = if at_low.abs() < at_high.abs() { (low, a.clone()) } else { (high, b.clone()) };
     let mut kept = 0_i32;
     for round in 0..MOST {
         if high - low <= NARROW {
@@ -51,8 +60,8 @@ pub(crate) fn on_chord(
         let middle = if inside { secant } else { 0.5 * (low + high) };
         // At a point where two curves cross the corrector fails; next to it, it does not.
         let Some(y) = point(middle) else { break };
-        let Some(here) = test(&y, &row) else { break };
-        best = y;
+        let Some(here) = test(&y) else { break };
+        best = (middle, y);
         if here.abs() <= 0.0 {
             break;
         }

@@ -50,7 +50,8 @@ impl<B: Base> Variation<B> {
     /// # Errors
     ///
     /// [`ParameterError`] when a bar or a joint is missing, a number is named twice, lists to be
-    /// taken in step differ in length, or there are more than [`MAX_POINTS`] points.
+    /// taken in step differ in length, a range has no number of points, or there are more than
+    /// [`MAX_POINTS`] points.
     ///
     /// ```
     /// use branches::{Combine, Variation};
@@ -62,6 +63,19 @@ impl<B: Base> Variation<B> {
     /// # Ok::<(), branches::ParameterError>(())
     /// ```
     pub fn new(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
+        for one in vary {
+            base.check(one)?;
+            one.with_points()?;
+        }
+        Self::along(base, vary, combine)
+    }
+
+    /// The same for paths that find their own points: a range may have no number of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn along(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
         for (k, one) in vary.iter().enumerate() {
             base.check(one)?;
             let number = base.resolved(&one.number);
@@ -151,6 +165,15 @@ impl Variation<System> {
     /// ```
     pub fn system(&self, values: &[f64]) -> Result<System, PointError> {
         system::apply(&self.base, &self.at(values))
+    }
+
+    /// The same whether or not the system has an equilibrium, as without its loads.
+    ///
+    /// # Errors
+    ///
+    /// [`PointError`] when the values describe no system.
+    pub fn unloaded(&self, values: &[f64]) -> Result<System, PointError> {
+        system::with_numbers(&self.base, &self.at(values))
     }
 }
 

@@ -150,6 +150,10 @@ pub enum Error {
     #[cfg(feature = "branches")]
     #[error(transparent)]
     Continuation(#[from] branches::ContinuationError),
+    /// Occurs when there is no load path.
+    #[cfg(feature = "branches")]
+    #[error(transparent)]
+    Load(#[from] crate::trace::load::LoadError),
     /// Occurs when a solver has no answer to the paper's example.
     #[cfg(feature = "paper")]
     #[error(transparent)]

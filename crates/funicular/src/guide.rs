@@ -27,3 +27,5 @@ pub mod from_rust {}
 pub mod commands {}
 #[doc = include_str!("../guide/14-keys.md")]
 pub mod keys {}
+#[doc = include_str!("../guide/15-load-paths.md")]
+pub mod load_paths {}

@@ -90,6 +90,8 @@ mod mode_pages;
 mod modes;
 mod moving_page;
 #[cfg(feature = "branches")]
+mod observable;
+#[cfg(feature = "branches")]
 mod parameters;
 pub mod picture;
 mod problem;
@@ -141,7 +143,11 @@ pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 #[cfg(feature = "sweep")]
 pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
 #[cfg(feature = "branches")]
-pub use self::trace::{Trace, TraceAnswer};
+pub use self::trace::load::{
+    LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
+};
+#[cfg(feature = "branches")]
+pub use self::trace::{Confirmed, Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]

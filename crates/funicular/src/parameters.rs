@@ -30,7 +30,7 @@ impl Parameters {
     }
 
     /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`, in the
-    /// units of the file.
+    /// units of the file. A [`Trace`](crate::Trace) also takes a range alone, `loads=0..1.2`.
     ///
     /// # Errors
     ///
@@ -49,6 +49,16 @@ impl Parameters {
     /// The chain of a problem with these parameters; `what` needs one.
     pub(crate) fn of(&self, problem: &Problem, what: &'static str) -> Result<Variation, Error> {
         self.over(problem.chain_for(what)?.chain().clone())
+    }
+
+    /// Whether one is a range without a number of points.
+    pub(crate) fn is_open(&self) -> bool {
+        self.all.iter().any(|one| one.open)
+    }
+
+    /// A system with these parameters, for paths that find their own points.
+    pub(crate) fn along<B: Base>(&self, base: B) -> Result<Variation<B>, Error> {
+        Ok(Variation::along(base, &self.all, self.combine)?)
     }
 
     /// A chain or a system with these parameters.

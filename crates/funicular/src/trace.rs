@@ -1,4 +1,12 @@
-//! All equilibria over a parameter.
+//! All equilibria of a chain over a parameter, and load paths of any system.
+
+mod confirm;
+mod enclosed;
+mod equations;
+mod figure;
+pub(crate) mod load;
+
+pub use self::confirm::Confirmed;
 
 use std::io::{self, Write};
 
@@ -8,16 +16,21 @@ use branches::{
 };
 
 use model::SystemSummary;
+use model::system::System;
 use serde::Serialize;
 
+use self::load::{LoadEnd, LoadPaths};
+use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
 use crate::solve::SCHEMA_VERSION;
 use crate::threads;
 
-/// Follows all equilibria over a number of the system file: branches, folds, exchanges of
-/// stability.
+/// Follows equilibria over a number of the system file. With values of a chain all of them:
+/// branches, folds, exchanges of stability. Of any system, or over a range alone as `loads=0..1.2`,
+/// one: the load path from the shape as it is drawn (or the hanging one), through limit points,
+/// branch points and slack cables.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -31,12 +44,31 @@ use crate::threads;
 /// assert!(found.checks_agree());
 /// let [event] = &found.paths()[0].events[..] else { panic!("one event") };
 /// assert!((event.values[0] - 2.0).abs() < 1e-12);
+/// // Two elastic bars of 5 N of stiffness, a gable of 1 m rise over 2 m: how much it bears until
+/// // it snaps through. At the limit the bars are (l0 a^2)^(1/3) long.
+/// let gable = Problem::parse(
+///     "[joints]\n\
+///      A = { at_m = [-1, 0, 0] }\n\
+///      B = { at_m = [1, 0, 0] }\n\
+///      P = { near_m = [0, 0, 0.5], force_n = [0, 0, -1], along = [0, 0, 1], at_m = [0, 0, 0.5] }\n\
+///      [[bars]]\nmass_kg = 0\nfrom = \"A\"\nto = \"P\"\nstiffness_n = 5\n\
+///      [[bars]]\nmass_kg = 0\nfrom = \"P\"\nto = \"B\"\nstiffness_n = 5",
+///     "gable.toml",
+/// )?;
+/// let found = Trace::new().vary("loads=0..1")?.run(&gable)?;
+/// let path = &found.load_paths().expect("a load path").paths()[0];
+/// let l0 = 1.25_f64.sqrt();
+/// let l = l0.cbrt();
+/// let limit_n = 10.0 * (l * l - 1.0).sqrt() / l * (l0 - l) / l0;
+/// assert!((path.first_loss().expect("a limit").values[0] - limit_n).abs() < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     parameters: Parameters,
     settings: ContinuationSettings,
+    max_points: Option<usize>,
+    of: Vec<String>,
     threads: usize,
 }
 
@@ -63,11 +95,28 @@ impl Trace {
         Self { parameters, ..self }
     }
 
-    /// Most points of all paths together: all that is found is held in memory.
+    /// Most points, of which all that is found is held in memory: of all paths of a chain together
+    /// (100,000 if not set), or of each load path (1,000).
     #[must_use]
     pub fn max_points(mut self, max_points: usize) -> Self {
         self.settings.max_points = max_points;
+        self.max_points = Some(max_points);
         self
+    }
+
+    /// Shows one more number along load paths, as [`Study::of`](crate::Study::of) names it; without
+    /// any the coordinate that moves most.
+    #[must_use]
+    pub fn of(mut self, name: impl Into<String>) -> Self {
+        self.of.push(name.into());
+        self
+    }
+
+    /// Whether load paths are followed: over a range alone, or of what is no chain. Else all
+    /// equilibria of a chain are.
+    #[must_use]
+    pub fn is_load_path(&self, problem: &Problem) -> bool {
+        self.parameters.is_open() || !self.of.is_empty() || problem.row().is_none()
     }
 
     /// How many threads share the work, 0 (the default) for those of the pool that it is called
@@ -77,7 +126,7 @@ impl Trace {
         Self { threads, ..self }
     }
 
-    /// The paths, before any of them is followed.
+    /// The paths of a chain, before any of them is followed.
     ///
     /// # Errors
     ///
@@ -95,6 +144,15 @@ impl Trace {
         }
     }
 
+    /// The load paths, before any of them is followed.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Parameter`] when a parameter does not fit the problem.
+    pub fn load_variation(&self, problem: &Problem) -> Result<Variation<System>, Error> {
+        self.parameters.along(system_of(problem))
+    }
+
     /// Processor time of the censuses at all points, s, good to an order of magnitude, as the
     /// estimate of a census is. Following the branches takes less.
     ///
@@ -107,18 +165,20 @@ impl Trace {
         Ok(points as f64 * census::expected_time_s(variation.base().bars().len()))
     }
 
-    /// Follow all equilibria.
+    /// Follow all equilibria, or the load path.
     ///
     /// # Errors
     ///
-    /// As [`variation`](Self::variation), and [`Error::Continuation`] when the chain is too long
+    /// [`Error::Parameter`] when a parameter does not fit the problem; [`Error::Load`] where no load
+    /// path begins; for all equilibria [`Error::Continuation`] when the chain is too long
     /// for a census, or the paths have more points together than [`max_points`](Self::max_points)
     /// allows. A point that is refused or undecided is no error: it says so.
     pub fn run(&self, problem: &Problem) -> Result<TraceAnswer, Error> {
         self.run_watched(problem, &|_, _| {})
     }
 
-    /// The same, with `watch` told the number of the path and how far it is.
+    /// The same, with `watch` told the number of the path and how far it is; of a load path how many
+    /// points there are.
     ///
     /// # Errors
     ///
@@ -128,6 +188,13 @@ impl Trace {
         problem: &Problem,
         watch: &(dyn Fn(usize, Progress) + Sync),
     ) -> Result<TraceAnswer, Error> {
+        if self.is_load_path(problem) {
+            let variation = self.load_variation(problem)?;
+            let most = self.max_points.unwrap_or(LOAD_POINTS);
+            let watch = |path, done| watch(path, Progress { done, total: most });
+            let found = load::trace(&variation, &self.of, most, &watch)?;
+            return Ok(TraceAnswer(Found::Load(found)));
+        }
         let variation = self.variation(problem)?;
         let (points, most) =
             (variation.paths().iter().map(Vec::len).sum::<usize>(), self.settings.max_points);
@@ -140,42 +207,68 @@ impl Trace {
                 Continuation::follow(&variation, path, &self.settings, &watch)
             };
             let paths = (0..variation.paths().len()).map(follow).collect::<Result<_, _>>()?;
-            Ok(TraceAnswer { system: variation.base().summary(), paths })
+            Ok(TraceAnswer(Found::All { system: variation.base().summary(), paths }))
         })?
     }
 }
 
-/// All equilibria along every path.
+/// Most points of a load path: from start to limit some 50 are usual.
+const LOAD_POINTS: usize = 1_000;
+
+/// All equilibria along every path, or load paths.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TraceAnswer {
-    system: SystemSummary,
-    paths: Vec<Continuation>,
+pub struct TraceAnswer(Found);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Found {
+    All { system: SystemSummary, paths: Vec<Continuation> },
+    Load(LoadPaths),
 }
 
 impl TraceAnswer {
-    /// The paths.
+    /// The paths along which all equilibria are followed; none where load paths are.
     #[must_use]
     pub fn paths(&self) -> &[Continuation] {
-        &self.paths
+        match &self.0 {
+            Found::All { paths, .. } => paths,
+            Found::Load(_) => &[],
+        }
     }
 
-    /// Whether every census between the points and events finds exactly the branches there.
+    /// The load paths, if these are followed.
+    #[must_use]
+    pub fn load_paths(&self) -> Option<&LoadPaths> {
+        match &self.0 {
+            Found::All { .. } => None,
+            Found::Load(found) => Some(found),
+        }
+    }
+
+    /// Whether every census between the points and events finds exactly the branches there; of load
+    /// paths whether `energy` and the judge confirm every point.
     #[must_use]
     pub fn checks_agree(&self) -> bool {
-        self.paths.iter().all(|path| path.checks.agree())
+        match &self.0 {
+            Found::All { paths, .. } => paths.iter().all(|path| path.checks.agree()),
+            Found::Load(found) => found.paths().iter().all(|path| path.confirmed.agrees()),
+        }
     }
 
-    /// Whether all that the checks ask is decided, one way or the other.
+    /// Whether all that the checks ask is decided, one way or the other; of load paths whether none
+    /// was lost.
     #[must_use]
     pub fn checks_decided(&self) -> bool {
-        self.paths.iter().map(|path| &path.checks).all(Checks::decided)
+        match &self.0 {
+            Found::All { paths, .. } => paths.iter().map(|path| &path.checks).all(Checks::decided),
+            Found::Load(found) => found.paths().iter().all(|path| path.end != LoadEnd::Lost),
+        }
     }
 
     /// Why no value of the parameters describes a chain that can hang, if none does.
     #[must_use]
     pub fn refused_everywhere(&self) -> Option<String> {
         let mut reasons =
-            self.paths.iter().flat_map(|path| &path.points).map(|point| match &point.status {
+            self.paths().iter().flat_map(|path| &path.points).map(|point| match &point.status {
                 PointStatus::Refused { reason } => Some(reason.clone()),
                 _ => None,
             });
@@ -183,22 +276,30 @@ impl TraceAnswer {
         reasons.all(|reason| reason.is_some()).then_some(first)
     }
 
-    /// The bifurcation diagram of a path as SVG: energy, and the angle of a bar, from 1.
+    /// The diagram of a path as SVG: energy, and the angle of a bar, from 1; of a load path the
+    /// parameter over the first number shown.
     #[must_use]
     pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
-        let path = self.paths.get(path)?;
-        Some(branches::diagram(path, &self.system.name, abscissa, bar))
+        match &self.0 {
+            Found::All { system, paths } => {
+                Some(branches::diagram(paths.get(path)?, &system.name, abscissa, bar))
+            }
+            Found::Load(found) => found.figure(path + 1),
+        }
     }
 
-    /// A line per point of a branch as CSV: units in the names of the columns, nothing where a
+    /// A line per point of a branch or a load path as CSV: units in the names of the columns, nothing where a
     /// force is infinite.
     ///
     /// # Errors
     ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
-        let Some(first) = self.paths.first() else { return Ok(()) };
-        let branches = self.paths.iter().flat_map(|path| &path.branches);
+        if let Found::Load(found) = &self.0 {
+            return found.write_csv(to);
+        }
+        let Some(first) = self.paths().first() else { return Ok(()) };
+        let branches = self.paths().iter().flat_map(|path| &path.branches);
         let bars = branches
             .clone()
             .find_map(|branch| branch.points.first())
@@ -210,7 +311,7 @@ impl TraceAnswer {
         }
         writeln!(to)?;
         let number = |number: Option<usize>| number.map_or(String::new(), |k| k.to_string());
-        for (path, trace) in self.paths.iter().enumerate() {
+        for (path, trace) in self.paths().iter().enumerate() {
             for branch in &trace.branches {
                 for p in &branch.points {
                     write!(to, "{},{},{:?}", path + 1, branch.id, p.position)?;
@@ -253,7 +354,12 @@ impl Serialize for TraceAnswer {
             system: &'a SystemSummary,
             traces: &'a [Continuation],
         }
-        let Self { system, paths } = self;
-        Object { schema_version: SCHEMA_VERSION, system, traces: paths }.serialize(serializer)
+        match &self.0 {
+            Found::All { system, paths } => {
+                Object { schema_version: SCHEMA_VERSION, system, traces: paths }
+                    .serialize(serializer)
+            }
+            Found::Load(found) => found.serialize(serializer),
+        }
     }
 }

@@ -136,7 +136,7 @@ fn parts(error: &Error) -> Parts {
         Error::TooManyThreads { threads } => ("SettingError", fields!(threads)),
         Error::Motion(_) => ("MotionError", vec![]),
         Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
-        Error::Continuation(_) => ("TraceError", vec![]),
+        Error::Continuation(_) | Error::Load(_) => ("TraceError", vec![]),
         Error::Format(_) => ("InputError", vec![]),
         _ => ("Error", vec![]),
     }

@@ -1,4 +1,4 @@
-//! All equilibria over a parameter.
+//! All equilibria of a chain over a parameter, and load paths of any system.
 
 use std::sync::Arc;
 
@@ -10,20 +10,21 @@ use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::work;
 
-/// What `funicular trace --json` prints, the points of the branches as CSV, whether the checks
+/// What `funicular trace --json` prints, the points of the branches or load paths as CSV, whether the checks
 /// agree and are decided, and the tables.
 #[pyfunction]
 pub fn trace<'py>(
     py: Python<'py>,
     problem: &Problem,
     vary: Vec<String>,
+    numbers: Vec<String>,
     max_points: Option<usize>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(String, String, bool, bool, String)> {
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        let mut trace = Trace::new();
+        let mut trace = numbers.into_iter().fold(Trace::new(), Trace::of);
         if let Some(points) = max_points {
             trace = trace.max_points(points);
         }

@@ -30,7 +30,8 @@ pub trait Base {
 impl Base for Chain {
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
-            Number::Floor
+            Number::Loads
+            | Number::Floor
             | Number::Joint(..)
             | Number::Row(..)
             | Number::Bar(
@@ -77,7 +78,7 @@ impl Base for System {
 
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
-            Number::Gravity | Number::Floor => Ok(()),
+            Number::Loads | Number::Gravity | Number::Floor => Ok(()),
             Number::Bar(which, _) => bar(parameter, *which, self.members().len(), "system"),
             Number::Row(name, _) if row(self, name).is_some() => Ok(()),
             Number::Row(name, _) => {

@@ -18,6 +18,8 @@ use crate::parameter::error::ParameterError;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Number {
+    /// `loads`, of a system: a factor of all its forces and masses.
+    Loads,
     /// `gravity_m_s2`.
     Gravity,
     /// `floor_m`, of a system.
@@ -90,7 +92,7 @@ pub enum BarField {
     Count,
 }
 
-const TOP: &[&str] = &["gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
+const TOP: &[&str] = &["loads", "gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
 const ANCHORS: &[&str] = &["start_m", "end_m"];
 const JOINT: &[&str] = &["at_m", "mass_kg", "force_n", "share"];
 const BAR: &[&str] = &[
@@ -160,6 +162,7 @@ impl Number {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
+            Self::Loads => "1",
             Self::Gravity => "m/s^2",
             Self::Floor | Self::Anchor(..) | Self::Joint(_, JointField::Place(_)) => "m",
             Self::Bar(_, field) | Self::Row(_, field) => field.unit(),
@@ -188,6 +191,7 @@ impl Number {
         let mut parts = Parts { text, rest: words(text, end)?, end };
         let top = parts.key(TOP, "a path")?;
         let number = match top {
+            "loads" => Self::Loads,
             "gravity_m_s2" => Self::Gravity,
             "floor_m" => Self::Floor,
             "joints" => {
@@ -240,6 +244,7 @@ impl Number {
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Loads => f.write_str("loads"),
             Self::Gravity => f.write_str("gravity_m_s2"),
             Self::Floor => f.write_str("floor_m"),
             Self::Anchor(AnchorEnd::Start, axis) => write!(f, "anchors.start_m.{}", AXES[*axis]),

@@ -18,9 +18,24 @@ use crate::parameter::rows;
 ///
 /// [`PointError`] when a number is out of range or the system has no equilibrium.
 pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
+    let system = with_numbers(base, numbers)?;
+    Budget::default().fits_solve(&system)?;
+    system.refusal().map_err(Box::new)?;
+    Ok(system)
+}
+
+/// The same whether or not it has an equilibrium.
+pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
     let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
     let (mut of_members, mut shares) = (Vec::new(), Vec::new());
+    // First, whatever the order: other numbers are what they say.
+    let loads = numbers.iter().filter(|(number, _)| *number == Number::Loads);
+    let factor = loads.map(|(_, factor)| *factor).product::<f64>();
+    for joint in &mut joints {
+        joint.mass_kg *= factor;
+        joint.force_n = joint.force_n.map(|force| force * factor);
+    }
     for (number, value) in numbers {
         match base.resolved(number) {
             Number::Gravity => gravity_m_s2 = *value,
@@ -31,8 +46,11 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
                     set_joint(&mut joints[joint], field, *value);
                 }
             }
-            // Counts come last; what is of no row of bars is refused before.
-            Number::Bar(_, BarField::Count) | Number::Anchor(..) | Number::Row(..) => {}
+            // Loads are set before, counts come last; what is of no row of bars is refused before.
+            Number::Loads
+            | Number::Bar(_, BarField::Count)
+            | Number::Anchor(..)
+            | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 of_members.push((which, field, *value));
             }
@@ -40,9 +58,9 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
     }
     for (k, member) in members.iter_mut().enumerate() {
         let mut numbers = of_members.iter().filter(|(which, ..)| which.has(k + 1)).peekable();
-        if numbers.peek().is_some() {
-            *member =
-                with(member.clone(), k + 1, numbers.map(|(_, field, value)| (*field, *value)))?;
+        if numbers.peek().is_some() || factor.to_bits() != 1.0_f64.to_bits() {
+            let numbers = numbers.map(|(_, field, value)| (*field, *value));
+            *member = with(member.clone(), k + 1, factor, numbers)?;
         }
     }
     for (name, value) in shares {
@@ -57,8 +75,6 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
     if let Some(floor_m) = floor_m {
         system = system.with_floor(floor_m)?;
     }
-    Budget::default().fits_solve(&system)?;
-    system.refusal().map_err(Box::new)?;
     Ok(system)
 }
 
@@ -85,17 +101,22 @@ fn place(support: &mut Support) -> Option<&mut Vector> {
     }
 }
 
-/// A member with other numbers, all as a system file gives them: what follows from them, as an
+/// A member with its loads times a factor and other numbers, all as a system file gives them: what follows from them, as an
 /// unstretched length, is found when all are set.
 fn with(
     member: Member,
     bar: usize,
+    factor: f64,
     numbers: impl Iterator<Item = (BarField, f64)>,
 ) -> Result<Member, PointError> {
     let mut prestress_n = member.prestress_n();
     let mut member = member.as_given();
     let half_m = 0.5 * member.body.length_m();
     let mut body = UncheckedBar::new(&member.body);
+    body.set(BarField::Mass, factor * body.mass_kg);
+    for load in &mut member.loads {
+        load.force_n = load.force_n.map(|force| force * factor);
+    }
     for (field, value) in numbers {
         match field {
             BarField::Stiffness => member.stiffness_n = Some(value),

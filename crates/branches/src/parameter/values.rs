@@ -9,7 +9,8 @@ use crate::parameter::number::{Number, equals};
 /// Most values of one parameter, and most points of a variation: each costs a census.
 pub const MAX_POINTS: usize = 1_000_000;
 
-/// One number of the system file and the values it takes.
+/// One number of the system file and the values it takes. A range without a number of points, `0..1.2`, is for
+/// paths that find their own.
 ///
 /// ```
 /// let vary: branches::Parameter = "anchors.end_m.z=-2.5..-0.5:5".parse()?;
@@ -26,6 +27,8 @@ pub struct Parameter {
     pub number: Number,
     /// Its values, in their order; at least one.
     pub values: Vec<f64>,
+    /// Whether the values are the ends of a range without a number of points, `0..1.2`.
+    pub open: bool,
     /// The text it was read from, for errors found later.
     text: String,
 }
@@ -34,6 +37,18 @@ const VALUES: &str = "values are a list, `0.1,1,10`, or a range with the number 
                       `-2.9..-0.1:500`";
 
 impl Parameter {
+    /// The same; a range without its number of points is an error.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] at the end of the text.
+    pub fn with_points(&self) -> Result<&Self, ParameterError> {
+        let (text, help) = (self.text(), "write `from..to:points`, as `-2.9..-0.1:500`");
+        let span = text.len()..text.len();
+        let what = "the number of points is missing";
+        if self.open { Err(ParameterError::new(text, span, what, help)) } else { Ok(self) }
+    }
+
     /// The text it was read from.
     #[must_use]
     pub fn text(&self) -> &str {
@@ -50,12 +65,12 @@ impl FromStr for Parameter {
             return Err(ParameterError::new(text, span, "`=` and the values are missing", VALUES));
         };
         let number = Number::parse(text, equals)?;
-        let values = if number.is_count() {
-            counts(text, equals + 1..text.len())?
+        let (values, open) = if number.is_count() {
+            (counts(text, equals + 1..text.len())?, false)
         } else {
             values(text, equals + 1..text.len())?
         };
-        Ok(Self { number, values, text: text.to_owned() })
+        Ok(Self { number, values, open, text: text.to_owned() })
     }
 }
 
@@ -91,19 +106,18 @@ fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
     if list.len() > MAX_POINTS { Err(wrong(all)) } else { Ok(list) }
 }
 
-fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
+fn values(text: &str, all: Range<usize>) -> Result<(Vec<f64>, bool), ParameterError> {
     let part = &text[all.clone()];
     if let Some(dots) = part.find("..") {
         let from = number(text, all.start..all.start + dots)?;
         let rest = all.start + dots + 2;
         let Some(colon) = text[rest..].find(':').map(|at| rest + at) else {
-            let help = "write `from..to:points`, as `-2.9..-0.1:500`";
-            let span = text.len()..text.len();
-            return Err(ParameterError::new(text, span, "the number of points is missing", help));
+            let from_to = vec![from, number(text, rest..all.end)?];
+            return Ok((from_to, true));
         };
         let to = number(text, rest..colon)?;
         let points = points(text, colon + 1..text.len())?;
-        return Ok(range(from, to, points));
+        return Ok((range(from, to, points), false));
     }
     let mut list = vec![];
     let mut start = all.start;
@@ -120,7 +134,7 @@ fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
             format!("at most {MAX_POINTS} are allowed"),
         ));
     }
-    Ok(list)
+    Ok((list, false))
 }
 
 /// Equidistant values with both ends; the ends are exact.

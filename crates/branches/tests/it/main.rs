@@ -4,5 +4,6 @@
 
 mod closed_forms;
 mod degenerate;
+mod load;
 mod parameters;
 mod random_chains;

@@ -89,14 +89,13 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("bars.0.mass_kg=1", 6, "`0` is no bar", "from 1"),
         ("bars.two.mass_kg=1", 6, "`two` is no bar", "a range 1-20, a row FROM-TO.*, or * for all"),
         ("bars.2.mass_kg.x=1", 16, "has no parts", "bars.2.mass_kg="),
-        ("=1", 1, "unknown key ``", "gravity_m_s2, floor_m, anchors, joints, bars"),
+        ("=1", 1, "unknown key ``", "loads, gravity_m_s2, floor_m, anchors, joints, bars"),
         ("gravity_m_s2", 13, "`=` and the values are missing", "0.1,1,10"),
         ("gravity_m_s2=", 14, "a number is missing", "-2.9..-0.1:500"),
         ("gravity_m_s2=1,,2", 16, "a number is missing", "list"),
         ("gravity_m_s2=1,x", 16, "`x` is not a number", "list"),
         ("gravity_m_s2=inf", 14, "`inf` is not finite", "list"),
         ("gravity_m_s2=1e999", 14, "`1e999` is not finite", "list"),
-        ("gravity_m_s2=1..2", 18, "the number of points is missing", "from..to:points"),
         ("gravity_m_s2=1..2:1", 19, "`1` is no number of points", "from 2 to 1000000"),
         ("gravity_m_s2=1..2:1e9", 19, "`1e9` is no number of points", "from 2"),
         ("gravity_m_s2=..2:5", 14, "a number is missing", "range"),
@@ -120,6 +119,10 @@ fn errors_of_the_chain_and_of_the_whole() {
     assert!(variation(&["gravity_m_s2=1", "gravity_m_s2=2"]).what.contains("varied twice"));
     let error = variation(&["gravity_m_s2=1..2:1001", "bars.1.mass_kg=1..2:1000"]);
     assert!(error.what.contains("too many combinations"), "{error}");
+    let error = variation(&["gravity_m_s2=1..2"]);
+    assert_eq!((error.column(), error.what.as_str()), (18, "the number of points is missing"));
+    assert!(error.help.contains("from..to:points") && vary("loads=0..1.2").open);
+    assert!(variation(&["loads=1,2"]).what.contains("a chain has no `loads`"));
 }
 
 /// No text makes the parser panic.

@@ -21,7 +21,7 @@ pub(super) struct Acting {
     pub(super) ends: [usize; 2],
     length: Interval,
     /// 0 for an inextensible one.
-    compliance: Interval,
+    pub(super) compliance: Interval,
     /// Number of its force density among the unknowns, and of its equation.
     pub(super) density: usize,
 }
@@ -218,7 +218,7 @@ impl Acting {
     }
 
     /// `1 − c w`.
-    fn shrink(&self, density: Interval) -> Interval {
+    pub(super) fn shrink(&self, density: Interval) -> Interval {
         difference(Interval::ONE, product(self.compliance, density))
     }
 

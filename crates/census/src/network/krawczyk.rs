@@ -18,7 +18,7 @@ use faer::Mat;
 use model::NoBox;
 use numerics::Interval;
 
-use super::equations::Equations;
+use super::equations::{Entry, Equations};
 use super::newton::Refined;
 
 /// Inflations before the test counts as failed; three or four are usual.
@@ -29,6 +29,36 @@ const ROOM: f64 = 0.25;
 const LAST_PLACES: f64 = 4.0;
 /// Times that the proved box is narrowed by the same map.
 const NARROW: usize = 3;
+
+/// As many equations as unknowns, with their derivative.
+pub(super) trait Zeros {
+    /// How many.
+    fn size(&self) -> usize;
+
+    /// Left-hand sides over a box.
+    ///
+    /// # Errors
+    ///
+    /// [`NoBox::NotFinite`] when one is not finite.
+    fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox>;
+
+    /// The derivative over a box, entries of the same place to be added.
+    fn slope(&self, unknowns: &[Interval]) -> Vec<Entry>;
+}
+
+impl Zeros for Equations {
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox> {
+        Self::value(self, unknowns)
+    }
+
+    fn slope(&self, unknowns: &[Interval]) -> Vec<Entry> {
+        Self::slope(self, unknowns)
+    }
+}
 
 /// A zero, proved.
 pub(super) struct Zero {
@@ -41,7 +71,7 @@ pub(super) struct Zero {
 /// # Errors
 ///
 /// [`NoBox::NotContracting`] when no inflated box is mapped into itself.
-pub(super) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Zero, NoBox> {
+pub(super) fn prove_zero(equations: &impl Zeros, refined: &Refined) -> Result<Zero, NoBox> {
     let Refined { at, inverse } = refined;
     let value = equations.value(&boxed(at, &vec![Interval::ZERO; at.len()]))?;
     let newton: Vec<Interval> = (0..at.len())
@@ -90,7 +120,7 @@ fn inflated(part: Interval, size: f64) -> Interval {
 }
 
 /// `I − Y F'` over a box, row after row.
-fn defect(equations: &Equations, inverse: &Mat<f64>, unknowns: &[Interval]) -> Vec<Interval> {
+fn defect(equations: &impl Zeros, inverse: &Mat<f64>, unknowns: &[Interval]) -> Vec<Interval> {
     let size = unknowns.len();
     let slope = equations.slope(unknowns);
     let mut rest = vec![Interval::ZERO; size * size];

@@ -30,6 +30,12 @@
 //! | $\mu_i$ | | free turns | force | moment that holds a turn; proved to be zero |
 //! | Y | `inverse` | n × n | | approximate inverse of the derivative |
 //!
+//! # A limit point in a box
+//!
+//! [`prove_limit`] encloses a load at which the derivative $J$ of the equations $F$ is singular, with
+//! Krawczyk's test on $F(y, t) = 0$, $J \phi = 0$, $c \cdot \phi = 1$, which is regular in a limit
+//! point (module `limit`).
+//!
 //! # All equilibria
 //!
 //! [`SystemCensus::take`] takes a system apart. Trees, chains and frames that are built up joint by
@@ -69,6 +75,7 @@ mod equations;
 mod floor;
 mod frame;
 mod krawczyk;
+mod limit;
 mod newton;
 mod prove;
 mod proven;
@@ -80,5 +87,6 @@ pub use census::{
     ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
     UndecidedPlaces, bridle_seconds,
 };
+pub use limit::prove_limit;
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

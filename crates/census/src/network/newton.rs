@@ -6,7 +6,8 @@ use faer::linalg::solvers::DenseSolveCore;
 use model::NoBox;
 use numerics::Interval;
 
-use super::equations::{Entry, Equations};
+use super::equations::Entry;
+use super::krawczyk::Zeros;
 
 /// Steps from an answer that is good to some digits; quadratic convergence needs three.
 const STEPS: usize = 8;
@@ -27,14 +28,14 @@ pub(super) struct Refined {
 ///
 /// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead
 /// away.
-pub(super) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, NoBox> {
+pub(super) fn refine(equations: &impl Zeros, start: &[f64]) -> Result<Refined, NoBox> {
     let mut at = start.to_vec();
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
         let point: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
-        let inverse = inverse(equations.size, &equations.slope(&point)).ok_or(NoBox::Singular)?;
+        let inverse = inverse(equations.size(), &equations.slope(&point)).ok_or(NoBox::Singular)?;
         let value = equations.value(&point)?;
-        let value = Mat::from_fn(equations.size, 1, |row, _| value[row].mid());
+        let value = Mat::from_fn(equations.size(), 1, |row, _| value[row].mid());
         let step = &inverse * value;
         let next: Vec<f64> = at.iter().enumerate().map(|(k, x)| x - step[(k, 0)]).collect();
         let size = (0..at.len()).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);

@@ -69,27 +69,41 @@ pub(super) fn prove_without_floor(
     joints_m: &[Point],
     axial_n: &[f64],
 ) -> Result<SystemBox, NoBox> {
-    let frame = Frame::new(system, axial_n);
-    let activities = activities(system, &frame, joints_m, axial_n)?;
-    let loose = loose_joints(system, &activities);
-    let held: Vec<bool> = system
-        .joints()
-        .iter()
-        .zip(&loose)
-        .map(|(joint, loose)| *loose || joint.support.is_fixed())
-        .collect();
-    let unknowns = unknowns(system, &activities, &held);
-    if unknowns > MAX_UNKNOWNS {
-        return Err(NoBox::TooLarge { unknowns, limit: MAX_UNKNOWNS });
-    }
-    let turns = turns(system, &activities, joints_m, &held);
-    let equations = Equations::new(system, frame, &activities, &turns, joints_m, &held);
+    let Posed { equations, activities, loose } = Posed::new(system, joints_m, axial_n)?;
     let start = equations.start(joints_m, axial_n);
     let zero = refine(&equations, &start)
         .and_then(|refined| prove_zero(&equations, &refined))
         .map_err(|failure| diagnosed(&equations, &start, failure))?;
     complementarity(system, &equations, &activities, &zero)?;
     Ok(SystemBox::new(system, &equations, &activities, &loose, &zero))
+}
+
+/// The equations next to an answer.
+pub(super) struct Posed {
+    pub(super) equations: Equations,
+    pub(super) activities: Vec<Activity>,
+    loose: Vec<bool>,
+}
+
+impl Posed {
+    pub(super) fn new(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Self, NoBox> {
+        let frame = Frame::new(system, axial_n);
+        let activities = activities(system, &frame, joints_m, axial_n)?;
+        let loose = loose_joints(system, &activities);
+        let held: Vec<bool> = system
+            .joints()
+            .iter()
+            .zip(&loose)
+            .map(|(joint, loose)| *loose || joint.support.is_fixed())
+            .collect();
+        let unknowns = unknowns(system, &activities, &held);
+        if unknowns > MAX_UNKNOWNS {
+            return Err(NoBox::TooLarge { unknowns, limit: MAX_UNKNOWNS });
+        }
+        let turns = turns(system, &activities, joints_m, &held);
+        let equations = Equations::new(system, frame, &activities, &turns, joints_m, &held);
+        Ok(Self { equations, activities, loose })
+    }
 }
 
 /// Coordinates of joints and force densities.
@@ -126,7 +140,7 @@ fn loose_joints(system: &System, activities: &[Activity]) -> Vec<bool> {
 
 /// Prove the signs: cables that act pull, struts push, the others are slack, and no free turn is
 /// held by a force.
-fn complementarity(
+pub(super) fn complementarity(
     system: &System,
     equations: &Equations,
     activities: &[Activity],

@@ -228,7 +228,7 @@ pub fn minimise_near(
 
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
 /// where no load gives a scale of the forces, the others nothing.
-fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
+pub(super) fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
     let joints = frame.joints;
     let scale = 1.0 / frame.length_m;
     let x: Vec<Vector> =

@@ -65,6 +65,7 @@
 
 mod balance;
 mod component;
+mod critical;
 mod error;
 mod factor;
 mod frame;
@@ -85,6 +86,7 @@ mod start;
 mod weak;
 mod work;
 
+pub use critical::{Critical, critical};
 pub use error::Error;
 pub use minimise::{minimise, minimise_from, minimise_near};
 pub use settings::Settings;

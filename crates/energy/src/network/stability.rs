@@ -10,6 +10,7 @@ use model::Vector;
 
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Spot};
+use crate::network::law::Excess;
 use crate::network::limit::{Limit, stressed};
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, cross, dot, norm, unit};
@@ -18,10 +19,10 @@ use crate::vector::{along, cross, dot, norm, unit};
 pub(super) const DENSE: usize = 240;
 
 /// Eigenvalues below this part of the size of the matrix are zero.
-const ZERO: f64 = 1e-9;
+pub(super) const ZERO: f64 = 1e-9;
 
 /// Singular values of the rigidity matrix below this part of the largest are zero.
-const RANK: f64 = 1e-9;
+pub(super) const RANK: f64 = 1e-9;
 
 /// Strain of the springs that stand for the lengths in the sparse count.
 const STRAIN: f64 = 1e-6;
@@ -85,7 +86,7 @@ pub(super) fn second_order(
     } else {
         // A run ends with a positive definite matrix alone: no negative eigenvalue is left to
         // count.
-        let neutral = below(frame, shape, factor, -ZERO);
+        let neutral = below(frame, shape, factor, -ZERO, false);
         SecondOrder {
             index: 0,
             neutral,
@@ -121,7 +122,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
         return Some(Dense::new(&flat, shape).count().0);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
-    Some(below(&flat, shape, &mut factor, ZERO))
+    Some(below(&flat, shape, &mut factor, ZERO, false))
 }
 
 /// The joints with their motions in the vertical plane that holds places, loads and supports.
@@ -176,15 +177,26 @@ fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Optio
     Some(Spot { first: 0, freedom, axes })
 }
 
-/// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots.
-fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize {
+/// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots;
+/// `exact`ly of elastic members, or of these with a spring in series that keeps stiff ones near the
+/// others.
+pub(super) fn below(
+    frame: &Frame,
+    shape: &Shape,
+    factor: &mut Factor,
+    shift: f64,
+    exact: bool,
+) -> usize {
     let excess = frame.excesses(&shape.x);
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
         let rod = &frame.rods[e];
         let spring = force / STRAIN / rod.length;
-        let stiffness =
-            if resists(frame, shape, e) { spring / (1.0 + spring * rod.flexibility) } else { 0.0 };
+        let stiffness = match resists(frame, shape, e) {
+            true if exact && rod.elastic() => rod.flexibility.recip(),
+            true => spring / (1.0 + spring * rod.flexibility),
+            false => 0.0,
+        };
         excess[e].block(shape.force[e], stiffness)
     };
     let sizes = frame.sizes(|_| force);
@@ -196,8 +208,25 @@ fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize
     factor.negative_pivots().unwrap_or(0)
 }
 
+/// The derivatives of the lengths of some members by the coordinates, a row each.
+pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> Mat<f64> {
+    let mut rows = Mat::<f64>::zeros(taut.len(), frame.freedom);
+    for (row, &e) in taut.iter().enumerate() {
+        let rod = &frame.rods[e];
+        // Of unit length also where the member is not quite as long as it should be.
+        let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
+        for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
+            let spot = &frame.spots[joint];
+            for k in 0..spot.freedom {
+                rows[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
+            }
+        }
+    }
+    rows
+}
+
 /// Dense matrices at an equilibrium.
-struct Dense {
+pub(super) struct Dense {
     /// The second derivative on the motions that keep the lengths.
     hessian: Mat<f64>,
     /// Size of the second derivative.
@@ -210,7 +239,7 @@ struct Dense {
 }
 
 impl Dense {
-    fn new(frame: &Frame, shape: &Shape) -> Self {
+    pub(super) fn new(frame: &Frame, shape: &Shape) -> Self {
         Self::with(frame, shape, |e| resists(frame, shape, e), RANK)
     }
 
@@ -221,18 +250,7 @@ impl Dense {
         let excess = frame.excesses(&shape.x);
         let taut: Vec<usize> =
             (0..frame.rods.len()).filter(|&e| taut(e) && !frame.rods[e].elastic()).collect();
-        let mut rigidity = Mat::<f64>::zeros(taut.len(), n);
-        for (row, &e) in taut.iter().enumerate() {
-            let rod = &frame.rods[e];
-            // Of unit length also where the member is not quite as long as it should be.
-            let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
-            for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
-                let spot = &frame.spots[joint];
-                for k in 0..spot.freedom {
-                    rigidity[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
-                }
-            }
-        }
+        let rigidity = rows(frame, &excess, &taut);
         let mut hessian = Mat::<f64>::zeros(n, n);
         for (e, rod) in frame.rods.iter().enumerate() {
             let elastic = rod.elastic() && resists(frame, shape, e);
@@ -260,7 +278,7 @@ impl Dense {
     }
 
     /// Negative and vanishing eigenvalues, and the ratio of the largest to the smallest other one.
-    fn count(&self) -> (usize, usize, f64) {
+    pub(super) fn count(&self) -> (usize, usize, f64) {
         if self.hessian.nrows() == 0 {
             return (0, 0, 1.0);
         }
@@ -274,6 +292,12 @@ impl Dense {
         let smallest = others.fold(f64::INFINITY, f64::min);
         let condition = if smallest.is_finite() { largest(&values) / smallest } else { 1.0 };
         (index, neutral, condition)
+    }
+
+    /// The eigenvalue nearest to zero.
+    pub(super) fn nearest_to_zero(&self) -> Option<f64> {
+        let values = self.hessian.self_adjoint_eigenvalues(Side::Lower).ok()?;
+        values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
     /// An orthonormal basis of the self-stresses by members; what the floor bears follows from it.

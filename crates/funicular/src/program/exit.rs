@@ -1,8 +1,8 @@
 //! How the program ends.
 
 use branches::{ContinuationError, ParameterError};
-use funicular::Error;
 use funicular::judge::GivenError;
+use funicular::{Error, LoadError};
 use model::steers;
 use validate::systems::SystemFailure;
 
@@ -100,7 +100,13 @@ impl Failure {
             | Error::Network(_)
             | Error::Basins(_)
             | Error::Reproduction(_)
-            | Error::Report(_) => Self::undecided(error),
+            | Error::Report(_)
+            | Error::Load(
+                LoadError::Solver(_)
+                | LoadError::NotNear { .. }
+                | LoadError::Start { .. }
+                | LoadError::Singular,
+            ) => Self::undecided(error),
             // A disk that fails says nothing about the input, and those who run many may try again.
             Error::Store(error) => {
                 let help = error.help().map(Into::into);

@@ -8,7 +8,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 
 /// Names of the chapters, and their text.
-pub const CHAPTERS: [(&str, &str); 14] = [
+pub const CHAPTERS: [(&str, &str); 15] = [
     ("first-steps", include_str!("../../guide/1-first-steps.md")),
     ("systems", include_str!("../../guide/2-systems.md")),
     ("evidence", include_str!("../../guide/3-evidence.md")),
@@ -23,13 +23,15 @@ pub const CHAPTERS: [(&str, &str); 14] = [
     ("from-rust", include_str!("../../guide/12-from-rust.md")),
     ("commands", include_str!("../../guide/13-commands.md")),
     ("keys", include_str!("../../guide/14-keys.md")),
+    ("load-paths", include_str!("../../guide/15-load-paths.md")),
 ];
 
 /// The chapter for a command.
 pub fn chapter_of(command: &str) -> &'static str {
     match command {
         "solve" => "evidence",
-        "census" | "trace" => "all-equilibria",
+        "census" => "all-equilibria",
+        "trace" => "load-paths",
         "study" => "systems",
         "modes" | "simulate" => "motion",
         "judge" => "judging",

@@ -113,15 +113,6 @@ pub struct Input {
     pub files: Vec<PathBuf>,
 }
 
-impl Input {
-    /// The chain, for commands that work for chains alone.
-    pub fn into_chain(self, command: &str) -> Result<model::Problem, Failure> {
-        self.problem.row().cloned().ok_or_else(|| {
-            Failure::bad_input(format!("`{command}` is for chains between two anchors"))
-        })
-    }
-}
-
 /// The problem of a system file (`-` is standard input) or of a named case.
 pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
     let (problem, files) = match (file, case) {

@@ -1,4 +1,4 @@
-//! `funicular trace`: all equilibria over a parameter.
+//! `funicular trace`: all equilibria of a chain over a parameter, and load paths of any system.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use funicular::{Error, Problem, Trace, TraceAnswer};
 use crate::cost::tell_time;
 use crate::diagnostics::Diagnostic;
 use crate::exit::{Exit, Failure};
-use crate::input::Source;
+use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printed::Printed;
@@ -20,9 +20,19 @@ use crate::varied::Varied;
 
 /// What `--csv` writes, in `--help`; the head of the file is tested against it.
 const CSV: &str = "\
-Write all points of all branches, a line each, to this CSV file
+Write all points of all branches or load paths, a line each, to this CSV file
 
-Columns:
+Columns of a load path:
+  path, point                numbers of the path, from 1, and of the point along it, from 0
+  one for each parameter     its value, in the unit of the system file
+  index                      directions in which the energy falls: 0 is stable; in an event of the part before it
+  event                      number of the event that happens here (--json has them all); else empty
+  energy_j                   energy, as `solve` has it
+  one for each --of          its value
+  NAME_x_m, ...              place of each joint
+  axial_1_n, ...             force along each bar, tension positive
+
+Columns of all equilibria of a chain:
   path, branch               numbers of the path and of the branch, from 1
   position                   on the path: 0 at its first point, 1 at its last
   one for each parameter     its value, in the unit of the system file
@@ -41,47 +51,61 @@ and along Z; empty where it is infinite
 tension positive; empty where it is infinite";
 
 const EXAMPLES: &str = "\
-A parameter is any number of the system file and its values, a list or a range with its number of points:
+How far a system can be loaded: over a range alone, or of a system that is no chain, one path is followed, from
+the equilibrium next to the drawing (near_m of the file, --near; else the hanging one) at the first value on,
+through limit points and branch points, stable or not, until it leaves the range of the values:
+  --vary loads=0..1.2        all forces and weights times a factor
+  --vary loads=0,1.2,-1      from 0 to 1.2 first, and back to -1
+  --vary joints.P.force_n.z=0..-50          --vary bars.3.length_m=1..0.9
+Located are limit points (the load turns), branch points, cables and struts that become slack or taut, joints
+that meet the floor. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
+
+All equilibria of a chain, over values (any number of the system file, a list or a range with points):
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
   --vary gravity_m_s2=1.62,9.80665          --vary 'bars.*.length_m=0.5..2:31'
 Bars are counted from 1 along the chain. Between values the parameter runs straight. Branches are followed
 along the last parameter; each combination of the others is a path of its own (or all go in step: --zip).
 
 Examples:
+  funicular trace --case star-dome --vary loads=0..20 --svg dome.svg
   funicular trace --case three-equal-bars --vary anchors.end_m.z=-3.1..-0.1:500 --over-span --svg paper.svg
   funicular trace chain.toml --vary bars.2.mass_kg=0.1..10:200 --csv branches.csv --json | jq .traces[0].events
 
 Exit codes:
-  0  done; the censuses between the points and events agree with the branches
-  1  a check failed: a census differs from the branches
+  0  done; all points of a load path are confirmed by `energy`, the censuses of a chain by its branches
+  1  a check failed: a point is not confirmed, a census differs from the branches
   2  bad input or usage, or no point describes a chain
-  3  undecided: a branch could not be followed, a branch point lacks its branches, or nothing is known
-     between two points (degenerate chains)
+  3  undecided: no equilibrium at the start of a load path, a path that is lost; of a chain: a branch could
+     not be followed, a branch point lacks its branches, or nothing is known between two points
 130  interrupted; nothing is kept to go on from, and no file is half written
 
-A pair of branches that begins and ends between two censuses, meeting no other, is not seen: take more points.";
+A load path says nothing of other equilibria. Of a chain a pair of branches that begins and ends between two
+censuses, meeting no other, is not seen: take more points.";
 
 /// `funicular trace`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pub input: Source,
+    pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
+    /// Show a number along a load path: `joints.P.z`, `bars.3.axial_n` (repeatable)
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub of: Vec<String>,
     #[command(flatten)]
     pub printed: Printed,
-    /// Write all points of all branches, a line each, to this CSV file (columns: --help)
+    /// Write all points of all branches or load paths, a line each, to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg,
+    /// Write the diagram to this SVG file: all branches, or load over displacement (with several paths: FILE-1.svg, FILE-2.svg,
     /// ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Most points of all paths together: all that is found is held in memory, some 4 kB for each
-    /// equilibrium at each point
-    #[arg(long, value_name = "N", default_value_t = 100_000)]
-    pub max_points: usize,
+    /// Most points: of a load path (1000 if not given), or of all paths of a chain together (100000):
+    /// all that is found is held in memory, some 4 kB for each equilibrium at each point
+    #[arg(long, value_name = "N")]
+    pub max_points: Option<usize>,
     /// Draw the diagram over the distance of the anchors instead of the parameter
     #[arg(long)]
     pub over_span: bool,
@@ -95,32 +119,27 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     arguments.printed.install();
     end_on_interrupt()?;
     threads::install(0)?;
-    let input = arguments.input.read()?;
-    let files = input.files.clone();
-    let chain = input.into_chain("trace")?;
-    let system = chain.chain().summary();
-    let problem = Problem::from(chain);
-    if !(1..=system.bars).contains(&arguments.bar) {
-        let bars = system.bars;
-        return Err(Failure::bad_input(format!(
-            "there is no bar {}: the chain has {bars} bars, numbered from 1",
-            arguments.bar
-        )));
-    }
-    let trace = Trace::new().over(arguments.varied.parameters()?).max_points(arguments.max_points);
-    let paths = trace.variation(&problem)?.paths().len();
+    let Input { problem, files } = arguments.input.read()?;
+    let trace = Trace::new().over(arguments.varied.parameters()?);
+    let trace = arguments.of.iter().fold(trace, Trace::of);
+    let trace = arguments.max_points.map_or(trace.clone(), |most| trace.max_points(most));
+    let load = trace.is_load_path(&problem);
+    let paths = if load {
+        trace.load_variation(&problem)?.paths().len()
+    } else {
+        all(arguments, &trace, &problem)?
+    };
     let diagrams =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
-    if system.bars <= census::Settings::default().max_bars {
-        tell_time("this trace", trace.expected_time_s(&problem)?);
-    }
     let progress = Progress::start();
     let watch = |path, branches::Progress { done, total }| {
         let which =
             if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
-        progress.say(&format!("{which}census {done} of {total}"));
+        let what =
+            if load { format!("{done} points") } else { format!("census {done} of {total}") };
+        progress.say(&format!("{which}{what}"));
     };
     let found = trace.run_watched(&problem, &watch).map_err(refuse)?;
     drop(progress);
@@ -143,6 +162,22 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
+/// What all equilibria of a chain need: how many paths there are.
+fn all(arguments: &Arguments, trace: &Trace, problem: &Problem) -> Result<usize, Failure> {
+    let variation = trace.variation(problem)?;
+    let bars = variation.base().bars().len();
+    if !(1..=bars).contains(&arguments.bar) {
+        return Err(Failure::bad_input(format!(
+            "there is no bar {}: the chain has {bars} bars, numbered from 1",
+            arguments.bar
+        )));
+    }
+    if bars <= census::Settings::default().max_bars {
+        tell_time("this trace", trace.expected_time_s(problem)?);
+    }
+    Ok(variation.paths().len())
+}
+
 /// Why nothing is followed, and what can be.
 fn refuse(error: Error) -> Failure {
     let too_long = |error: &Error| {
@@ -153,7 +188,7 @@ fn refuse(error: Error) -> Failure {
         return error.into();
     }
     let help = "`funicular study FILE --vary ...` takes the same parameters and follows the hanging shape of a chain \
-                of any length; to follow all equilibria, take bars together"
+                of any length, `trace` over a range alone one path; to follow all equilibria, take bars together"
         .to_owned();
     Failure::bad_input(Diagnostic::from(error).with_help(help))
 }
@@ -164,9 +199,11 @@ fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
             "no value of the parameters describes a chain that can hang; the first: {reason}"
         )));
     }
-    Ok(if found.checks_agree() {
+    // A load path that is lost is not decided, however well its points are confirmed.
+    let lost = found.load_paths().is_some() && !found.checks_decided();
+    Ok(if found.checks_agree() && !lost {
         Exit::Done
-    } else if found.checks_decided() {
+    } else if found.checks_decided() || (lost && !found.checks_agree()) {
         Exit::CheckFailed
     } else {
         Exit::Undecided

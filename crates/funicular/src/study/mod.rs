@@ -2,7 +2,6 @@
 
 mod answer;
 mod figure;
-mod of;
 mod shape;
 
 pub use self::answer::{StudyAnswer, StudyPoint};
@@ -16,8 +15,8 @@ use rayon::prelude::*;
 use validate::{Solvers, UseCensus};
 
 use self::answer::Subject;
-use self::of::Observable;
 use crate::error::Error;
+use crate::observable::Observable;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
 use crate::solve::Solve;

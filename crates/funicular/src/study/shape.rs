@@ -4,8 +4,8 @@ use branches::PointError;
 use model::{Rung, Vector};
 use serde::Serialize;
 
-use super::of::Observable;
 use crate::extremes::Extremes;
+use crate::observable::Observable;
 use crate::problem::Problem;
 use crate::solve::{Solve, SolveAnswer};
 

@@ -9,6 +9,8 @@ mod census_system;
 #[cfg(feature = "branches")]
 pub mod derivatives;
 mod judged;
+#[cfg(feature = "branches")]
+mod load;
 mod modes;
 pub mod motion;
 pub mod printable;

@@ -25,6 +25,9 @@ fn fixed(trace: &Continuation) -> String {
 /// As `funicular trace` prints it.
 impl fmt::Display for TraceAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(found) = self.load_paths() {
+            return f.write_str(&super::load::text(found));
+        }
         let many = self.paths().len() > 1;
         let texts: Vec<_> = self.paths().iter().map(|one| text(one, many)).collect();
         f.write_str(&texts.join("\n"))

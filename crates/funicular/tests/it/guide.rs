@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::keys::output::run;
 
 /// The pictures with the commands that draw them, whose last argument is the file.
-const PICTURES: [&[&str]; 9] = [
+const PICTURES: [&[&str]; 10] = [
     &["solve", "triangle.toml", "--svg", "triangle.svg"],
     &["solve", "--case", "warren-truss", "--svg", "truss.svg"],
     &["solve", "--case", "lattice-tower", "--svg", "tower.svg"],
@@ -17,6 +17,7 @@ const PICTURES: [&[&str]; 9] = [
     &["study", "lamp.toml", "--vary", "anchors.end_m.x=0.5..1.5:40", "--svg", "study.svg"],
     &["trace", "lamp.toml", "--vary", "anchors.end_m.x=1.0..1.6:50", "--svg", "branches.svg"],
     &["modes", "lamp.toml", "--svg", "modes.svg"],
+    &["trace", "--case", "star-dome", "--vary", "loads=0..4", "--svg", "load-path.svg"],
 ];
 
 fn guide() -> PathBuf {
@@ -74,6 +75,28 @@ fn its_first_structures_are_solved() {
     let (code, text) = run(folder.path(), &["study", "--case", "star-dome", "--vary", vary]);
     assert_eq!(code, Some(3));
     assert!(text.contains("both solvers agree on 16"), "{text}");
+}
+
+/// What the chapter of load paths shows is what the program says, and its options are taken.
+#[test]
+fn its_load_path_is_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = include_str!("../../guide/15-load-paths.md");
+    std::fs::write(folder.path().join("gable.toml"), shown(page, "gable.toml")).unwrap();
+    let command = page.split('`').find_map(|code| code.strip_prefix("funicular trace gable.toml"));
+    let arguments = command.unwrap().split_whitespace();
+    let arguments: Vec<&str> = ["trace", "gable.toml"].into_iter().chain(arguments).collect();
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(0));
+    let said = page.split_once("```text\n").unwrap().1.split_once("```").unwrap().0;
+    let trimmed =
+        |text: &str| text.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>();
+    assert_eq!(trimmed(said), trimmed(&text));
+    // EA = 1e6 N, limit where l^3 = l0 a^2, in units of 1e3 N.
+    let l0 = 1.25_f64.sqrt();
+    let l = l0.cbrt();
+    let limit = 2e3 * (l * l - 1.0).sqrt() / l * (l0 - l) / l0;
+    assert!(said.contains(&format!("loads = {limit:.7}")), "{limit}");
 }
 
 /// The examples of the chapter of commands, as they stand there.

@@ -18,6 +18,7 @@ mod guide;
 mod judge;
 mod keys;
 mod library;
+mod load_paths;
 mod material;
 mod modes;
 mod motion;

@@ -39,7 +39,7 @@ const NO_PUSH: f64 = 1e-9;
 const LEVEL: f64 = 1e-9;
 
 /// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
-fn lift(node: &Node) -> Option<Vector3<f64>> {
+pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
     let free = node.free.part(&Vector3::z());
     (free.norm() > LEVEL).then_some(free)
 }
@@ -70,12 +70,12 @@ fn push_n(node: &Node, reaction_n: [f64; 3]) -> f64 {
 
 impl Framework {
     /// Height of the floor in units, if there is one.
-    fn floor(&self, system: &System) -> Option<f64> {
+    pub fn floor(&self, system: &System) -> Option<f64> {
         system.floor_m().map(|floor_m| (floor_m - self.units.origin_m.z) / self.units.length_m)
     }
 
     /// The framework with these joints on the floor.
-    fn with_laid(&self, floor: f64, lies: &[bool]) -> Self {
+    pub fn with_laid(&self, floor: f64, lies: &[bool]) -> Self {
         let mut framework = self.clone();
         for (joint, node) in framework.nodes.iter_mut().enumerate().filter(|(k, _)| lies[*k]) {
             framework.lying.extend(lift(node).map(|rise| Lying { joint, rise }));

@@ -109,13 +109,18 @@ impl Lying {
 
 impl Framework {
     pub fn new(system: &System) -> Self {
+        Self::in_units(system, None)
+    }
+
+    /// In the units of another system, as of one nearby, or in its own.
+    pub fn in_units(system: &System, of: Option<Units>) -> Self {
         let mut nodes: Vec<_> = system.joints().iter().map(|joint| node(system, joint)).collect();
         for member in system.members() {
             let [start, end] = end_loads_n(system, member);
             nodes[member.from].load += start;
             nodes[member.to].load += end;
         }
-        let units = units(system, &nodes);
+        let units = of.unwrap_or_else(|| units(system, &nodes));
         // In place: memory that is touched for the first time costs more than what is done with it.
         for node in &mut nodes {
             if !matches!(node.free, Directions::All) {

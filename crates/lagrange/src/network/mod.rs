@@ -70,6 +70,7 @@ mod densities;
 mod derivatives;
 mod directions;
 mod elements;
+mod equations;
 mod error;
 mod fitted;
 mod floor;
@@ -98,6 +99,7 @@ mod weak;
 mod work;
 
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
+pub use equations::{Equations, Side};
 pub use error::Error;
 pub use paper::{PaperUnknowns, paper_residual};
 pub use ranges::force_ranges;

@@ -175,7 +175,9 @@ impl Derivative {
         state: &State,
         residual: &Residual,
     ) -> Option<Self> {
-        Self::unfactored(framework, state, residual).factored(framework, stiffness)
+        let new = Self::unfactored(framework, state, residual);
+        new.assembled(framework, stiffness);
+        stiffness.factorise_indefinite().then_some(new)
     }
 
     /// The same with the true stiffness of the elastic members, however stiff they are.
@@ -191,15 +193,14 @@ impl Derivative {
                 row.along = row.compliance.recip();
             }
         }
-        new.factored(framework, stiffness)
+        new.assembled(framework, stiffness);
+        // Also where it is singular: what needs more borders it.
+        stiffness.factorise_bordered().then_some(new)
     }
 
-    fn factored(self, framework: &Framework, stiffness: &mut Stiffness) -> Option<Self> {
-        let new = self;
-        let blocks = new.rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
+    fn assembled(&self, framework: &Framework, stiffness: &mut Stiffness) {
+        let blocks = self.rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
         stiffness.assemble(framework, blocks);
-        let finite = stiffness.factorise_indefinite();
-        finite.then_some(new)
     }
 
     /// The same for a stiffness that holds a factor from nearby.
@@ -281,7 +282,7 @@ impl Derivative {
     }
 
     /// The step plus the solution for what is left.
-    fn refined(
+    pub fn refined(
         &self,
         step: &Step,
         framework: &Framework,

@@ -172,22 +172,30 @@ impl Stiffness {
     /// a negative one, are left out of later solves.
     pub fn factorise_definite(&mut self) {
         let signs = vec![1; self.size()];
-        self.factorise(Some(&signs), NO_PIVOT);
+        self.factorise(Some(&signs), NO_PIVOT, NO_PIVOT.recip());
     }
 
     /// The same where soft directions beside very stiff ones count.
     pub fn factorise_stiff(&mut self) {
         let signs = vec![1; self.size()];
-        self.factorise(Some(&signs), NO_STIFF_PIVOT);
+        self.factorise(Some(&signs), NO_STIFF_PIVOT, NO_STIFF_PIVOT.recip());
     }
 
     /// Factorise a matrix as it is, positive and negative pivots alike; directions without
     /// stiffness are left out of later solves. Whether all came out finite.
     pub fn factorise_indefinite(&mut self) -> bool {
-        self.factorise(None, NO_PIVOT)
+        self.factorise(None, NO_PIVOT, NO_PIVOT.recip())
     }
 
-    fn factorise(&mut self, signs: Option<&[i8]>, least: f64) -> bool {
+    /// The same with a tiny stiffness where there is none: a bordered matrix is solved through a
+    /// singular one.
+    pub fn factorise_bordered(&mut self) -> bool {
+        self.factorise(None, NO_PIVOT, NO_PIVOT)
+    }
+
+    /// With pivots below `least` replaced by `instead`, both in units of the largest entry: a large one
+    /// leaves the direction out of solutions.
+    fn factorise(&mut self, signs: Option<&[i8]>, least: f64, instead: f64) -> bool {
         if !self.work.spend(self.factor.len()) {
             return false;
         }
@@ -196,7 +204,7 @@ impl Stiffness {
             SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);
         let regularisation = LdltRegularization {
             dynamic_regularization_signs: signs,
-            dynamic_regularization_delta: if largest > 0.0 { largest / least } else { 1.0 },
+            dynamic_regularization_delta: if largest > 0.0 { largest * instead } else { 1.0 },
             dynamic_regularization_epsilon: if largest > 0.0 { least * largest } else { 1.0 },
         };
         let factored = self.symbolic.factorize_numeric_ldlt(

@@ -141,7 +141,12 @@ def census(
     problem: Problem, max_bars: int | None, threads: int, progress: _Progress
 ) -> tuple[tuple[str, list[dict[str, Any]]], str]: ...
 def trace(
-    problem: Problem, vary: list[str], max_points: int | None, threads: int, progress: _Progress
+    problem: Problem,
+    vary: list[str],
+    numbers: list[str],
+    max_points: int | None,
+    threads: int,
+    progress: _Progress,
 ) -> tuple[str, str, bool, bool, str]: ...
 def study(
     problem: Problem,

@@ -142,7 +142,9 @@ def plot_study(study: Study, columns: Sequence[str], path: int) -> Any:
 
 
 def plot_trace(trace: Trace, ax: Any, path: int) -> Any:
-    """Energies of all branches of a path; what is stable in space in full, all else broken."""
+    """Energies of all branches of a path, or a load path; what is stable in space in full, all else broken."""
+    if trace.is_load_path:
+        return _plot_load_path(trace, _axes(ax), path)
     ax, table, over = _axes(ax), trace.table, trace.data["traces"][path - 1]["parameters"][-1]
     columns = (np.asarray(table[name]) for name in ("path", "branch", "index_in_space", over, "energy_j"))
     paths, branches, index, x, energy = columns
@@ -152,6 +154,20 @@ def plot_trace(trace: Trace, ax: Any, path: int) -> Any:
             shown = np.where((index[on] == 0) == stable, energy[on], np.nan)
             ax.plot(x[on], shown, style, color=PULLS if stable else PUSHES, linewidth=1.5)
     ax.set(xlabel=over, ylabel="energy / J")
+    return ax
+
+
+def _plot_load_path(trace: Trace, ax: Any, path: int) -> Any:
+    table, over = trace.table, trace.data["parameters"][-1]
+    shown = trace.data["of"][0] if trace.data["of"] else "energy_j"
+    on = np.asarray(table["path"]) == path
+    index, x, y = (np.asarray(table[name])[on] for name in ("index", shown, over))
+    for stable, style in ((True, "-"), (False, "--")):
+        # A part begins at the event that ends the part before it.
+        is_so = (index == 0) == stable
+        is_so |= np.roll(is_so, -1) & (np.arange(len(index)) < len(index) - 1)
+        ax.plot(x, np.where(is_so, y, np.nan), style, color=PULLS if stable else PUSHES, linewidth=1.5)
+    ax.set(xlabel=shown, ylabel=over)
     return ax
 
 

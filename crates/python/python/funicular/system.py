@@ -397,12 +397,20 @@ class System:
         return census(self, max_bars=max_bars, threads=threads, progress=progress)
 
     def trace(
-        self, *vary: str, max_points: int | None = None, threads: int = 0, progress: Progress = None
+        self,
+        *vary: str,
+        of: Sequence[str] = (),
+        max_points: int | None = None,
+        threads: int = 0,
+        progress: Progress = None,
     ) -> Trace:
-        """All equilibria of a chain over a number of its system file. See :class:`funicular.Trace`."""
+        """All equilibria of a chain over a number of its system file, or the load path of any system over a range.
+
+        See :class:`funicular.Trace`.
+        """
         from .trace import trace
 
-        return trace(self, *vary, max_points=max_points, threads=threads, progress=progress)
+        return trace(self, *vary, of=of, max_points=max_points, threads=threads, progress=progress)
 
     def sweep(self, seeds: int, **settings: Any) -> Sweep:
         """Many starts, and where each of them leads. See :func:`funicular.sweep`."""

@@ -18,6 +18,7 @@ mod files;
 mod inventory;
 mod judge;
 mod laws;
+mod load_paths;
 mod motion;
 mod names;
 mod open_rungs;

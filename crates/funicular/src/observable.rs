@@ -1,4 +1,4 @@
-//! What a study shows besides: places of joints, sags and forces by name.
+//! What a study or a load path shows: places of joints, sags and forces by name.
 
 use model::system::{System, SystemEquilibrium};
 use model::system_file::nearest;
@@ -15,7 +15,7 @@ const AXIAL: [&str; 4] = ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"
 
 /// A number of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Observable {
+pub(crate) enum Observable {
     /// A coordinate of a joint, m.
     Place(usize, usize),
     /// The sag of the way of fewest members between two joints, m.
@@ -28,7 +28,7 @@ pub(super) enum Observable {
 
 impl Observable {
     /// What `text` names in a system.
-    pub(super) fn parse(text: &str, system: &System) -> Result<Self, ParameterError> {
+    pub(crate) fn parse(text: &str, system: &System) -> Result<Self, ParameterError> {
         let wrong = |what: String, help: String| ParameterError {
             text: text.to_owned(),
             span: 0..text.len(),
@@ -91,7 +91,7 @@ impl Observable {
     }
 
     /// Its unit.
-    pub(super) fn unit(self) -> &'static str {
+    pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Axial(..) => "N",
             Self::Place(..) | Self::Sag(_) | Self::Height(_) => "m",
@@ -99,7 +99,7 @@ impl Observable {
     }
 
     /// Its value; `None` where no members connect the two joints, or one is above the other.
-    pub(super) fn of(
+    pub(crate) fn of(
         self,
         system: &System,
         found: &SystemEquilibrium,

@@ -1,0 +1,166 @@
+//! What happens between two points of a path.
+
+use nalgebra::DVector;
+
+use super::bordered::{Bordered, Row};
+use super::here::{Here, Metric, by_parameter};
+use super::{Equations, Kind};
+use crate::locate::sign_change;
+
+/// How far before and after a limit point, as a part of the step, the inertia is counted.
+const BESIDE: f64 = 1e-3;
+/// Halvings for a place where the inertia changes and no test changes its sign.
+const HALVINGS: usize = 50;
+/// A condition below this has changed sides; above it, it is at zero to rounding.
+pub(super) const WRONG: f64 = 1e-10;
+
+/// A point with the conditions that change sides there.
+pub(super) type Switching<S> = (Here, Vec<S>);
+
+/// A point where the matrix is singular.
+pub(super) struct Singular {
+    pub(super) at: Here,
+    pub(super) kind: Kind,
+    pub(super) index: [usize; 2],
+    pub(super) mode: DVector<f64>,
+    pub(super) load_on_mode: f64,
+}
+
+/// A fixed vector without symmetry.
+pub(super) fn without_symmetry(size: usize) -> Row {
+    let y =
+        DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
+    Row { y, t: 0.0 }
+}
+
+/// The test for a singular matrix, 0 where it is, and the null vector there.
+fn singular<Q: Equations>(equations: &mut Q, here: &Here) -> Option<(DVector<f64>, f64)> {
+    equations.factorise(&here.y, here.t).ok()??;
+    let row = without_symmetry(here.y.len());
+    let zero = DVector::zeros(here.y.len());
+    let bordered = Bordered::new(equations, &row.y, &row);
+    let (y, test) = bordered.solve(equations, (&zero, 1.0))?;
+    Some((y, test))
+}
+
+/// The mode with its largest entry among the places 1, and how much of the load acts on it.
+fn mode<Q: Equations>(equations: &mut Q, metric: Metric, at: &Here) -> (DVector<f64>, f64) {
+    let Some((mode, _)) = singular(equations, at) else {
+        return (DVector::zeros(at.y.len()), 1.0);
+    };
+    let Ok(column) = by_parameter(equations, &at.y, at.t) else { return (mode, 1.0) };
+    let on = mode.dot(&column).abs() / (mode.norm() * column.norm()).max(f64::MIN_POSITIVE);
+    let places = mode.rows(0, metric.places);
+    let largest = places[places.iamax()];
+    let mode = if largest.abs() > 0.0 { mode / largest } else { mode };
+    (mode, on)
+}
+
+/// Limit points and branch points between two points with the same active conditions, in their
+/// order.
+pub(super) fn smooth<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    a: &Here,
+    b: &Here,
+) -> Vec<Singular> {
+    let turn = (a.tangent.t * b.tangent.t < 0.0)
+        .then(|| {
+            let point = |part| a.between(equations, metric, b, part);
+            sign_change([a, b], point, |here: &Here| Some(here.tangent.t))
+        })
+        .flatten();
+    let Some((part, at)) = turn else {
+        return branch(equations, metric, a, b).into_iter().collect();
+    };
+    let mut beside = |part: f64, other: &Here| {
+        a.between(equations, metric, b, part.clamp(0.0, 1.0)).unwrap_or_else(|| other.clone())
+    };
+    let (before, after) = (beside(part - BESIDE, a), beside(part + BESIDE, b));
+    let (mode, load_on_mode) = mode(equations, metric, &at);
+    let index = [before.index, after.index];
+    let mut all: Vec<_> = branch(equations, metric, a, &before).into_iter().collect();
+    all.push(Singular { at, kind: Kind::Limit, index, mode, load_on_mode });
+    all.extend(branch(equations, metric, &after, b));
+    all
+}
+
+/// A branch point between two points, where the inertia changes.
+fn branch<Q: Equations>(equations: &mut Q, metric: Metric, a: &Here, b: &Here) -> Option<Singular> {
+    if a.index == b.index {
+        return None;
+    }
+    let tests = [a, b].map(|end| singular(equations, end).map(|(_, test)| test));
+    let changes = matches!(tests, [Some(a), Some(b)] if a * b < 0.0);
+    let at = if changes {
+        // Each closure borrows the equations while the other does not.
+        let equations = std::cell::RefCell::new(&mut *equations);
+        let point = |part| a.between(*equations.borrow_mut(), metric, b, part);
+        let test = |here: &Here| singular(*equations.borrow_mut(), here).map(|(_, test)| test);
+        sign_change([a, b], point, test)?.1
+    } else {
+        let (mut low, mut high, mut at) = (0.0, 1.0, b.clone());
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let Some(here) = a.between(equations, metric, b, middle) else { break };
+            if here.index == a.index {
+                low = middle;
+            } else {
+                high = middle;
+            }
+            at = here;
+        }
+        at
+    };
+    let (mode, load_on_mode) = mode(equations, metric, &at);
+    Some(Singular { at, kind: Kind::Branch, index: [a.index, b.index], mode, load_on_mode })
+}
+
+/// The first point between two at which conditions change sides, with these; nothing where none
+/// does.
+pub(super) fn kink<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    a: &Here,
+    b: &Here,
+) -> Result<Option<Switching<Q::Side>>, Q::Error> {
+    let begin = equations.sides(&a.y, a.t)?;
+    let mut end = b.clone();
+    let mut at_end = equations.sides(&b.y, b.t)?;
+    let wrong: Vec<bool> = at_end.iter().map(|(_, value)| *value < -WRONG).collect();
+    if !wrong.contains(&true) {
+        return Ok(None);
+    }
+    loop {
+        // The one that is estimated to change first; others that change before it come next.
+        let part = |k: &usize| begin[*k].1 / (begin[*k].1 - at_end[*k].1);
+        let violated = (0..begin.len()).filter(|k| wrong[*k] && at_end[*k].1 < -WRONG);
+        let Some(first) = violated.min_by(|a, b| part(a).total_cmp(&part(b))) else { break };
+        if begin[first].1 <= WRONG {
+            end = a.clone();
+            at_end = begin;
+            break;
+        }
+        let found = {
+            let equations = std::cell::RefCell::new(&mut *equations);
+            let point = |part| a.between(*equations.borrow_mut(), metric, &end, part);
+            let value = |here: &Here| {
+                let sides = equations.borrow_mut().sides(&here.y, here.t).ok()?;
+                Some(sides[first].1)
+            };
+            sign_change([a, &end], point, value)
+        };
+        let Some((_, at)) = found else { break };
+        at_end = equations.sides(&at.y, at.t)?;
+        // At zero to rounding.
+        let done = at_end[first].1.abs() > WRONG;
+        end = at;
+        if done {
+            break;
+        }
+    }
+    let sides = at_end.iter().zip(&wrong);
+    let sides = sides.filter(|((_, value), wrong)| **wrong && *value <= WRONG);
+    let sides: Vec<_> = sides.map(|((side, _), _)| *side).collect();
+    Ok((!sides.is_empty()).then_some((end, sides)))
+}

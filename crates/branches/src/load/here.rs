@@ -1,0 +1,139 @@
+//! A point of a path with its tangent, and how to get to the next one.
+
+use nalgebra::DVector;
+
+use super::Equations;
+use super::bordered::{Bordered, Row};
+
+/// Newton's method ends at this size of the residual, or where it falls no further, below the other.
+const TIGHT: f64 = 1e-14;
+const LOOSE: f64 = 1e-9;
+/// Iterations of the corrector; from a fair prediction it takes three.
+const ITERATIONS: usize = 12;
+/// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
+/// diverges.
+const FALLS: f64 = 0.5;
+/// Step of the difference for the derivative by the parameter: exact but for rounding where loads
+/// vary, and of second order elsewhere.
+const DIFFERENCE: f64 = 1e-5;
+
+/// An equilibrium, or what is left of the equations where there is none.
+pub(super) type Corrected = Result<(DVector<f64>, f64), f64>;
+
+/// A point with its tangent.
+#[derive(Debug, Clone)]
+pub(super) struct Here {
+    pub(super) y: DVector<f64>,
+    pub(super) t: f64,
+    pub(super) tangent: Row,
+    pub(super) index: usize,
+}
+
+/// Squared weight of the places in the length of the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Metric {
+    pub(super) places: usize,
+    pub(super) square: f64,
+}
+
+impl Metric {
+    pub(super) fn norm(&self, y: &DVector<f64>, t: f64) -> f64 {
+        (self.square * y.rows(0, self.places).norm_squared() + t * t).sqrt()
+    }
+
+    /// The row that measures along a direction.
+    pub(super) fn along(&self, direction: &Row) -> Row {
+        let mut y = DVector::zeros(direction.y.len());
+        y.rows_mut(0, self.places).axpy(self.square, &direction.y.rows(0, self.places), 0.0);
+        Row { y, t: direction.t }
+    }
+}
+
+/// $\partial G/\partial t$, on one side where the other has no meaning.
+pub(super) fn by_parameter<Q: Equations>(
+    equations: &mut Q,
+    y: &DVector<f64>,
+    t: f64,
+) -> Result<DVector<f64>, Q::Error> {
+    let h = DIFFERENCE;
+    let mut at = |t: f64| equations.residual(y, t).map(|(rows, _)| rows);
+    match (at(t - h), at(t + h)) {
+        (Ok(before), Ok(after)) => Ok((after - before) / (2.0 * h)),
+        (Ok(before), Err(_)) => Ok((at(t)? * 3.0 - before * 4.0 + at(t - 2.0 * h)?) / (2.0 * h)),
+        (Err(_), Ok(after)) => Ok((after * 4.0 - at(t)? * 3.0 - at(t + 2.0 * h)?) / (2.0 * h)),
+        (Err(error), Err(_)) => Err(error),
+    }
+}
+
+/// The equilibrium next to a guess, along a row; `Err` in the option with what is left where there is
+/// none.
+pub(super) fn correct<Q: Equations>(
+    equations: &mut Q,
+    guess: (&DVector<f64>, f64),
+    column: &DVector<f64>,
+    row: &Row,
+) -> Result<Corrected, Q::Error> {
+    let (mut y, mut t) = (equations.onto(guess.0, guess.1)?, guess.1);
+    let (mut last, mut best) = (f64::INFINITY, None);
+    for _ in 0..ITERATIONS {
+        let (left, size) = equations.residual(&y, t)?;
+        if size <= last {
+            best = Some((y.clone(), t));
+        }
+        let done = size <= TIGHT || (size <= LOOSE && size >= FALLS * last);
+        if done || size.is_nan() {
+            last = last.min(size);
+            break;
+        }
+        last = size;
+        if equations.factorise(&y, t)?.is_none() {
+            break;
+        }
+        let off = row.dot(&(&y - guess.0), t - guess.1);
+        let step = Bordered::new(equations, column, row).solve(equations, (&-left, -off));
+        let Some((dy, dt)) = step else { break };
+        t += dt;
+        y = equations.onto(&(y + dy), t)?;
+    }
+    Ok(match best {
+        Some(best) if last <= LOOSE => Ok(best),
+        _ => Err(last),
+    })
+}
+
+impl Here {
+    /// The point with its tangent, of which `row` says the direction; nothing where it has none.
+    pub(super) fn new<Q: Equations>(
+        equations: &mut Q,
+        metric: Metric,
+        (y, t): (DVector<f64>, f64),
+        row: &Row,
+    ) -> Result<Option<Self>, Q::Error> {
+        let column = by_parameter(equations, &y, t)?;
+        let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
+        let zero = DVector::zeros(y.len());
+        let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
+        let tangent = tangent.map(|(dy, dt)| {
+            let norm = metric.norm(&dy, dt);
+            Row { y: dy / norm, t: dt / norm }
+        });
+        let finite = tangent.filter(|tangent| tangent.t.is_finite() && tangent.y.sum().is_finite());
+        Ok(finite.map(|tangent| Self { y, t, tangent, index }))
+    }
+
+    /// The point with the tangent on the chord from here to another, at this part of it.
+    pub(super) fn between<Q: Equations>(
+        &self,
+        equations: &mut Q,
+        metric: Metric,
+        other: &Self,
+        part: f64,
+    ) -> Option<Self> {
+        let chord = Row { y: &other.y - &self.y, t: other.t - self.t };
+        let row = metric.along(&chord);
+        let guess = (&self.y + &chord.y * part, self.t + chord.t * part);
+        let column = by_parameter(equations, &guess.0, guess.1).ok()?;
+        let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
+        Self::new(equations, metric, found, &row).ok()?
+    }
+}

@@ -1,0 +1,255 @@
+//! Steps along a path.
+
+use nalgebra::DVector;
+
+use super::bordered::Row;
+use super::events::{Singular, kink, smooth, without_symmetry};
+use super::here::{Here, Metric, by_parameter, correct};
+use super::{End, Equations, Event, Kind, LoadPath, NoPath, Point, Settings};
+
+/// The first step, as a part of the range.
+const FIRST: f64 = 1.0 / 64.0;
+/// Cosine of the largest turn of the tangent in one step, about 14 degrees, and of one after which
+/// the next step is longer.
+const STRAIGHT_ENOUGH: f64 = 0.97;
+const STRAIGHT: f64 = 0.995;
+/// A corrector that moves a point further than this part of the step has found another path.
+const CORRECTION: f64 = 0.2;
+/// Growth of the next step after one that went well.
+const GROWTH: f64 = 1.6;
+/// The shortest step, as a part of the first.
+const SHORTEST: f64 = 1e-10;
+/// Conditions that change sides one after another without a step between, before the path is lost.
+const KINKS: usize = 64;
+/// A start at which a unit load moves places by so many units of length is singular.
+const SINGULAR: f64 = 1e6;
+/// Places whose change over the range is less than this at the start count as if it were this.
+const STILL: f64 = 1e-3;
+/// Part of a step at which the side of a path after a kink is seen.
+const BESIDE: f64 = 1e-6;
+
+struct Walk<'a, Q: Equations> {
+    equations: &'a mut Q,
+    settings: Settings,
+    metric: Metric,
+    points: Vec<Point<Q::Record>>,
+    events: Vec<Event<Q::Side>>,
+    watch: &'a dyn Fn(usize),
+}
+
+/// Follow the path from an equilibrium at $t = 0$ next to `start`; `watch` is told the number of
+/// points so far.
+///
+/// # Errors
+///
+/// [`NoPath`] where no path begins.
+///
+/// # Panics
+///
+/// Never.
+pub fn follow<Q: Equations>(
+    equations: &mut Q,
+    start: &DVector<f64>,
+    settings: Settings,
+    watch: &dyn Fn(usize),
+) -> Result<LoadPath<Q>, NoPath<Q::Error>> {
+    let (metric, here) = begin(equations, start)?;
+    let mut walk = Walk { equations, settings, metric, points: vec![], events: vec![], watch };
+    let end = walk.keep(&here, None).and_then(|()| walk.run(here));
+    let end = end.unwrap_or_else(End::Numbers);
+    Ok(LoadPath { points: walk.points, events: walk.events, end })
+}
+
+/// The start with its tangent, and the measure in which places and parameter change alike there.
+fn begin<Q: Equations>(
+    equations: &mut Q,
+    start: &DVector<f64>,
+) -> Result<(Metric, Here), NoPath<Q::Error>> {
+    let places = equations.places();
+    let row = Row::parameter(start.len());
+    let column = by_parameter(equations, start, 0.0).map_err(NoPath::Numbers)?;
+    let found = correct(equations, (start, 0.0), &column, &row).map_err(NoPath::Numbers)?;
+    let found = found.map_err(|residual| NoPath::Start { residual })?;
+    let only = Metric { places, square: 0.0 };
+    let here = Here::new(equations, only, found, &row).map_err(NoPath::Numbers)?;
+    let mut here = here.ok_or(NoPath::Singular)?;
+    let change = here.tangent.y.rows(0, places).norm();
+    let gives = equations.solve(&without_symmetry(start.len()).y).amax();
+    if change.max(gives) > SINGULAR {
+        return Err(NoPath::Singular);
+    }
+    let metric = Metric { places, square: change.max(STILL).powi(-2) };
+    let norm = metric.norm(&here.tangent.y, here.tangent.t);
+    here.tangent = Row { y: here.tangent.y / norm, t: here.tangent.t / norm };
+    Ok((metric, here))
+}
+
+impl<Q: Equations> Walk<'_, Q> {
+    fn run(&mut self, mut here: Here) -> Result<End<Q::Error>, Q::Error> {
+        let (mut length, mut kinks) = (FIRST, 0);
+        while self.points.len() < self.settings.max_points {
+            let slope = here.tangent.t.abs();
+            let long = length.min(self.settings.longest / slope.max(f64::MIN_POSITIVE));
+            let Some((next, lands)) = self.step(&here, long)? else {
+                length = 0.5 * long;
+                if length < SHORTEST * FIRST {
+                    return Ok(End::Lost);
+                }
+                continue;
+            };
+            let turn = self.turn(&here, &next);
+            if let Some((at, sides)) = kink(self.equations, self.metric, &here, &next)? {
+                self.smooth(&here, &at)?;
+                // Without a step between.
+                kinks = if at.t.to_bits() == here.t.to_bits() { kinks + 1 } else { 0 };
+                let Some(after) = self.through(&at, sides)?.filter(|_| kinks < KINKS) else {
+                    return Ok(End::Lost);
+                };
+                (here, length) = (after, FIRST.min(long));
+                continue;
+            }
+            kinks = 0;
+            self.smooth(&here, &next)?;
+            self.keep(&next, None)?;
+            if lands {
+                return Ok(End::Range);
+            }
+            here = next;
+            length = if turn >= STRAIGHT { GROWTH * long } else { long };
+        }
+        Ok(End::MaxPoints)
+    }
+
+    /// Cosine of the angle between two tangents.
+    fn turn(&self, a: &Here, b: &Here) -> f64 {
+        self.metric.along(&a.tangent).dot(&b.tangent.y, b.tangent.t)
+    }
+
+    /// The next point, and whether it is at an end of the range; nothing where the step is too long.
+    fn step(&mut self, here: &Here, long: f64) -> Result<Option<(Here, bool)>, Q::Error> {
+        let row = self.metric.along(&here.tangent);
+        let guess = (&here.y + &here.tangent.y * long, here.t + here.tangent.t * long);
+        let inside = guess.1.clamp(self.settings.range[0], self.settings.range[1]);
+        if inside.to_bits() != guess.1.to_bits() {
+            let part = (inside - here.t) / (guess.1 - here.t);
+            let guess = &here.y + &here.tangent.y * (long * part);
+            return Ok(self.land(here, (&guess, inside), long * part)?.map(|next| (next, true)));
+        }
+        let Some(next) = self.corrected(here, (&guess.0, guess.1), &row, long)? else {
+            return Ok(None);
+        };
+        let inside = next.t.clamp(self.settings.range[0], self.settings.range[1]);
+        if inside.to_bits() == next.t.to_bits() {
+            return Ok(Some((next, false)));
+        }
+        let part = (inside - here.t) / (next.t - here.t);
+        let guess = &here.y + (&next.y - &here.y) * part;
+        Ok(self.land(here, (&guess, inside), long * part)?.map(|next| (next, true)))
+    }
+
+    /// The point at an end of the range.
+    fn land(
+        &mut self,
+        here: &Here,
+        guess: (&DVector<f64>, f64),
+        long: f64,
+    ) -> Result<Option<Here>, Q::Error> {
+        self.corrected(here, guess, &Row::parameter(guess.0.len()), long)
+    }
+
+    fn corrected(
+        &mut self,
+        here: &Here,
+        guess: (&DVector<f64>, f64),
+        row: &Row,
+        long: f64,
+    ) -> Result<Option<Here>, Q::Error> {
+        let column = by_parameter(self.equations, guess.0, guess.1)?;
+        let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
+        let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
+        if moved > CORRECTION * long.max(SHORTEST) {
+            return Ok(None);
+        }
+        let along = self.metric.along(&here.tangent);
+        let next = Here::new(self.equations, self.metric, found, &along)?;
+        Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH))
+    }
+
+    /// Limit points and branch points between two points.
+    fn smooth(&mut self, a: &Here, b: &Here) -> Result<(), Q::Error> {
+        for found in smooth(self.equations, self.metric, a, b) {
+            let Singular { at, kind, index, mode, load_on_mode } = found;
+            let event = Event {
+                kind,
+                t: at.t,
+                point: self.points.len(),
+                index,
+                turns: kind == Kind::Limit,
+                sides: vec![],
+                mode: mode.iter().copied().collect(),
+                load_on_mode,
+            };
+            let at = Here { index: index[0], ..at };
+            self.keep(&at, Some(event))?;
+        }
+        Ok(())
+    }
+
+    /// Beyond a kink: with the conditions on their other sides, the direction in which they are.
+    fn through(&mut self, at: &Here, mut sides: Vec<Q::Side>) -> Result<Option<Here>, Q::Error> {
+        let mut active = vec![];
+        for side in &sides {
+            active.push(self.equations.switch(*side)?);
+        }
+        let mut after = self.beyond(at, &sides)?;
+        if after.is_none() && sides.len() > 1 {
+            // Not all of them together: the first alone, and the others follow if they have to.
+            for side in sides.drain(1..) {
+                self.equations.switch(side)?;
+            }
+            after = self.beyond(at, &sides)?;
+        }
+        let Some(after) = after else { return Ok(None) };
+        let event = Event {
+            kind: Kind::Kink,
+            t: at.t,
+            point: self.points.len(),
+            index: [at.index, after.index],
+            turns: at.tangent.t * after.tangent.t < 0.0,
+            sides: sides.into_iter().zip(active).collect(),
+            mode: vec![],
+            load_on_mode: 1.0,
+        };
+        self.keep(at, Some(event))?;
+        Ok(Some(after))
+    }
+
+    fn beyond(&mut self, at: &Here, sides: &[Q::Side]) -> Result<Option<Here>, Q::Error> {
+        let row = self.metric.along(&at.tangent);
+        let here = Here::new(self.equations, self.metric, (at.y.clone(), at.t), &row)?;
+        let Some(mut here) = here else { return Ok(None) };
+        let ahead = &here.y + &here.tangent.y * BESIDE;
+        let there = self.equations.sides(&ahead, here.t + here.tangent.t * BESIDE)?;
+        let now = self.equations.sides(&here.y, here.t)?;
+        let rises = there.iter().zip(&now).filter(|((side, _), _)| sides.contains(side));
+        let rises: Vec<bool> = rises.map(|((_, there), (_, now))| there >= now).collect();
+        if rises.contains(&true) && rises.contains(&false) {
+            return Ok(None);
+        }
+        if rises.contains(&false) {
+            here.tangent = Row { y: -here.tangent.y, t: -here.tangent.t };
+        }
+        Ok(Some(here))
+    }
+
+    fn keep(&mut self, here: &Here, event: Option<Event<Q::Side>>) -> Result<(), Q::Error> {
+        let record = self.equations.record(&here.y, here.t, here.index)?;
+        let number = event.map(|event| {
+            self.events.push(event);
+            self.events.len() - 1
+        });
+        self.points.push(Point { t: here.t, index: here.index, event: number, record });
+        (self.watch)(self.points.len());
+        Ok(())
+    }
+}

@@ -1,0 +1,119 @@
+//! Load paths of potentials with closed forms.
+
+use branches::load::{End, Equations, Kind, LoadPath, NoPath, Settings, follow};
+use nalgebra::{DMatrix, DVector};
+
+/// The gradient of a potential of x and z and its second derivative, both at a load t.
+type Gradient = fn([f64; 2], f64) -> [f64; 2];
+type Second = fn([f64; 2], f64) -> [[f64; 2]; 2];
+
+struct Potential {
+    gradient: Gradient,
+    second: Second,
+    matrix: DMatrix<f64>,
+}
+
+impl Potential {
+    fn new(gradient: Gradient, second: Second) -> Self {
+        Self { gradient, second, matrix: DMatrix::zeros(2, 2) }
+    }
+
+    fn path(mut self, start: [f64; 2], range: [f64; 2]) -> Result<LoadPath<Self>, NoPath<()>> {
+        let settings = Settings { range, longest: 0.05, max_points: 500 };
+        follow(&mut self, &DVector::from_row_slice(&start), settings, &|_| {})
+    }
+}
+
+impl Equations for Potential {
+    type Side = ();
+    type Record = [f64; 2];
+    type Error = ();
+
+    fn places(&self) -> usize {
+        2
+    }
+
+    fn onto(&mut self, y: &DVector<f64>, _: f64) -> Result<DVector<f64>, ()> {
+        Ok(y.clone())
+    }
+
+    fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {
+        let rows = DVector::from_row_slice(&(self.gradient)([y[0], y[1]], t));
+        let size = rows.amax();
+        Ok((rows, size))
+    }
+
+    fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, ()> {
+        let [a, b] = (self.second)([y[0], y[1]], t);
+        self.matrix = DMatrix::from_row_slice(2, 2, &[a[0], a[1], b[0], b[1]]);
+        let values = self.matrix.symmetric_eigenvalues();
+        Ok(Some(values.iter().filter(|value| **value < 0.0).count()))
+    }
+
+    fn solve(&mut self, right: &DVector<f64>) -> DVector<f64> {
+        // A tiny stiffness where there is none.
+        let lu = self.matrix.clone().full_piv_lu();
+        let shifted = || (&self.matrix + DMatrix::identity(2, 2) * 1e-14).full_piv_lu();
+        lu.solve(right).or_else(|| shifted().solve(right)).unwrap_or_else(|| DVector::zeros(2))
+    }
+
+    fn apply(&self, y: &DVector<f64>) -> DVector<f64> {
+        &self.matrix * y
+    }
+
+    fn sides(&mut self, _: &DVector<f64>, _: f64) -> Result<Vec<((), f64)>, ()> {
+        Ok(vec![])
+    }
+
+    fn switch(&mut self, (): ()) -> Result<bool, ()> {
+        Ok(false)
+    }
+
+    fn record(&mut self, y: &DVector<f64>, _: f64, _: usize) -> Result<[f64; 2], ()> {
+        Ok([y[0], y[1]])
+    }
+}
+
+/// V = z^4/4 - z^2/2 - t z + x^2/2: from z = -1 up to the fold t = 2/(3 sqrt 3), back to the other.
+#[test]
+fn folds_of_a_cubic() {
+    let cubic = Potential::new(
+        |[x, z], t| [x, z.powi(3) - z - t],
+        |[_, z], _| [[1.0, 0.0], [0.0, 3.0 * z * z - 1.0]],
+    );
+    let path = cubic.path([0.0, -1.0], [-1.0, 1.0]).unwrap();
+    let fold = 2.0 / 27_f64.sqrt();
+    let found: Vec<_> = path.events.iter().map(|event| (event.kind, event.index)).collect();
+    assert_eq!(found, [(Kind::Limit, [0, 1]), (Kind::Limit, [1, 0])]);
+    for (event, wanted) in path.events.iter().zip([fold, -fold]) {
+        assert!((event.t - wanted).abs() < 1e-12 && event.turns && event.load_on_mode > 0.9);
+        assert!(event.mode[0].abs() < 1e-12 && (event.mode[1] - 1.0).abs() < 1e-12);
+    }
+    assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 1.0));
+}
+
+/// V = z^2/2 - t z + (1 - z) x^2/2 + x^4/4: upright until t = 1, where x may go either way.
+#[test]
+fn a_pitchfork_is_passed_straight_on() {
+    let pitchfork = Potential::new(
+        |[x, z], t| [(1.0 - z) * x + x.powi(3), z - t - 0.5 * x * x],
+        |[x, z], _| [[1.0 - z + 3.0 * x * x, -x], [-x, 1.0]],
+    );
+    let path = pitchfork.path([0.0, 0.0], [0.0, 2.0]).unwrap();
+    let [event] = &path.events[..] else { panic!("{:?}", path.events) };
+    assert_eq!((event.kind, event.index, event.turns), (Kind::Branch, [0, 1], false));
+    assert!((event.t - 1.0).abs() < 1e-12 && event.load_on_mode < 1e-9);
+    assert!((event.mode[0] - 1.0).abs() < 1e-9 && event.mode[1].abs() < 1e-9);
+    assert_eq!(path.points[event.point].event, Some(0));
+}
+
+#[test]
+fn starts_that_are_none() {
+    let parabola = |shift: f64| {
+        let gradient: Gradient =
+            if shift > 0.0 { |[x, z], t| [x, z * z + 1.0 - t] } else { |[x, z], t| [x, z * z - t] };
+        Potential::new(gradient, |[_, z], _| [[1.0, 0.0], [0.0, 2.0 * z]])
+    };
+    assert!(matches!(parabola(1.0).path([0.0, 0.3], [0.0, 1.0]), Err(NoPath::Start { .. })));
+    assert!(matches!(parabola(0.0).path([0.0, 0.0], [0.0, 1.0]), Err(NoPath::Singular)));
+}

@@ -1,0 +1,194 @@
+//! Load paths as text.
+
+use std::fmt::Write as _;
+
+use super::printable::Printable;
+use super::tables::{numbers_from, short, significant, table, wrapped};
+use crate::trace::Confirmed;
+use crate::trace::load::{LoadEnd, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint};
+
+/// Points of a path printed one by one besides its events; of more, as many spread over the path.
+const PRINTED: usize = 16;
+/// Digits of a value at which something happens.
+const DIGITS: usize = 9;
+/// Joints named of a mode, those that move most.
+const MODE: usize = 3;
+/// Bars or joints named of a kink.
+const NAMED: usize = 4;
+
+/// All paths, as `funicular trace` prints them.
+pub(super) fn text(found: &LoadPaths) -> String {
+    let mut text = format!("{}\n", Printable(found.system().name()));
+    for (number, path) in found.paths().iter().enumerate() {
+        if found.paths().len() > 1 {
+            let _ = writeln!(text, "\npath {}{}", number + 1, fixed(found, path));
+        }
+        text += &one_path(found, path);
+    }
+    text
+}
+
+/// The parameters that stay the same along a path, with their values.
+fn fixed(found: &LoadPaths, path: &LoadPath) -> String {
+    let (names, units) = found.parameters();
+    let Some(first) = path.points.first() else { return String::new() };
+    let others = 0..names.len().saturating_sub(1);
+    let all = others.map(|k| valued(&names[k], first.values[k], units[k]));
+    std::iter::once(String::new()).chain(all).collect::<Vec<_>>().join(", ")
+}
+
+/// `loads = 0.5`, `joints.P.force_n.z = -3 N`.
+fn valued(name: &str, value: f64, unit: &str) -> String {
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    format!("{} = {}{unit}", Printable(name), significant(value, DIGITS))
+}
+
+fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
+    let (names, units) = found.parameters();
+    let last = names.len().saturating_sub(1);
+    let headed = |name: &str, unit: &str| match unit {
+        "1" => Printable(name).to_string(),
+        _ => format!("{}\n/ {unit}", Printable(name)),
+    };
+    let mut head = vec![headed(&names[last], units[last])];
+    head.extend(found.of().iter().map(|(name, unit)| headed(name, unit)));
+    head.extend(["falling".to_owned(), "what happens".to_owned()]);
+    let mut table = table(head.iter().map(String::as_str));
+    for point in spread(&path.points) {
+        let mut row = vec![short(point.values[last])];
+        row.extend(point.of.iter().map(|value| value.map_or_else(String::new, short)));
+        row.push(point.index.to_string());
+        row.push(point.event.map_or_else(String::new, |event| happens(&path.events[event])));
+        table.add_row(row);
+    }
+    numbers_from(&mut table, 0);
+    let mut text = format!("{table}\n");
+    let mut say = |sentence: String| {
+        text += &wrapped(&sentence, 2);
+        text.push('\n');
+    };
+    say(first_loss(found, path));
+    say(ends(path));
+    say(confirmed(&path.confirmed));
+    text
+}
+
+/// All points if they are few; else events, both ends and some between them.
+fn spread(points: &[LoadPoint]) -> Vec<&LoadPoint> {
+    let every = points.len().div_ceil(PRINTED).max(1);
+    let shown =
+        |k: usize| k.is_multiple_of(every) || k + 1 == points.len() || points[k].event.is_some();
+    (0..points.len()).filter(|k| shown(*k)).map(|k| &points[k]).collect()
+}
+
+fn listed(names: &[String]) -> String {
+    let shown = names.iter().take(NAMED).map(|name| Printable(name).to_string());
+    let text = shown.collect::<Vec<_>>().join(", ");
+    match names.len().checked_sub(NAMED) {
+        Some(more) if more > 0 => format!("{text} and {more} more"),
+        _ => text,
+    }
+}
+
+/// What an event is.
+fn happens(event: &LoadEvent) -> String {
+    let bars = |bars: &[usize]| {
+        let names: Vec<String> = bars.iter().map(ToString::to_string).collect();
+        format!("bar{} {}", if names.len() > 1 { "s" } else { "" }, listed(&names))
+    };
+    match event.kind {
+        LoadEventKind::LimitPoint => "limit point".to_owned(),
+        LoadEventKind::BranchPoint => "branch point".to_owned(),
+        LoadEventKind::Kink => {
+            let mut all = vec![];
+            if !event.slack.is_empty() {
+                all.push(format!("{} slack", bars(&event.slack)));
+            }
+            if !event.taut.is_empty() {
+                all.push(format!("{} taut", bars(&event.taut)));
+            }
+            if !event.lands.is_empty() {
+                all.push(format!("{} on the floor", listed(&event.lands)));
+            }
+            if !event.leaves.is_empty() {
+                all.push(format!("{} off the floor", listed(&event.leaves)));
+            }
+            all.join(", ")
+        }
+    }
+}
+
+fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
+    let (names, units) = found.parameters();
+    let last = names.len().saturating_sub(1);
+    let starts = path.points.first().map_or(0, |point| point.index);
+    if starts > 0 {
+        return format!(
+            "unstable from the start: the energy falls in {starts} direction{}",
+            if starts > 1 { "s" } else { "" }
+        );
+    }
+    let Some(event) = path.first_loss() else {
+        return "stable from its start to its end".to_owned();
+    };
+    let at = valued(&names[last], event.values[last], units[last]);
+    let by = match event.kind {
+        LoadEventKind::LimitPoint => "a limit point".to_owned(),
+        LoadEventKind::BranchPoint => match event.index[1] {
+            1 => "a branch point".to_owned(),
+            modes => format!("a branch point with {modes} modes at once"),
+        },
+        LoadEventKind::Kink => happens(event),
+    };
+    let mode = mode(found, event);
+    let proved = event.enclosed.map_or_else(String::new, |[low, high]| {
+        let [low, high] = outwards(low, high);
+        format!("; it is proved to lie between {low} and {high}")
+    });
+    format!("first loss of stability along this path at {at}, by {by}{proved}{mode}")
+}
+
+/// Two numbers rounded away from each other, to as many digits as are needed to tell them apart from the
+/// middle, or to nine.
+fn outwards(low: f64, high: f64) -> [String; 2] {
+    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+    let unit = 10_f64.powf(size.log10().floor() + 1.0 - DIGITS as f64);
+    [(low / unit).floor() * unit, (high / unit).ceil() * unit].map(|x| significant(x, DIGITS))
+}
+
+/// The joints that move most in a mode.
+fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
+    let largest = |joint: &usize| event.mode[*joint].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    // Moves that differ by rounding are in the order of the joints.
+    let size = |joint: &usize| (1e6 * largest(joint)).round();
+    let mut joints: Vec<usize> = (0..event.mode.len()).filter(|joint| size(joint) > 1.0).collect();
+    joints.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a.cmp(b)));
+    let moves = joints.iter().take(MODE).map(|joint| {
+        let [x, y, z] =
+            event.mode[*joint].map(|x| significant(if x.abs() < 1e-6 { 0.0 } else { x }, 3));
+        format!("{} by ({x}, {y}, {z})", Printable(&found.system().joints()[*joint].name))
+    });
+    let moves: Vec<String> = moves.collect();
+    if moves.is_empty() { String::new() } else { format!("; its mode moves {}", moves.join(", ")) }
+}
+
+fn ends(path: &LoadPath) -> String {
+    let points = path.points.len();
+    let why = match path.end {
+        LoadEnd::Range => "the path ends at an end of the range",
+        LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it",
+        LoadEnd::Lost => "the path is lost there: no step leads on",
+        LoadEnd::Numbers => "beyond the last one the numbers describe no system",
+    };
+    format!("{points} point{}; {why}", if points == 1 { "" } else { "s" })
+}
+
+fn confirmed(found: &Confirmed) -> String {
+    let Confirmed { points, critical, same_index, minimised, minima, singular, flat, statics } =
+        *found;
+    format!(
+        "energy: an equilibrium at {critical} of {points} points, as many falling directions at {same_index}, a minimum at \
+         {minima} of {minimised} stable ones, no curvature at {flat} of {singular} limit and branch points; statics to \
+         {statics:.0e}. Other equilibria are not looked for"
+    )
+}

@@ -1,0 +1,125 @@
+//! What `energy` and the judge say of a load path that `lagrange` has followed.
+
+use branches::Variation;
+use model::system::{System, SystemEquilibrium};
+use serde::Serialize;
+use validate::Tolerances;
+use validate::systems::judge;
+
+use super::load::{LoadEvent, LoadEventKind};
+
+/// Stable points that are minimised from, spread over the path.
+const MINIMISED: usize = 8;
+/// Systems of more joints are minimised at fewer of them.
+const SMALL: usize = 100;
+/// A minimum is the point if no joint is farther from it than this part of the size of the system.
+const SAME: f64 = 1e-7;
+/// A curvature below this part of the largest is none: a singular point is known to the square root
+/// of rounding.
+const FLAT: f64 = 1e-6;
+
+/// Points that were looked at, and those of them that `energy` and the judge confirm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Confirmed {
+    /// Points at which the gradient of the energy was taken: all, events too.
+    pub points: usize,
+    /// Those where it vanishes and the lengths are kept.
+    pub critical: usize,
+    /// Those where the number of directions in which the energy falls is that of the path; events,
+    /// where it changes, count as confirmed.
+    pub same_index: usize,
+    /// Stable points from whose neighbourhood the energy was minimised.
+    pub minimised: usize,
+    /// Those of them that are the minimum.
+    pub minima: usize,
+    /// Limit points and branch points whose least curvature was taken.
+    pub singular: usize,
+    /// Those where it vanishes.
+    pub flat: usize,
+    /// The largest violation of the laws of statics at any point, in the units of the judge with the
+    /// largest load on the path in the place of that of the point.
+    pub statics: f64,
+}
+
+impl Confirmed {
+    /// Whether nothing contradicts the path.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.critical == self.points
+            && self.same_index == self.points
+            && self.minima == self.minimised
+            && self.flat == self.singular
+            && self.statics <= Tolerances::project().statics.value
+    }
+}
+
+/// Look at every point of a path: values, equilibrium, index, whether an event happens there.
+pub(super) fn confirm(
+    variation: &Variation<System>,
+    points: &[(&[f64], &SystemEquilibrium, usize, bool)],
+    events: &[LoadEvent],
+) -> Confirmed {
+    let mut found = Confirmed {
+        points: 0,
+        critical: 0,
+        same_index: 0,
+        minimised: 0,
+        minima: 0,
+        singular: 0,
+        flat: 0,
+        statics: 0.0,
+    };
+    let loads = points.iter().filter_map(|(values, ..)| variation.unloaded(values).ok());
+    let most_n = loads.map(|system| load_n(&system)).fold(0.0, f64::max);
+    let stable = points.iter().filter(|(_, _, index, event)| *index == 0 && !event).count();
+    let large = variation.base().joints().len() > SMALL;
+    let every = stable.div_ceil(if large { 1 } else { MINIMISED }).max(1);
+    let mut stable = 0;
+    for (number, (values, equilibrium, index, event)) in points.iter().enumerate() {
+        let Ok(system) = variation.unloaded(values) else { continue };
+        let of_most = load_n(&system) / most_n.max(f64::MIN_POSITIVE);
+        let statics = judge(&system, equilibrium).largest() * of_most;
+        let worse = statics > found.statics || (statics.is_nan() && of_most > 0.0);
+        found.statics = if worse { statics } else { found.statics };
+        let Ok(Some(critical)) = energy::network::critical(&system, &equilibrium.joints_m) else {
+            continue;
+        };
+        found.points += 1;
+        found.critical += usize::from(critical.is_equilibrium());
+        found.same_index += usize::from(*event || critical.index == *index);
+        let smooth = |event: &&LoadEvent| event.kind != LoadEventKind::Kink;
+        let singular = events.iter().filter(smooth).any(|event| event.point == number);
+        if let (true, Some(curvature)) = (singular, critical.curvature) {
+            found.singular += 1;
+            found.flat += usize::from(curvature.abs() <= FLAT);
+        }
+        if *index == 0 && !event {
+            stable += 1;
+            // The last one, next to a limit point, would be a minimum to few digits.
+            if stable % every == every / 2 && !system.is_unloaded() {
+                found.minimised += 1;
+                found.minima += usize::from(is_minimum(&system, equilibrium));
+            }
+        }
+    }
+    found
+}
+
+/// All loads together, N.
+fn load_n(system: &System) -> f64 {
+    let size = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+    let joints = system.joints().iter().map(|joint| size(joint.force_n));
+    let bars = system.members().iter().flat_map(|member| &member.loads);
+    let forces = joints.chain(bars.map(|load| size(load.force_n)));
+    model::sum(forces) + system.total_mass_kg() * system.gravity_m_s2()
+}
+
+/// Whether the energy has its minimum here.
+fn is_minimum(system: &System, equilibrium: &SystemEquilibrium) -> bool {
+    let at_m = &equilibrium.joints_m;
+    let settings = energy::network::Settings::default();
+    let Ok(found) = energy::network::minimise_near(system, at_m, &settings) else { return false };
+    let same = SAME * system.total_length_m();
+    let pairs = found.equilibrium.joints_m.iter().zip(at_m);
+    pairs.flat_map(|(a, b)| (0..3).map(move |k| (a[k] - b[k]).abs())).all(|off| off <= same)
+}

@@ -1,0 +1,186 @@
+//! The equations of `lagrange` along a straight line of numbers of the file.
+
+use branches::Variation;
+use branches::load::{self, NoPath};
+use lagrange::network::{Equations, Seed, Settings, Side, solve, solve_from};
+use model::system::{System, SystemEquilibrium};
+use nalgebra::DVector;
+use validate::systems::Near;
+
+use super::load::LoadError;
+
+/// Where the numbers run, and the system there.
+pub(super) struct Family<'a> {
+    variation: &'a Variation<System>,
+    from: Vec<f64>,
+    to: Vec<f64>,
+    at: f64,
+    system: System,
+    equations: Equations,
+}
+
+impl<'a> Family<'a> {
+    /// From the values of the numbers at 0 to those at 1, with the unknowns of the equilibrium at 0:
+    /// that next to the drawing, or, where nothing is drawn, the hanging one.
+    pub(super) fn new(
+        variation: &'a Variation<System>,
+        [from, to]: [&[f64]; 2],
+    ) -> Result<(Self, DVector<f64>), LoadError> {
+        let system = variation.unloaded(from).map_err(LoadError::Numbers)?;
+        // Forces are measured in the loads, if there are any later.
+        let far = variation.unloaded(to).ok().filter(|_| system.is_unloaded());
+        let mut equations = Equations::new(far.as_ref().unwrap_or(&system))?;
+        equations.set(&system);
+        let drawing_m = system.drawing();
+        let found = match &drawing_m {
+            Some(at_m) => solve_from(&system, &Seed::at(at_m.clone()), &Settings::default()),
+            None => solve(&system, &Settings::default()),
+        };
+        let start = match (found, &drawing_m) {
+            (Ok(found), drawing_m) => {
+                let near = drawing_m.as_ref().map(|m| Near::of(&system, m, &found.equilibrium));
+                if let Some(Near { joint, moved_m, .. }) = near.filter(|near| !near.is_neighbour) {
+                    return Err(LoadError::NotNear { joint, moved_m });
+                }
+                if found.equilibrium.stability.neutral > 0 {
+                    return Err(LoadError::Singular);
+                }
+                equations.at(&system, &found)
+            }
+            // Without loads the drawing may be what there is.
+            (Err(_), Some(drawing_m)) if system.is_unloaded() => equations.drawn(drawing_m),
+            (Err(error), _) => return Err(error.into()),
+        };
+        let family =
+            Self { variation, from: from.to_vec(), to: to.to_vec(), at: 0.0, system, equations };
+        Ok((family, DVector::from_vec(start)))
+    }
+
+    /// The numbers at a point of the line.
+    pub(super) fn values(&self, t: f64) -> Vec<f64> {
+        let between = |(from, to): (&f64, &f64)| from * (1.0 - t) + to * t;
+        self.from.iter().zip(&self.to).map(between).collect()
+    }
+
+    /// The numbers at 0 and at 1.
+    pub(super) fn ends(&self) -> [&[f64]; 2] {
+        [&self.from, &self.to]
+    }
+
+    fn set(&mut self, t: f64) -> Result<(), LoadError> {
+        if t.to_bits() != self.at.to_bits() {
+            self.system = self.variation.unloaded(&self.values(t)).map_err(LoadError::Numbers)?;
+            self.equations.set(&self.system);
+            self.at = t;
+        }
+        Ok(())
+    }
+}
+
+/// A point of a path as it is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Kept {
+    pub(super) values: Vec<f64>,
+    pub(super) equilibrium: SystemEquilibrium,
+}
+
+impl load::Equations for Family<'_> {
+    type Side = Side;
+    type Record = Kept;
+    type Error = LoadError;
+
+    fn places(&self) -> usize {
+        3 * self.system.joints().len()
+    }
+
+    fn onto(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, LoadError> {
+        self.set(t)?;
+        Ok(DVector::from_vec(self.equations.onto(y.as_slice())))
+    }
+
+    fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), LoadError> {
+        self.set(t)?;
+        let (rows, size) = self.equations.residual(y.as_slice());
+        Ok((DVector::from_vec(rows), size))
+    }
+
+    fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, LoadError> {
+        self.set(t)?;
+        Ok(self.equations.factorise(y.as_slice()))
+    }
+
+    fn solve(&mut self, right: &DVector<f64>) -> DVector<f64> {
+        DVector::from_vec(self.equations.solve(right.as_slice()))
+    }
+
+    fn apply(&self, y: &DVector<f64>) -> DVector<f64> {
+        DVector::from_vec(self.equations.apply(y.as_slice()))
+    }
+
+    fn sides(&mut self, y: &DVector<f64>, t: f64) -> Result<Vec<(Side, f64)>, LoadError> {
+        self.set(t)?;
+        Ok(self.equations.sides(y.as_slice()))
+    }
+
+    fn switch(&mut self, side: Side) -> Result<bool, LoadError> {
+        Ok(self.equations.switch(side)?)
+    }
+
+    fn record(&mut self, y: &DVector<f64>, t: f64, index: usize) -> Result<Kept, LoadError> {
+        self.set(t)?;
+        let found = self.equations.solution(&self.system, y.as_slice(), index);
+        Ok(Kept { values: self.values(t), equilibrium: found.equilibrium })
+    }
+}
+
+impl From<NoPath<LoadError>> for LoadError {
+    fn from(error: NoPath<LoadError>) -> Self {
+        match error {
+            NoPath::Start { residual } => Self::Start { residual },
+            NoPath::Singular => Self::Singular,
+            NoPath::Numbers(error) => error,
+        }
+    }
+}
+
+/// A straight line of values.
+pub(super) struct Line<'a> {
+    /// The values at 0 and at 1.
+    pub(super) ends: [&'a [f64]; 2],
+    /// The range of the points given.
+    pub(super) range: [f64; 2],
+    /// Their largest distance.
+    pub(super) longest: f64,
+}
+
+/// The line of a path.
+pub(super) fn line(points: &[Vec<f64>]) -> Result<Line<'_>, LoadError> {
+    let first = points.first().ok_or(LoadError::NoRange)?;
+    let last = first.len().checked_sub(1).ok_or(LoadError::NoRange)?;
+    let off = |point: &Vec<f64>| point[last] - first[last];
+    let begin = points.iter().map(off).find(|off| off.abs() > 0.0).ok_or(LoadError::NoRange)?;
+    // The farthest on the side where the path begins.
+    let side = |point: &&Vec<f64>| off(point) * begin.signum();
+    let far = points.iter().max_by(|a, b| side(a).total_cmp(&side(b))).unwrap_or(first);
+    let part = |point: &Vec<f64>| (point[last] - first[last]) / (far[last] - first[last]);
+    let mut range = [0.0_f64, 1.0_f64];
+    let mut longest = 0.0_f64;
+    for two in points.windows(2) {
+        longest = longest.max((part(&two[1]) - part(&two[0])).abs());
+    }
+    for point in points {
+        let t = part(point);
+        let on = |k: usize| {
+            let value = first[k] * (1.0 - t) + far[k] * t;
+            (point[k] - value).abs() <= STRAIGHT * (first[k].abs() + far[k].abs())
+        };
+        if !(0..=last).all(on) {
+            return Err(LoadError::NotStraight);
+        }
+        range = [range[0].min(t), range[1].max(t)];
+    }
+    Ok(Line { ends: [first, far], range, longest })
+}
+
+/// Values in step are on a line to this part of them.
+const STRAIGHT: f64 = 1e-9;

@@ -1,0 +1,63 @@
+//! A load path as a picture.
+
+use figures::{Anchor, Axes, Axis, BLUE, Look, Svg, Unit, VERMILION};
+
+use super::load::{LoadEventKind, LoadPath, LoadPaths, LoadPoint};
+
+const WIDTH: f64 = 900.0;
+const HEIGHT: f64 = 560.0;
+const LEFT: f64 = 110.0;
+const RIGHT: f64 = 870.0;
+const TOP: f64 = 90.0;
+const BOTTOM: f64 = 490.0;
+/// How wide the curves are, px, and how large events.
+const STROKE: f64 = 2.4;
+const DOT: f64 = 5.0;
+
+/// The last parameter over the first number shown: stable parts in full, unstable ones dashed,
+/// events marked.
+pub(super) fn figure(found: &LoadPaths, path: &LoadPath) -> String {
+    let last = found.parameters.len().saturating_sub(1);
+    let at = |point: &LoadPoint| Some([*point.of.first()?.as_ref()?, point.values[last]]);
+    let points: Vec<[f64; 2]> = path.points.iter().filter_map(at).collect();
+    let x = Axis::around(points.iter().map(|at| at[0]), 0.04, [LEFT, RIGHT]);
+    let y = Axis::around(points.iter().map(|at| at[1]), 0.06, [BOTTOM, TOP]);
+    let (x_name, y_name) = (
+        found.of.first().map_or(String::new(), |(name, unit)| format!("{name} / {unit}")),
+        format!("{} / {}", found.parameters[last], found.units[last]),
+    );
+    let axes = Axes { x, y, names: [&x_name, &y_name] };
+    let mut svg = Svg::new([WIDTH, HEIGHT], found.system.name());
+    svg.text(Look::PLAIN.size(17.0).bold(), [LEFT, 28.0], Anchor::Start, found.system.name());
+    svg.text(
+        Look::PLAIN,
+        [LEFT, 48.0],
+        Anchor::Start,
+        "stable in full, unstable dashed; limit points as dots, branch points as diamonds, kinks as crosses",
+    );
+    let mut run: Vec<[f64; 2]> = Vec::new();
+    for (k, point) in path.points.iter().enumerate() {
+        let Some(here) = at(point).map(|at| axes.at(at)) else { continue };
+        run.push(here);
+        // An event has the index of the part before it, and both parts reach to it.
+        let stable = point.index == 0;
+        if path.points.get(k + 1).is_none_or(|next| (next.index == 0) != stable) {
+            let look = Look::stroke(if stable { BLUE } else { VERMILION }, STROKE);
+            svg.polyline(if stable { look } else { look.dashed("9 6") }, run.drain(..));
+            run.push(here);
+        }
+    }
+    axes.frame(&mut svg, [Unit::Decimal, Unit::Decimal]);
+    for event in &path.events {
+        let Some(here) = path.points.get(event.point).and_then(at).map(|at| axes.at(at)) else {
+            continue;
+        };
+        let look = Look::fill(VERMILION);
+        match event.kind {
+            LoadEventKind::LimitPoint => svg.circle(look, here, DOT),
+            LoadEventKind::BranchPoint => svg.diamond(look, here, DOT),
+            LoadEventKind::Kink => svg.cross(Look::stroke(VERMILION, STROKE), here, DOT),
+        }
+    }
+    svg.finish()
+}

@@ -1,0 +1,421 @@
+//! Load paths of any system.
+
+use std::io::{self, Write};
+
+use branches::load::{End, Event, Kind, LoadPath as Followed, Settings, follow};
+use branches::{Number, PointError, Variation};
+use lagrange::network::Side;
+use model::Vector;
+use model::system::{System, SystemEquilibrium};
+use serde::Serialize;
+
+use super::confirm::{Confirmed, confirm};
+use super::enclosed::enclosed;
+use super::equations::{Family, Kept, Line, line};
+use super::figure;
+use crate::csv::quoted;
+use crate::error::Error;
+use crate::extremes::Extremes;
+use crate::modes::Summary;
+use crate::observable::Observable;
+use crate::solve::SCHEMA_VERSION;
+
+/// Steps over the whole range, at least.
+const STEPS: f64 = 24.0;
+
+/// Why there is no load path.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// Occurs when the values of the last parameter are all one.
+    #[error("a load path needs a range of values, as `loads=0..1.2`")]
+    NoRange,
+    /// Occurs when parameters in step do not run along one straight line.
+    #[error("the values of parameters in step are not on one straight line")]
+    NotStraight,
+    /// Occurs when the numbers describe no system.
+    #[error(transparent)]
+    Numbers(PointError),
+    /// Occurs when `lagrange` has no equilibrium at the start.
+    #[error("no equilibrium at the start of the path: {0}")]
+    Solver(#[from] lagrange::network::Error),
+    /// Occurs when the equilibrium at the start is another one than the shape given shows.
+    #[error(
+        "the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m:.3e} m away"
+    )]
+    NotNear {
+        /// The joint that is farthest, in units of its shortest member.
+        joint: String,
+        /// How far, m.
+        moved_m: f64,
+    },
+    /// Occurs when the shape given is no equilibrium at the start, nor next to one.
+    #[error(
+        "no equilibrium at the start of the path: next to the shape given a part {residual:.1e} of forces or lengths \
+         is left"
+    )]
+    Start {
+        /// What is left of balance and lengths.
+        residual: f64,
+    },
+    /// Occurs when the equilibrium at the start is singular, as in a limit point.
+    #[error(
+        "the start of the path is singular, as in a limit point, or where something turns or moves freely"
+    )]
+    Singular,
+}
+
+/// Why a load path ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LoadEnd {
+    /// At an end of the range.
+    Range,
+    /// At the largest number of points.
+    MaxPoints,
+    /// No step leads on.
+    Lost,
+    /// The numbers describe no system beyond.
+    Numbers,
+}
+
+/// What happens on a load path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LoadEventKind {
+    /// The parameter turns back where the stiffness vanishes.
+    LimitPoint,
+    /// Other paths cross.
+    BranchPoint,
+    /// A cable or strut becomes slack or taut, a joint meets the floor or leaves it.
+    Kink,
+}
+
+/// A point of a load path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadPoint {
+    /// Values of the parameters.
+    pub values: Vec<f64>,
+    /// Number of directions in which the energy falls: 0 is stable. In an event, of the part before
+    /// it.
+    pub index: usize,
+    /// The event that happens here, by its number from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub event: Option<usize>,
+    /// Energy, J.
+    pub energy_j: f64,
+    /// What is shown.
+    pub of: Vec<Option<f64>>,
+    /// Places of the joints, m.
+    pub joints_m: Vec<Vector>,
+    /// Axial forces of the bars, N, tension positive.
+    pub axial_n: Vec<f64>,
+}
+
+/// What happens on a load path, and where.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadEvent {
+    /// What it is.
+    pub kind: LoadEventKind,
+    /// Values of the parameters.
+    pub values: Vec<f64>,
+    /// Its point, by its number from 0.
+    pub point: usize,
+    /// Number of directions in which the energy falls, before and after it.
+    pub index: [usize; 2],
+    /// Whether the parameter turns back here.
+    pub turns: bool,
+    /// Between these values of the last parameter exactly one limit point is proved to lie, next to this
+    /// shape: where loads alone vary, of systems that are not too large.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enclosed: Option<[f64; 2]>,
+    /// Bars that become slack here, from 1.
+    pub slack: Vec<usize>,
+    /// Bars that become taut here, from 1.
+    pub taut: Vec<usize>,
+    /// Joints that meet the floor here.
+    pub lands: Vec<String>,
+    /// Joints that leave the floor here.
+    pub leaves: Vec<String>,
+    /// Move of each joint in the direction without stiffness, the largest coordinate 1; empty in a
+    /// kink.
+    pub mode: Vec<Vector>,
+}
+
+/// A load path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadPath {
+    /// Its points, from the start on.
+    pub points: Vec<LoadPoint>,
+    /// What happens on it, in its order.
+    pub events: Vec<LoadEvent>,
+    /// Why it ends.
+    pub end: LoadEnd,
+    /// What `energy` says of it.
+    pub confirmed: Confirmed,
+}
+
+impl LoadPath {
+    /// The first event in which the index rises from 0; nothing where it does not.
+    #[must_use]
+    pub fn first_loss(&self) -> Option<&LoadEvent> {
+        self.events.iter().find(|event| event.index[0] == 0 && event.index[1] > 0)
+    }
+}
+
+/// Load paths, as [`Trace`](crate::Trace) follows them for any system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadPaths {
+    pub(super) system: System,
+    pub(super) parameters: Vec<String>,
+    pub(super) units: Vec<&'static str>,
+    pub(super) of: Vec<(String, &'static str)>,
+    pub(super) paths: Vec<LoadPath>,
+}
+
+/// Follow all paths of a variation.
+pub(super) fn trace(
+    variation: &Variation<System>,
+    named: &[String],
+    max_points: usize,
+    watch: &(dyn Fn(usize, usize) + Sync),
+) -> Result<LoadPaths, Error> {
+    let system = variation.base();
+    let of = named.iter().map(|text| Observable::parse(text, system));
+    let of = of.collect::<Result<Vec<_>, _>>()?;
+    let mut all = Vec::new();
+    for (number, points) in variation.paths().iter().enumerate() {
+        let Line { ends, range, longest } = line(points)?;
+        let (mut family, start) = Family::new(variation, ends)?;
+        let settings = Settings { range, longest: longest.min(1.0 / STEPS), max_points };
+        let told = |points| watch(number, points);
+        let found = follow(&mut family, &start, settings, &told).map_err(LoadError::from)?;
+        all.push((family, found));
+    }
+    let followed = all.iter().map(|(_, path)| path);
+    let moved = if named.is_empty() { most_moved(system, followed) } else { None };
+    let named = moved.clone().map_or_else(|| named.to_vec(), |moved| vec![moved]);
+    let of = match moved {
+        Some(moved) => vec![Observable::parse(&moved, system)?],
+        None => of,
+    };
+    let paths = all.into_iter().map(|(family, found)| told(&family, variation, &of, &found));
+    let numbers = variation.numbers();
+    Ok(LoadPaths {
+        system: system.clone(),
+        parameters: numbers.iter().map(ToString::to_string).collect(),
+        units: numbers.iter().map(Number::unit).collect(),
+        of: named.into_iter().zip(of.iter().map(|one| one.unit())).collect(),
+        paths: paths.collect(),
+    })
+}
+
+/// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
+fn most_moved<'a: 'b, 'b>(
+    system: &System,
+    paths: impl Iterator<Item = &'b Followed<Family<'a>>>,
+) -> Option<String> {
+    let mut most = (0.0, None);
+    for path in paths {
+        let first = &path.points.first()?.record.equilibrium.joints_m;
+        for point in &path.points {
+            for (joint, (at_m, from_m)) in
+                point.record.equilibrium.joints_m.iter().zip(first).enumerate()
+            {
+                for axis in 0..3 {
+                    let moved = (at_m[axis] - from_m[axis]).abs();
+                    // What is equal to rounding is the first of them, upright if that is one.
+                    if moved > most.0 * (1.0 + 1e-9) {
+                        most = (moved, Some((joint, axis)));
+                    }
+                }
+            }
+        }
+    }
+    let Some((joint, axis)) = most.1 else {
+        return (!system.members().is_empty()).then(|| "bars.1.axial_n".to_owned());
+    };
+    let name = &system.joints()[joint].name;
+    let quoted = name.contains(['.', '[', ']', '"']);
+    let name = if quoted { format!("\"{name}\"") } else { name.clone() };
+    Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
+}
+
+/// A path as it is told.
+fn told(
+    family: &Family<'_>,
+    variation: &Variation<System>,
+    of: &[Observable],
+    found: &Followed<Family<'_>>,
+) -> LoadPath {
+    let system = variation.base();
+    let points = found.points.iter().map(|point| {
+        let Kept { values, equilibrium } = &point.record;
+        let extremes = Extremes::of(system, equilibrium);
+        let shown = |one: &Observable| one.of(system, equilibrium, extremes.as_ref()?);
+        LoadPoint {
+            values: values.clone(),
+            index: point.index,
+            event: point.event,
+            energy_j: equilibrium.energy_j,
+            of: of.iter().map(shown).collect(),
+            joints_m: equilibrium.joints_m.clone(),
+            axial_n: equilibrium.axial_n.clone(),
+        }
+    });
+    let points = points.collect();
+    let events = found.events.iter().map(|event| event_told(system, family, event));
+    let mut events: Vec<LoadEvent> = events.collect();
+    for event in events.iter_mut().filter(|event| event.kind == LoadEventKind::LimitPoint) {
+        event.enclosed = enclosed(variation, family.ends(), &found.points[event.point].record);
+    }
+    let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
+        .points
+        .iter()
+        .map(|point| {
+            let Kept { values, equilibrium } = &point.record;
+            (values.as_slice(), equilibrium, point.index, point.event.is_some())
+        })
+        .collect();
+    let confirmed = confirm(variation, &equilibria, &events);
+    let end = match &found.end {
+        End::Range => LoadEnd::Range,
+        End::MaxPoints => LoadEnd::MaxPoints,
+        End::Lost => LoadEnd::Lost,
+        End::Numbers(_) => LoadEnd::Numbers,
+    };
+    LoadPath { points, events, end, confirmed }
+}
+
+fn event_told(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
+    let bars = |active: bool| {
+        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
+        let bar = |side: &(Side, bool)| match side.0 {
+            Side::Member(member) => Some(member + 1),
+            Side::Joint(_) => None,
+        };
+        sides.filter_map(bar).collect()
+    };
+    let joints = |active: bool| {
+        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
+        let joint = |side: &(Side, bool)| match side.0 {
+            Side::Joint(joint) => Some(system.joints()[joint].name.clone()),
+            Side::Member(_) => None,
+        };
+        sides.filter_map(joint).collect()
+    };
+    let places = event.mode.get(..3 * system.joints().len()).unwrap_or_default();
+    LoadEvent {
+        kind: match event.kind {
+            Kind::Limit => LoadEventKind::LimitPoint,
+            Kind::Branch => LoadEventKind::BranchPoint,
+            Kind::Kink => LoadEventKind::Kink,
+        },
+        values: family.values(event.t),
+        point: event.point,
+        index: event.index,
+        turns: event.turns,
+        enclosed: None,
+        slack: bars(false),
+        taut: bars(true),
+        lands: joints(true),
+        leaves: joints(false),
+        mode: places.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect(),
+    }
+}
+
+impl LoadPaths {
+    /// The paths, one for each combination of all parameters but the last.
+    #[must_use]
+    pub fn paths(&self) -> &[LoadPath] {
+        &self.paths
+    }
+
+    /// The names of the parameters, as in the system file, with their units.
+    #[must_use]
+    pub fn parameters(&self) -> (&[String], &[&'static str]) {
+        (&self.parameters, &self.units)
+    }
+
+    /// What is shown, with its units.
+    #[must_use]
+    pub fn of(&self) -> &[(String, &'static str)] {
+        &self.of
+    }
+
+    /// The system whose numbers vary.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Load over displacement as SVG, for one path, from 1.
+    #[must_use]
+    pub fn figure(&self, path: usize) -> Option<String> {
+        Some(figure::figure(self, self.paths.get(path.checked_sub(1)?)?))
+    }
+
+    pub(super) fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        write!(to, "path,point")?;
+        for parameter in &self.parameters {
+            write!(to, ",{}", quoted(parameter))?;
+        }
+        write!(to, ",index,event,energy_j")?;
+        for (name, _) in &self.of {
+            write!(to, ",{}", quoted(name))?;
+        }
+        for joint in self.system.joints() {
+            for axis in ["x", "y", "z"] {
+                write!(to, ",{}", quoted(&format!("{}_{axis}_m", joint.name)))?;
+            }
+        }
+        for bar in 1..=self.system.members().len() {
+            write!(to, ",axial_{bar}_n")?;
+        }
+        writeln!(to)?;
+        for (path, found) in self.paths.iter().enumerate() {
+            for (number, point) in found.points.iter().enumerate() {
+                write!(to, "{},{number}", path + 1)?;
+                for value in &point.values {
+                    write!(to, ",{value:?}")?;
+                }
+                let event = point.event.map_or(String::new(), |event| event.to_string());
+                write!(to, ",{},{event},{:?}", point.index, point.energy_j)?;
+                for value in &point.of {
+                    match value {
+                        Some(value) => write!(to, ",{value:?}")?,
+                        None => write!(to, ",")?,
+                    }
+                }
+                for number in point.joints_m.as_flattened().iter().chain(&point.axial_n) {
+                    write!(to, ",{number:?}")?;
+                }
+                writeln!(to)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Serialize for LoadPaths {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Object<'a> {
+            schema_version: u32,
+            system: Summary,
+            parameters: &'a [String],
+            units: &'a [&'static str],
+            of: Vec<&'a str>,
+            load_paths: &'a [LoadPath],
+        }
+        Object {
+            schema_version: SCHEMA_VERSION,
+            system: Summary::new(&self.system),
+            parameters: &self.parameters,
+            units: &self.units,
+            of: self.of.iter().map(|(name, _)| name.as_str()).collect(),
+            load_paths: &self.paths,
+        }
+        .serialize(serializer)
+    }
+}

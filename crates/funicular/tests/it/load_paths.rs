@@ -1,0 +1,348 @@
+//! Load paths against closed forms: `l` is the length of a bar, `l0` its free length, `a` half the
+//! span and `w` the height of a gable.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use funicular::prelude::*;
+use funicular::{LoadEnd, LoadEvent, LoadEventKind, LoadPath};
+
+/// Limits and branches are located to this part.
+const SHARP: f64 = 1e-9;
+
+/// A file whose bars have no mass.
+fn light(file: &str) -> Problem {
+    Problem::parse(&file.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n"), "test.toml").unwrap()
+}
+
+fn paths(file: &str, trace: Trace) -> Vec<LoadPath> {
+    let problem = light(file);
+    let found = trace.run(&problem).unwrap();
+    assert!(found.checks_agree(), "{found}");
+    assert!(found.to_string().lines().all(|line| line.chars().count() <= 80), "{found}");
+    found.load_paths().unwrap().paths().to_vec()
+}
+
+fn path(file: &str, vary: &str) -> LoadPath {
+    paths(file, Trace::new().vary(vary).unwrap()).remove(0)
+}
+
+/// Two bars of EA = 1 N, feet 2 m apart, the apex at this height, which moves as `free` says.
+fn gable(height: f64, free: &str, more: &str) -> String {
+    format!(
+        "[joints]\nA = {{ at_m = [-1, 0, 0] }}\nB = {{ at_m = [1, 0, 0] }}\n\
+         P = {{ at_m = [0, 0, {height}], near_m = [0, 0, {height}], free = \"{free}\", force_n = [0, 0, -1] }}\n{more}\
+         [[bars]]\nfrom = \"A\"\nto = \"P\"\nstiffness_n = 1\n[[bars]]\nfrom = \"P\"\nto = \"B\"\nstiffness_n = 1\n"
+    )
+}
+
+/// The load on a gable whose bars are this long, N.
+fn load_n(l0: f64, l: f64) -> f64 {
+    2.0 * (l * l - 1.0).sqrt() / l * (l0 - l) / l0
+}
+
+/// Where a function changes its sign.
+fn root(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    assert!(f(low) * f(high) < 0.0);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if f(low) * f(middle) <= 0.0 { high = middle } else { low = middle }
+    }
+    0.5 * (low + high)
+}
+
+fn derivative(f: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
+    let h = 1e-5;
+    // Of fourth order.
+    move |x| (8.0 * (f(x + h) - f(x - h)) - (f(x + 2.0 * h) - f(x - 2.0 * h))) / (12.0 * h)
+}
+
+fn told(events: &[LoadEvent]) -> Vec<(LoadEventKind, [usize; 2])> {
+    events.iter().map(|event| (event.kind, event.index)).collect()
+}
+
+fn near(found: f64, wanted: f64) {
+    assert!((found - wanted).abs() <= SHARP * wanted.abs().max(1.0), "{found} {wanted}");
+}
+
+#[test]
+fn a_shallow_gable_snaps_through_and_back() {
+    let path = path(&gable(0.5, "z", ""), "loads=0,1,-1");
+    let l0 = 1.25_f64.sqrt();
+    let limit_n = load_n(l0, l0.cbrt());
+    let kind = LoadEventKind::LimitPoint;
+    assert_eq!(told(&path.events), [(kind, [0, 1]), (kind, [1, 0])]);
+    near(path.events[0].values[0], limit_n);
+    near(path.events[1].values[0], -limit_n);
+    for (event, wanted) in path.events.iter().zip([limit_n, -limit_n]) {
+        let [low, high] = event.enclosed.unwrap();
+        // The closed form has some roundings of its own.
+        assert!(low - 1e-16 <= wanted && wanted <= high + 1e-16 && high - low < 1e-14);
+    }
+    assert_eq!((path.end, path.points.last().unwrap().values[0]), (LoadEnd::Range, 1.0));
+    // Every point is on P(w), and stable where the stiffness along the axis is positive.
+    for point in &path.points {
+        let w = point.joints_m[2][2];
+        let l = w.hypot(1.0);
+        assert!((point.values[0] - 2.0 * w / l * (l0 - l) / l0).abs() < 1e-12);
+        let stiffness = w * w * l + (l - l0);
+        assert!(point.event.is_some() || (point.index == 0) == (stiffness > 0.0), "{w}");
+        assert!((point.axial_n[0] - (l - l0) / l0).abs() < 1e-12);
+    }
+    assert_eq!(path.events[0].mode[2], [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_steep_gable_sways_before_its_limit() {
+    let path = path(&gable(3.0, "xz", ""), "loads=0..2");
+    let l0 = 10_f64.sqrt();
+    let sways = |l: f64| l.powi(3) - l0 * (l * l - 1.0);
+    let [first, second] = [root(sways, [2.2, l0]), root(sways, [1.01, 2.2])];
+    let (limit, branch) = (LoadEventKind::LimitPoint, LoadEventKind::BranchPoint);
+    let wanted = [(branch, [0, 1]), (limit, [1, 2]), (branch, [2, 1])];
+    assert_eq!(told(&path.events), wanted);
+    for (event, l) in path.events.iter().zip([first, l0.cbrt(), second]) {
+        near(event.values[0], load_n(l0, l));
+    }
+    assert_eq!(path.first_loss(), Some(&path.events[0]));
+    let [x, _, z] = path.events[0].mode[2];
+    assert!((x - 1.0).abs() < 1e-12 && z.abs() < 1e-6);
+}
+
+/// Four bars to one apex: both sideways modes lose their stiffness at once.
+#[test]
+fn a_steep_pyramid_sways_in_two_directions_at_once() {
+    let h = 4.0;
+    let feet = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+    let mut file = format!("[joints]\nP = {{ near_m = [0, 0, {h}], force_n = [0, 0, -1] }}\n");
+    for (k, [x, y]) in feet.iter().enumerate() {
+        file += &format!("F{k} = {{ at_m = [{x}, {y}, 0] }}\n");
+    }
+    for k in 0..4 {
+        file += &format!("[[bars]]\nfrom = \"F{k}\"\nto = \"P\"\nstiffness_n = 1\n");
+    }
+    let path = path(&file, "loads=0..1");
+    let l0 = f64::hypot(1.0, h);
+    let across = |l: f64| 0.5 / l + (l - l0) * (1.0 - 0.5 / (l * l));
+    let l = root(across, [2.0, l0]);
+    let first = &path.events[0];
+    assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 2]));
+    near(first.values[0], 2.0 * load_n(l0, l));
+}
+
+#[test]
+fn dead_load_an_elastic_support_and_an_apex_off_the_centre() {
+    // Dead load is a part of the limit load.
+    let heavy = gable(0.5, "z", "").replace("force_n", "mass_kg = 0.001, force_n");
+    let dead_n = 0.001 * 9.80665;
+    let l0 = 1.25_f64.sqrt();
+    let found = path(&heavy, "joints.P.force_n.z=0..-1");
+    near(-found.first_loss().unwrap().values[0], load_n(l0, l0.cbrt()) - dead_n);
+    // A spring of 0.05 N/m below the apex.
+    let spring = "[[bars]]\nfrom = \"S\"\nto = \"P\"\nstiffness_n = 0.075\n";
+    let propped = gable(0.5, "z", "S = { at_m = [0, 0, -1] }\n") + spring;
+    let on_spring = |w: f64| load_n(l0, w.hypot(1.0)) + 0.05 * (0.5 - w);
+    let w = root(derivative(on_spring), [0.05, 0.5]);
+    near(path(&propped, "loads=0..1").first_loss().unwrap().values[0], on_spring(w));
+    // The apex 0.3 m off the centre.
+    let oblique = gable(0.5, "z", "").replace("[0, 0, 0.5]", "[0.3, 0, 0.5]");
+    let bears = |w: f64| {
+        [0.7_f64, 1.3]
+            .iter()
+            .map(|a| {
+                let (l, l0) = (w.hypot(*a), a.hypot(0.5));
+                w / l * (l0 - l) / l0
+            })
+            .sum::<f64>()
+    };
+    let w = root(derivative(bears), [0.05, 0.5]);
+    near(path(&oblique, "loads=0..1").first_loss().unwrap().values[0], bears(w));
+}
+
+/// A cable above and a bar below: pushed up by 4 N the cable is as long as it is unstretched.
+#[test]
+fn a_cable_becomes_slack_and_taut_again() {
+    let file = "[joints]\nT = { at_m = [0, 0, 2] }\nB = { at_m = [0, 0, -1] }\n\
+                P = { at_m = [0, 0, 0], near_m = [0, 0, 0.1], free = \"z\", force_n = [0, 0, 1] }\n\
+                [[bars]]\nfrom = \"T\"\nto = \"P\"\nkind = \"cable\"\nlength_m = 1.8\nstiffness_n = 18\n\
+                [[bars]]\nfrom = \"B\"\nto = \"P\"\nlength_m = 1\nstiffness_n = 20\n";
+    let up = path(file, "joints.P.force_n.z=1..8");
+    let [kink] = &up.events[..] else { panic!("{:?}", up.events) };
+    assert_eq!((kink.kind, &kink.slack[..], kink.turns), (LoadEventKind::Kink, &[1][..], false));
+    near(kink.values[0], 4.0);
+    near(up.points.last().unwrap().joints_m[2][2], 0.4);
+    let z = up.points[0].joints_m[2][2];
+    near(10.0 * (0.2 - z) - 20.0 * z + 1.0, 0.0);
+    let down = path(file, "joints.P.force_n.z=8..1");
+    assert_eq!((down.events.len(), &down.events[0].taut[..]), (1, &[1][..]));
+    near(down.events[0].values[0], 4.0);
+}
+
+/// A cross of four cables of 1 m, prestressed: pulled along one of them until it is slack.
+#[test]
+fn a_prestressed_net_bears_until_its_first_cable_is_slack() {
+    let mut file = "[joints]\nP = { near_m = [0, 0, 0], force_n = [1, 0, 0] }\n".to_owned();
+    for (k, [x, y]) in [[1, 0], [0, 1], [-1, 0], [0, -1]].iter().enumerate() {
+        file += &format!("F{k} = {{ at_m = [{x}, {y}, 0] }}\n");
+    }
+    for k in 0..4 {
+        file += &format!(
+            "[[bars]]\nfrom = \"P\"\nto = \"F{k}\"\nkind = \"cable\"\nstiffness_n = 100\nprestress_n = 10\n"
+        );
+    }
+    let path = path(&file, "loads=0..60");
+    let l0 = 1.0 / 1.1;
+    let u = 1.0 - l0;
+    let force = |l: f64| 100.0 * (l - l0) / l0;
+    let side = u.hypot(1.0);
+    let [kink] = &path.events[..] else { panic!("{:?}", path.events) };
+    assert_eq!((kink.kind, &kink.slack[..]), (LoadEventKind::Kink, &[1][..]));
+    near(kink.values[0], force(1.0 + u) + 2.0 * force(side) * u / side);
+    assert_eq!((kink.index, kink.enclosed), ([0, 0], None));
+}
+
+/// A weight on a spring of 10 N/m comes down on a floor 0.5 m below it.
+#[test]
+fn a_joint_meets_the_floor() {
+    let file = "floor_m = -1.5\n[joints]\nT = { at_m = [0, 0, 0] }\n\
+                P = { at_m = [0, 0, -1], near_m = [0, 0, -1], free = \"z\", force_n = [0, 0, -1] }\n\
+                [[bars]]\nfrom = \"T\"\nto = \"P\"\nlength_m = 1\nstiffness_n = 10\n";
+    let path = path(file, "loads=1..8");
+    let [kink] = &path.events[..] else { panic!("{:?}", path.events) };
+    assert_eq!((kink.kind, &kink.lands[..]), (LoadEventKind::Kink, &["P".to_owned()][..]));
+    near(kink.values[0], 5.0);
+    near(path.points.last().unwrap().joints_m[1][2], -1.5);
+}
+
+/// The asymmetric shapes of three equal bars end where the squared distance of level anchors is 3/2:
+/// the census of the chain knows them, and the chain cut into a system has the same fold.
+#[test]
+fn a_chain_as_a_system_has_its_fold() {
+    let chain = Problem::case("three-equal-bars").unwrap();
+    let level = chain.with(&[("anchors.end_m.z", 0.0), ("anchors.end_m.x", 1.2)]).unwrap();
+    let all = Trace::new().vary("anchors.end_m.x=1.2,1.21").unwrap().run(&level).unwrap();
+    let branches = &all.paths()[0].branches;
+    // The symmetric ones have an upright middle or equal angles at both ends.
+    let lopsided = branches.iter().map(|branch| &branch.points[0].angles_rad).find(|angles| {
+        let [a, b, c] = angles[..] else { panic!("three bars") };
+        (a + c - 2.0 * b).abs().min((a + c).sin().abs()) > 1e-3
+            && (b.abs() - std::f64::consts::FRAC_PI_2).abs() > 1e-3
+    });
+    let mut at_m = vec![[0.0; 3]];
+    for angle in lopsided.unwrap() {
+        let [x, _, z] = *at_m.last().unwrap();
+        at_m.push([x + angle.sin(), 0.0, z - angle.cos()]);
+    }
+    let drawn = level.near(&at_m).unwrap();
+    let found = Trace::new().vary("anchors.end_m.x=1.2..1.3").unwrap().run(&drawn).unwrap();
+    assert!(found.checks_agree(), "{found}");
+    let path = &found.load_paths().unwrap().paths()[0];
+    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::LimitPoint);
+    near(limit.unwrap().values[0], 1.5_f64.sqrt());
+}
+
+#[test]
+fn a_path_ends_where_it_says() {
+    let short = paths(&gable(0.5, "z", ""), Trace::new().vary("loads=0..1").unwrap().max_points(5));
+    assert_eq!((short[0].end, short[0].points.len()), (LoadEnd::MaxPoints, 5));
+    let hangs = "[joints]\nT = { at_m = [0, 0, 0] }\nP = { mass_kg = 2 }\n\
+                 [[bars]]\nfrom = \"T\"\nto = \"P\"\nlength_m = 1\n";
+    let path = path(hangs, "loads=1..3");
+    assert_eq!((path.end, path.events.len()), (LoadEnd::Range, 0));
+    near(path.points.last().unwrap().axial_n[0], 3.0 * 2.0 * 9.80665);
+    // Below no load at all the mass is negative.
+    let none = paths(hangs, Trace::new().vary("loads=1,0,-1").unwrap());
+    assert!(none[0].end != LoadEnd::Range && none[0].points.last().unwrap().values[0] > -1e-3);
+}
+
+#[test]
+fn where_no_path_begins_the_error_says_why() {
+    let run = |file: &str, vary: &str| {
+        let problem = light(file);
+        Trace::new().vary(vary).unwrap().run(&problem).unwrap_err().to_string()
+    };
+    // Rigid bars of two lengths do not meet over the middle.
+    let rigid = gable(0.5, "z", "").replacen("stiffness_n = 1\n", "length_m = 1.2\n", 1);
+    let said = run(&rigid.replace("stiffness_n = 1\n", "length_m = 1.5\n"), "loads=1..2");
+    assert!(said.contains("start of the path"), "{said}");
+    // Under so much load the apex hangs far below the drawing.
+    let below = gable(0.5, "z", "").replace("near_m = [0, 0, 0.5]", "near_m = [0, 0, -0.6]");
+    let said = run(&below.replace("stiffness_n", "length_m = 1.1\nstiffness_n"), "loads=1..2");
+    assert!(said.contains("not next to the shape given: joint P is"), "{said}");
+    // At the limit load, drawn at the limit.
+    let l0 = 1.25_f64.sqrt();
+    let l = l0.cbrt();
+    let [w, p] = [(l * l - 1.0).sqrt(), load_n(l0, l)];
+    let fold = gable(0.5, "z", "")
+        .replace("near_m = [0, 0, 0.5]", &format!("near_m = [0, 0, {w:?}]"))
+        .replace("stiffness_n = 1\n", &format!("length_m = {l0:?}\nstiffness_n = 1\n"));
+    let said = run(&fold, &format!("loads={p:?}..1"));
+    assert!(said.contains("singular") || said.contains("start of the path"), "{said}");
+    // A chain between anchors on one vertical turns about it.
+    let turns = Problem::case("three-equal-bars").unwrap();
+    let turns = Trace::new().vary("anchors.end_m.z=-2..-2.9").unwrap().run(&turns).unwrap_err();
+    assert!(turns.to_string().contains("turns or moves freely"), "{turns}");
+    assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
+    assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
+}
+
+/// Hrinda's truss of sixteen bars (AIAA 2010-2611): unloaded, turned over, it is itself, so under upward
+/// loads the path is that under downward ones turned over.
+#[test]
+fn the_path_of_a_symmetric_truss_is_symmetric() {
+    let (r, h) = (0.127, 0.0508);
+    let mut file =
+        format!("[joints]\nN1 = {{ near_m = [0, 0, {}], force_n = [0, 0, -445e3] }}\n", 2.0 * h);
+    for (k, [x, y]) in [[1, -1], [1, 1], [-1, 1], [-1, -1]].iter().enumerate() {
+        let [x, y] = [f64::from(*x), f64::from(*y)];
+        file += &format!("R{k} = {{ near_m = [{}, {}, {h}] }}\n", r * x, r * y);
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][k];
+        file += &format!("F{k} = {{ at_m = [{}, {}, 0] }}\n", 2.0 * r * x, 2.0 * r * y);
+    }
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        for ends in [
+            ["N1".into(), format!("R{k}")],
+            [format!("R{k}"), format!("R{next}")],
+            [format!("R{k}"), format!("F{k}")],
+            [format!("R{next}"), format!("F{k}")],
+        ] {
+            let [from, to]: [String; 2] = ends;
+            file += &format!(
+                "[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 44482233.616\n"
+            );
+        }
+    }
+    let path = path(&file, "loads=0,4,-4");
+    let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
+    let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
+    assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
+    assert!(
+        path.events
+            .iter()
+            .all(|event| event.enclosed.is_some() == (event.kind == LoadEventKind::LimitPoint))
+    );
+    for (one, other) in limits.iter().zip(limits.iter().rev()) {
+        near(*one, -other);
+    }
+    let branches = path.events.iter().filter(|event| event.kind == LoadEventKind::BranchPoint);
+    let branches: Vec<_> = branches.map(|event| (event.values[0], event.index)).collect();
+    assert_eq!(branches.len(), 4);
+    for ((one, [a, b]), (other, [c, d])) in branches.iter().zip(branches.iter().rev()) {
+        near(*one, -other);
+        // Two modes at once among them.
+        assert_eq!([a, b], [d, c]);
+    }
+    assert_eq!(branches[1].1, [2, 4]);
+}
+
+#[test]
+fn the_star_dome_reaches_its_published_limit() {
+    // Levy and Spillers print "about sixty percent" of P = 220.46 lbf = 980.65 N; 0.3 P is in the file.
+    let dome = Problem::case("star-dome").unwrap();
+    let found = Trace::new().vary("loads=0..4").unwrap().of("joints.N1.z").run(&dome).unwrap();
+    assert!(found.checks_agree(), "{found}");
+    let path = &found.load_paths().unwrap().paths()[0];
+    let [low, high] = path.first_loss().unwrap().enclosed.unwrap();
+    // The file says between 0.66 and 0.675 P, by a Newton's method of others.
+    assert!(0.3 * low > 0.66 && 0.3 * high < 0.675 && high - low < 1e-9, "{low} {high}");
+}
