@@ -162,13 +162,12 @@ impl Number {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Loads => "1",
             Self::Gravity => "m/s^2",
             Self::Floor | Self::Anchor(..) | Self::Joint(_, JointField::Place(_)) => "m",
             Self::Bar(_, field) | Self::Row(_, field) => field.unit(),
             Self::Joint(_, JointField::Mass) => "kg",
             Self::Joint(_, JointField::Force(_)) => "N",
-            Self::Joint(_, JointField::Share) => "1",
+            Self::Loads | Self::Joint(_, JointField::Share) => "1",
         }
     }
 

@@ -147,10 +147,11 @@ mod tests {
         let a = [[4.0, 2.0, 1.0], [2.0, 5.0, -1.0], [1.0, -1.0, 3.0]];
         let left = eliminate([4.0, 2.0, 1.0, 5.0, -1.0, 3.0], &[], &[]).map_err(|x| x.to_string());
         let [xx, xy, xz, yy, yz, zz] = left.unwrap().p();
+        // Its columns, which are its rows.
         let p = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         for (i, row) in a.iter().enumerate() {
-            for k in 0..3 {
-                let product: f64 = (0..3).map(|j| row[j] * p[j][k]).sum();
+            for (k, column) in p.iter().enumerate() {
+                let product: f64 = row.iter().zip(column).map(|(a, b)| a * b).sum();
                 assert!(
                     (product - f64::from(u8::from(i == k))).abs() < 1e-15,
                     "{i} {k}: {product}"
