@@ -1,6 +1,6 @@
 //! What bars, chains and problems refuse, with the numbers of the refusal.
 
-use model::system::{Joint, Member, System, SystemError, SystemRefusal};
+use model::system::{Joint, Member, System, SystemError};
 use model::{
     Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, SMALLEST_TOTAL, STRAIGHT_TOLERANCE,
 };
