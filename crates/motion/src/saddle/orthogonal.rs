@@ -141,7 +141,7 @@ fn backwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
 mod tests {
     use super::eliminate;
 
-    /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 29.
+    /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 35.
     #[test]
     fn a_joint_without_rows_leaves_its_inverse() {
         let a = [[4.0, 2.0, 1.0], [2.0, 5.0, -1.0], [1.0, -1.0, 3.0]];
@@ -149,8 +149,8 @@ mod tests {
         let [xx, xy, xz, yy, yz, zz] = left.unwrap().p();
         let p = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         for (i, row) in a.iter().enumerate() {
-            for k in 0..3 {
-                let product: f64 = (0..3).map(|j| row[j] * p[j][k]).sum();
+            for (k, column) in p.iter().enumerate() {
+                let product: f64 = row.iter().zip(column).map(|(a, p)| a * p).sum();
                 assert!(
                     (product - f64::from(u8::from(i == k))).abs() < 1e-15,
                     "{i} {k}: {product}"
