@@ -339,18 +339,18 @@ mod tests {
     /// equal slopes 1 at both ends and the mean m: it touches zero for m = 1/3.
     #[test]
     fn a_curve_dips_where_its_slope_may_vanish_between_two_points() {
-        let dips = |mean: f64, slopes: [f64; 2]| {
+        let may = |mean: f64, slopes: [f64; 2]| {
             let [a, b] = [-1.0, 1.0].map(|end| {
                 let along = (1.0 - mean * mean).sqrt();
                 DVector::from_column_slice(&[end * along, end * mean])
             });
             dips(&a, &b, slopes)
         };
-        assert!(dips(0.3, [1.0, 1.0]) && !dips(0.9, [1.0, 1.0]));
+        assert!(may(0.3, [1.0, 1.0]) && !may(0.9, [1.0, 1.0]));
         // Falling is as rising, and a slope that is not known is no reason for another sign.
-        assert!(dips(-0.3, [-1.0, -1.0]) && dips(0.3, [-1.0, -1.0]));
-        assert!(dips(0.0, [-1.0, 0.0]) && dips(0.0, [0.0, 1.0]));
+        assert!(may(-0.3, [-1.0, -1.0]) && may(0.3, [-1.0, -1.0]));
+        assert!(may(0.0, [-1.0, 0.0]) && may(0.0, [0.0, 1.0]));
         // The lowest slope is at 7/12 of the way for 1 and 1/2.
-        assert!(dips(0.1, [1.0, 0.5]) && !dips(0.75, [1.0, 0.5]));
+        assert!(may(0.1, [1.0, 0.5]) && !may(0.75, [1.0, 0.5]));
     }
 }

@@ -141,7 +141,7 @@ fn backwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
 mod tests {
     use super::eliminate;
 
-    /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 29.
+    /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 35.
     #[test]
     fn a_joint_without_rows_leaves_its_inverse() {
         let a = [[4.0, 2.0, 1.0], [2.0, 5.0, -1.0], [1.0, -1.0, 3.0]];
