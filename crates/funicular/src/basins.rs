@@ -117,11 +117,15 @@ impl Basins {
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`].
+    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::SystemRefused`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
         match problem.row() {
             Some(chain) => self.axes(chain.chain().bars().len()).map(|_| ()),
-            None => self.moved(&equilibria::system_of(problem)).map(|_| ()),
+            None => {
+                let system = equilibria::system_of(problem);
+                system.refusal()?;
+                self.moved(&system).map(|_| ())
+            }
         }
     }
 
@@ -196,7 +200,7 @@ impl Basins {
         threads::on(self.threads, || {
             let known = equilibria::all(problem, CENSUS_BARS)?;
             let both = FromPlaces(validate::Solvers::Both);
-            let starts = Followed::new(problem, &known, 1, both);
+            let starts = Followed::new(problem, &known, 1, both)?;
             let system = &starts.system;
             let joint = self.moved(system)?;
             let hanging: Vec<Vector> =

@@ -97,7 +97,7 @@ impl Ensemble {
         let step_s = self.simulate.time_s / steps as f64;
         let released =
             Released { settings, step_s, steps_per_look, looks: steps.div_ceil(steps_per_look) };
-        let compute = Followed::new(problem, &found, self.number, released);
+        let compute = Followed::new(problem, &found, self.number, released)?;
         let release = Release {
             time_s: self.simulate.time_s,
             step_s,

@@ -11,6 +11,7 @@ use sweep::{Chunk, Compute, Failure, Member, Origin, Outcomes, Stream, Summary, 
 use validate::systems::energy_size_j;
 
 use crate::equilibria::{Equilibria, Located, system_of};
+use crate::error::Error;
 use crate::problem::Problem;
 use crate::resting::Resting;
 
@@ -66,8 +67,18 @@ pub(crate) struct Followed<F> {
 
 impl<F: Follow> Followed<F> {
     /// With the list of what is known, and where that is not complete of what other starts lead to.
-    pub(crate) fn new(problem: &Problem, known: &Equilibria, number: u64, follow: F) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`Error::SystemRefused`] when the system has no equilibrium.
+    pub(crate) fn new(
+        problem: &Problem,
+        known: &Equilibria,
+        number: u64,
+        follow: F,
+    ) -> Result<Self, Error> {
         let system = system_of(problem);
+        system.refusal()?;
         let places = Resting::new(&system, known.list.iter().map(|one| &one.found.joints_m[..]));
         let list = known.list.iter().map(|one| listed(one, known.complete)).collect();
         let mut text = match problem.as_chain() {
@@ -82,7 +93,7 @@ impl<F: Follow> Followed<F> {
         if !known.complete {
             all.discover();
         }
-        all
+        Ok(all)
     }
 
     /// The equilibria that outcomes 0, 1, 2, ... stand for.

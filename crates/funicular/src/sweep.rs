@@ -239,7 +239,7 @@ impl Sweep {
         let known = equilibria::all(problem, crate::simulate::CENSUS_BARS)?;
         let starts = threads::on(self.threads, || {
             Followed::new(problem, &known, self.number, FromPlaces(self.solvers))
-        })?;
+        })??;
         let of = SweptBy {
             system: starts.text(),
             source: Manifest::PLACES,

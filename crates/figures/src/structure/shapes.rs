@@ -35,7 +35,7 @@ pub struct ModeShape<'a> {
 /// Modes of an equilibrium, in panels.
 ///
 /// ```
-/// use figures::{ModeShape, ModeShapes};
+/// use figures::{ModeShape, ModeShapes, Seen};
 /// use model::system::{Joint, Member, System};
 /// let cord = model::Bar::homogeneous(1.0, 1.0)?;
 /// let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];

@@ -473,21 +473,24 @@ fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut Syst
 fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    let mut all: Vec<(Vector, Vector)> = loads_at(system, &place).collect();
-    all.extend(answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force)));
-    let left = |of: &dyn Fn(&(Vector, Vector)) -> Vector| -> f64 {
-        norm(std::array::from_fn(|c| sum(all.iter().map(|one| of(one)[c]))))
+    // Made anew for each sum: a list would take more memory than the answer.
+    let all = || {
+        let ground = answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force));
+        loads_at(system, &place).chain(ground)
     };
-    let unit_n = sum(all.iter().map(|(_, force)| norm(*force)));
+    let left = |of: &dyn Fn((Vector, Vector)) -> Vector| -> f64 {
+        norm(std::array::from_fn(|c| sum(all().map(|one| of(one)[c]))))
+    };
+    let unit_n = sum(all().map(|(_, force)| norm(force)));
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
     // Without loads the prestress is what the ground's forces are measured by, not these themselves.
     let least_n =
         if total_load_n(system) > 0.0 || units.total_n.is_infinite() { 0.0 } else { units.total_n };
     let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n };
     // A displaced joint turns the whole: force times displacement.
-    let turn_n = beyond(left(&|(at, force)| cross(*at, *force)), unit_n * units.rounding_m);
+    let turn_n = beyond(left(&|(at, force)| cross(at, force)), unit_n * units.rounding_m);
     let turn_n = if turn_n > 0.0 { turn_n / units.size_m } else { turn_n };
-    worse(local.part(left(&|(_, force)| *force), unit_n), local.part(turn_n, unit_n))
+    worse(local.part(left(&|(_, force)| force), unit_n), local.part(turn_n, unit_n))
 }
 
 /// Every load with where it acts.

@@ -10,11 +10,10 @@ use validate::systems::judge_chain;
 
 use crate::judged::{compare, judge_alone};
 
-const SYSTEMS: [(&str, &str); 6] = [
+const SYSTEMS: [(&str, &str); 5] = [
     ("limp2", include_str!("first_tries/limp2.toml")),
     ("limp3", include_str!("first_tries/limp3.toml")),
     ("just-bridged", include_str!("first_tries/just-bridged.toml")),
-    ("mass1e12", include_str!("first_tries/mass1e12.toml")),
     ("ratios-80", include_str!("first_tries/ratios-80.toml")),
     ("od-equals-l", include_str!("first_tries/od-equals-l.toml")),
 ];
@@ -44,12 +43,20 @@ fn apart(problem: &Problem, [a, b]: [&Equilibrium; 2]) -> f64 {
     distances.fold(0.0, f64::max) / problem.chain().total_length_m()
 }
 
+/// Of 1e12 kg beside 1e-12 kg the lighter is lost in the rounding of the heavier.
+#[test]
+fn masses_that_doubles_cannot_tell_apart_are_refused() {
+    let text = include_str!("first_tries/mass1e12.toml");
+    let refused = model::system_file::parse_problem(text, "mass1e12").unwrap_err().to_string();
+    assert!(refused.contains("0.000000000001") || refused.contains("1e-12"), "{refused}");
+}
+
 /// A joint that is held is compared, however little its bars carry: where answers agree, all their
 /// joints do.
 #[test]
 fn agreement_leaves_out_no_joint_that_is_held() {
     let tolerances = Tolerances::project();
-    for name in ["limp2", "limp3", "just-bridged", "mass1e12", "ratios-80"] {
+    for name in ["limp2", "limp3", "just-bridged", "ratios-80"] {
         let problem = system(name);
         let mut answers = [by_lagrange(&problem), by_energy(&problem)];
         let agreement = compare(&problem, &mut answers, &tolerances);
@@ -64,7 +71,7 @@ fn agreement_leaves_out_no_joint_that_is_held() {
 /// equilibrium is.
 #[test]
 fn an_answer_alone_is_not_passed_where_it_is_wrong() {
-    for name in ["limp2", "limp3", "just-bridged", "mass1e12", "ratios-80"] {
+    for name in ["limp2", "limp3", "just-bridged", "ratios-80"] {
         let problem = system(name);
         let truth = by_lagrange(&problem);
         let mut answer = by_energy(&problem);

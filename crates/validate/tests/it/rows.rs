@@ -1,8 +1,8 @@
 //! One model: a chain is a system, whatever its file is written like.
 //!
 //! Every chain of the registry and random ones, as a chain, as joints and members, with a load of 0
-//! and of 1e-9 kg at a joint, and with the joints and members in another order: the same places,
-//! forces and rungs.
+//! and of 1e-9 kg at a joint (or the least that doubles tell from its bars), and with the joints
+//! and members in another order: the same places, forces and rungs.
 
 use lagrange::condensed;
 use model::system::{Joint, Member, System, SystemEquilibrium};
@@ -42,7 +42,13 @@ fn written(problem: &Problem, how: Written) -> System {
     let last = joints.len() - 1;
     match how {
         Written::Plain => {}
-        Written::Loaded(mass_kg) => joints[last.div_ceil(2)].mass_kg = mass_kg,
+        Written::Loaded(mass_kg) => {
+            // What is lost in the rounding of the heaviest bar is refused.
+            let bodies = members.iter().map(|member| member.body.mass_kg());
+            let least_kg = 2.0 * f64::EPSILON * bodies.fold(0.0, f64::max);
+            let mass_kg = if mass_kg > 0.0 { mass_kg.max(least_kg) } else { mass_kg };
+            joints[last.div_ceil(2)].mass_kg = mass_kg;
+        }
         Written::Turned => {
             joints.reverse();
             for (k, member) in members.iter_mut().enumerate() {
