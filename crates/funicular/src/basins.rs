@@ -119,14 +119,12 @@ impl Basins {
     ///
     /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::SystemRefused`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
-        match problem.row() {
-            Some(chain) => self.axes(chain.chain().bars().len()).map(|_| ()),
-            None => {
-                let system = equilibria::system_of(problem);
-                system.refusal()?;
-                self.moved(&system).map(|_| ())
-            }
+        if let Some(chain) = problem.row() {
+            return self.axes(chain.chain().bars().len()).map(|_| ());
         }
+        let system = equilibria::system_of(problem);
+        system.refusal()?;
+        self.moved(&system).map(|_| ())
     }
 
     /// Run all starts.
