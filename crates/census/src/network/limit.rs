@@ -1,9 +1,9 @@
 //! A limit point, enclosed.
 //!
-//! Along loads $f(t) = f_0 + t\,(f_1 - f_0)$ the equations $F(y, t) = 0$ have a limit point where the
+//! Along loads $f(t) = f_0 + t\\,(f_1 - f_0)$ the equations $F(y, t) = 0$ have a limit point where the
 //! derivative $J = F_y$ is singular and $F_t$ is not in its range. There
 //!
-//! $$ F(y, t) = 0, \qquad J(y)\,\phi = 0, \qquad c \cdot \phi = 1 $$
+//! $$ F(y, t) = 0, \qquad J(y)\\,\phi = 0, \qquad c \cdot \phi = 1 $$
 //!
 //! has a regular derivative in $(y, \phi, t)$ if the parameter turns with a curvature (Moore and
 //! Spence), so that Krawczyk's test proves exactly one of it in a box. Where other paths cross the
@@ -170,7 +170,7 @@ impl Zeros for Limit {
 }
 
 impl Limit {
-    /// The derivative of $J(y)\,\phi$ by $y$.
+    /// The derivative of $J(y)\\,\phi$ by $y$.
     fn curvature(&self, y: &[Interval], mode: &[Interval], entries: &mut Vec<Entry>) {
         let Equations { joints, acting, size, .. } = &self.equations;
         let places = self.equations.places(y);
