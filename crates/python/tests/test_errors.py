@@ -204,7 +204,7 @@ def test_words_and_settings():
     with pytest.raises(fn.SettingError):
         system.sweep(10.5)
     with pytest.raises(fn.ChainsOnly):
-        fn.System.case("footbridge").sweep(10)
+        fn.System.case("footbridge").sweep(10, spread="sobol")
     with pytest.raises(fn.NoCensus):
         fn.System(lengths=np.ones(40), masses=1.0 * np.ones(40), end=(20, 0, 0)).census()
     with pytest.raises(fn.InputError):
