@@ -52,7 +52,8 @@ class Trace(Result):
 
     @property
     def _paths(self) -> list[dict[str, Any]]:
-        return self.data["load_paths"] if self.is_load_path else self.data["traces"]
+        paths: list[dict[str, Any]] = self.data["load_paths"] if self.is_load_path else self.data["traces"]
+        return paths
 
     @property
     def is_load_path(self) -> bool:
