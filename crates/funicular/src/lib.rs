@@ -84,6 +84,7 @@ mod ensemble;
 mod equilibria;
 mod error;
 mod extremes;
+#[cfg(feature = "sweep")]
 mod followed;
 pub mod judge;
 mod mode_pages;

@@ -48,7 +48,8 @@ impl Parameters {
 
     /// The chain of a problem with these parameters; `what` needs one.
     pub(crate) fn of(&self, problem: &Problem, what: &'static str) -> Result<Variation, Error> {
-        self.over(problem.chain_for(what)?.chain().clone())
+        let row = problem.row().ok_or(Error::ChainsOnly { what })?;
+        self.over(row.chain().clone())
     }
 
     /// Whether one is a range without a number of points.

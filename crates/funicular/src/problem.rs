@@ -160,11 +160,6 @@ impl Problem {
         let shape = ForeignAnswer::in_order(&system, "a shape", joints_m.to_vec(), None)?;
         Ok(system.drawn_at(&shape.joints_m)?.into())
     }
-
-    /// The chain, for what is possible with rows between two anchors alone.
-    pub(crate) fn chain_for(&self, what: &'static str) -> Result<&model::Problem, Error> {
-        self.row().ok_or(Error::ChainsOnly { what })
-    }
 }
 
 /// The named case, with its system file; [`model::cases::all`] lists them.
