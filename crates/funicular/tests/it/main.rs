@@ -2,6 +2,7 @@
 
 mod batch;
 mod census;
+mod census_lists;
 mod census_systems;
 mod command_line;
 mod derivatives;
@@ -32,6 +33,7 @@ mod slurm;
 mod small_files;
 mod starts;
 mod study;
+mod study_rows;
 mod sweep;
 mod systems;
 mod trace;
