@@ -186,9 +186,10 @@ fn ends(path: &LoadPath) -> String {
 fn confirmed(found: &Confirmed) -> String {
     let Confirmed { points, critical, same_index, minimised, minima, singular, flat, statics } =
         *found;
+    let statics = significant(statics, 1);
     format!(
         "energy: an equilibrium at {critical} of {points} points, as many falling directions at {same_index}, a minimum at \
          {minima} of {minimised} stable ones, no curvature at {flat} of {singular} limit and branch points; statics to \
-         {statics:.0e}. Other equilibria are not looked for"
+         {statics}. Other equilibria are not looked for"
     )
 }
