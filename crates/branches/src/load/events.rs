@@ -3,14 +3,17 @@
 use nalgebra::DVector;
 
 use super::bordered::{Bordered, Row};
-use super::here::{Here, Metric, by_parameter};
+use super::here::{Here, Metric};
 use super::{Equations, Kind};
 use crate::locate::sign_change;
 
 /// How far before and after a limit point, as a part of the step, the inertia is counted.
 const BESIDE: f64 = 1e-3;
-/// Halvings for a place where the inertia changes and no test changes its sign.
-const HALVINGS: usize = 50;
+/// Halvings of a step that holds several changes of the inertia; those still together after that
+/// are one.
+const HALVINGS: usize = 40;
+/// Part of a step to which a point is located.
+const NARROW: f64 = 1e-12;
 /// A condition below this has changed sides; above it, it is at zero to rounding.
 pub(super) const WRONG: f64 = 1e-10;
 
@@ -48,7 +51,7 @@ fn mode<Q: Equations>(equations: &mut Q, metric: Metric, at: &Here) -> (DVector<
     let Some((mode, _)) = singular(equations, at) else {
         return (DVector::zeros(at.y.len()), 1.0);
     };
-    let Ok(column) = by_parameter(equations, &at.y, at.t) else { return (mode, 1.0) };
+    let Ok(column) = equations.by_parameter(&at.y, at.t) else { return (mode, 1.0) };
     let on = mode.dot(&column).abs() / (mode.norm() * column.norm()).max(f64::MIN_POSITIVE);
     let places = mode.rows(0, metric.places);
     let largest = places[places.iamax()];
@@ -67,11 +70,11 @@ pub(super) fn smooth<Q: Equations>(
     let turn = (a.tangent.t * b.tangent.t < 0.0)
         .then(|| {
             let point = |part| a.between(equations, metric, b, part);
-            sign_change([a, b], point, |here: &Here| Some(here.tangent.t))
+            sign_change([a, b], NARROW, point, |here: &Here| Some(here.tangent.t))
         })
         .flatten();
     let Some((part, at)) = turn else {
-        return branch(equations, metric, a, b).into_iter().collect();
+        return branches(equations, metric, [a, b], HALVINGS);
     };
     let mut beside = |part: f64, other: &Here| {
         a.between(equations, metric, b, part.clamp(0.0, 1.0)).unwrap_or_else(|| other.clone())
@@ -79,41 +82,69 @@ pub(super) fn smooth<Q: Equations>(
     let (before, after) = (beside(part - BESIDE, a), beside(part + BESIDE, b));
     let (mode, load_on_mode) = mode(equations, metric, &at);
     let index = [before.index, after.index];
-    let mut all: Vec<_> = branch(equations, metric, a, &before).into_iter().collect();
+    let mut all = branches(equations, metric, [a, &before], HALVINGS);
     all.push(Singular { at, kind: Kind::Limit, index, mode, load_on_mode });
-    all.extend(branch(equations, metric, &after, b));
+    all.extend(branches(equations, metric, [&after, b], HALVINGS));
     all
 }
 
-/// A branch point between two points, where the inertia changes.
-fn branch<Q: Equations>(equations: &mut Q, metric: Metric, a: &Here, b: &Here) -> Option<Singular> {
+/// Branch points between two points: where the inertia changes.
+///
+/// The test changes its sign there, but at its poles too, so that a step may have to be halved
+/// until it holds one of them alone.
+fn branches<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    [a, b]: [&Here; 2],
+    halvings: usize,
+) -> Vec<Singular> {
     if a.index == b.index {
-        return None;
+        return vec![];
     }
+    if let Some((before, found, after)) = branch(equations, metric, [a, b]) {
+        let left = halvings.saturating_sub(1);
+        let mut all = branches(equations, metric, [a, &before], left);
+        all.push(found);
+        all.extend(branches(equations, metric, [&after, b], left));
+        return all;
+    }
+    let middle = if halvings == 0 { None } else { a.between(equations, metric, b, 0.5) };
+    let Some(middle) = middle else {
+        let (mode, load_on_mode) = mode(equations, metric, b);
+        let index = [a.index, b.index];
+        return vec![Singular { at: b.clone(), kind: Kind::Branch, index, mode, load_on_mode }];
+    };
+    let mut all = branches(equations, metric, [a, &middle], halvings - 1);
+    all.extend(branches(equations, metric, [&middle, b], halvings - 1));
+    all
+}
+
+/// A branch point where the test changes its sign, with points before and after it.
+fn branch<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    [a, b]: [&Here; 2],
+) -> Option<(Here, Singular, Here)> {
     let tests = [a, b].map(|end| singular(equations, end).map(|(_, test)| test));
-    let changes = matches!(tests, [Some(a), Some(b)] if a * b < 0.0);
-    let at = if changes {
+    let [Some(at_a), Some(at_b)] = tests else { return None };
+    let (part, at) = {
         // Each closure borrows the equations while the other does not.
         let equations = std::cell::RefCell::new(&mut *equations);
         let point = |part| a.between(*equations.borrow_mut(), metric, b, part);
         let test = |here: &Here| singular(*equations.borrow_mut(), here).map(|(_, test)| test);
-        sign_change([a, b], point, test)?.1
-    } else {
-        let (mut low, mut high, mut at) = (0.0, 1.0, b.clone());
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            let Some(here) = a.between(equations, metric, b, middle) else { break };
-            if here.index == a.index {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            at = here;
-        }
-        at
+        sign_change([a, b], NARROW, point, test)?
     };
+    let test = singular(equations, &at)?.1.abs();
+    let beside = |part: f64| a.between(equations, metric, b, part.clamp(0.0, 1.0));
+    let [before, after] = [part - BESIDE, part + BESIDE].map(beside);
+    let (before, after) = (before?, after?);
+    // At a pole the test is large, and the inertia the same on both sides.
+    if before.index == after.index || test > at_a.abs().min(at_b.abs()) {
+        return None;
+    }
     let (mode, load_on_mode) = mode(equations, metric, &at);
-    Some(Singular { at, kind: Kind::Branch, index: [a.index, b.index], mode, load_on_mode })
+    let index = [before.index, after.index];
+    Some((before, Singular { at, kind: Kind::Branch, index, mode, load_on_mode }, after))
 }
 
 /// The first point between two at which conditions change sides, with these; nothing where none
@@ -148,7 +179,7 @@ pub(super) fn kink<Q: Equations>(
                 let sides = equations.borrow_mut().sides(&here.y, here.t).ok()?;
                 Some(sides[first].1)
             };
-            sign_change([a, &end], point, value)
+            sign_change([a, &end], NARROW, point, value)
         };
         let Some((_, at)) = found else { break };
         at_end = equations.sides(&at.y, at.t)?;

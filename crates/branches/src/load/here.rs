@@ -13,8 +13,7 @@ const ITERATIONS: usize = 12;
 /// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
 /// diverges.
 const FALLS: f64 = 0.5;
-/// Step of the difference for the derivative by the parameter: exact but for rounding where loads
-/// vary, and of second order elsewhere.
+/// Step of the difference for the derivative by the parameter.
 const DIFFERENCE: f64 = 1e-5;
 
 /// An equilibrium, or what is left of the equations where there is none.
@@ -49,8 +48,12 @@ impl Metric {
     }
 }
 
-/// $\partial G/\partial t$, on one side where the other has no meaning.
-pub(super) fn by_parameter<Q: Equations>(
+/// $\partial G/\partial t$ by a difference, on one side where the other has no meaning.
+///
+/// # Errors
+///
+/// Where the parameter has no meaning.
+pub fn difference<Q: Equations + ?Sized>(
     equations: &mut Q,
     y: &DVector<f64>,
     t: f64,
@@ -74,15 +77,14 @@ pub(super) fn correct<Q: Equations>(
     row: &Row,
 ) -> Result<Corrected, Q::Error> {
     let (mut y, mut t) = (equations.onto(guess.0, guess.1)?, guess.1);
-    let (mut last, mut best) = (f64::INFINITY, None);
+    let (mut last, mut best, mut least) = (f64::INFINITY, None, f64::INFINITY);
     for _ in 0..ITERATIONS {
         let (left, size) = equations.residual(&y, t)?;
-        if size <= last {
-            best = Some((y.clone(), t));
+        if size < least {
+            (best, least) = (Some((y.clone(), t)), size);
         }
-        let done = size <= TIGHT || (size <= LOOSE && size >= FALLS * last);
+        let done = size <= TIGHT || (least <= LOOSE && size >= FALLS * last);
         if done || size.is_nan() {
-            last = last.min(size);
             break;
         }
         last = size;
@@ -96,8 +98,8 @@ pub(super) fn correct<Q: Equations>(
         y = equations.onto(&(y + dy), t)?;
     }
     Ok(match best {
-        Some(best) if last <= LOOSE => Ok(best),
-        _ => Err(last),
+        Some(best) if least <= LOOSE => Ok(best),
+        _ => Err(least),
     })
 }
 
@@ -109,7 +111,7 @@ impl Here {
         (y, t): (DVector<f64>, f64),
         row: &Row,
     ) -> Result<Option<Self>, Q::Error> {
-        let column = by_parameter(equations, &y, t)?;
+        let column = equations.by_parameter(&y, t)?;
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
         let zero = DVector::zeros(y.len());
         let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
@@ -132,7 +134,7 @@ impl Here {
         let chord = Row { y: &other.y - &self.y, t: other.t - self.t };
         let row = metric.along(&chord);
         let guess = (&self.y + &chord.y * part, self.t + chord.t * part);
-        let column = by_parameter(equations, &guess.0, guess.1).ok()?;
+        let column = equations.by_parameter(&guess.0, guess.1).ok()?;
         let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
         Self::new(equations, metric, found, &row).ok()?
     }

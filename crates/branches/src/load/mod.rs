@@ -29,6 +29,7 @@ mod events;
 mod here;
 mod walk;
 
+pub use here::difference;
 pub use walk::follow;
 
 use nalgebra::DVector;
@@ -58,6 +59,15 @@ pub trait Equations {
     ///
     /// Where the parameter has no meaning.
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), Self::Error>;
+
+    /// $\partial G/\partial t$: by a difference, if the model knows no better.
+    ///
+    /// # Errors
+    ///
+    /// Where the parameter has no meaning.
+    fn by_parameter(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, Self::Error> {
+        difference(self, y, t)
+    }
 
     /// Factorise $J$: the number of directions in which the energy falls, nothing where it cannot be
     /// factorised.

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::bordered::Row;
 use super::events::{Singular, kink, smooth, without_symmetry};
-use super::here::{Here, Metric, by_parameter, correct};
+use super::here::{Here, Metric, correct};
 use super::{End, Equations, Event, Kind, LoadPath, NoPath, Point, Settings};
 
 /// The first step, as a part of the range.
@@ -21,7 +21,8 @@ const GROWTH: f64 = 1.6;
 const SHORTEST: f64 = 1e-10;
 /// Conditions that change sides one after another without a step between, before the path is lost.
 const KINKS: usize = 64;
-/// A start at which a unit load moves places by so many units of length is singular.
+/// A start at which the range, to first order, or a unit of force moves places by so many units of
+/// length is singular.
 const SINGULAR: f64 = 1e6;
 /// Places whose change over the range is less than this at the start count as if it were this.
 const STILL: f64 = 1e-3;
@@ -67,14 +68,17 @@ fn begin<Q: Equations>(
 ) -> Result<(Metric, Here), NoPath<Q::Error>> {
     let places = equations.places();
     let row = Row::parameter(start.len());
-    let column = by_parameter(equations, start, 0.0).map_err(NoPath::Numbers)?;
+    let column = equations.by_parameter(start, 0.0).map_err(NoPath::Numbers)?;
     let found = correct(equations, (start, 0.0), &column, &row).map_err(NoPath::Numbers)?;
     let found = found.map_err(|residual| NoPath::Start { residual })?;
     let only = Metric { places, square: 0.0 };
     let here = Here::new(equations, only, found, &row).map_err(NoPath::Numbers)?;
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
-    let gives = equations.solve(&without_symmetry(start.len()).y).amax();
+    // Forces alone: a unit of length would be an enormous load.
+    let mut push = without_symmetry(start.len()).y;
+    push.rows_mut(places, start.len() - places).fill(0.0);
+    let gives = equations.solve(&push).rows(0, places).amax();
     if change.max(gives) > SINGULAR {
         return Err(NoPath::Singular);
     }
@@ -164,7 +168,7 @@ impl<Q: Equations> Walk<'_, Q> {
         row: &Row,
         long: f64,
     ) -> Result<Option<Here>, Q::Error> {
-        let column = by_parameter(self.equations, guess.0, guess.1)?;
+        let column = self.equations.by_parameter(guess.0, guess.1)?;
         let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
         let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
         if moved > CORRECTION * long.max(SHORTEST) {

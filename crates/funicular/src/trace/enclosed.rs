@@ -26,7 +26,7 @@ pub(super) fn enclosed(
 }
 
 /// Whether two systems differ in forces and masses alone.
-fn loads_alone(a: &System, b: &System) -> bool {
+pub(super) fn loads_alone(a: &System, b: &System) -> bool {
     let joint = |(a, b): (&Joint, &Joint)| a.support == b.support;
     let body =
         |member: &Member| (member.body.length_m().to_bits(), member.body.centre_m().to_bits());

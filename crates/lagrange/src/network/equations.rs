@@ -95,6 +95,29 @@ impl Equations {
         self.lay();
     }
 
+    /// The loads of the joints of the system that was last [`set`](Self::set), three coordinates each:
+    /// those of $G$, which has no others.
+    #[must_use]
+    pub fn loads(&self) -> Vec<f64> {
+        self.bare.nodes.iter().flat_map(|node| [node.load.x, node.load.y, node.load.z]).collect()
+    }
+
+    /// Take other loads of the joints, and all else as it was.
+    pub fn set_loads(&mut self, loads: &[f64]) {
+        for framework in [&mut self.bare, &mut self.framework] {
+            for (node, load) in framework.nodes.iter_mut().zip(loads.chunks_exact(3)) {
+                node.load = Vector3::from_column_slice(load);
+            }
+        }
+    }
+
+    /// What loads are of $G$.
+    #[must_use]
+    pub fn of_loads(&self, loads: &[f64]) -> Vec<f64> {
+        let loads: Vec<_> = loads.chunks_exact(3).map(Vector3::from_column_slice).collect();
+        self.flat(&loads, &vec![0.0; self.taut.len()])
+    }
+
     fn lay(&mut self) {
         self.framework = match self.floor {
             Some(floor) if self.lies.contains(&true) => self.bare.with_laid(floor, &self.lies),
