@@ -11,7 +11,9 @@ use crate::locate::sign_change;
 const BESIDE: f64 = 1e-3;
 /// Halvings of a step that holds several changes of the inertia; those still together after that
 /// are one.
-const HALVINGS: usize = 40;
+const HALVINGS: usize = 20;
+/// A test that has become so many times larger than at both ends of a step is at a pole.
+const POLE: f64 = 4.0;
 /// Part of a step to which a point is located.
 const NARROW: f64 = 1e-12;
 /// A condition below this has changed sides; above it, it is at zero to rounding.
@@ -131,7 +133,9 @@ fn branch<Q: Equations>(
         // Each closure borrows the equations while the other does not.
         let equations = std::cell::RefCell::new(&mut *equations);
         let point = |part| a.between(*equations.borrow_mut(), metric, b, part);
+        let large = POLE * at_a.abs().max(at_b.abs());
         let test = |here: &Here| singular(*equations.borrow_mut(), here).map(|(_, test)| test);
+        let test = |here: &Here| test(here).filter(|test| test.abs() <= large);
         sign_change([a, b], NARROW, point, test)?
     };
     let test = singular(equations, &at)?.1.abs();
