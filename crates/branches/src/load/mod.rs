@@ -16,7 +16,8 @@
 //! | branch point | the number of negative directions changes, $\tau_t$ does not vanish; the null vector $\phi$ of $J$ has $\phi \cdot \partial G/\partial t = 0$ |
 //! | kink | the value of a one-sided condition changes its sign: the member or the joint changes sides there |
 //!
-//! Changes of the inertia that two branch points within one step undo are not seen.
+//! Changes of the inertia that two branch points within one step undo are not seen. Other paths
+//! through a branch point are followed on demand ([`Settings::branches`]).
 //!
 //! # References
 //!
@@ -25,12 +26,13 @@
 //! systems with wider borders, IMA J. Numer. Anal. 13 (1993) 161-180, doi:10.1093/imanum/13.2.161.
 
 mod bordered;
+mod crossings;
 mod events;
 mod here;
 mod walk;
 
+pub use crossings::follow;
 pub use here::difference;
-pub use walk::follow;
 
 use nalgebra::DVector;
 
@@ -117,8 +119,11 @@ pub struct Settings {
     pub range: [f64; 2],
     /// Largest change of the parameter in a step.
     pub longest: f64,
-    /// Most points.
+    /// Most points of a path.
     pub max_points: usize,
+    /// From how many branch points one after another other paths are followed: 0 for the path from
+    /// the start alone.
+    pub branches: usize,
 }
 
 /// A path with what happens on it.
@@ -130,6 +135,17 @@ pub struct LoadPath<Q: Equations> {
     pub events: Vec<Event<Q::Side>>,
     /// Why it ends.
     pub end: End<Q::Error>,
+    /// The branch point in which it begins; of the first path none.
+    pub parent: Option<Parent>,
+}
+
+/// A branch point: an event of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parent {
+    /// The number of the path.
+    pub path: usize,
+    /// The number of its event.
+    pub event: usize,
 }
 
 /// A point of a path.
@@ -186,6 +202,8 @@ pub enum End<E> {
     MaxPoints,
     /// No step, however short, leads on.
     Lost,
+    /// In a branch point of a path that is followed already.
+    Joins(Parent),
     /// The numbers of the model have no meaning beyond.
     Numbers(E),
 }
