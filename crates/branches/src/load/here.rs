@@ -35,7 +35,16 @@ pub(super) struct Metric {
     pub(super) square: f64,
 }
 
+/// Places whose change is less than this, in units of length, count as if it were this where paths
+/// branch off.
+const LARGE: f64 = 0.05;
+
 impl Metric {
+    /// In which small changes of places do not count for more than large ones of the parameter.
+    pub(super) fn coarse(self) -> Self {
+        Self { square: self.square.min(LARGE.powi(-2)), ..self }
+    }
+
     pub(super) fn norm(&self, y: &DVector<f64>, t: f64) -> f64 {
         (self.square * y.rows(0, self.places).norm_squared() + t * t).sqrt()
     }
@@ -103,6 +112,21 @@ pub(super) fn correct<Q: Equations>(
     })
 }
 
+/// The same point with what is left of rounding taken out by the factor that is there, if that helps.
+fn polished<Q: Equations>(
+    equations: &mut Q,
+    (y, t): (DVector<f64>, f64),
+    column: &DVector<f64>,
+    row: &Row,
+) -> Result<(DVector<f64>, f64), Q::Error> {
+    let (left, size) = equations.residual(&y, t)?;
+    let step = Bordered::new(equations, column, row).solve(equations, (&-left, 0.0));
+    let Some((dy, dt)) = step else { return Ok((y, t)) };
+    let better = equations.onto(&(&y + dy), t + dt)?;
+    let (_, after) = equations.residual(&better, t + dt)?;
+    Ok(if after < size { (better, t + dt) } else { (y, t) })
+}
+
 impl Here {
     /// The point with its tangent, of which `row` says the direction; nothing where it has none.
     pub(super) fn new<Q: Equations>(
@@ -113,6 +137,7 @@ impl Here {
     ) -> Result<Option<Self>, Q::Error> {
         let column = equations.by_parameter(&y, t)?;
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
+        let (y, t) = polished(equations, (y, t), &column, row)?;
         let zero = DVector::zeros(y.len());
         let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
         let tangent = tangent.map(|(dy, dt)| {
@@ -131,9 +156,25 @@ impl Here {
         other: &Self,
         part: f64,
     ) -> Option<Self> {
-        let chord = Row { y: &other.y - &self.y, t: other.t - self.t };
-        let row = metric.along(&chord);
-        let guess = (&self.y + &chord.y * part, self.t + chord.t * part);
+        self.next_to(equations, metric, other, (&self.towards(other), part))
+    }
+
+    /// The vector to another point.
+    pub(super) fn towards(&self, other: &Self) -> Row {
+        Row { y: &other.y - &self.y, t: other.t - self.t }
+    }
+
+    /// The point with the tangent next to what is at this part of the way to another, across a chord.
+    pub(super) fn next_to<Q: Equations>(
+        &self,
+        equations: &mut Q,
+        metric: Metric,
+        other: &Self,
+        (chord, part): (&Row, f64),
+    ) -> Option<Self> {
+        let row = metric.along(chord);
+        let way = self.towards(other);
+        let guess = (&self.y + &way.y * part, self.t + way.t * part);
         let column = equations.by_parameter(&guess.0, guess.1).ok()?;
         let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
         Self::new(equations, metric, found, &row).ok()?

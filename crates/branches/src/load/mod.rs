@@ -29,10 +29,12 @@ mod bordered;
 mod crossings;
 mod events;
 mod here;
+mod linear;
 mod walk;
 
 pub use crossings::follow;
 pub use here::difference;
+pub use linear::linear_buckling;
 
 use nalgebra::DVector;
 

@@ -20,6 +20,8 @@ const STRAIGHT: f64 = 0.995;
 const CORRECTION: f64 = 0.2;
 /// Growth of the next step after one that went well.
 const GROWTH: f64 = 1.6;
+/// A step that has jumped to another path is taken again so much shorter.
+const SHORTER: f64 = 0.25;
 /// The shortest step, as a part of the first.
 const SHORTEST: f64 = 1e-10;
 /// Conditions that change sides one after another without a step between, before the path is lost.
@@ -32,10 +34,20 @@ const STILL: f64 = 1e-3;
 /// Part of a step at which the side of a path after a kink is seen.
 const BESIDE: f64 = 1e-6;
 
+/// What the way between two points is.
+enum Passed<E> {
+    /// One path, which goes on.
+    On,
+    /// Two paths: the step has jumped from one to the other.
+    Gap,
+    /// One that ends.
+    End(End<E>),
+}
+
 pub(super) struct Walk<'a, Q: Equations> {
     pub(super) equations: &'a mut Q,
     settings: Settings,
-    metric: Metric,
+    pub(super) metric: Metric,
     points: Vec<Point<Q::Record>>,
     events: Vec<Event<Q::Side>>,
     /// Conditions that are on other sides than at the start of the first path.
@@ -141,10 +153,18 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 continue;
             };
             let turn = self.turn(&here, &next);
-            if let Some((at, sides)) = kink(self.equations, self.metric, &here, &next)? {
-                if let Some(end) = self.smooth(&here, &at)? {
-                    return Ok(end);
+            let kink = kink(self.equations, self.metric, &here, &next)?;
+            let to = kink.as_ref().map_or(&next, |(at, _)| at);
+            match self.smooth(&here, to)? {
+                Passed::On => {}
+                Passed::End(end) => return Ok(end),
+                Passed::Gap if long > SHORTEST * FIRST => {
+                    length = SHORTER * long;
+                    continue;
                 }
+                Passed::Gap => return Ok(End::Lost),
+            }
+            if let Some((at, sides)) = kink {
                 // Without a step between.
                 kinks = if at.t.to_bits() == here.t.to_bits() { kinks + 1 } else { 0 };
                 let Some(after) = self.through(&at, sides)?.filter(|_| kinks < KINKS) else {
@@ -154,9 +174,6 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 continue;
             }
             kinks = 0;
-            if let Some(end) = self.smooth(&here, &next)? {
-                return Ok(end);
-            }
             self.keep(&next, None)?;
             if lands {
                 return Ok(End::Range);
@@ -224,15 +241,16 @@ impl<'a, Q: Equations> Walk<'a, Q> {
 
     /// Limit points and branch points between two points; the end of the path where it comes to a
     /// branch point that is known.
-    fn smooth(&mut self, a: &Here, b: &Here) -> Result<Option<End<Q::Error>>, Q::Error> {
-        for found in smooth(self.equations, self.metric, a, b) {
-            let Singular { at, kind, index, mode, load_on_mode } = found;
+    fn smooth(&mut self, a: &Here, b: &Here) -> Result<Passed<Q::Error>, Q::Error> {
+        let Some(all) = smooth(self.equations, self.metric, a, b) else { return Ok(Passed::Gap) };
+        for found in all {
+            let Singular { at, kind, index, turns, mode, load_on_mode } = found;
             let event = Event {
                 kind,
                 t: at.t,
                 point: self.points.len(),
                 index,
-                turns: kind == Kind::Limit,
+                turns,
                 sides: vec![],
                 mode: mode.iter().copied().collect(),
                 load_on_mode,
@@ -243,20 +261,20 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             self.keep(&at, Some(event))?;
             if kind == Kind::Branch {
                 let end = joins(self.metric, &mut self.crossings, &at, a);
-                if end.is_some() {
-                    return Ok(end);
+                if let Some(end) = end {
+                    return Ok(Passed::End(end));
                 }
                 self.crossings.push(Crossing {
                     at,
                     of: Parent { path: self.paths, event: self.events.len() - 1 },
-                    modes: index[0].abs_diff(index[1]),
+                    modes: index[0].abs_diff(index[1]).max(1),
                     depth: self.depth,
                     switched: self.switched.clone(),
                     known: vec![],
                 });
             }
         }
-        Ok(None)
+        Ok(Passed::On)
     }
 
     /// Beyond a kink: with the conditions on their other sides, the direction in which they are.

@@ -143,6 +143,44 @@ fn both_paths_of_a_pitchfork_are_followed() {
     assert_eq!(pitchfork().paths([0.0, 0.0], [0.0, 2.0], 0).unwrap().len(), 1);
 }
 
+/// V = x^4 / 4 - (z - 1) (2 - z) x^2 / 2 + z^2 / 2 - t z: the upright path is left in t = 1 by
+/// x^2 = (z - 1) (2 - z), which comes back to it in t = 2 from both sides.
+#[test]
+fn paths_that_come_back_end_there() {
+    let bubble = Potential::new(
+        |[x, z], t| [x.powi(3) - (z - 1.0) * (2.0 - z) * x, z - t - (1.5 - z) * x * x],
+        |[x, z], _| {
+            let mixed = -(3.0 - 2.0 * z) * x;
+            [[3.0 * x * x - (z - 1.0) * (2.0 - z), mixed], [mixed, 1.0 + x * x]]
+        },
+    );
+    let paths = bubble.paths([0.0, 0.0], [0.0, 3.0], 2).unwrap();
+    assert_eq!(paths.len(), 3);
+    for path in &paths[1..] {
+        assert_eq!(path.parent, Some(Parent { path: 0, event: 0 }));
+        assert_eq!(path.end, End::Joins(Parent { path: 0, event: 1 }));
+        for point in &path.points {
+            let [x, z] = point.record;
+            assert!((x * x - (z - 1.0) * (2.0 - z)).abs() < 1e-9);
+        }
+    }
+}
+
+/// The pitchfork that opens down, with x pushed by 1e-5: the path from the start turns to one side in a limit
+/// point, close to where the other one begins.
+#[test]
+fn a_path_is_not_left_for_one_next_to_it() {
+    let off = |[x, z]: [f64; 2], t: f64| [(1.0 - z) * x - x.powi(3) - 1e-5, z - t - 0.5 * x * x];
+    let pushed = Potential::new(off, |[x, z], _| [[1.0 - z - 3.0 * x * x, -x], [-x, 1.0]]);
+    let path = pushed.path([0.0, 0.0], [0.0, 2.0]).unwrap();
+    let found: Vec<_> = path.events.iter().map(|event| (event.kind, event.index)).collect();
+    assert_eq!(found, [(Kind::Limit, [0, 1])]);
+    // With z = t + x^2 / 2: t = 1 - 3 x^2 / 2 - 1e-5 / x has its maximum at 3 x^3 = 1e-5.
+    let x = (1e-5_f64 / 3.0).cbrt();
+    assert!((path.events[0].t - (1.0 - 1.5 * x * x - 1e-5 / x)).abs() < 1e-11);
+    assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 0.0));
+}
+
 /// V = (1 - z) x^2 / 2 - x^3 / 3 + z^2 / 2 - t z: in t = 1 the upright path is crossed by x = 1 - z with
 /// z = t + x^2 / 2, on which the stable side and the other change places.
 #[test]

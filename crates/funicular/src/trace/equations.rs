@@ -3,12 +3,16 @@
 use branches::Variation;
 use branches::load::{self, NoPath};
 use lagrange::network::{Equations, Seed, Settings, Side, solve, solve_from};
+use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
 use validate::systems::Near;
 
 use super::enclosed::loads_alone;
 use super::load::LoadError;
+
+/// A factor is good for unknowns that differ by rounding.
+const SAME: f64 = 1e-13;
 
 /// Where the numbers run, and the system there.
 pub(super) struct Family<'a> {
@@ -90,6 +94,33 @@ impl<'a> Family<'a> {
         [&self.from, &self.to]
     }
 
+    /// The derivatives of the last number in a limit point by lengths and by places of supports, its unit
+    /// a metre: along the null vector $\phi$ of $J$,
+    /// $\mathrm{d}t/\mathrm{d}p = -(\phi \cdot \partial G/\partial p) / (\phi \cdot \partial G/\partial t)$.
+    pub(super) fn imperfections(
+        &mut self,
+        at: &Kept,
+        limit: &load::Event<Side>,
+    ) -> Result<(Vec<f64>, Vec<Vector>), LoadError> {
+        self.set(limit.t)?;
+        let y = self.equations.unknowns(&at.equilibrium);
+        let phi = DVector::from_column_slice(&limit.mode);
+        let by_load = phi.dot(&load::Equations::by_parameter(
+            self,
+            &DVector::from_column_slice(&y),
+            limit.t,
+        )?);
+        let range = self.to.last().zip(self.from.last()).map_or(1.0, |(to, from)| to - from);
+        let [length_m, _] = self.equations.units();
+        let scale = -range / (by_load * length_m);
+        let by_length = self.equations.by_length(&y, &limit.mode);
+        let by_place = self.equations.by_place(&y, &limit.mode);
+        Ok((
+            by_length.into_iter().map(|by| scale * by).collect(),
+            by_place.into_iter().map(|by| (by * scale).into()).collect(),
+        ))
+    }
+
     fn set(&mut self, t: f64) -> Result<(), LoadError> {
         if t.to_bits() == self.at.to_bits() {
             return Ok(());
@@ -144,8 +175,8 @@ impl load::Equations for Family<'_> {
     fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, LoadError> {
         self.set(t)?;
         if let Some((at, at_t, index)) = &self.factored
-            && at_t.to_bits() == t.to_bits()
-            && at == y
+            && (at_t - t).abs() <= SAME
+            && at.iter().zip(y).all(|(a, b)| (a - b).abs() <= SAME)
         {
             return Ok(*index);
         }
