@@ -24,6 +24,8 @@ const POLE: f64 = 4.0;
 const NARROW: f64 = 1e-12;
 /// A load acts on a mode by less than this part of both if it does not.
 const OFF: f64 = 1e-6;
+/// Corrections of a mode, each by the part of a step at which the factor is.
+const CORRECTIONS: usize = 3;
 /// A condition below this has changed sides; above it, it is at zero to rounding.
 pub(super) const WRONG: f64 = 1e-10;
 
@@ -59,16 +61,44 @@ fn singular<Q: Equations>(equations: &mut Q, here: &Here) -> Option<(DVector<f64
 }
 
 /// The mode with its largest entry among the places 1, and how much of the load acts on it.
-fn mode<Q: Equations>(equations: &mut Q, metric: Metric, at: &Here) -> (DVector<f64>, f64) {
-    let Some((mode, _)) = singular(equations, at) else {
-        return (DVector::zeros(at.y.len()), 1.0);
+///
+/// In a singular point no factor is worth much. The mean of the modes before and after it is
+/// corrected by $J \phi = 0$ there with the factor before it.
+fn mode<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    at: &Here,
+    beside: [&Here; 2],
+) -> (DVector<f64>, f64) {
+    let none = (DVector::zeros(at.y.len()), 1.0);
+    let [Some((before, _)), Some((after, _))] = beside.map(|here| singular(equations, here)) else {
+        return none;
     };
-    let Ok(column) = equations.by_parameter(&at.y, at.t) else { return (mode, 1.0) };
+    let mut mode = (before + after) * 0.5;
+    for _ in 0..CORRECTIONS {
+        let Some(off) = off(equations, &mode, [at, beside[0]]) else { break };
+        mode -= off;
+    }
+    let Ok(column) = equations.by_parameter(&at.y, at.t) else { return none };
     let on = mode.dot(&column).abs() / (mode.norm() * column.norm()).max(f64::MIN_POSITIVE);
     let places = mode.rows(0, metric.places);
     let largest = places[places.iamax()];
     let mode = if largest.abs() > 0.0 { mode / largest } else { mode };
     (mode, on)
+}
+
+/// What is wrong with a mode in a singular point, by the factor beside it.
+fn off<Q: Equations>(
+    equations: &mut Q,
+    mode: &DVector<f64>,
+    [at, beside]: [&Here; 2],
+) -> Option<DVector<f64>> {
+    equations.factorise(&at.y, at.t).ok()??;
+    let left = equations.apply(mode);
+    equations.factorise(&beside.y, beside.t).ok()??;
+    let row = without_symmetry(mode.len());
+    let off = Bordered::new(equations, &row.y, &row).solve(equations, (&left, 0.0));
+    off.map(|(off, _)| off)
 }
 
 /// Where a test changes its sign between two points: the part of the way, and the point there.
@@ -116,7 +146,7 @@ pub(super) fn smooth<Q: Equations>(
         a.between(equations, metric, b, part.clamp(0.0, 1.0)).unwrap_or_else(|| other.clone())
     };
     let (before, after) = (beside(part - BESIDE, a), beside(part + BESIDE, b));
-    let (mode, load_on_mode) = mode(equations, metric, &at);
+    let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
     let index = [before.index, after.index];
     branches(equations, metric, [a, &before], &mut all)?;
     // Where a path of a pitchfork comes to the other one the load does not act on the mode.
@@ -169,7 +199,7 @@ fn within<Q: Equations>(
     }
     // Several at once, or a gap between two paths.
     let (_, test) = singular(equations, b)?;
-    let (mode, load_on_mode) = mode(equations, metric, b);
+    let (mode, load_on_mode) = mode(equations, metric, b, [a, b]);
     let index = [a.index, b.index];
     all.push(Singular {
         at: b.clone(),
@@ -204,7 +234,7 @@ fn branch<Q: Equations>(
     if before.index == after.index {
         return None;
     }
-    let (mode, load_on_mode) = mode(equations, metric, &at);
+    let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
     let index = [before.index, after.index];
     Some((
         before,

@@ -119,7 +119,7 @@ fn a_steep_gable_sways_to_either_side() {
     let l0 = 10_f64.sqrt();
     let mut sides = vec![];
     for path in &paths[1..] {
-        let from = path.from.unwrap();
+        let from = path.branches_from.unwrap();
         assert_eq!((from.path, from.event, path.end), (0, 0, LoadEnd::Range));
         for point in &path.points {
             let [x, _, z] = point.joints_m[2];
@@ -193,7 +193,7 @@ fn what_imperfections_change_a_limit_by() {
         let difference = by(moved(h), moved(-h));
         let derivative = found.by_place[0][axis];
         assert!((derivative - difference).abs() < 1e-6, "{derivative} {difference}");
-        assert_eq!(found.by_place[3][axis], 0.0);
+        assert!(found.by_place[3][axis].abs() < f64::MIN_POSITIVE);
     }
 }
 
@@ -215,7 +215,8 @@ fn a_path_that_goes_round_ends_where_it_began() {
     near(straight.events[0].values[0], critical);
     // Its places do not change and its forces grow with the load: the estimate is exact.
     assert!((straight.linear_buckling.unwrap() - critical).abs() < 1e-6);
-    assert_eq!((round.from, round.joins, round.end), (round.joins, round.from, LoadEnd::Joins));
+    assert_eq!((round.branches_from, round.end), (round.joins, LoadEnd::Joins));
+    assert!(round.joins.is_some());
     let ends: Vec<f64> = round.events.iter().map(|event| event.values[0]).collect();
     // Where it turns the load is known to the square of how well the place is.
     assert!((ends[0] + critical).abs().max((ends[1] - critical).abs()) < 1e-8, "{ends:?}");
