@@ -11,17 +11,16 @@ use crate::locate::sign_change;
 
 /// How far before and after a limit point, as a part of the step, the inertia is counted.
 const BESIDE: f64 = 1e-3;
-/// Halvings of a step that holds several changes of the inertia; those still together after that
-/// are one.
-const HALVINGS: usize = 20;
-/// The test vanishes below this part of what it is at the ends of a step; in a step that is as short as it
-/// gets, of several branch points together, below so many times that.
-const VANISHES: f64 = 1e-6;
-const CLUSTER: f64 = 1e2;
-/// A test that has become so many times larger than at both ends of a step is at a pole.
-const POLE: f64 = 4.0;
+/// Halvings of a step that holds several changes of the inertia.
+const HALVINGS: usize = 40;
+/// Changes of the inertia that are this near to each other are one event.
+const TOGETHER: f64 = 1e-6;
 /// Part of a step to which a point is located.
 const NARROW: f64 = 1e-12;
+/// The test vanishes below this part of what it is at the ends of a step.
+const VANISHES: f64 = 1e-6;
+/// A test that has become so many times larger than at both ends of a step is at a pole.
+const POLE: f64 = 4.0;
 /// A load acts on a mode by less than this part of both if it does not.
 const OFF: f64 = 1e-6;
 /// Corrections of a mode, each by the part of a step at which the factor is.
@@ -156,7 +155,7 @@ pub(super) fn smooth<Q: Equations>(
     Some(all)
 }
 
-/// Branch points between two points: where the inertia changes; nothing where it jumps from one path
+/// Branch points between two points: where the inertia changes; `None` when it jumps from one path
 /// to another.
 ///
 /// The test changes its sign there, but at its poles too, so that a step may have to be halved
@@ -170,63 +169,54 @@ fn branches<Q: Equations>(
     if a.index == b.index {
         return Some(());
     }
-    let tests = [a, b].map(|end| singular(equations, end).map_or(0.0, |(_, test)| test.abs()));
-    let zero = VANISHES * tests[0].max(tests[1]);
-    within(equations, metric, [a, b], (zero, HALVINGS), all)
+    let tests = [a, b].map(|end| singular(equations, end).map_or(f64::NAN, |(_, test)| test));
+    within(equations, metric, [(a, tests[0]), (b, tests[1])], HALVINGS, all)
 }
 
+/// The same with the tests at both points.
 fn within<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
-    [a, b]: [&Here; 2],
-    (zero, halvings): (f64, usize),
+    [(a, at_a), (b, at_b)]: [(&Here, f64); 2],
+    halvings: usize,
     all: &mut Vec<Singular>,
 ) -> Option<()> {
     if a.index == b.index {
         return Some(());
     }
-    let left = (zero, halvings.saturating_sub(1));
-    if let Some((before, found, after)) = branch(equations, metric, [a, b], zero) {
-        within(equations, metric, [a, &before], left, all)?;
-        all.push(found);
-        return within(equations, metric, [&after, b], left, all);
-    }
-    if halvings > 0
-        && let Some(middle) = a.between(equations, metric, b, 0.5)
+    if at_a * at_b < 0.0
+        && let Some((before, found, after)) = branch(equations, metric, [(a, at_a), (b, at_b)])
     {
-        within(equations, metric, [a, &middle], left, all)?;
-        return within(equations, metric, [&middle, b], left, all);
+        branches(equations, metric, [a, &before], all)?;
+        all.push(found);
+        return branches(equations, metric, [&after, b], all);
     }
-    // Several at once, or a gap between two paths.
-    let (_, test) = singular(equations, b)?;
-    let (mode, load_on_mode) = mode(equations, metric, b, [a, b]);
-    let index = [a.index, b.index];
-    all.push(Singular {
-        at: b.clone(),
-        kind: Kind::Branch,
-        index,
-        turns: false,
-        mode,
-        load_on_mode,
-    });
-    (test.abs() <= CLUSTER * zero).then_some(())
+    let way = a.towards(b);
+    if metric.coarse().norm(&way.y, way.t) <= TOGETHER {
+        let (mode, load_on_mode) = mode(equations, metric, b, [a, b]);
+        let (kind, index) = (Kind::Branch, [a.index, b.index]);
+        all.push(Singular { at: b.clone(), kind, index, turns: false, mode, load_on_mode });
+        return Some(());
+    }
+    // On two paths the ends do not come nearer to each other.
+    let middle = (halvings > 0).then(|| a.between(equations, metric, b, 0.5)).flatten()?;
+    let test = singular(equations, &middle).map_or(f64::NAN, |(_, test)| test);
+    within(equations, metric, [(a, at_a), (&middle, test)], halvings - 1, all)?;
+    within(equations, metric, [(&middle, test), (b, at_b)], halvings - 1, all)
 }
 
 /// A branch point where the test changes its sign, with points before and after it.
 fn branch<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
-    [a, b]: [&Here; 2],
-    zero: f64,
+    [(a, at_a), (b, at_b)]: [(&Here, f64); 2],
 ) -> Option<(Here, Singular, Here)> {
-    let tests = [a, b].map(|end| singular(equations, end).map(|(_, test)| test));
-    let [Some(at_a), Some(at_b)] = tests else { return None };
-    let large = POLE * at_a.abs().max(at_b.abs());
+    let size = at_a.abs().max(at_b.abs());
     let (part, at) = located(equations, metric, [a, b], |equations, here| {
-        singular(equations, here).map(|(_, test)| test).filter(|test| test.abs() <= large)
+        singular(equations, here).map(|(_, test)| test).filter(|test| test.abs() <= POLE * size)
     })?;
     // At a pole it is large, and at a gap between two paths it does not vanish.
-    if singular(equations, &at)?.1.abs() > zero {
+    if singular(equations, &at)?.1.abs() > VANISHES * size {
         return None;
     }
     let mut beside = |part: f64| a.between(equations, metric, b, part.clamp(0.0, 1.0));
@@ -235,12 +225,8 @@ fn branch<Q: Equations>(
         return None;
     }
     let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
-    let index = [before.index, after.index];
-    Some((
-        before,
-        Singular { at, kind: Kind::Branch, index, turns: false, mode, load_on_mode },
-        after,
-    ))
+    let (kind, index) = (Kind::Branch, [before.index, after.index]);
+    Some((before, Singular { at, kind, index, turns: false, mode, load_on_mode }, after))
 }
 
 /// The first point between two at which conditions change sides, with these; nothing where none
