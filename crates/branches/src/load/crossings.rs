@@ -18,12 +18,16 @@ use super::here::{Here, Metric, correct};
 use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
-/// How far from a branch point a path is picked up, in units of the length of the path.
-const AWAY: [f64; 3] = [4e-3, 4e-4, 4e-2];
+/// How far from a branch point a path is picked up, in units of the length of the path: further away
+/// other modes that meet there are stiffer again.
+const AWAY: [f64; 3] = [4e-2, 4e-3, 4e-4];
 /// Starts beside a direction, along the parameter, in units of that.
 const BESIDE: [f64; 3] = [0.0, 1.0, -1.0];
-/// Branch points nearer than this are one.
-const SAME: f64 = 1e-4;
+/// A path comes to a branch point if it passes it by less than this part of a step: from its side the
+/// place is known to the root of rounding.
+const SAME: f64 = 1e-3;
+/// A path does not come back to its own branch point in fewer points.
+const ROUND: usize = 8;
 /// Cosine of two directions that are one.
 const ALIKE: f64 = 0.97;
 /// Steps of inverse iteration to the null space.
@@ -39,18 +43,14 @@ pub(super) struct Crossing<S> {
     pub(super) at: Here,
     /// Where it is an event: the number of its path and of the event there.
     pub(super) of: Parent,
+    /// The number of its point there.
+    pub(super) point: usize,
     pub(super) modes: usize,
     pub(super) depth: usize,
     /// Conditions that are on other sides than at the start of the first path.
     pub(super) switched: Vec<S>,
     /// Unit vectors towards points of known paths.
     pub(super) known: Vec<Row>,
-}
-
-impl<S> Crossing<S> {
-    pub(super) fn is_at(&self, metric: Metric, other: &Here) -> bool {
-        metric.coarse().norm(&(&self.at.y - &other.y), self.at.t - other.t) <= SAME
-    }
 }
 
 /// The unit vector from one point to another.
@@ -201,14 +201,27 @@ fn directions(basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
     all
 }
 
-/// Whether a path ends in a branch point that is known, and how.
+/// Whether a path ends in a branch point that is known, and how; `number` and `point` are its own.
 pub(super) fn joins<E, S>(
     metric: Metric,
     crossings: &mut [Crossing<S>],
-    at: &Here,
-    before: &Here,
+    [before, at, after]: [&Here; 3],
+    (number, point): (usize, usize),
 ) -> Option<End<E>> {
-    let known = crossings.iter_mut().find(|crossing| crossing.is_at(metric, at))?;
-    known.known.push(towards(metric.coarse(), at, before));
+    // It may have several of its own one after another, but does not turn round at once.
+    let new = |crossing: &Crossing<S>| crossing.of.path == number && point < crossing.point + ROUND;
+    let metric = metric.coarse();
+    let far = |from: &Here, to: &Here| {
+        let way = from.towards(to);
+        metric.norm(&way.y, way.t)
+    };
+    let near = SAME * far(before, after);
+    let others = crossings.iter_mut().filter(|crossing| !new(crossing));
+    let others = others.map(|crossing| (far(&crossing.at, at), crossing));
+    let (distance, known) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    if distance > near {
+        return None;
+    }
+    known.known.push(towards(metric, at, before));
     Some(End::Joins(known.of))
 }

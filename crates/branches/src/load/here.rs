@@ -162,6 +162,11 @@ impl Here {
         self.next_to(equations, metric, other, (&self.towards(other), part))
     }
 
+    /// The same with the tangent the other way.
+    pub(super) fn turned(self) -> Self {
+        Self { tangent: Row { y: -self.tangent.y, t: -self.tangent.t }, ..self }
+    }
+
     /// The vector to another point.
     pub(super) fn towards(&self, other: &Self) -> Row {
         Row { y: &other.y - &self.y, t: other.t - self.t }

@@ -260,13 +260,15 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             let at = Here { index: index[0], tangent, ..at };
             self.keep(&at, Some(event))?;
             if kind == Kind::Branch {
-                let end = joins(self.metric, &mut self.crossings, &at, a);
+                let here = (self.paths, self.points.len());
+                let end = joins(self.metric, &mut self.crossings, [a, &at, b], here);
                 if let Some(end) = end {
                     return Ok(Passed::End(end));
                 }
                 self.crossings.push(Crossing {
                     at,
                     of: Parent { path: self.paths, event: self.events.len() - 1 },
+                    point: self.points.len(),
                     modes: index[0].abs_diff(index[1]).max(1),
                     depth: self.depth,
                     switched: self.switched.clone(),
@@ -319,7 +321,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             return Ok(None);
         }
         if rises.contains(&false) {
-            here.tangent = Row { y: -here.tangent.y, t: -here.tangent.t };
+            here = here.turned();
         }
         Ok(Some(here))
     }

@@ -240,6 +240,59 @@ fn linear_buckling_of_a_gable_is_its_closed_form() {
     }
 }
 
+/// A dome of seven joints on a hexagon, as symmetric as rounding lets it be: it leaves its symmetry at half the load
+/// of its limit. From its first branch point two paths lead, from that with two modes six, one for each axis and
+/// direction, and six of each of two kinds from the next.
+#[test]
+fn a_symmetric_dome_leaves_its_symmetry_before_its_limit() {
+    let corner = |k: usize, r: f64| {
+        let angle = std::f64::consts::TAU * k as f64 / 6.0;
+        [r * angle.cos(), r * angle.sin()]
+    };
+    let height = |x: f64, y: f64| (2500.0 - x * x - y * y).sqrt() - 2100_f64.sqrt();
+    let mut file = String::from("[joints]\n");
+    let mut joints: Vec<[f64; 3]> = vec![];
+    let mut add = |[x, y]: [f64; 2], held: bool| {
+        let (name, z) = (joints.len(), height(x, y));
+        file += &if held {
+            format!("F{name} = {{ at_m = [{x}, {y}, {z}] }}\n")
+        } else {
+            format!("P{name} = {{ near_m = [{x}, {y}, {z}], force_n = [0, 0, -1000] }}\n")
+        };
+        joints.push([x, y, z]);
+    };
+    add([0.0, 0.0], false);
+    (0..6).for_each(|k| add(corner(k, 10.0), false));
+    for k in 0..6 {
+        let [[x, y], [u, v]] = [corner(k, 20.0), corner(k + 1, 20.0)];
+        add([x, y], true);
+        add([0.5 * (x + u), 0.5 * (y + v)], true);
+    }
+    let name = |k: usize| if k < 7 { format!("P{k}") } else { format!("F{k}") };
+    for a in 0..joints.len() {
+        for b in a + 1..joints.len() {
+            let [[x, y, _], [u, v, _]] = [joints[a], joints[b]];
+            if a < 7 && (x - u).hypot(y - v) < 10.1 {
+                let (from, to) = (name(a), name(b));
+                file += &format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 1e6\n");
+            }
+        }
+    }
+    let trace = Trace::new().vary("loads=0..5").unwrap().branches(1).max_points(300);
+    let paths = paths(&file, &trace);
+    let (limit, branch) = (LoadEventKind::LimitPoint, LoadEventKind::BranchPoint);
+    let first: Vec<_> = told(&paths[0].events).into_iter().take(4).collect();
+    let wanted = [(branch, [0, 1]), (branch, [1, 3]), (branch, [3, 5]), (limit, [5, 6])];
+    assert_eq!(first, wanted);
+    assert!(2.0 * paths[0].events[0].values[0] > paths[0].events[3].values[0]);
+    assert!(1.9 * paths[0].events[0].values[0] < paths[0].events[3].values[0]);
+    let from = |event: usize| {
+        let all = paths.iter().filter_map(|path| path.branches_from);
+        all.filter(|from| (from.path, from.event) == (0, event)).count()
+    };
+    assert_eq!([from(0), from(1), from(2)], [2, 6, 12]);
+}
+
 /// Four bars to one apex: both sideways modes lose their stiffness at once.
 #[test]
 fn a_steep_pyramid_sways_in_two_directions_at_once() {
