@@ -95,7 +95,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,
     /// Follow also the paths that branch off a load path, and those that branch off from them to this
-    /// depth: --branches, --branches=2
+    /// depth, at most 64: --branches, --branches=2
     #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "1",
         default_value_t = 0, hide_default_value = true)]
     pub branches: usize,
