@@ -7,6 +7,7 @@ mod figure;
 pub(crate) mod load;
 
 pub use self::confirm::Confirmed;
+pub use self::enclosed::PathProved;
 
 use std::io::{self, Write};
 

@@ -20,6 +20,8 @@ use super::newton::dense;
 const ROOM: f64 = 0.1;
 /// Rounds to find a bound.
 const ROUNDS: usize = 60;
+/// Fewer rows than this are not shared among threads.
+const APART: usize = 64;
 /// Times that an enclosure is narrowed.
 const NARROW: usize = 3;
 /// Corrections of an approximate solution by what it leaves, at most.
@@ -51,7 +53,7 @@ impl Inverse {
 
     /// The last column: what the last equation does to each unknown.
     pub(super) fn last_column(&self) -> Vec<f64> {
-        self.rows.chunks_exact(self.size).map(|row| row[self.size - 1]).collect()
+        self.rows.chunks_exact(self.size.max(1)).map(|row| row[self.size - 1]).collect()
     }
 
     /// The last row.
@@ -65,7 +67,7 @@ impl Inverse {
             let parts = row.iter().zip(right).filter(|(_, part)| **part != Interval::ZERO);
             parts.map(|(x, part)| Interval::point(*x) * *part).sum()
         };
-        self.rows.par_chunks_exact(self.size).map(row).collect()
+        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(row).collect()
     }
 
     /// $M^{-1} r$ for the middle of a matrix near to the inverted one, in double precision. No proof.
@@ -77,7 +79,7 @@ impl Inverse {
             for (row, column, entry) in entries {
                 left[*row] -= entry.mid() * x[*column];
             }
-            let rows = self.rows.chunks_exact(self.size);
+            let rows = self.rows.chunks_exact(self.size.max(1));
             let step: Vec<f64> =
                 rows.map(|row| row.iter().zip(&left).map(|(a, b)| a * b).sum()).collect();
             let size = step.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
@@ -118,7 +120,8 @@ impl Inverse {
             }
             rest.into_iter().map(Interval::mag).collect::<Vec<f64>>()
         };
-        let rows: Vec<Vec<f64>> = self.rows.par_chunks_exact(size).enumerate().map(row).collect();
+        let rows = self.rows.par_chunks_exact(size.max(1)).with_min_len(APART).enumerate().map(row);
+        let rows: Vec<Vec<f64>> = rows.collect();
         Defect { size, rows: rows.concat() }
     }
 }
@@ -161,7 +164,7 @@ impl Defect {
     /// $E x$ for $x \ge 0$, from above.
     fn times(&self, x: &[f64]) -> Vec<f64> {
         let row = |row: &[f64]| row.iter().zip(x).fold(0.0, |all, (e, x)| up(all + up(e * x)));
-        self.rows.par_chunks_exact(self.size).map(row).collect()
+        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(row).collect()
     }
 }
 

@@ -191,8 +191,8 @@ pub(super) fn singular(
         match alone(family, &centre, side.as_ref(), (&thin, start), length / fastest) {
             Ok((step, t_rate)) => {
                 // From the middle of the tube to the point.
-                let t = last(&thin.tight);
-                let moved = thin.tight.iter().zip(&t_rate.1);
+                let t = last(thin.curve());
+                let moved = thin.curve().iter().zip(&t_rate.1);
                 let point = moved.map(|(x, rate)| sum(*x, product(step, *rate))).collect();
                 return Ok(Singular { t: sum(t, product(step, t_rate.0)), point });
             }
@@ -212,8 +212,8 @@ fn alone(
 ) -> Result<(Interval, (Interval, Vec<Interval>)), NoBox> {
     let tube = centre.tube(family, Interval::around(0.0, length))?;
     // The curve of the thin tube is the one of this.
-    centre.holds(&tube, &thin.tight)?;
-    family.acts(family.spread(&tube.tight))?;
+    centre.holds(&tube, thin.curve())?;
+    family.acts(family.spread(tube.curve()))?;
     let rate = centre.rate(family, &tube)?.vector;
     let slope = tested(family, centre, &tube, side, &rate)?.1;
     let step = zero(start, slope, tube.over).ok_or(NoBox::NotContracting)?;
@@ -241,7 +241,7 @@ pub(super) fn tested(
 ) -> Result<(Interval, Interval), NoBox> {
     let of = |test: &Test<'_>| Ok((test.value(), test.slope(family, tube, rate)?));
     let Some(side) = side else { return of(&centre.rate(family, tube)?) };
-    let entries = side.entries(family, &tube.jacobian);
+    let entries = side.entries(family, &family.equations.slope(&family.spread(tube.curve())));
     let defect = side.inverse.defect(&entries);
     of(&Test::new(side.of(family), &side.inverse, (&entries, &defect), Interval::ONE)?)
 }

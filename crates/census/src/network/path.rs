@@ -103,7 +103,7 @@ struct Node {
 
 impl Node {
     fn new(family: &Family<'_>, centre: Centre) -> Result<Self, NoBox> {
-        let place = centre.tube(family, Interval::ZERO)?.tight;
+        let place = centre.tube(family, Interval::ZERO)?.curve().to_vec();
         let along = centre.unit();
         Ok(Self { at: centre.at, along, place })
     }
@@ -189,7 +189,7 @@ impl<'a> Walk<'a> {
         if places[0].hi() >= places[1].lo() {
             return Err(NoBox::NotContracting);
         }
-        family.acts(family.spread(&tube.tight))?;
+        family.acts(family.spread(tube.curve()))?;
         let side = |side: &Side| Side::new(family, side.block, &centre.at, Some(side));
         let sides = self.sides.iter().map(side).collect::<Option<Vec<_>>>();
         let sides = sides.ok_or(NoBox::Singular)?;
@@ -213,7 +213,7 @@ fn first(
             continue;
         }
         let thin = centre.tube(family, Interval::ZERO)?;
-        centre.holds(tube, &thin.tight)?;
+        centre.holds(tube, thin.curve())?;
         let (start, _) = tested(family, centre, &thin, side, &rate)?;
         if tube.over.disjoint(-start / slope) {
             continue;

@@ -22,6 +22,7 @@ use super::arithmetic::{product, sum};
 use super::equations::Entry;
 use super::family::Family;
 use super::inverse::{Defect, Inverse};
+use super::krawczyk::{Proved, prove_around};
 use super::symmetry::Block;
 
 /// Newton steps towards the equilibrium next to a guess.
@@ -30,12 +31,7 @@ const STEPS: usize = 24;
 const FALLS: f64 = 0.5;
 /// Steps below this size, relative, may be at the level of rounding.
 const SMALL: f64 = 1e-9;
-/// Boxes that are tried, each wider than the one before.
-const WIDER: usize = 4;
-/// First box, in units of what the middle is off.
-const FIRST: f64 = 2.0;
-/// Least box, relative to the unknown and to the length of the tube.
-const LAST_PLACES: f64 = 4.0 * f64::EPSILON;
+/// Least room in a tube, relative to its length.
 const LEAST: f64 = 1e-6;
 
 /// A point next to the path, in double precision, with a direction and an approximate inverse.
@@ -115,27 +111,13 @@ impl Centre {
 
     /// Prove the tube over these $s$.
     pub(super) fn tube(&self, family: &Family<'_>, over: Interval) -> Result<Tube, NoBox> {
-        let middle = self.inverse.apply(&self.off(family, over)?);
-        let line = self.line(over);
+        let newton = self.inverse.apply(&self.off(family, over)?);
         let length = over.width() * self.along.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let least = |x: &f64| LAST_PLACES * x.abs() + LEAST * length + f64::MIN_POSITIVE;
-        let mut box_: Vec<f64> =
-            middle.iter().zip(&self.at).map(|(z, x)| FIRST * z.mag() + least(x)).collect();
-        for _ in 0..WIDER {
-            let x = widened(&line, &box_);
-            let jacobian = family.equations.slope(&family.spread(&x));
-            let entries = family.bordered(&jacobian, &self.row);
-            let defect = self.inverse.defect(&entries);
-            let [bound, through] = defect.bound(&middle, &box_).ok_or(NoBox::NotContracting)?;
-            if bound.iter().zip(&box_).all(|(bound, box_)| bound <= box_) {
-                let off = middle.iter().zip(&through).map(|(z, e)| Interval::around(0.0, *e) - *z);
-                let off: Vec<Interval> = off.collect();
-                let tight = line.iter().zip(&off).map(|(p, off)| *p + *off).collect();
-                return Ok(Tube { over, within: bound, tight, jacobian, entries, defect });
-            }
-            box_ = bound.iter().zip(&box_).map(|(bound, b)| (FIRST * bound).max(*b)).collect();
-        }
-        Err(NoBox::NotContracting)
+        let slope =
+            |x: &[Interval]| family.bordered(&family.equations.slope(&family.spread(x)), &self.row);
+        let line = self.line(over);
+        let proved = prove_around(&line, &newton, LEAST * length, &self.inverse, slope)?;
+        Ok(Tube { over, proved })
     }
 
     /// $p_0 + s v$.
@@ -184,7 +166,12 @@ impl Centre {
         family: &'a Family<'_>,
         tube: &'a Tube,
     ) -> Result<Test<'a>, NoBox> {
-        Test::new(&family.blocks[0], &self.inverse, (&tube.entries, &tube.defect), self.pace())
+        Test::new(
+            &family.blocks[0],
+            &self.inverse,
+            (&tube.proved.entries, &tube.proved.defect),
+            self.pace(),
+        )
     }
 
     /// The direction, of length 1.
@@ -206,17 +193,13 @@ impl Centre {
     pub(super) fn holds(&self, tube: &Tube, point: &[Interval]) -> Result<Interval, NoBox> {
         let s = self.seen(point);
         let away = self.away(point);
-        let inside = away.iter().zip(&self.along).zip(&tube.within).all(|((away, v), within)| {
-            let across = *away - s * Interval::point(*v);
-            across.mag() < *within
-        });
+        let inside =
+            away.iter().zip(&self.along).zip(&tube.proved.within).all(|((away, v), within)| {
+                let across = *away - s * Interval::point(*v);
+                across.mag() < *within
+            });
         if inside && tube.over.encloses(s) { Ok(s) } else { Err(NoBox::NotContracting) }
     }
-}
-
-/// Boxes of these half-widths around others.
-fn widened(line: &[Interval], by: &[f64]) -> Vec<Interval> {
-    line.iter().zip(by).map(|(p, by)| *p + Interval::around(0.0, *by)).collect()
 }
 
 /// A tube that is proved.
@@ -224,15 +207,14 @@ fn widened(line: &[Interval], by: &[f64]) -> Vec<Interval> {
 pub(super) struct Tube {
     /// The values of $s$.
     pub(super) over: Interval,
-    /// Half-widths of $D$.
-    within: Vec<f64>,
+    proved: Proved,
+}
+
+impl Tube {
     /// Where the curve is.
-    pub(super) tight: Vec<Interval>,
-    /// Entries of the derivative by all unknowns in all of the tube.
-    pub(super) jacobian: Vec<Entry>,
-    /// Entries of $M$ there.
-    entries: Vec<Entry>,
-    defect: Defect,
+    pub(super) fn curve(&self) -> &[Interval] {
+        &self.proved.tight
+    }
 }
 
 /// What vanishes where a block of $J$ is singular: the last part $\tau$ of the solution $w$ of $M w = (0, g)$
@@ -270,7 +252,7 @@ impl<'a> Test<'a> {
         tube: &Tube,
         rate: &[Interval],
     ) -> Result<Interval, NoBox> {
-        let y = family.spread(&tube.tight);
+        let y = family.spread(tube.curve());
         let own = self.block.spread(&self.vector);
         let bent = family.bent(self.block, &y, &own, &family.spread(rate));
         let (entries, defect) = self.matrix;

@@ -10,7 +10,7 @@ use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
 use super::confirm::{Confirmed, confirm};
-use super::enclosed::enclosed;
+use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept, Line, line};
 use super::figure;
 use crate::csv::quoted;
@@ -125,8 +125,9 @@ pub struct LoadEvent {
     pub index: [usize; 2],
     /// Whether the parameter turns back here.
     pub turns: bool,
-    /// Between these values of the last parameter exactly one limit point is proved to lie, next to this
-    /// shape: where loads alone vary, of systems that are not too large.
+    /// Between these values of the last parameter exactly one limit or branch point is proved to lie, next to
+    /// this shape: where loads alone vary, of systems that are not too large; a branch point where its mode
+    /// breaks a symmetry that is exact in double precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enclosed: Option<[f64; 2]>,
     /// Bars that become slack here, from 1.
@@ -153,6 +154,8 @@ pub struct LoadPath {
     pub end: LoadEnd,
     /// What `energy` says of it.
     pub confirmed: Confirmed,
+    /// What interval arithmetic proves of it from its start on.
+    pub proved: PathProved,
 }
 
 impl LoadPath {
@@ -266,9 +269,11 @@ fn told(
     let points = points.collect();
     let events = found.events.iter().map(|event| event_told(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
-    for event in events.iter_mut().filter(|event| event.kind == LoadEventKind::LimitPoint) {
-        event.enclosed = enclosed(variation, family.ends(), &found.points[event.point].record);
+    for event in &mut events {
+        let at = &found.points[event.point].record;
+        event.enclosed = enclosed(variation, family.ends(), at, event.kind);
     }
+    let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
     let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
         .points
         .iter()
@@ -284,7 +289,7 @@ fn told(
         End::Lost => LoadEnd::Lost,
         End::Numbers(_) => LoadEnd::Numbers,
     };
-    LoadPath { points, events, end, confirmed }
+    LoadPath { points, events, end, confirmed, proved }
 }
 
 fn event_told(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
