@@ -24,14 +24,15 @@ pub(crate) fn on_chord(
 ) -> Option<DVector<f64>> {
     let chord = b - a;
     let row = &chord / chord.norm();
-    sign_change([a, b], |part| correct(path, a + part * &chord, &row), |y| test(y, &row))
+    sign_change([a, b], NARROW, |part| correct(path, a + part * &chord, &row), |y| test(y, &row))
         .map(|(_, y)| y)
 }
 
 /// Where `test` changes its sign between two ends, by regula falsi (the Illinois rule) with
-/// bisection: the part of the way, and the point there.
+/// bisection, to this part of the way: the part of the way, and the point there.
 pub(crate) fn sign_change<P: Clone>(
     [a, b]: [&P; 2],
+    narrow: f64,
     mut point: impl FnMut(f64) -> Option<P>,
     mut test: impl FnMut(&P) -> Option<f64>,
 ) -> Option<(f64, P)> {
@@ -51,7 +52,7 @@ pub(crate) fn sign_change<P: Clone>(
     let mut best = if at_low.abs() < at_high.abs() { (low, a.clone()) } else { (high, b.clone()) };
     let mut kept = 0_i32;
     for round in 0..MOST {
-        if high - low <= NARROW {
+        if high - low <= narrow {
             break;
         }
         let secant = low + (high - low) * at_low / (at_low - at_high);
@@ -61,8 +62,9 @@ pub(crate) fn sign_change<P: Clone>(
         // At a point where two curves cross the corrector fails; next to it, it does not.
         let Some(y) = point(middle) else { break };
         let Some(here) = test(&y) else { break };
+        let moved = (middle - best.0).abs();
         best = (middle, y);
-        if here.abs() <= 0.0 {
+        if here.abs() <= 0.0 || moved <= narrow {
             break;
         }
         if here * at_low > 0.0 {

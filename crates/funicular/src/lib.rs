@@ -145,7 +145,7 @@ pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
 #[cfg(feature = "branches")]
 pub use self::trace::load::{
-    LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
+    BranchesFrom, LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
 };
 #[cfg(feature = "branches")]
 pub use self::trace::{Confirmed, PathProved, Trace, TraceAnswer};

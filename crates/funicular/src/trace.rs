@@ -70,6 +70,8 @@ pub struct Trace {
     settings: ContinuationSettings,
     max_points: Option<usize>,
     of: Vec<String>,
+    branches: usize,
+    linear_buckling: bool,
     threads: usize,
 }
 
@@ -113,11 +115,48 @@ impl Trace {
         self
     }
 
+    /// From branch points of a load path follows the paths that branch off as well, from theirs too if
+    /// `depth` is 2, and so on; 0 (the default) follows none. Where several modes meet in one branch
+    /// point so many directions are tried, and there may be more paths.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // A gable so steep that its apex sways to a side before it snaps through.
+    /// let gable = Problem::parse(
+    ///     "[joints]\n\
+    ///      A = { at_m = [-1, 0, 0] }\n\
+    ///      B = { at_m = [1, 0, 0] }\n\
+    ///      P = { at_m = [0, 0, 3], near_m = [0, 0, 3], free = \"xz\", force_n = [0, 0, -1] }\n\
+    ///      [[bars]]\nmass_kg = 0\nfrom = \"A\"\nto = \"P\"\nstiffness_n = 5\n\
+    ///      [[bars]]\nmass_kg = 0\nfrom = \"P\"\nto = \"B\"\nstiffness_n = 5",
+    ///     "gable.toml",
+    /// )?;
+    /// let found = Trace::new().vary("loads=0..5")?.branches(1).run(&gable)?;
+    /// // To the left and to the right.
+    /// assert_eq!(found.load_paths().expect("load paths").paths().len(), 1 + 2);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn branches(self, depth: usize) -> Self {
+        Self { branches: depth, ..self }
+    }
+
+    /// Estimates beside a load path where it loses its stability, as linear buckling does: where the
+    /// stiffness at its start, extrapolated along the load, is singular.
+    #[must_use]
+    pub fn linear_buckling(self) -> Self {
+        Self { linear_buckling: true, ..self }
+    }
+
     /// Whether load paths are followed: over a range alone, or of what is no chain. Else all
     /// equilibria of a chain are.
     #[must_use]
     pub fn is_load_path(&self, problem: &Problem) -> bool {
-        self.parameters.is_open() || !self.of.is_empty() || problem.row().is_none()
+        self.parameters.is_open()
+            || !self.of.is_empty()
+            || self.branches > 0
+            || self.linear_buckling
+            || problem.row().is_none()
     }
 
     /// How many threads share the work, 0 (the default) for those of the pool that it is called
@@ -193,7 +232,9 @@ impl Trace {
             let variation = self.load_variation(problem)?;
             let most = self.max_points.unwrap_or(LOAD_POINTS);
             let watch = |path, done| watch(path, Progress { done, total: most });
-            let found = load::trace(&variation, &self.of, most, &watch)?;
+            let (branches, linear_buckling) = (self.branches, self.linear_buckling);
+            let asked = load::Asked { max_points: most, branches, linear_buckling };
+            let found = load::trace(&variation, &self.of, asked, &watch)?;
             return Ok(TraceAnswer(Found::Load(found)));
         }
         let variation = self.variation(problem)?;
@@ -278,14 +319,17 @@ impl TraceAnswer {
     }
 
     /// The diagram of a path as SVG: energy, and the angle of a bar, from 1; of a load path the
-    /// parameter over the first number shown.
+    /// parameter over the first number shown, with the paths that branch off.
     #[must_use]
     pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
         match &self.0 {
             Found::All { system, paths } => {
                 Some(branches::diagram(paths.get(path)?, &system.name, abscissa, bar))
             }
-            Found::Load(found) => found.figure(path + 1),
+            Found::Load(found) => {
+                let main = found.paths().iter().enumerate().filter(|(_, one)| one.from.is_none());
+                found.figure(main.map(|(number, _)| number + 1).nth(path)?)
+            }
         }
     }
 

@@ -13,8 +13,7 @@ const ITERATIONS: usize = 12;
 /// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
 /// diverges.
 const FALLS: f64 = 0.5;
-/// Step of the difference for the derivative by the parameter: exact but for rounding where loads
-/// vary, and of second order elsewhere.
+/// Step of the difference for the derivative by the parameter.
 const DIFFERENCE: f64 = 1e-5;
 
 /// An equilibrium, or what is left of the equations where there is none.
@@ -36,7 +35,16 @@ pub(super) struct Metric {
     pub(super) square: f64,
 }
 
+/// Places whose change is less than this, in units of length, count as if it were this where paths
+/// branch off.
+const LARGE: f64 = 0.05;
+
 impl Metric {
+    /// In which small changes of places do not count for more than large ones of the parameter.
+    pub(super) fn coarse(self) -> Self {
+        Self { square: self.square.min(LARGE.powi(-2)), ..self }
+    }
+
     pub(super) fn norm(&self, y: &DVector<f64>, t: f64) -> f64 {
         (self.square * y.rows(0, self.places).norm_squared() + t * t).sqrt()
     }
@@ -49,8 +57,12 @@ impl Metric {
     }
 }
 
-/// $\partial G/\partial t$, on one side where the other has no meaning.
-pub(super) fn by_parameter<Q: Equations>(
+/// $\partial G/\partial t$ by a difference, on one side where the other has no meaning.
+///
+/// # Errors
+///
+/// Where the parameter has no meaning.
+pub fn difference<Q: Equations + ?Sized>(
     equations: &mut Q,
     y: &DVector<f64>,
     t: f64,
@@ -74,15 +86,14 @@ pub(super) fn correct<Q: Equations>(
     row: &Row,
 ) -> Result<Corrected, Q::Error> {
     let (mut y, mut t) = (equations.onto(guess.0, guess.1)?, guess.1);
-    let (mut last, mut best) = (f64::INFINITY, None);
+    let (mut last, mut best, mut least) = (f64::INFINITY, None, f64::INFINITY);
     for _ in 0..ITERATIONS {
         let (left, size) = equations.residual(&y, t)?;
-        if size <= last {
-            best = Some((y.clone(), t));
+        if size < least {
+            (best, least) = (Some((y.clone(), t)), size);
         }
-        let done = size <= TIGHT || (size <= LOOSE && size >= FALLS * last);
+        let done = size <= TIGHT || (least <= LOOSE && size >= FALLS * last);
         if done || size.is_nan() {
-            last = last.min(size);
             break;
         }
         last = size;
@@ -96,9 +107,24 @@ pub(super) fn correct<Q: Equations>(
         y = equations.onto(&(y + dy), t)?;
     }
     Ok(match best {
-        Some(best) if last <= LOOSE => Ok(best),
-        _ => Err(last),
+        Some(best) if least <= LOOSE => Ok(best),
+        _ => Err(least),
     })
+}
+
+/// The same point with what is left of rounding taken out by the factor that is there, if that helps.
+fn polished<Q: Equations>(
+    equations: &mut Q,
+    (y, t): (DVector<f64>, f64),
+    column: &DVector<f64>,
+    row: &Row,
+) -> Result<(DVector<f64>, f64), Q::Error> {
+    let (left, size) = equations.residual(&y, t)?;
+    let step = Bordered::new(equations, column, row).solve(equations, (&-left, 0.0));
+    let Some((dy, dt)) = step else { return Ok((y, t)) };
+    let better = equations.onto(&(&y + dy), t + dt)?;
+    let (_, after) = equations.residual(&better, t + dt)?;
+    Ok(if after < size { (better, t + dt) } else { (y, t) })
 }
 
 impl Here {
@@ -109,8 +135,9 @@ impl Here {
         (y, t): (DVector<f64>, f64),
         row: &Row,
     ) -> Result<Option<Self>, Q::Error> {
-        let column = by_parameter(equations, &y, t)?;
+        let column = equations.by_parameter(&y, t)?;
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
+        let (y, t) = polished(equations, (y, t), &column, row)?;
         let zero = DVector::zeros(y.len());
         let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
         let tangent = tangent.map(|(dy, dt)| {
@@ -129,10 +156,26 @@ impl Here {
         other: &Self,
         part: f64,
     ) -> Option<Self> {
-        let chord = Row { y: &other.y - &self.y, t: other.t - self.t };
-        let row = metric.along(&chord);
-        let guess = (&self.y + &chord.y * part, self.t + chord.t * part);
-        let column = by_parameter(equations, &guess.0, guess.1).ok()?;
+        self.next_to(equations, metric, other, (&self.towards(other), part))
+    }
+
+    /// The vector to another point.
+    pub(super) fn towards(&self, other: &Self) -> Row {
+        Row { y: &other.y - &self.y, t: other.t - self.t }
+    }
+
+    /// The point with the tangent next to what is at this part of the way to another, across a chord.
+    pub(super) fn next_to<Q: Equations>(
+        &self,
+        equations: &mut Q,
+        metric: Metric,
+        other: &Self,
+        (chord, part): (&Row, f64),
+    ) -> Option<Self> {
+        let row = metric.along(chord);
+        let way = self.towards(other);
+        let guess = (&self.y + &way.y * part, self.t + way.t * part);
+        let column = equations.by_parameter(&guess.0, guess.1).ok()?;
         let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
         Self::new(equations, metric, found, &row).ok()?
     }

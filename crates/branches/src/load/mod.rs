@@ -16,7 +16,8 @@
 //! | branch point | the number of negative directions changes, $\tau_t$ does not vanish; the null vector $\phi$ of $J$ has $\phi \cdot \partial G/\partial t = 0$ |
 //! | kink | the value of a one-sided condition changes its sign: the member or the joint changes sides there |
 //!
-//! Changes of the inertia that two branch points within one step undo are not seen.
+//! Changes of the inertia that two branch points within one step undo are not seen. Other paths
+//! through a branch point are followed on demand ([`Settings::branches`]).
 //!
 //! # References
 //!
@@ -25,11 +26,15 @@
 //! systems with wider borders, IMA J. Numer. Anal. 13 (1993) 161-180, doi:10.1093/imanum/13.2.161.
 
 mod bordered;
+mod crossings;
 mod events;
 mod here;
+mod linear;
 mod walk;
 
-pub use walk::follow;
+pub use crossings::follow;
+pub use here::difference;
+pub use linear::linear_buckling;
 
 use nalgebra::DVector;
 
@@ -58,6 +63,15 @@ pub trait Equations {
     ///
     /// Where the parameter has no meaning.
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), Self::Error>;
+
+    /// $\partial G/\partial t$: by a difference, if the model knows no better.
+    ///
+    /// # Errors
+    ///
+    /// Where the parameter has no meaning.
+    fn by_parameter(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, Self::Error> {
+        difference(self, y, t)
+    }
 
     /// Factorise $J$: the number of directions in which the energy falls, nothing where it cannot be
     /// factorised.
@@ -107,8 +121,11 @@ pub struct Settings {
     pub range: [f64; 2],
     /// Largest change of the parameter in a step.
     pub longest: f64,
-    /// Most points.
+    /// Most points of a path.
     pub max_points: usize,
+    /// From how many branch points one after another other paths are followed: 0 for the path from
+    /// the start alone.
+    pub branches: usize,
 }
 
 /// A path with what happens on it.
@@ -120,6 +137,17 @@ pub struct LoadPath<Q: Equations> {
     pub events: Vec<Event<Q::Side>>,
     /// Why it ends.
     pub end: End<Q::Error>,
+    /// The branch point in which it begins; of the first path none.
+    pub parent: Option<Parent>,
+}
+
+/// A branch point: an event of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parent {
+    /// The number of the path.
+    pub path: usize,
+    /// The number of its event.
+    pub event: usize,
 }
 
 /// A point of a path.
@@ -176,6 +204,8 @@ pub enum End<E> {
     MaxPoints,
     /// No step, however short, leads on.
     Lost,
+    /// In a branch point of a path that is followed already.
+    Joins(Parent),
     /// The numbers of the model have no meaning beyond.
     Numbers(E),
 }

@@ -1,11 +1,14 @@
 //! Steps along a path.
 
+use std::mem::take;
+
 use nalgebra::DVector;
 
 use super::bordered::Row;
+use super::crossings::{Crossing, joins, towards};
 use super::events::{Singular, kink, smooth, without_symmetry};
-use super::here::{Here, Metric, by_parameter, correct};
-use super::{End, Equations, Event, Kind, LoadPath, NoPath, Point, Settings};
+use super::here::{Here, Metric, correct};
+use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settings};
 
 /// The first step, as a part of the range.
 const FIRST: f64 = 1.0 / 64.0;
@@ -17,64 +20,63 @@ const STRAIGHT: f64 = 0.995;
 const CORRECTION: f64 = 0.2;
 /// Growth of the next step after one that went well.
 const GROWTH: f64 = 1.6;
+/// A step that has jumped to another path is taken again so much shorter.
+const SHORTER: f64 = 0.25;
 /// The shortest step, as a part of the first.
 const SHORTEST: f64 = 1e-10;
 /// Conditions that change sides one after another without a step between, before the path is lost.
 const KINKS: usize = 64;
-/// A start at which a unit load moves places by so many units of length is singular.
+/// A start at which the range, to first order, or a unit of force moves places by so many units of
+/// length is singular.
 const SINGULAR: f64 = 1e6;
 /// Places whose change over the range is less than this at the start count as if it were this.
 const STILL: f64 = 1e-3;
 /// Part of a step at which the side of a path after a kink is seen.
 const BESIDE: f64 = 1e-6;
 
-struct Walk<'a, Q: Equations> {
-    equations: &'a mut Q,
-    settings: Settings,
-    metric: Metric,
-    points: Vec<Point<Q::Record>>,
-    events: Vec<Event<Q::Side>>,
-    watch: &'a dyn Fn(usize),
+/// What the way between two points is.
+enum Passed<E> {
+    /// One path, which goes on.
+    On,
+    /// Two paths: the step has jumped from one to the other.
+    Gap,
+    /// One that ends.
+    End(End<E>),
 }
 
-/// Follow the path from an equilibrium at $t = 0$ next to `start`; `watch` is told the number of
-/// points so far.
-///
-/// # Errors
-///
-/// [`NoPath`] where no path begins.
-///
-/// # Panics
-///
-/// Never.
-pub fn follow<Q: Equations>(
-    equations: &mut Q,
-    start: &DVector<f64>,
+pub(super) struct Walk<'a, Q: Equations> {
+    pub(super) equations: &'a mut Q,
     settings: Settings,
-    watch: &dyn Fn(usize),
-) -> Result<LoadPath<Q>, NoPath<Q::Error>> {
-    let (metric, here) = begin(equations, start)?;
-    let mut walk = Walk { equations, settings, metric, points: vec![], events: vec![], watch };
-    let end = walk.keep(&here, None).and_then(|()| walk.run(here));
-    let end = end.unwrap_or_else(End::Numbers);
-    Ok(LoadPath { points: walk.points, events: walk.events, end })
+    pub(super) metric: Metric,
+    points: Vec<Point<Q::Record>>,
+    events: Vec<Event<Q::Side>>,
+    /// Conditions that are on other sides than at the start of the first path.
+    switched: Vec<Q::Side>,
+    /// Branch points of all paths so far.
+    pub(super) crossings: Vec<Crossing<Q::Side>>,
+    /// How many branch points there are between this path and the first one.
+    pub(super) depth: usize,
+    paths: usize,
 }
 
 /// The start with its tangent, and the measure in which places and parameter change alike there.
-fn begin<Q: Equations>(
+pub(super) fn begin<Q: Equations>(
     equations: &mut Q,
     start: &DVector<f64>,
 ) -> Result<(Metric, Here), NoPath<Q::Error>> {
     let places = equations.places();
     let row = Row::parameter(start.len());
-    let column = by_parameter(equations, start, 0.0).map_err(NoPath::Numbers)?;
+    let column = equations.by_parameter(start, 0.0).map_err(NoPath::Numbers)?;
     let found = correct(equations, (start, 0.0), &column, &row).map_err(NoPath::Numbers)?;
     let found = found.map_err(|residual| NoPath::Start { residual })?;
     let only = Metric { places, square: 0.0 };
     let here = Here::new(equations, only, found, &row).map_err(NoPath::Numbers)?;
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
-    let gives = equations.solve(&without_symmetry(start.len()).y).amax();
+    // Forces alone: a unit of length would be an enormous load.
+    let mut push = without_symmetry(start.len()).y;
+    push.rows_mut(places, start.len() - places).fill(0.0);
+    let gives = equations.solve(&push).rows(0, places).amax();
     if change.max(gives) > SINGULAR {
         return Err(NoPath::Singular);
     }
@@ -84,10 +86,63 @@ fn begin<Q: Equations>(
     Ok((metric, here))
 }
 
-impl<Q: Equations> Walk<'_, Q> {
-    fn run(&mut self, mut here: Here) -> Result<End<Q::Error>, Q::Error> {
+impl<'a, Q: Equations> Walk<'a, Q> {
+    pub(super) fn new(equations: &'a mut Q, settings: Settings, metric: Metric) -> Self {
+        let (points, events, switched, crossings) = (vec![], vec![], vec![], vec![]);
+        Self {
+            equations,
+            settings,
+            metric,
+            points,
+            events,
+            switched,
+            crossings,
+            depth: 0,
+            paths: 0,
+        }
+    }
+
+    /// The path from a point on; of a branch point where it begins in one.
+    pub(super) fn path(
+        &mut self,
+        here: &Here,
+        parent: Option<Parent>,
+        watch: &dyn Fn(usize),
+    ) -> LoadPath<Q> {
+        let end = self.keep(here, None).and_then(|()| self.run(here.clone(), watch));
+        let end = end.unwrap_or_else(End::Numbers);
+        self.paths += 1;
+        let (points, events) = (take(&mut self.points), take(&mut self.events));
+        LoadPath { points, events, end, parent }
+    }
+
+    /// With these conditions on other sides than at the start of the first path.
+    pub(super) fn set(&mut self, switched: &[Q::Side]) -> Result<(), Q::Error> {
+        for side in self.switched.clone() {
+            if !switched.contains(&side) {
+                self.switch(side)?;
+            }
+        }
+        for side in switched {
+            if !self.switched.contains(side) {
+                self.switch(*side)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn switch(&mut self, side: Q::Side) -> Result<bool, Q::Error> {
+        match self.switched.iter().position(|known| *known == side) {
+            Some(known) => drop(self.switched.swap_remove(known)),
+            None => self.switched.push(side),
+        }
+        self.equations.switch(side)
+    }
+
+    fn run(&mut self, mut here: Here, watch: &dyn Fn(usize)) -> Result<End<Q::Error>, Q::Error> {
         let (mut length, mut kinks) = (FIRST, 0);
         while self.points.len() < self.settings.max_points {
+            watch(self.points.len());
             let slope = here.tangent.t.abs();
             let long = length.min(self.settings.longest / slope.max(f64::MIN_POSITIVE));
             let Some((next, lands)) = self.step(&here, long)? else {
@@ -98,8 +153,18 @@ impl<Q: Equations> Walk<'_, Q> {
                 continue;
             };
             let turn = self.turn(&here, &next);
-            if let Some((at, sides)) = kink(self.equations, self.metric, &here, &next)? {
-                self.smooth(&here, &at)?;
+            let kink = kink(self.equations, self.metric, &here, &next)?;
+            let to = kink.as_ref().map_or(&next, |(at, _)| at);
+            match self.smooth(&here, to)? {
+                Passed::On => {}
+                Passed::End(end) => return Ok(end),
+                Passed::Gap if long > SHORTEST * FIRST => {
+                    length = SHORTER * long;
+                    continue;
+                }
+                Passed::Gap => return Ok(End::Lost),
+            }
+            if let Some((at, sides)) = kink {
                 // Without a step between.
                 kinks = if at.t.to_bits() == here.t.to_bits() { kinks + 1 } else { 0 };
                 let Some(after) = self.through(&at, sides)?.filter(|_| kinks < KINKS) else {
@@ -109,7 +174,6 @@ impl<Q: Equations> Walk<'_, Q> {
                 continue;
             }
             kinks = 0;
-            self.smooth(&here, &next)?;
             self.keep(&next, None)?;
             if lands {
                 return Ok(End::Range);
@@ -164,7 +228,7 @@ impl<Q: Equations> Walk<'_, Q> {
         row: &Row,
         long: f64,
     ) -> Result<Option<Here>, Q::Error> {
-        let column = by_parameter(self.equations, guess.0, guess.1)?;
+        let column = self.equations.by_parameter(guess.0, guess.1)?;
         let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
         let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
         if moved > CORRECTION * long.max(SHORTEST) {
@@ -175,37 +239,55 @@ impl<Q: Equations> Walk<'_, Q> {
         Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH))
     }
 
-    /// Limit points and branch points between two points.
-    fn smooth(&mut self, a: &Here, b: &Here) -> Result<(), Q::Error> {
-        for found in smooth(self.equations, self.metric, a, b) {
-            let Singular { at, kind, index, mode, load_on_mode } = found;
+    /// Limit points and branch points between two points; the end of the path where it comes to a
+    /// branch point that is known.
+    fn smooth(&mut self, a: &Here, b: &Here) -> Result<Passed<Q::Error>, Q::Error> {
+        let Some(all) = smooth(self.equations, self.metric, a, b) else { return Ok(Passed::Gap) };
+        for found in all {
+            let Singular { at, kind, index, turns, mode, load_on_mode } = found;
             let event = Event {
                 kind,
                 t: at.t,
                 point: self.points.len(),
                 index,
-                turns: kind == Kind::Limit,
+                turns,
                 sides: vec![],
                 mode: mode.iter().copied().collect(),
                 load_on_mode,
             };
-            let at = Here { index: index[0], ..at };
+            // There the tangent is that of two paths at once.
+            let tangent = towards(self.metric, a, b);
+            let at = Here { index: index[0], tangent, ..at };
             self.keep(&at, Some(event))?;
+            if kind == Kind::Branch {
+                let end = joins(self.metric, &mut self.crossings, &at, a);
+                if let Some(end) = end {
+                    return Ok(Passed::End(end));
+                }
+                self.crossings.push(Crossing {
+                    at,
+                    of: Parent { path: self.paths, event: self.events.len() - 1 },
+                    modes: index[0].abs_diff(index[1]).max(1),
+                    depth: self.depth,
+                    switched: self.switched.clone(),
+                    known: vec![],
+                });
+            }
         }
-        Ok(())
+        Ok(Passed::On)
     }
 
     /// Beyond a kink: with the conditions on their other sides, the direction in which they are.
     fn through(&mut self, at: &Here, mut sides: Vec<Q::Side>) -> Result<Option<Here>, Q::Error> {
         let mut active = vec![];
         for side in &sides {
-            active.push(self.equations.switch(*side)?);
+            active.push(self.switch(*side)?);
         }
         let mut after = self.beyond(at, &sides)?;
         if after.is_none() && sides.len() > 1 {
             // Not all of them together: the first alone, and the others follow if they have to.
             for side in sides.drain(1..) {
-                self.equations.switch(side)?;
+                self.switch(side)?;
             }
             after = self.beyond(at, &sides)?;
         }
@@ -249,7 +331,6 @@ impl<Q: Equations> Walk<'_, Q> {
             self.events.len() - 1
         });
         self.points.push(Point { t: here.t, index: here.index, event: number, record });
-        (self.watch)(self.points.len());
         Ok(())
     }
 }

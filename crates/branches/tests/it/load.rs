@@ -1,6 +1,6 @@
 //! Load paths of potentials with closed forms.
 
-use branches::load::{End, Equations, Kind, LoadPath, NoPath, Settings, follow};
+use branches::load::{End, Equations, Kind, LoadPath, NoPath, Parent, Settings, follow};
 use nalgebra::{DMatrix, DVector};
 
 /// The gradient of a potential of x and z and its second derivative, both at a load t.
@@ -18,9 +18,18 @@ impl Potential {
         Self { gradient, second, matrix: DMatrix::zeros(2, 2) }
     }
 
-    fn path(mut self, start: [f64; 2], range: [f64; 2]) -> Result<LoadPath<Self>, NoPath<()>> {
-        let settings = Settings { range, longest: 0.05, max_points: 500 };
-        follow(&mut self, &DVector::from_row_slice(&start), settings, &|_| {})
+    fn path(self, start: [f64; 2], range: [f64; 2]) -> Result<LoadPath<Self>, NoPath<()>> {
+        Ok(self.paths(start, range, 0)?.remove(0))
+    }
+
+    fn paths(
+        mut self,
+        start: [f64; 2],
+        range: [f64; 2],
+        branches: usize,
+    ) -> Result<Vec<LoadPath<Self>>, NoPath<()>> {
+        let settings = Settings { range, longest: 0.05, max_points: 500, branches };
+        follow(&mut self, &DVector::from_row_slice(&start), settings, &|_, _| {})
     }
 }
 
@@ -105,6 +114,91 @@ fn a_pitchfork_is_passed_straight_on() {
     assert!((event.t - 1.0).abs() < 1e-12 && event.load_on_mode < 1e-9);
     assert!((event.mode[0] - 1.0).abs() < 1e-9 && event.mode[1].abs() < 1e-9);
     assert_eq!(path.points[event.point].event, Some(0));
+}
+
+/// The same: beyond t = 1 the upright one is left by x^2 = z - 1, z = t + x^2 / 2, so that
+/// x^2 / 2 = t - 1, both ways.
+#[test]
+fn both_paths_of_a_pitchfork_are_followed() {
+    let pitchfork = || {
+        Potential::new(
+            |[x, z], t| [(1.0 - z) * x + x.powi(3), z - t - 0.5 * x * x],
+            |[x, z], _| [[1.0 - z + 3.0 * x * x, -x], [-x, 1.0]],
+        )
+    };
+    let paths = pitchfork().paths([0.0, 0.0], [0.0, 2.0], 1).unwrap();
+    assert_eq!(paths.len(), 3);
+    let mut sides = vec![];
+    for path in &paths[1..] {
+        assert_eq!(path.parent, Some(Parent { path: 0, event: 0 }));
+        assert_eq!((path.end.clone(), path.events.len()), (End::Range, 0));
+        for point in &path.points {
+            let [x, z] = point.record;
+            assert!((0.5 * x * x - (point.t - 1.0)).abs() < 1e-9 && point.index == 0);
+            assert!((z - 1.0 - x * x).abs() < 1e-9);
+        }
+        sides.push(path.points.last().unwrap().record[0].signum());
+    }
+    assert_eq!(sides.iter().sum::<f64>(), 0.0);
+    assert_eq!(pitchfork().paths([0.0, 0.0], [0.0, 2.0], 0).unwrap().len(), 1);
+}
+
+/// V = x^4 / 4 - (z - 1) (2 - z) x^2 / 2 + z^2 / 2 - t z: the upright path is left in t = 1 by
+/// x^2 = (z - 1) (2 - z), which comes back to it in t = 2 from both sides.
+#[test]
+fn paths_that_come_back_end_there() {
+    let bubble = Potential::new(
+        |[x, z], t| [x.powi(3) - (z - 1.0) * (2.0 - z) * x, z - t - (1.5 - z) * x * x],
+        |[x, z], _| {
+            let mixed = -(3.0 - 2.0 * z) * x;
+            [[3.0 * x * x - (z - 1.0) * (2.0 - z), mixed], [mixed, 1.0 + x * x]]
+        },
+    );
+    let paths = bubble.paths([0.0, 0.0], [0.0, 3.0], 2).unwrap();
+    assert_eq!(paths.len(), 3);
+    for path in &paths[1..] {
+        assert_eq!(path.parent, Some(Parent { path: 0, event: 0 }));
+        assert_eq!(path.end, End::Joins(Parent { path: 0, event: 1 }));
+        for point in &path.points {
+            let [x, z] = point.record;
+            assert!((x * x - (z - 1.0) * (2.0 - z)).abs() < 1e-9);
+        }
+    }
+}
+
+/// The pitchfork that opens down, with x pushed by 1e-5: the path from the start turns to one side in a limit
+/// point, close to where the other one begins.
+#[test]
+fn a_path_is_not_left_for_one_next_to_it() {
+    let off = |[x, z]: [f64; 2], t: f64| [(1.0 - z) * x - x.powi(3) - 1e-5, z - t - 0.5 * x * x];
+    let pushed = Potential::new(off, |[x, z], _| [[1.0 - z - 3.0 * x * x, -x], [-x, 1.0]]);
+    let path = pushed.path([0.0, 0.0], [0.0, 2.0]).unwrap();
+    let found: Vec<_> = path.events.iter().map(|event| (event.kind, event.index)).collect();
+    assert_eq!(found, [(Kind::Limit, [0, 1])]);
+    // With z = t + x^2 / 2: t = 1 - 3 x^2 / 2 - 1e-5 / x has its maximum at 3 x^3 = 1e-5.
+    let x = (1e-5_f64 / 3.0).cbrt();
+    assert!((path.events[0].t - (1.0 - 1.5 * x * x - 1e-5 / x)).abs() < 1e-11);
+    assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 0.0));
+}
+
+/// V = (1 - z) x^2 / 2 - x^3 / 3 + z^2 / 2 - t z: in t = 1 the upright path is crossed by x = 1 - z with
+/// z = t + x^2 / 2, on which the stable side and the other change places.
+#[test]
+fn a_transcritical_point_has_one_path_more_with_two_ends() {
+    let exchange = Potential::new(
+        |[x, z], t| [(1.0 - z) * x - x * x, z - t - 0.5 * x * x],
+        |[x, z], _| [[1.0 - z - 2.0 * x, -x], [-x, 1.0]],
+    );
+    let paths = exchange.paths([0.0, 0.0], [0.0, 1.3], 1).unwrap();
+    assert_eq!(paths.len(), 3);
+    for path in &paths[1..] {
+        for point in &path.points {
+            let [x, z] = point.record;
+            assert!((x - (1.0 - z)).abs() < 1e-9 && (z - point.t - 0.5 * x * x).abs() < 1e-9);
+        }
+    }
+    let signs: Vec<_> = paths[1..].iter().map(|path| path.points[0].record[0] > 0.0).collect();
+    assert!(signs.contains(&true) && signs.contains(&false));
 }
 
 #[test]

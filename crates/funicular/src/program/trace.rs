@@ -58,7 +58,7 @@ through limit points and branch points, stable or not, until it leaves the range
   --vary loads=0,1.2,-1      from 0 to 1.2 first, and back to -1
   --vary joints.P.force_n.z=0..-50          --vary bars.3.length_m=1..0.9
 Located are limit points (the load turns), branch points, cables and struts that become slack or taut, joints
-that meet the floor. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
+that meet the floor; with --branches the paths that branch off are followed. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
 
 All equilibria of a chain, over values (any number of the system file, a list or a range with points):
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
@@ -93,6 +93,14 @@ pub struct Arguments {
     /// Show a number along a load path: `joints.P.z`, `bars.3.axial_n` (repeatable)
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,
+    /// Follow also the paths that branch off a load path, and those that branch off from them to this
+    /// depth: --branches, --branches=2
+    #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "1",
+        default_value_t = 0, hide_default_value = true)]
+    pub branches: usize,
+    /// Estimate beside a load path where it buckles: the stiffness at its start, extrapolated
+    #[arg(long)]
+    pub linear_buckling: bool,
     #[command(flatten)]
     pub printed: Printed,
     /// Write all points of all branches or load paths, a line each, to this CSV file (columns: --help)
@@ -123,6 +131,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let trace = Trace::new().over(arguments.varied.parameters()?);
     let trace = arguments.of.iter().fold(trace, Trace::of);
     let trace = arguments.max_points.map_or(trace.clone(), |most| trace.max_points(most));
+    let trace = trace.branches(arguments.branches);
+    let trace = if arguments.linear_buckling { trace.linear_buckling() } else { trace };
     let load = trace.is_load_path(&problem);
     let paths = if load {
         trace.load_variation(&problem)?.paths().len()

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, significant, table, wrapped};
-use crate::trace::load::{LoadEnd, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint};
+use crate::trace::load::{
+    BranchesFrom, LoadEnd, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
+};
 use crate::trace::{Confirmed, PathProved};
 
 /// Points of a path printed one by one besides its events; of more, as many spread over the path.
@@ -21,11 +23,22 @@ pub(super) fn text(found: &LoadPaths) -> String {
     let mut text = format!("{}\n", Printable(found.system().name()));
     for (number, path) in found.paths().iter().enumerate() {
         if found.paths().len() > 1 {
-            let _ = writeln!(text, "\npath {}{}", number + 1, fixed(found, path));
+            let from = path
+                .from
+                .map_or(String::new(), |from| format!(", from {}", branch_point(found, from)));
+            let _ = writeln!(text, "\npath {}{}{from}", number + 1, fixed(found, path));
         }
         text += &one_path(found, path);
     }
     text
+}
+
+/// `the branch point of path 1 at loads = 3.1`.
+fn branch_point(found: &LoadPaths, BranchesFrom { path, event }: BranchesFrom) -> String {
+    let (names, units) = found.parameters();
+    let last = names.len().saturating_sub(1);
+    let at = &found.paths()[path].events[event].values[last];
+    format!("the branch point of path {} at {}", path + 1, valued(&names[last], *at, units[last]))
 }
 
 /// The parameters that stay the same along a path, with their values.
@@ -72,7 +85,14 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
     };
     say(first_loss(found, path));
     say(proved(found, path));
-    say(ends(path));
+    if let Some(sentence) = imperfections(found, path) {
+        say(sentence);
+    }
+    if let Some(at) = path.linear_buckling {
+        let at = valued(&names[last], at, units[last]);
+        say(format!("linear buckling from the start estimates {at}, which nothing proves"));
+    }
+    say(ends(found, path));
     say(confirmed(&path.confirmed));
     text
 }
@@ -205,13 +225,41 @@ fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
     if moves.is_empty() { String::new() } else { format!("; its mode moves {}", moves.join(", ")) }
 }
 
-fn ends(path: &LoadPath) -> String {
+/// What changes the first limit most: the bar, by its length, and the support, by its place.
+fn imperfections(found: &LoadPaths, path: &LoadPath) -> Option<String> {
+    let limit = path.first_loss().filter(|event| event.kind == LoadEventKind::LimitPoint)?;
+    let largest = |sizes: Vec<f64>| {
+        let all = sizes.into_iter().enumerate().filter(|(_, size)| *size > 0.0);
+        all.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(number, _)| number)
+    };
+    let per_mm = |by: f64| significant(1e-3 * by, 3);
+    let bar = largest(limit.by_length.iter().map(|by| by.abs()).collect());
+    let bar = bar.map(|bar| format!("{} for bar {}", per_mm(limit.by_length[bar]), bar + 1));
+    let size = |[x, y, z]: &[f64; 3]| x.hypot(*y).hypot(*z);
+    let joint = largest(limit.by_place.iter().map(size).collect());
+    let joint = joint.map(|joint| {
+        let [x, y, z] = limit.by_place[joint].map(per_mm);
+        format!(
+            "({x}, {y}, {z}) for the place of {}",
+            Printable(&found.system().joints()[joint].name)
+        )
+    });
+    let most: Vec<String> = bar.into_iter().chain(joint).collect();
+    (!most.is_empty())
+        .then(|| format!("an imperfection of 1 mm changes it most, by {}", most.join(", ")))
+}
+
+fn ends(found: &LoadPaths, path: &LoadPath) -> String {
     let points = path.points.len();
     let why = match path.end {
-        LoadEnd::Range => "the path ends at an end of the range",
-        LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it",
-        LoadEnd::Lost => "the path is lost there: no step leads on",
-        LoadEnd::Numbers => "beyond the last one the numbers describe no system",
+        LoadEnd::Range => "the path ends at an end of the range".to_owned(),
+        LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it".to_owned(),
+        LoadEnd::Lost => "the path is lost there: no step leads on".to_owned(),
+        LoadEnd::Joins => {
+            let at = path.joins.map_or(String::new(), |at| branch_point(found, at));
+            format!("the path ends in {at}")
+        }
+        LoadEnd::Numbers => "beyond the last one the numbers describe no system".to_owned(),
     };
     format!("{points} point{}; {why}", if points == 1 { "" } else { "s" })
 }

@@ -47,6 +47,9 @@ pub(super) fn proved(
     let (Some(first), Some(last), Some(start)) = (system(from), system(to), start) else {
         return PathProved::nothing("the numbers describe no system at its ends");
     };
+    if start.values != from {
+        return PathProved::nothing("it begins in a branch point");
+    }
     if first.floor_m().is_some() {
         return PathProved::nothing("the system has a floor");
     }
@@ -95,7 +98,7 @@ pub(super) fn enclosed(
 }
 
 /// Whether two systems differ in forces and masses alone.
-fn loads_alone(a: &System, b: &System) -> bool {
+pub(super) fn loads_alone(a: &System, b: &System) -> bool {
     let joint = |(a, b): (&Joint, &Joint)| a.support == b.support;
     let body =
         |member: &Member| (member.body.length_m().to_bits(), member.body.centre_m().to_bits());

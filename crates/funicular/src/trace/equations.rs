@@ -3,11 +3,16 @@
 use branches::Variation;
 use branches::load::{self, NoPath};
 use lagrange::network::{Equations, Seed, Settings, Side, solve, solve_from};
+use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
 use validate::systems::Near;
 
+use super::enclosed::loads_alone;
 use super::load::LoadError;
+
+/// A factor is good for unknowns that differ by rounding.
+const SAME: f64 = 1e-13;
 
 /// Where the numbers run, and the system there.
 pub(super) struct Family<'a> {
@@ -15,8 +20,13 @@ pub(super) struct Family<'a> {
     from: Vec<f64>,
     to: Vec<f64>,
     at: f64,
-    system: System,
     equations: Equations,
+    /// Number of joints.
+    joints: usize,
+    /// The loads at 0 and their change to 1, where these alone vary.
+    loads: Option<[DVector<f64>; 2]>,
+    /// Where the factor is of, and the index there.
+    factored: Option<(DVector<f64>, f64, Option<usize>)>,
 }
 
 impl<'a> Family<'a> {
@@ -28,8 +38,16 @@ impl<'a> Family<'a> {
     ) -> Result<(Self, DVector<f64>), LoadError> {
         let system = variation.unloaded(from).map_err(LoadError::Numbers)?;
         // Forces are measured in the loads, if there are any later.
-        let far = variation.unloaded(to).ok().filter(|_| system.is_unloaded());
-        let mut equations = Equations::new(far.as_ref().unwrap_or(&system))?;
+        let far = variation.unloaded(to).ok();
+        let of_units = far.as_ref().filter(|_| system.is_unloaded());
+        let mut equations = Equations::new(of_units.unwrap_or(&system))?;
+        let loads = far.filter(|far| loads_alone(&system, far)).map(|far| {
+            equations.set(&far);
+            let to = DVector::from_vec(equations.loads());
+            equations.set(&system);
+            let from = DVector::from_vec(equations.loads());
+            [from.clone(), to - from]
+        });
         equations.set(&system);
         let drawing_m = system.drawing();
         let found = match &drawing_m {
@@ -51,8 +69,17 @@ impl<'a> Family<'a> {
             (Err(_), Some(drawing_m)) if system.is_unloaded() => equations.drawn(drawing_m),
             (Err(error), _) => return Err(error.into()),
         };
-        let family =
-            Self { variation, from: from.to_vec(), to: to.to_vec(), at: 0.0, system, equations };
+        let joints = system.joints().len();
+        let family = Self {
+            variation,
+            from: from.to_vec(),
+            to: to.to_vec(),
+            at: 0.0,
+            equations,
+            joints,
+            loads,
+            factored: None,
+        };
         Ok((family, DVector::from_vec(start)))
     }
 
@@ -67,13 +94,47 @@ impl<'a> Family<'a> {
         [&self.from, &self.to]
     }
 
+    /// The derivatives of the last number in a limit point by lengths and by places of supports, its unit
+    /// a metre: along the null vector $\phi$ of $J$,
+    /// $\mathrm{d}t/\mathrm{d}p = -(\phi \cdot \partial G/\partial p) / (\phi \cdot \partial G/\partial t)$.
+    pub(super) fn imperfections(
+        &mut self,
+        at: &Kept,
+        limit: &load::Event<Side>,
+    ) -> Result<(Vec<f64>, Vec<Vector>), LoadError> {
+        self.set(limit.t)?;
+        let y = self.equations.unknowns(&at.equilibrium);
+        let phi = DVector::from_column_slice(&limit.mode);
+        let by_load = phi.dot(&load::Equations::by_parameter(
+            self,
+            &DVector::from_column_slice(&y),
+            limit.t,
+        )?);
+        let range = self.to.last().zip(self.from.last()).map_or(1.0, |(to, from)| to - from);
+        let [length_m, _] = self.equations.units();
+        let scale = -range / (by_load * length_m);
+        let by_length = self.equations.by_length(&y, &limit.mode);
+        let by_place = self.equations.by_place(&y, &limit.mode);
+        Ok((
+            by_length.into_iter().map(|by| scale * by).collect(),
+            by_place.into_iter().map(|by| (by * scale).into()).collect(),
+        ))
+    }
+
     fn set(&mut self, t: f64) -> Result<(), LoadError> {
-        if t.to_bits() != self.at.to_bits() {
-            self.system = self.variation.unloaded(&self.values(t)).map_err(LoadError::Numbers)?;
-            self.equations.set(&self.system);
-            self.at = t;
+        if t.to_bits() == self.at.to_bits() {
+            return Ok(());
         }
+        match &self.loads {
+            Some([from, change]) => self.equations.set_loads((from + change * t).as_slice()),
+            None => self.equations.set(&self.system(t)?),
+        }
+        self.at = t;
         Ok(())
+    }
+
+    fn system(&self, t: f64) -> Result<System, LoadError> {
+        self.variation.unloaded(&self.values(t)).map_err(LoadError::Numbers)
     }
 }
 
@@ -90,7 +151,7 @@ impl load::Equations for Family<'_> {
     type Error = LoadError;
 
     fn places(&self) -> usize {
-        3 * self.system.joints().len()
+        3 * self.joints
     }
 
     fn onto(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, LoadError> {
@@ -104,9 +165,24 @@ impl load::Equations for Family<'_> {
         Ok((DVector::from_vec(rows), size))
     }
 
+    fn by_parameter(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, LoadError> {
+        match &self.loads {
+            Some([_, change]) => Ok(DVector::from_vec(self.equations.of_loads(change.as_slice()))),
+            None => load::difference(self, y, t),
+        }
+    }
+
     fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, LoadError> {
         self.set(t)?;
-        Ok(self.equations.factorise(y.as_slice()))
+        if let Some((at, at_t, index)) = &self.factored
+            && (at_t - t).abs() <= SAME
+            && at.iter().zip(y).all(|(a, b)| (a - b).abs() <= SAME)
+        {
+            return Ok(*index);
+        }
+        let index = self.equations.factorise(y.as_slice());
+        self.factored = Some((y.clone(), t, index));
+        Ok(index)
     }
 
     fn solve(&mut self, right: &DVector<f64>) -> DVector<f64> {
@@ -123,12 +199,13 @@ impl load::Equations for Family<'_> {
     }
 
     fn switch(&mut self, side: Side) -> Result<bool, LoadError> {
+        self.factored = None;
         Ok(self.equations.switch(side)?)
     }
 
     fn record(&mut self, y: &DVector<f64>, t: f64, index: usize) -> Result<Kept, LoadError> {
         self.set(t)?;
-        let found = self.equations.solution(&self.system, y.as_slice(), index);
+        let found = self.equations.solution(&self.system(t)?, y.as_slice(), index);
         Ok(Kept { values: self.values(t), equilibrium: found.equilibrium })
     }
 }

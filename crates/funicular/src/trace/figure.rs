@@ -2,7 +2,7 @@
 
 use figures::{Anchor, Axes, Axis, BLUE, Look, Svg, Unit, VERMILION};
 
-use super::load::{LoadEventKind, LoadPath, LoadPaths, LoadPoint};
+use super::load::{BranchesFrom, LoadEventKind, LoadPath, LoadPaths, LoadPoint};
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 560.0;
@@ -15,11 +15,12 @@ const STROKE: f64 = 2.4;
 const DOT: f64 = 5.0;
 
 /// The last parameter over the first number shown: stable parts in full, unstable ones dashed,
-/// events marked.
-pub(super) fn figure(found: &LoadPaths, path: &LoadPath) -> String {
+/// events marked. The first path of the family is drawn last, over the others.
+pub(super) fn figure(found: &LoadPaths, family: &[usize]) -> String {
     let last = found.parameters.len().saturating_sub(1);
     let at = |point: &LoadPoint| Some([*point.of.first()?.as_ref()?, point.values[last]]);
-    let points: Vec<[f64; 2]> = path.points.iter().filter_map(at).collect();
+    let all = family.iter().flat_map(|path| &found.paths[*path].points);
+    let points: Vec<[f64; 2]> = all.filter_map(at).collect();
     let x = Axis::around(points.iter().map(|at| at[0]), 0.04, [LEFT, RIGHT]);
     let y = Axis::around(points.iter().map(|at| at[1]), 0.06, [BOTTOM, TOP]);
     let (x_name, y_name) = (
@@ -35,9 +36,31 @@ pub(super) fn figure(found: &LoadPaths, path: &LoadPath) -> String {
         Anchor::Start,
         "stable in full, unstable dashed; limit points as dots, branch points as diamonds, kinks as crosses",
     );
-    let mut run: Vec<[f64; 2]> = Vec::new();
+    let place = |point: &LoadPoint| at(point).map(|at| axes.at(at));
+    for path in family.iter().rev() {
+        curve(&mut svg, found, &found.paths[*path], &place);
+    }
+    axes.frame(&mut svg, [Unit::Decimal, Unit::Decimal]);
+    for path in family.iter().rev() {
+        marks(&mut svg, &found.paths[*path], &place);
+    }
+    svg.finish()
+}
+
+fn curve(
+    svg: &mut Svg,
+    found: &LoadPaths,
+    path: &LoadPath,
+    place: &dyn Fn(&LoadPoint) -> Option<[f64; 2]>,
+) {
+    // From the branch point on in which it begins.
+    let from = path.from.and_then(|BranchesFrom { path, event }| {
+        let parent = found.paths.get(path)?;
+        place(parent.points.get(parent.events.get(event)?.point)?)
+    });
+    let mut run: Vec<[f64; 2]> = from.into_iter().collect();
     for (k, point) in path.points.iter().enumerate() {
-        let Some(here) = at(point).map(|at| axes.at(at)) else { continue };
+        let Some(here) = place(point) else { continue };
         run.push(here);
         // An event has the index of the part before it, and both parts reach to it.
         let stable = point.index == 0;
@@ -47,11 +70,11 @@ pub(super) fn figure(found: &LoadPaths, path: &LoadPath) -> String {
             run.push(here);
         }
     }
-    axes.frame(&mut svg, [Unit::Decimal, Unit::Decimal]);
+}
+
+fn marks(svg: &mut Svg, path: &LoadPath, place: &dyn Fn(&LoadPoint) -> Option<[f64; 2]>) {
     for event in &path.events {
-        let Some(here) = path.points.get(event.point).and_then(at).map(|at| axes.at(at)) else {
-            continue;
-        };
+        let Some(here) = path.points.get(event.point).and_then(place) else { continue };
         let look = Look::fill(VERMILION);
         match event.kind {
             LoadEventKind::LimitPoint => svg.circle(look, here, DOT),
@@ -59,5 +82,4 @@ pub(super) fn figure(found: &LoadPaths, path: &LoadPath) -> String {
             LoadEventKind::Kink => svg.cross(Look::stroke(VERMILION, STROKE), here, DOT),
         }
     }
-    svg.finish()
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use branches::load::{End, Event, Kind, LoadPath as Followed, Settings, follow};
+use branches::load::{End, Event, Kind, LoadPath as FollowedPath, Parent, Settings, follow};
 use branches::{Number, PointError, Variation};
 use lagrange::network::Side;
 use model::Vector;
@@ -73,6 +73,8 @@ pub enum LoadEnd {
     Range,
     /// At the largest number of points.
     MaxPoints,
+    /// In a branch point of a path that is followed already.
+    Joins,
     /// No step leads on.
     Lost,
     /// The numbers describe no system beyond.
@@ -141,6 +143,22 @@ pub struct LoadEvent {
     /// Move of each joint in the direction without stiffness, the largest coordinate 1; empty in a
     /// kink.
     pub mode: Vec<Vector>,
+    /// In a limit point the derivative of the last parameter there by the length of each bar, in its unit
+    /// a metre: what an imperfection changes. In a branch point none is finite.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_length: Vec<f64>,
+    /// The same by the place of each support; 0 for free joints.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_place: Vec<Vector>,
+}
+
+/// A branch point of a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct BranchesFrom {
+    /// The path, by its number from 0.
+    pub path: usize,
+    /// Its event, by its number from 0.
+    pub event: usize,
 }
 
 /// A load path.
@@ -152,6 +170,16 @@ pub struct LoadPath {
     pub events: Vec<LoadEvent>,
     /// Why it ends.
     pub end: LoadEnd,
+    /// The branch point in which it begins, if it is one of [`Trace::branches`](crate::Trace::branches).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<BranchesFrom>,
+    /// The branch point in which it ends, if it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joins: Option<BranchesFrom>,
+    /// Where the stiffness at the start, extrapolated, is singular: the estimate of linear buckling, if it
+    /// was asked for and there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear_buckling: Option<f64>,
     /// What `energy` says of it.
     pub confirmed: Confirmed,
     /// What interval arithmetic proves of it from its start on.
@@ -176,11 +204,27 @@ pub struct LoadPaths {
     pub(super) paths: Vec<LoadPath>,
 }
 
+/// What is followed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) max_points: usize,
+    /// From how many branch points one after another other paths are followed.
+    pub(super) branches: usize,
+    pub(super) linear_buckling: bool,
+}
+
+/// The paths of one combination of all parameters but the last.
+struct Followed<'a> {
+    family: Family<'a>,
+    linear_buckling: Option<f64>,
+    paths: Vec<FollowedPath<Family<'a>>>,
+}
+
 /// Follow all paths of a variation.
 pub(super) fn trace(
     variation: &Variation<System>,
     named: &[String],
-    max_points: usize,
+    asked: Asked,
     watch: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<LoadPaths, Error> {
     let system = variation.base();
@@ -190,33 +234,52 @@ pub(super) fn trace(
     for (number, points) in variation.paths().iter().enumerate() {
         let Line { ends, range, longest } = line(points)?;
         let (mut family, start) = Family::new(variation, ends)?;
-        let settings = Settings { range, longest: longest.min(1.0 / STEPS), max_points };
-        let told = |points| watch(number, points);
-        let found = follow(&mut family, &start, settings, &told).map_err(LoadError::from)?;
-        all.push((family, found));
+        let Asked { max_points, branches, linear_buckling } = asked;
+        let longest = longest.min(1.0 / STEPS);
+        let settings = Settings { range, longest, max_points, branches };
+        let buckles = if linear_buckling {
+            branches::load::linear_buckling(&mut family, &start).map_err(LoadError::from)?
+        } else {
+            None
+        };
+        let linear_buckling = buckles.and_then(|t| family.values(t).last().copied());
+        let told = |_, points| watch(number, points);
+        let paths = follow(&mut family, &start, settings, &told).map_err(LoadError::from)?;
+        all.push(Followed { family, linear_buckling, paths });
     }
-    let followed = all.iter().map(|(_, path)| path);
+    let followed = all.iter().flat_map(|one| &one.paths);
     let moved = if named.is_empty() { most_moved(system, followed) } else { None };
     let named = moved.clone().map_or_else(|| named.to_vec(), |moved| vec![moved]);
     let of = match moved {
         Some(moved) => vec![Observable::parse(&moved, system)?],
         None => of,
     };
-    let paths = all.into_iter().map(|(family, found)| told(&family, variation, &of, &found));
+    let mut paths: Vec<LoadPath> = Vec::new();
+    for Followed { mut family, linear_buckling, paths: found } in all {
+        let earlier = paths.len();
+        for one in found {
+            let path = described(&mut family, variation, &of, &one)?;
+            let main = one.parent.is_none();
+            let at = |of: Parent| BranchesFrom { path: earlier + of.path, event: of.event };
+            let joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };
+            let linear_buckling = linear_buckling.filter(|_| main);
+            paths.push(LoadPath { from: one.parent.map(at), joins, linear_buckling, ..path });
+        }
+    }
     let numbers = variation.numbers();
     Ok(LoadPaths {
         system: system.clone(),
         parameters: numbers.iter().map(ToString::to_string).collect(),
         units: numbers.iter().map(Number::unit).collect(),
         of: named.into_iter().zip(of.iter().map(|one| one.unit())).collect(),
-        paths: paths.collect(),
+        paths,
     })
 }
 
 /// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
 fn most_moved<'a: 'b, 'b>(
     system: &System,
-    paths: impl Iterator<Item = &'b Followed<Family<'a>>>,
+    paths: impl Iterator<Item = &'b FollowedPath<Family<'a>>>,
 ) -> Option<String> {
     let mut most = (0.0, None);
     for path in paths {
@@ -244,13 +307,13 @@ fn most_moved<'a: 'b, 'b>(
     Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
 }
 
-/// A path as it is told.
-fn told(
-    family: &Family<'_>,
+/// A path as it is described.
+fn described(
+    family: &mut Family<'_>,
     variation: &Variation<System>,
     of: &[Observable],
-    found: &Followed<Family<'_>>,
-) -> LoadPath {
+    found: &FollowedPath<Family<'_>>,
+) -> Result<LoadPath, LoadError> {
     let system = variation.base();
     let points = found.points.iter().map(|point| {
         let Kept { values, equilibrium } = &point.record;
@@ -267,11 +330,14 @@ fn told(
         }
     });
     let points = points.collect();
-    let events = found.events.iter().map(|event| event_told(system, family, event));
+    let events = found.events.iter().map(|event| event_described(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
-    for event in &mut events {
-        let at = &found.points[event.point].record;
-        event.enclosed = enclosed(variation, family.ends(), at, event.kind);
+    for (event, of) in events.iter_mut().zip(&found.events) {
+        let record = &found.points[event.point].record;
+        event.enclosed = enclosed(variation, family.ends(), record, event.kind);
+        if event.kind == LoadEventKind::LimitPoint {
+            (event.by_length, event.by_place) = family.imperfections(record, of)?;
+        }
     }
     let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
     let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
@@ -286,13 +352,15 @@ fn told(
     let end = match &found.end {
         End::Range => LoadEnd::Range,
         End::MaxPoints => LoadEnd::MaxPoints,
+        End::Joins(_) => LoadEnd::Joins,
         End::Lost => LoadEnd::Lost,
         End::Numbers(_) => LoadEnd::Numbers,
     };
-    LoadPath { points, events, end, confirmed, proved }
+    let (from, joins, linear_buckling) = (None, None, None);
+    Ok(LoadPath { points, events, end, from, joins, linear_buckling, confirmed, proved })
 }
 
-fn event_told(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
+fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
     let bars = |active: bool| {
         let sides = event.sides.iter().filter(move |(_, now)| *now == active);
         let bar = |side: &(Side, bool)| match side.0 {
@@ -326,11 +394,14 @@ fn event_told(system: &System, family: &Family<'_>, event: &Event<Side>) -> Load
         lands: joints(true),
         leaves: joints(false),
         mode: places.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect(),
+        by_length: vec![],
+        by_place: vec![],
     }
 }
 
 impl LoadPaths {
-    /// The paths, one for each combination of all parameters but the last.
+    /// The paths, one for each combination of all parameters but the last, each followed by those that
+    /// branch from it.
     #[must_use]
     pub fn paths(&self) -> &[LoadPath] {
         &self.paths
@@ -354,10 +425,18 @@ impl LoadPaths {
         &self.system
     }
 
-    /// Load over displacement as SVG, for one path, from 1.
+    /// Load over displacement as SVG, for one path, from 1, and all that branch from it.
     #[must_use]
     pub fn figure(&self, path: usize) -> Option<String> {
-        Some(figure::figure(self, self.paths.get(path.checked_sub(1)?)?))
+        let first = path.checked_sub(1)?;
+        self.paths.get(first)?;
+        let mut family = vec![first];
+        for (number, path) in self.paths.iter().enumerate() {
+            if path.from.is_some_and(|from| family.contains(&from.path)) {
+                family.push(number);
+            }
+        }
+        Some(figure::figure(self, &family))
     }
 
     pub(super) fn write_csv(&self, mut to: impl Write) -> io::Result<()> {

@@ -122,6 +122,136 @@ fn a_steep_gable_sways_before_its_limit() {
     assert!((x - 1.0).abs() < 1e-12 && z.abs() < 1e-6);
 }
 
+/// The two paths that leave the steep gable to the sides are unstable: along them the bars have force
+/// densities q = EA (1/l0 - 1/l) with q1 (1 + x) = q2 (1 - x), and unloaded they come to x = l0.
+#[test]
+fn a_steep_gable_sways_to_either_side() {
+    let trace = Trace::new().vary("loads=0..0.5").unwrap().branches(3);
+    let paths = paths(&gable(3.0, "xz", ""), &trace);
+    assert_eq!(paths.len(), 3);
+    let l0 = 10_f64.sqrt();
+    let mut sides = vec![];
+    for path in &paths[1..] {
+        let from = path.from.unwrap();
+        assert_eq!((from.path, from.event, path.end), (0, 0, LoadEnd::Range));
+        for point in &path.points {
+            let [x, _, z] = point.joints_m[2];
+            let density = |foot: f64| 1.0 / l0 - 1.0 / (x - foot).hypot(z);
+            let [q1, q2] = [density(-1.0), density(1.0)];
+            assert!((q1 * (1.0 + x) - q2 * (1.0 - x)).abs() < SHARP && point.index == 1);
+            assert!(((q1 + q2) * z + point.values[0]).abs() < SHARP);
+        }
+        let [x, ..] = path.points.last().unwrap().joints_m[2];
+        near(x.abs(), l0);
+        sides.push(x.signum());
+    }
+    assert!(sides.contains(&1.0) && sides.contains(&-1.0));
+}
+
+/// With an apex off the centre the steep gable has no branch point, and bears less: the loss goes with the
+/// power 2/3 of the imperfection, as Koiter found for symmetric branch points that are unstable.
+#[test]
+fn an_imperfect_steep_gable_bears_less_by_the_power_two_thirds() {
+    let perfect = path(&gable(3.0, "xz", ""), "loads=0..2").events[0].values[0];
+    let loss = |off: f64| {
+        let file = gable(3.0, "xz", "").replace("near_m = [0,", &format!("near_m = [{off},"));
+        let path = path(&file, "loads=0..2");
+        let first = path.first_loss().unwrap();
+        assert_eq!(first.kind, LoadEventKind::LimitPoint);
+        perfect - first.values[0]
+    };
+    let [small, large] = [loss(1e-5), loss(8e-5)];
+    let power = (large / small).log2() / 3.0;
+    assert!((power - 2.0 / 3.0).abs() < 2e-3, "{power}");
+}
+
+/// A gable at its limit: dP/dl0 = 2 EA w / l0^2 for both bars together, at l^3 = l0 a^2. Two bars of other lengths
+/// and stiffness with their feet at other heights against differences of the limit.
+#[test]
+fn what_imperfections_change_a_limit_by() {
+    let limit = |file: &str| {
+        let path = path(file, "loads=0..2");
+        path.events.iter().find(|event| event.kind == LoadEventKind::LimitPoint).unwrap().clone()
+    };
+    let l0 = 1.25_f64.sqrt();
+    let w = (l0.cbrt().powi(2) - 1.0).sqrt();
+    let symmetric = limit(&gable(0.5, "z", ""));
+    let both: f64 = symmetric.by_length.iter().sum();
+    near(both, 2.0 * w / (l0 * l0));
+    let lean = |lengths: [f64; 2], a: [f64; 3]| {
+        format!(
+            "[joints]\nA = {{ at_m = [{}, {}, {}] }}\nB = {{ at_m = [1, 0, 0.1] }}\nC = {{ at_m = [0.1, 1.2, 0] }}\n\
+             P = {{ near_m = [0, 0, 0.5], force_n = [0, 0.01, -1] }}\n\
+             [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = {}\nstiffness_n = 1\n\
+             [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = {}\nstiffness_n = 2\n\
+             [[bars]]\nfrom = \"C\"\nto = \"P\"\nlength_m = 1.3\nstiffness_n = 1.5\n",
+            a[0], a[1], a[2], lengths[0], lengths[1]
+        )
+    };
+    let (lengths, a) = ([1.3, 1.1], [-1.1, 0.2, 0.05]);
+    let found = limit(&lean(lengths, a));
+    let h = 1e-4;
+    let at = |lengths, a| limit(&lean(lengths, a)).values[0];
+    let by = |plus: f64, minus: f64| (plus - minus) / (2.0 * h);
+    let by_first = by(at([1.3 + h, 1.1], a), at([1.3 - h, 1.1], a));
+    let by_second = by(at([1.3, 1.1 + h], a), at([1.3, 1.1 - h], a));
+    assert!((found.by_length[0] - by_first).abs() < 1e-6, "{} {by_first}", found.by_length[0]);
+    assert!((found.by_length[1] - by_second).abs() < 1e-6, "{} {by_second}", found.by_length[1]);
+    for axis in 0..3 {
+        let moved = |by: f64| {
+            let mut a = a;
+            a[axis] += by;
+            at(lengths, a)
+        };
+        let difference = by(moved(h), moved(-h));
+        let derivative = found.by_place[0][axis];
+        assert!((derivative - difference).abs() < 1e-6, "{derivative} {difference}");
+        assert_eq!(found.by_place[3][axis], 0.0);
+    }
+}
+
+/// An upright bar of 1 m between two springs of EA = 10 N to the sides, sqrt(101) m long: it falls to a side under
+/// 2 EA 100 / 101^1.5, goes round below at minus that, and comes back up on the other side.
+pub(crate) const RING: &str = "[joints]\nA = { at_m = [0, 0, 0] }\n\
+    L = { at_m = [-10, 0, 0] }\nR = { at_m = [10, 0, 0] }\n\
+    P = { at_m = [0, 0, 1], near_m = [0, 0, 1], free = \"xz\", force_n = [0, 0, -1] }\n\
+    [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 1\n\
+    [[bars]]\nfrom = \"L\"\nto = \"P\"\nstiffness_n = 10\n\
+    [[bars]]\nfrom = \"R\"\nto = \"P\"\nstiffness_n = 10\n";
+
+#[test]
+fn a_path_that_goes_round_ends_where_it_began() {
+    let trace = Trace::new().vary("loads=0,4,-4").unwrap().branches(2).linear_buckling();
+    let paths = paths(RING, &trace);
+    let critical = 20.0 * 100.0 / 101_f64.powf(1.5);
+    let [straight, round] = &paths[..] else { panic!("{}", paths.len()) };
+    near(straight.events[0].values[0], critical);
+    // Its places do not change and its forces grow with the load: the estimate is exact.
+    assert!((straight.linear_buckling.unwrap() - critical).abs() < 1e-6);
+    assert_eq!((round.from, round.joins, round.end), (round.joins, round.from, LoadEnd::Joins));
+    let ends: Vec<f64> = round.events.iter().map(|event| event.values[0]).collect();
+    // Where it turns the load is known to the square of how well the place is.
+    assert!((ends[0] + critical).abs().max((ends[1] - critical).abs()) < 1e-8, "{ends:?}");
+    assert!(round.events.iter().all(|e| e.kind == LoadEventKind::BranchPoint && e.turns));
+    assert!(round.points.iter().any(|point| point.joints_m[3][0] > 0.99));
+    assert!(round.points.iter().any(|point| point.joints_m[3][0] < -0.99));
+}
+
+/// Along the bars K = 2 EA h^2 / l0^3, of their forces -(P l0 / 2 h) across them K' = -P a^2 / (h l0^2): linear
+/// buckling estimates P = 2 EA h^3 / (a^2 l0), many times what it bears.
+#[test]
+fn linear_buckling_of_a_gable_is_its_closed_form() {
+    for height in [0.5, 0.2] {
+        let trace = Trace::new().vary("loads=0..1").unwrap().linear_buckling();
+        let path = paths(&gable(height, "z", ""), &trace).remove(0);
+        let l0 = f64::hypot(1.0, height);
+        let wanted = 2.0 * height.powi(3) / l0;
+        let found = path.linear_buckling.unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-6, "{found} {wanted}");
+        assert!(found > 5.0 * path.first_loss().unwrap().values[0]);
+    }
+}
+
 /// Four bars to one apex: both sideways modes lose their stiffness at once.
 #[test]
 fn a_steep_pyramid_sways_in_two_directions_at_once() {

@@ -7,7 +7,7 @@
 //! and along held directions $G$ and $J$ are zero, and so is every step.
 
 use model::Vector;
-use model::system::{Kind, System};
+use model::system::{Kind, System, SystemEquilibrium};
 use nalgebra::Vector3;
 
 use super::error::Error;
@@ -23,6 +23,9 @@ use super::stiffness::Stiffness;
 
 /// A cable of a drawing that misses its length by less than this part of it is taut.
 const REACHES: f64 = 1e-12;
+
+/// A force of this size, in units, is at the border between taut and slack.
+const AT_ZERO: f64 = 1e-9;
 
 /// A condition that holds on one side only: what it is of, and whether it is active.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +98,29 @@ impl Equations {
         self.lay();
     }
 
+    /// The loads of the joints of the system that was last [`set`](Self::set), three coordinates each:
+    /// those of $G$, which has no others.
+    #[must_use]
+    pub fn loads(&self) -> Vec<f64> {
+        self.bare.nodes.iter().flat_map(|node| [node.load.x, node.load.y, node.load.z]).collect()
+    }
+
+    /// Take other loads of the joints, and all else as it was.
+    pub fn set_loads(&mut self, loads: &[f64]) {
+        for framework in [&mut self.bare, &mut self.framework] {
+            for (node, load) in framework.nodes.iter_mut().zip(loads.chunks_exact(3)) {
+                node.load = Vector3::from_column_slice(load);
+            }
+        }
+    }
+
+    /// What loads are of $G$.
+    #[must_use]
+    pub fn of_loads(&self, loads: &[f64]) -> Vec<f64> {
+        let loads: Vec<_> = loads.chunks_exact(3).map(Vector3::from_column_slice).collect();
+        self.flat(&loads, &vec![0.0; self.taut.len()])
+    }
+
     fn lay(&mut self) {
         self.framework = match self.floor {
             Some(floor) if self.lies.contains(&true) => self.bare.with_laid(floor, &self.lies),
@@ -115,10 +141,7 @@ impl Equations {
             self.lies[lying.joint] = true;
         }
         self.lay();
-        let units = self.units;
-        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-        let places = answer.joints_m.iter().map(place).flat_map(|at| [at.x, at.y, at.z]);
-        places.chain(answer.axial_n.iter().map(|axial_n| axial_n / units.force_n)).collect()
+        self.unknowns(answer)
     }
 
     /// The unknowns of a drawing: its places, m, with what elastic members bear at their lengths;
@@ -211,6 +234,51 @@ impl Equations {
         step.places.iter().flat_map(|at| [at.x, at.y, at.z]).chain(step.axial).collect()
     }
 
+    /// What $G$ changes by when a member becomes longer, along $\phi$: $\phi \cdot \partial G/\partial l$ for
+    /// each member, in units of $\phi$ a unit of length.
+    #[must_use]
+    pub fn by_length(&self, y: &[f64], phi: &[f64]) -> Vec<f64> {
+        let state = self.state(y);
+        let along = &phi[3 * self.framework.nodes.len()..];
+        let links = self.framework.links.iter().zip(&state.axial).zip(along);
+        // The compliance is that of a unit of length times the length.
+        links
+            .map(|((link, axial), phi)| phi * (1.0 + link.compliance / link.length * axial))
+            .collect()
+    }
+
+    /// The same when the place of a support moves: three numbers for each joint, 0 for free ones and
+    /// along free directions.
+    #[must_use]
+    pub fn by_place(&self, y: &[f64], phi: &[f64]) -> Vec<Vector3<f64>> {
+        let state = self.state(y);
+        let (places, along) = phi.split_at(3 * self.framework.nodes.len());
+        let phi = |joint: usize| Vector3::from_column_slice(&places[3 * joint..3 * joint + 3]);
+        let mut all = vec![Vector3::zeros(); self.framework.nodes.len()];
+        let directions = state.directions(&self.framework);
+        for (k, (link, (u, length))) in self.framework.links.iter().zip(&directions).enumerate() {
+            // The pull on `from` is N u, and u turns with the span; the length row has -|span|.
+            let apart = phi(link.from) - phi(link.to);
+            let across = (apart - u * u.dot(&apart)) * (state.axial[k] / length);
+            let by_span = across - u * along[k];
+            all[link.to] += by_span;
+            all[link.from] -= by_span;
+        }
+        for (node, by) in self.framework.nodes.iter().zip(&mut all) {
+            *by -= node.free.part(by);
+        }
+        all
+    }
+
+    /// The unknowns of an equilibrium.
+    #[must_use]
+    pub fn unknowns(&self, equilibrium: &SystemEquilibrium) -> Vec<f64> {
+        let units = self.units;
+        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
+        let places = equilibrium.joints_m.iter().map(place).flat_map(|at| [at.x, at.y, at.z]);
+        places.chain(equilibrium.axial_n.iter().map(|n| n / units.force_n)).collect()
+    }
+
     /// $J y$ where it was last factorised.
     #[must_use]
     pub fn apply(&self, y: &[f64]) -> Vec<f64> {
@@ -274,7 +342,13 @@ impl Equations {
     /// directions in which the energy falls.
     #[must_use]
     pub fn solution(&self, system: &System, y: &[f64], index: usize) -> Solution {
-        let state = with_held(&self.framework, self.state(y));
+        let mut state = with_held(&self.framework, self.state(y));
+        // Where it becomes slack a member bears nothing, whatever rounding leaves.
+        for (k, link) in self.framework.links.iter().enumerate() {
+            if !link.bears(state.axial[k]) && state.axial[k].abs() <= AT_ZERO {
+                (state.axial[k], state.taut[k]) = (0.0, false);
+            }
+        }
         let residual = Residual::new(&self.framework, &state);
         let second_order = SecondOrder { index, ..SecondOrder::default() };
         let tolerance = Settings::default().tolerance;

@@ -4,6 +4,7 @@
 use serde_json::{Value, json};
 
 use super::output::{Output, good};
+use crate::load_paths::RING;
 
 /// EA = 1 N, feet 2 m apart, the apex 0.5 m above them on a line, 1 N down.
 const GABLE: &str = "name = \"gable\"\n[joints]\nA = { at_m = [-1, 0, 0] }\nB = { at_m = [1, 0, 0] }\n\
@@ -41,6 +42,10 @@ fn load_path_of_a_gable() {
     for none in ["slack[]", "taut[]", "lands[]", "leaves[]"] {
         output.is(&at(none), json!([]));
     }
+    // 2 EA w / l0^2 for both bars together; a foot that comes nearer makes the gable steeper.
+    output.is(&at("by_length[]"), json!([w / (l0 * l0), w / (l0 * l0)]));
+    let by_place = json!([w / l0, 0.0, 0.0, -w / l0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    output.is(&at("by_place[][]"), by_place);
     let point = output.numbers(&at("point"))[0];
     output.is("load_paths[].end", "range");
     output.is("load_paths[].proved.first", "limit-point");
@@ -142,6 +147,32 @@ fn kinks_of_a_cable_and_a_floor() {
     up.is(&at("lands[]"), json!([]));
     up.is(&at("turns"), json!([false, false]));
     up.done();
+}
+
+/// A bar between two springs, which falls to a side and goes round.
+#[test]
+fn paths_that_branch_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = RING.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n");
+    std::fs::write(folder.path().join("ring.toml"), file).unwrap();
+    let arguments = [
+        "trace",
+        "ring.toml",
+        "--vary",
+        "loads=0,4,-4",
+        "--branches",
+        "--linear-buckling",
+        "--json",
+    ];
+    let text = good(folder.path(), &arguments);
+    let mut output = Output::json("load paths", "paths_that_branch_off", &text);
+    output.is("load_paths[].end", json!(["range", "joins"]));
+    for key in ["from", "joins"] {
+        output.is(&format!("load_paths[].{key}.path"), 0);
+        output.is(&format!("load_paths[].{key}.event"), 0);
+    }
+    output.near("load_paths[].linear_buckling", 1e-6, vec![2000.0 / 101_f64.powf(1.5)]);
+    output.done();
 }
 
 #[test]
