@@ -65,7 +65,7 @@ impl Inverse {
     pub(super) fn apply(&self, right: &[Interval]) -> Vec<Interval> {
         let row = |row: &[f64]| {
             let parts = row.iter().zip(right).filter(|(_, part)| **part != Interval::ZERO);
-            parts.map(|(x, part)| Interval::point(*x) * *part).sum()
+            parts.map(|(x, part)| part.times(*x)).sum()
         };
         self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(row).collect()
     }
@@ -103,7 +103,7 @@ impl Inverse {
         let near = self.solve(entries, &middle);
         let mut left = right.to_vec();
         for (row, column, entry) in entries {
-            left[*row] = left[*row] - *entry * Interval::point(near[*column]);
+            left[*row] = left[*row] - entry.times(near[*column]);
         }
         let rest = defect.enclose(&self.apply(&left))?;
         Some(near.iter().zip(rest).map(|(x, rest)| Interval::point(*x) + rest).collect())
@@ -116,7 +116,7 @@ impl Inverse {
             let mut rest = vec![Interval::ZERO; size];
             rest[k] = Interval::ONE;
             for (through, column, entry) in entries {
-                rest[*column] = rest[*column] - Interval::point(row[*through]) * *entry;
+                rest[*column] = rest[*column] - entry.times(row[*through]);
             }
             rest.into_iter().map(Interval::mag).collect::<Vec<f64>>()
         };

@@ -39,14 +39,13 @@ use super::tube::{Centre, Test, Tube, last, points};
 pub const MAX_LIMIT_UNKNOWNS: usize = 4096;
 
 /// Steps to the zero of a test, which converge like Newton's method.
-const STEPS: usize = 12;
-/// A step this small, relative to the largest unknown, is the last one.
-const SMALL: f64 = 1e-12;
+const STEPS: usize = 16;
+/// A step that has not fallen to this part of the last one is at the level of rounding.
+const FALLS: f64 = 0.5;
 /// An answer further from the point than this, in units of the system's length and force, was none.
 const REACH: f64 = 1e-3;
-/// Half-lengths of the tube in which the point is proved to be the only one, in the units of the
-/// unknown that changes most.
-const LENGTHS: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+/// Half-lengths of the tube in which the point is proved to be the only one, in units of the least one.
+const LONGER: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
 
 /// Prove that exactly one limit point of the loads, with its shape and mode, lies in a box next to an
 /// answer: an enclosure of the parameter there.
@@ -185,10 +184,12 @@ pub(super) fn singular(
     let thin = centre.tube(family, Interval::ZERO)?;
     let rate = centre.rate(family, &thin)?.vector;
     let start = tested(family, &centre, &thin, side.as_ref(), &rate)?.0;
-    let fastest = centre.along.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    // The least length in which the point may be, and some longer ones.
+    let least = start.mag() / newton_slope(family, &centre, side.as_ref()).1.abs();
     let mut failure = NoBox::NotContracting;
-    for length in LENGTHS {
-        match alone(family, &centre, side.as_ref(), (&thin, start), length / fastest) {
+    for longer in LONGER {
+        let length = longer * least + f64::MIN_POSITIVE;
+        match alone(family, &centre, side.as_ref(), (&thin, start), length) {
             Ok((step, t_rate)) => {
                 // From the middle of the tube to the point.
                 let t = last(thin.curve());
@@ -212,7 +213,7 @@ fn alone(
 ) -> Result<(Interval, (Interval, Vec<Interval>)), NoBox> {
     let tube = centre.tube(family, Interval::around(0.0, length))?;
     // The curve of the thin tube is the one of this.
-    centre.holds(&tube, thin.curve())?;
+    centre.shares(thin, &tube)?;
     family.acts(family.spread(tube.curve()))?;
     let rate = centre.rate(family, &tube)?.vector;
     let slope = tested(family, centre, &tube, side, &rate)?.1;
@@ -258,24 +259,26 @@ fn locate(
         None => None,
         Some(block) => Some(Side::new(family, block, guess, None).ok_or(NoBox::Singular)?),
     };
+    let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        let s = -newton_step(family, &centre, side.as_ref());
-        let size = centre.along.iter().fold(0.0, |most: f64, v| most.max((s * v).abs()));
-        if !size.is_finite() {
+        let (value, slope) = newton_slope(family, &centre, side.as_ref());
+        let s = -value / slope;
+        if !s.is_finite() {
             return Err(NoBox::NotConverged);
         }
+        // At the level of rounding the steps stop shrinking.
+        if s.abs() >= FALLS * last {
+            break;
+        }
+        last = s.abs();
         centre.at = centre.ahead(s);
         centre.settle(family)?;
-        if size <= SMALL {
-            return Ok((centre, side));
-        }
     }
-    // Rounding of the test may exceed that; the proof says whether it is near enough.
     Ok((centre, side))
 }
 
-/// $\tau/\dot\tau$ at a centre.
-fn newton_step(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> f64 {
+/// $\tau$ and $\dot\tau$ at a centre, in double precision.
+fn newton_slope(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> (f64, f64) {
     let y = family.spread(&points(&centre.at));
     let along = family.spread(&points(&centre.along));
     let (block, inverse, vector) = match side {
@@ -290,5 +293,5 @@ fn newton_step(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> f64
     };
     let bent = family.bent(block, &y, &block.spread(&points(&vector)), &along);
     let slope: f64 = inverse.last_row().iter().zip(&bent).map(|(a, b)| a * b.mid()).sum();
-    vector.last().map_or(f64::NAN, |value| value / slope)
+    (vector.last().copied().unwrap_or(f64::NAN), slope)
 }

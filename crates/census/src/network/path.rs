@@ -10,13 +10,14 @@ use model::system::System;
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
+use super::arithmetic::{product, sum};
 use super::family::Family;
 use super::limit::{near, singular, tested, value, zero};
 use super::side::Side;
 use super::tube::{Centre, Tube, last};
 
-/// Most unknowns of a path that is proved: some hundred tubes of 64 take a second.
-pub const MAX_PATH_UNKNOWNS: usize = 64;
+/// Most unknowns of a path that is proved: some thirty tubes of 160 take half a second.
+pub const MAX_PATH_UNKNOWNS: usize = 160;
 
 /// Half-length of the first tube, in units in which unknowns and range are of order one.
 const FIRST: f64 = 1.0 / 64.0;
@@ -27,8 +28,10 @@ const LONGER: f64 = 1.4;
 const SHORTER: f64 = 0.5;
 /// Part by which a tube is longer than the path between its ends.
 const OVERLAP: f64 = 1e-3;
-/// Tubes that are tried, whether they are proved or not.
+/// Tubes that are tried, whether they are proved or not: so many, and of more unknowns fewer, so that their
+/// number times the square of that of the unknowns is no more than this: two or three seconds.
 const MOST: usize = 4000;
+const WORK: usize = 5_000_000;
 
 /// What a singular point is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,7 +142,7 @@ impl<'a> Walk<'a> {
     /// Tube after tube, to the first singular point or to the end of the range.
     fn run(&mut self) -> Result<First, NoBox> {
         let (mut length, mut failure) = (FIRST, NoBox::NotContracting);
-        for _ in 0..MOST {
+        for _ in 0..MOST.min(WORK / self.family.size().pow(2)) {
             let left = 1.0 - self.here.t().lo();
             if left <= 0.0 {
                 return Ok(None);
@@ -209,21 +212,34 @@ fn first(
     let mut found: Vec<(Interval, SingularKind, Interval)> = vec![];
     for side in std::iter::once(None).chain(sides.iter().map(Some)) {
         let (all, slope) = tested(family, centre, tube, side, &rate)?;
+        // The parameter grows towards the first limit point.
+        let grows = |wrong: bool| {
+            if side.is_none() && wrong { Err(NoBox::NotContracting) } else { Ok(()) }
+        };
         if !all.contains(0.0) {
+            grows(all.hi() < 0.0)?;
             continue;
         }
         let thin = centre.tube(family, Interval::ZERO)?;
-        centre.holds(tube, thin.curve())?;
+        centre.shares(&thin, tube)?;
         let (start, _) = tested(family, centre, &thin, side, &rate)?;
         if tube.over.disjoint(-start / slope) {
+            grows(start.lo() <= 0.0)?;
             continue;
         }
         let step = zero(start, slope, tube.over).ok_or(NoBox::NotContracting)?;
+        grows(slope.hi() >= 0.0)?;
         let block = side.map(|side| side.block);
-        let point = singular(family, &centre.ahead(step.mid()), centre.row.clone(), block)?;
-        let s = centre.holds(tube, &point.point)?;
         let kind = if block.is_none() { SingularKind::Limit } else { SingularKind::Branch };
-        found.push((s, kind, point.t));
+        // Next to the point it is enclosed more sharply, if that is the same point.
+        let sharp = singular(family, &centre.ahead(step.mid()), centre.row.clone(), block);
+        let sharp = sharp.and_then(|point| Ok((centre.holds(tube, &point.point)?, point.t)));
+        let (s, t) = sharp.unwrap_or_else(|_| {
+            let turns = sum(start, product(step.hull(Interval::ZERO), slope));
+            let pace = if block.is_none() { turns } else { last(&rate) };
+            (step, sum(last(thin.curve()), product(step, pace)))
+        });
+        found.push((s, kind, t));
     }
     found.sort_by(|a, b| a.0.hi().total_cmp(&b.0.hi()));
     let Some((s, kind, t)) = found.first().copied() else { return Ok(None) };

@@ -101,10 +101,20 @@ fn maps(axes: Axes, from: Point, to: Point, signs: &[f64]) -> bool {
     signs.iter().any(|sign| (0..3).all(|k| same(sign * image[k], to[k])))
 }
 
-/// A place as seen from the centre, if double precision holds it.
-fn seen(at_m: Point, centre_m: Point) -> Option<Point> {
-    let parts: [(f64, f64); 3] = std::array::from_fn(|k| two_sum(at_m[k], -centre_m[k]));
-    parts.iter().all(|(_, rest)| same(*rest, 0.0)).then(|| parts.map(|(part, _)| part))
+/// Whether a place is the image of another one as seen from the centre. What is turned over or
+/// exchanged must have a distance from there that is a double.
+fn place_maps(axes: Axes, centre_m: Point, from: Point, to: Point) -> bool {
+    let seen = |at: Point, k: usize| {
+        let (part, rest) = two_sum(at[k], -centre_m[k]);
+        same(rest, 0.0).then_some(part)
+    };
+    (0..3).all(|k| {
+        let (axis, sign) = axes[k];
+        let kept = axis == k && sign > 0.0;
+        let turned =
+            || matches!((seen(from, axis), seen(to, k)), (Some(a), Some(b)) if same(sign * a, b));
+        if kept { same(from[k], to[k]) } else { turned() }
+    })
 }
 
 fn mirror(system: &System, joints_m: &[Point], centre_m: Point, axes: Axes) -> Option<Mirror> {
@@ -144,10 +154,7 @@ fn matched(count: usize, image_of: impl Fn(usize, &[bool]) -> Option<usize>) -> 
 }
 
 fn joint_maps(from: &Joint, to: &Joint, centre_m: Point, axes: Axes) -> bool {
-    let place = |a: Point, b: Point| {
-        let seen = (seen(a, centre_m), seen(b, centre_m));
-        matches!(seen, (Some(a), Some(b)) if maps(axes, a, b, &[1.0]))
-    };
+    let place = |a: Point, b: Point| place_maps(axes, centre_m, a, b);
     let support = match (from.support, to.support) {
         (Support::Free, Support::Free) => true,
         (Support::Fixed { at_m: a }, Support::Fixed { at_m: b }) => place(a, b),
@@ -318,3 +325,6 @@ fn action(equations: &Equations, mirror: &Mirror) -> Option<Action> {
     }
     Some(action)
 }
+
+#[cfg(test)]
+mod tests;

@@ -189,6 +189,13 @@ impl Centre {
         dot(&self.row, &self.away(point)) / self.pace()
     }
 
+    /// Prove that the point at $s = 0$ of a thin tube around the same centre is on the curve of another one.
+    pub(super) fn shares(&self, thin: &Tube, tube: &Tube) -> Result<(), NoBox> {
+        let away = self.away(thin.curve());
+        let inside = away.iter().zip(&tube.proved.within).all(|(off, within)| off.mag() < *within);
+        if inside && tube.over.contains(0.0) { Ok(()) } else { Err(NoBox::NotContracting) }
+    }
+
     /// Prove that a point of the path that is known to lie in a box is on the curve of a tube.
     pub(super) fn holds(&self, tube: &Tube, point: &[Interval]) -> Result<Interval, NoBox> {
         let s = self.seen(point);

@@ -23,6 +23,10 @@ use crate::solve::SCHEMA_VERSION;
 /// Steps over the whole range, at least.
 const STEPS: f64 = 24.0;
 
+/// Most joints and bars together of a system of which all limit and branch points are proved, each in some
+/// tenths of a second; of a larger one the first loss of stability alone.
+const PROVED_ALL: usize = 300;
+
 /// Why there is no load path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -161,6 +165,12 @@ pub struct BranchesFrom {
     pub event: usize,
 }
 
+impl LoadEvent {
+    fn is_loss(&self) -> bool {
+        self.index[0] == 0 && self.index[1] > 0
+    }
+}
+
 /// A load path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadPath {
@@ -190,7 +200,7 @@ impl LoadPath {
     /// The first event in which the index rises from 0; nothing where it does not.
     #[must_use]
     pub fn first_loss(&self) -> Option<&LoadEvent> {
-        self.events.iter().find(|event| event.index[0] == 0 && event.index[1] > 0)
+        self.events.iter().find(|event| event.is_loss())
     }
 }
 
@@ -332,9 +342,13 @@ fn described(
     let points = points.collect();
     let events = found.events.iter().map(|event| event_described(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
-    for (event, of) in events.iter_mut().zip(&found.events) {
+    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
+    let loss = events.iter().position(LoadEvent::is_loss);
+    for (number, (event, of)) in events.iter_mut().zip(&found.events).enumerate() {
         let record = &found.points[event.point].record;
-        event.enclosed = enclosed(variation, family.ends(), record, event.kind);
+        if small || loss == Some(number) {
+            event.enclosed = enclosed(variation, family.ends(), record, event.kind);
+        }
         if event.kind == LoadEventKind::LimitPoint {
             (event.by_length, event.by_place) = family.imperfections(record, of)?;
         }

@@ -101,6 +101,22 @@ fn a_steep_gable_branches_first() {
     let value = near(l0.cbrt(), false).unwrap();
     assert!(value.contains(2.0 * borne_n(l0, l0.cbrt())) && value.width() < 1e-13, "{value:?}");
     assert!(near(l0.cbrt(), true).is_err());
+    // Neither is at the shape below the feet, which is on another path.
+    let load_n = 2.0 * borne_n(l0, l0.cbrt());
+    let here = tent(&GABLE, 3.0, UPRIGHT, load_n);
+    let shape = at(&GABLE, -(l0.cbrt().powi(2) - 1.0).sqrt());
+    let axial_n = [(l0.cbrt() - l0) / l0; 2];
+    let values = [0.0, 1.0, load_n];
+    assert_eq!(
+        prove_limit([&none, &one], &here, values, &shape, &axial_n),
+        Err(NoBox::NotConverged)
+    );
+    // An imperfection makes a limit point of the branch point, at less.
+    let feet = [[-1.0, 0.0], [1.0 + 1e-6, 0.0]];
+    let found = proved(&feet, 3.0, UPRIGHT, 2.0);
+    let (kind, value) = found.first.unwrap_or_else(|| panic!("{found:?}"));
+    assert_eq!(kind, SingularKind::Limit);
+    assert!(value.hi() < branch_n && value.lo() > 0.999 * branch_n, "{value:?} {branch_n}");
 }
 
 /// Both modes at once; each breaks a mirror of its own.

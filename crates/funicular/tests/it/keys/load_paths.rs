@@ -146,6 +146,7 @@ fn kinks_of_a_cable_and_a_floor() {
     up.is(&at("taut[]"), json!([]));
     up.is(&at("lands[]"), json!([]));
     up.is(&at("turns"), json!([false, false]));
+    up.is("load_paths[].proved.because", "the system has a floor");
     up.done();
 }
 
