@@ -65,6 +65,34 @@ function joints(g, place, ink, held, edge) {
   });
 }
 
+// As in the pictures: solid, hollow or dashed, in four widths. What is a billionth of the largest force is none.
+function members(g, place, axial, largest) {
+  const many = data.bars.length > 200, paper = getComputedStyle(document.body).backgroundColor;
+  g.lineCap = "butt";
+  data.bars.forEach(([a, b], bar) => {
+    const part = largest > 0 ? axial[bar] / largest : 0, size = Math.abs(part), none = !(size > 1e-9);
+    const width = many ? 1 : 1.8 + Math.min(3, Math.floor(4 * size));
+    const stroke = (style, wide) => {
+      g.strokeStyle = style;
+      g.lineWidth = wide;
+      g.beginPath();
+      g.moveTo(...place(a));
+      g.lineTo(...place(b));
+      g.stroke();
+    };
+    g.setLineDash(none ? [6, 3] : []);
+    if (none || part > 0 || many) return stroke(none ? "#777" : part > 0 ? "@BLUE@" : "@VERMILION@", width);
+    stroke("@VERMILION@", width + 2.6);
+    stroke(paper, 0.45 * (width + 2.6));
+  });
+  g.setLineDash([]);
+}
+
+// Of rows too many to be arguments of one call.
+function largestOf(rows) {
+  return rows.reduce((top, row) => row.reduce((a, f) => Math.max(a, Math.abs(f)), top), 0);
+}
+
 // A line of a round length in the lower left corner, as long as it is in the scene.
 function scale(g, share, w, h, ink) {
   const metre = share * Math.min(w, h) / reach, ten = 10 ** Math.floor(Math.log10(80 / metre));

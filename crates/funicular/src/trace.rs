@@ -5,6 +5,7 @@ mod enclosed;
 mod equations;
 mod figure;
 pub(crate) mod load;
+mod page;
 
 pub use self::confirm::Confirmed;
 pub use self::enclosed::PathProved;
@@ -327,7 +328,8 @@ impl TraceAnswer {
                 Some(branches::diagram(paths.get(path)?, &system.name, abscissa, bar))
             }
             Found::Load(found) => {
-                let main = found.paths().iter().enumerate().filter(|(_, one)| one.from.is_none());
+                let main =
+                    found.paths().iter().enumerate().filter(|(_, one)| one.branches_from.is_none());
                 found.figure(main.map(|(number, _)| number + 1).nth(path)?)
             }
         }

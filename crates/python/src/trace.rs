@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use funicular::LoadPaths;
 use funicular::prelude::Trace;
 use pyo3::prelude::*;
 
@@ -11,20 +12,26 @@ use crate::raise::{raise, unwritten};
 use crate::work;
 
 /// What `funicular trace --json` prints, the points of the branches or load paths as CSV, whether the checks
-/// agree and are decided, and the tables.
+/// agree and are decided, the tables, and the page of load paths.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "one for each setting")]
 pub fn trace<'py>(
     py: Python<'py>,
     problem: &Problem,
     vary: Vec<String>,
     numbers: Vec<String>,
     max_points: Option<usize>,
+    branches: usize,
+    linear_buckling: bool,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(String, String, bool, bool, String)> {
+) -> PyResult<(String, String, bool, bool, String, String)> {
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        let mut trace = numbers.into_iter().fold(Trace::new(), Trace::of);
+        let mut trace = numbers.into_iter().fold(Trace::new(), Trace::of).branches(branches);
+        if linear_buckling {
+            trace = trace.linear_buckling();
+        }
         if let Some(points) = max_points {
             trace = trace.max_points(points);
         }
@@ -37,11 +44,12 @@ pub fn trace<'py>(
         // A vector takes all that is written.
         let _ = found.write_csv(&mut csv);
         let agree = (found.checks_agree(), found.checks_decided());
-        Ok((serde_json::to_string(&found), csv, agree, found.to_string()))
+        let page = found.load_paths().map_or_else(String::new, LoadPaths::page);
+        Ok((serde_json::to_string(&found), csv, agree, found.to_string(), page))
     })?;
-    let (text, csv, (agree, decided), said) =
+    let (text, csv, (agree, decided), said, page) =
         found.map_err(|error: funicular::Error| raise(&error))?;
     let text = text.map_err(|error| unwritten(&error))?;
     let csv = String::from_utf8_lossy(&csv).into_owned();
-    Ok((text, csv, agree, decided, printable(&said)))
+    Ok((text, csv, agree, decided, printable(&said), page))
 }

@@ -122,22 +122,25 @@ fn polished<Q: Equations>(
     let (left, size) = equations.residual(&y, t)?;
     let step = Bordered::new(equations, column, row).solve(equations, (&-left, 0.0));
     let Some((dy, dt)) = step else { return Ok((y, t)) };
-    let better = equations.onto(&(&y + dy), t + dt)?;
-    let (_, after) = equations.residual(&better, t + dt)?;
-    Ok(if after < size { (better, t + dt) } else { (y, t) })
+    // At an end of the range the parameter stays.
+    let later = if row.y.amax() > 0.0 { t + dt } else { t };
+    let better = equations.onto(&(&y + dy), later)?;
+    let (_, after) = equations.residual(&better, later)?;
+    Ok(if after < size { (better, later) } else { (y, t) })
 }
 
 impl Here {
-    /// The point with its tangent, of which `row` says the direction; nothing where it has none.
+    /// The point, corrected across the first row, with its tangent, of which the second says the direction;
+    /// `None` when it has none.
     pub(super) fn new<Q: Equations>(
         equations: &mut Q,
         metric: Metric,
         (y, t): (DVector<f64>, f64),
-        row: &Row,
+        [across, row]: [&Row; 2],
     ) -> Result<Option<Self>, Q::Error> {
         let column = equations.by_parameter(&y, t)?;
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
-        let (y, t) = polished(equations, (y, t), &column, row)?;
+        let (y, t) = polished(equations, (y, t), &column, across)?;
         let zero = DVector::zeros(y.len());
         let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
         let tangent = tangent.map(|(dy, dt)| {
@@ -159,6 +162,11 @@ impl Here {
         self.next_to(equations, metric, other, (&self.towards(other), part))
     }
 
+    /// The same with the tangent the other way.
+    pub(super) fn turned(self) -> Self {
+        Self { tangent: Row { y: -self.tangent.y, t: -self.tangent.t }, ..self }
+    }
+
     /// The vector to another point.
     pub(super) fn towards(&self, other: &Self) -> Row {
         Row { y: &other.y - &self.y, t: other.t - self.t }
@@ -177,6 +185,6 @@ impl Here {
         let guess = (&self.y + &way.y * part, self.t + way.t * part);
         let column = equations.by_parameter(&guess.0, guess.1).ok()?;
         let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
-        Self::new(equations, metric, found, &row).ok()?
+        Self::new(equations, metric, found, [&row, &row]).ok()?
     }
 }

@@ -70,7 +70,7 @@ pub(super) fn begin<Q: Equations>(
     let found = correct(equations, (start, 0.0), &column, &row).map_err(NoPath::Numbers)?;
     let found = found.map_err(|residual| NoPath::Start { residual })?;
     let only = Metric { places, square: 0.0 };
-    let here = Here::new(equations, only, found, &row).map_err(NoPath::Numbers)?;
+    let here = Here::new(equations, only, found, [&row, &row]).map_err(NoPath::Numbers)?;
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
     // Forces alone: a unit of length would be an enormous load.
@@ -235,7 +235,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             return Ok(None);
         }
         let along = self.metric.along(&here.tangent);
-        let next = Here::new(self.equations, self.metric, found, &along)?;
+        let next = Here::new(self.equations, self.metric, found, [row, &along])?;
         Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH))
     }
 
@@ -260,13 +260,15 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             let at = Here { index: index[0], tangent, ..at };
             self.keep(&at, Some(event))?;
             if kind == Kind::Branch {
-                let end = joins(self.metric, &mut self.crossings, &at, a);
+                let here = (self.paths, self.points.len());
+                let end = joins(self.metric, &mut self.crossings, [a, &at, b], here);
                 if let Some(end) = end {
                     return Ok(Passed::End(end));
                 }
                 self.crossings.push(Crossing {
                     at,
                     of: Parent { path: self.paths, event: self.events.len() - 1 },
+                    point: self.points.len(),
                     modes: index[0].abs_diff(index[1]).max(1),
                     depth: self.depth,
                     switched: self.switched.clone(),
@@ -308,7 +310,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
 
     fn beyond(&mut self, at: &Here, sides: &[Q::Side]) -> Result<Option<Here>, Q::Error> {
         let row = self.metric.along(&at.tangent);
-        let here = Here::new(self.equations, self.metric, (at.y.clone(), at.t), &row)?;
+        let here = Here::new(self.equations, self.metric, (at.y.clone(), at.t), [&row, &row])?;
         let Some(mut here) = here else { return Ok(None) };
         let ahead = &here.y + &here.tangent.y * BESIDE;
         let there = self.equations.sides(&ahead, here.t + here.tangent.t * BESIDE)?;
@@ -319,7 +321,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             return Ok(None);
         }
         if rises.contains(&false) {
-            here.tangent = Row { y: -here.tangent.y, t: -here.tangent.t };
+            here = here.turned();
         }
         Ok(Some(here))
     }

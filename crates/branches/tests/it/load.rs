@@ -139,7 +139,7 @@ fn both_paths_of_a_pitchfork_are_followed() {
         }
         sides.push(path.points.last().unwrap().record[0].signum());
     }
-    assert_eq!(sides.iter().sum::<f64>(), 0.0);
+    assert!(sides.contains(&1.0) && sides.contains(&-1.0));
     assert_eq!(pitchfork().paths([0.0, 0.0], [0.0, 2.0], 0).unwrap().len(), 1);
 }
 

@@ -67,7 +67,7 @@ Bars are counted from 1 along the chain. Between values the parameter runs strai
 along the last parameter; each combination of the others is a path of its own (or all go in step: --zip).
 
 Examples:
-  funicular trace --case star-dome --vary loads=0..20 --svg dome.svg
+  funicular trace --case star-dome --vary loads=0..20 --svg dome.svg --html dome.html
   funicular trace --case three-equal-bars --vary anchors.end_m.z=-3.1..-0.1:500 --over-span --svg paper.svg
   funicular trace chain.toml --vary bars.2.mass_kg=0.1..10:200 --csv branches.csv --json | jq .traces[0].events
 
@@ -110,6 +110,9 @@ pub struct Arguments {
     /// ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Write one HTML file in which the shape moves along its load paths
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
     /// Most points: of a load path (1000 if not given), or of all paths of a chain together (100000):
     /// all that is found is held in memory, some 4 kB for each equilibrium at each point
     #[arg(long, value_name = "N")]
@@ -141,7 +144,13 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let diagrams =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
-    let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
+    if arguments.html.is_some() && !load {
+        return Err(Failure::bad_input(
+            "--html shows load paths: over a range alone, as --vary loads=0..1.2".to_owned(),
+        ));
+    }
+    let outputs = arguments.csv.iter().chain(&arguments.html).chain(&diagrams);
+    let outputs = outputs.map(PathBuf::as_path);
     output::check(outputs, &files)?;
     let progress = Progress::start();
     let watch = |path, branches::Progress { done, total }| {
@@ -163,6 +172,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         if let Some(drawn) = found.diagram(path, abscissa, arguments.bar) {
             output::write_whole(file, &drawn)?;
         }
+    }
+    if let (Some(file), Some(paths)) = (&arguments.html, found.load_paths()) {
+        output::write_whole(file, &paths.page())?;
     }
     if arguments.printed.is_json() {
         output::print_json(&found)?;

@@ -24,7 +24,7 @@ pub(super) fn text(found: &LoadPaths) -> String {
     for (number, path) in found.paths().iter().enumerate() {
         if found.paths().len() > 1 {
             let from = path
-                .from
+                .branches_from
                 .map_or(String::new(), |from| format!(", from {}", branch_point(found, from)));
             let _ = writeln!(text, "\npath {}{}{from}", number + 1, fixed(found, path));
         }
@@ -90,7 +90,7 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
     }
     if let Some(at) = path.linear_buckling {
         let at = valued(&names[last], at, units[last]);
-        say(format!("linear buckling from the start estimates {at}, which nothing proves"));
+        say(format!("linear buckling, from the stiffness at the start, estimates {at}"));
     }
     say(ends(found, path));
     say(confirmed(&path.confirmed));
@@ -115,7 +115,7 @@ fn listed(names: &[String]) -> String {
 }
 
 /// What an event is.
-fn happens(event: &LoadEvent) -> String {
+pub(crate) fn happens(event: &LoadEvent) -> String {
     let bars = |bars: &[usize]| {
         let names: Vec<String> = bars.iter().map(ToString::to_string).collect();
         format!("bar{} {}", if names.len() > 1 { "s" } else { "" }, listed(&names))
@@ -228,25 +228,21 @@ fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
 /// What changes the first limit most: the bar, by its length, and the support, by its place.
 fn imperfections(found: &LoadPaths, path: &LoadPath) -> Option<String> {
     let limit = path.first_loss().filter(|event| event.kind == LoadEventKind::LimitPoint)?;
-    let largest = |sizes: Vec<f64>| {
-        let all = sizes.into_iter().enumerate().filter(|(_, size)| *size > 0.0);
-        all.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map(|(number, _)| number)
+    let largest = |sizes: &[f64]| {
+        let most = sizes.iter().map(|size| size.abs()).fold(0.0, f64::max);
+        // The first of those that differ by rounding.
+        let first = sizes.iter().position(|size| size.abs() > most * (1.0 - 1e-6))?;
+        Some((first, significant(1e-3 * sizes[first], 3)))
     };
-    let per_mm = |by: f64| significant(1e-3 * by, 3);
-    let bar = largest(limit.by_length.iter().map(|by| by.abs()).collect());
-    let bar = bar.map(|bar| format!("{} for bar {}", per_mm(limit.by_length[bar]), bar + 1));
-    let size = |[x, y, z]: &[f64; 3]| x.hypot(*y).hypot(*z);
-    let joint = largest(limit.by_place.iter().map(size).collect());
-    let joint = joint.map(|joint| {
-        let [x, y, z] = limit.by_place[joint].map(per_mm);
-        format!(
-            "({x}, {y}, {z}) for the place of {}",
-            Printable(&found.system().joints()[joint].name)
-        )
+    let bar = largest(&limit.by_length)
+        .map(|(bar, by)| format!("1 mm more length of bar {} changes it by {by}", bar + 1));
+    let sizes: Vec<f64> = limit.by_place.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z)).collect();
+    let joint = largest(&sizes).map(|(joint, by)| {
+        let name = Printable(&found.system().joints()[joint].name);
+        format!("a shift of {name} by 1 mm changes it by up to {by}")
     });
-    let most: Vec<String> = bar.into_iter().chain(joint).collect();
-    (!most.is_empty())
-        .then(|| format!("an imperfection of 1 mm changes it most, by {}", most.join(", ")))
+    let all: Vec<String> = bar.into_iter().chain(joint).collect();
+    (!all.is_empty()).then(|| format!("{} (the largest; --json has all)", all.join(", ")))
 }
 
 fn ends(found: &LoadPaths, path: &LoadPath) -> String {

@@ -10,7 +10,7 @@ mod census_system;
 pub mod derivatives;
 mod judged;
 #[cfg(feature = "branches")]
-mod load;
+pub mod load;
 mod modes;
 pub mod motion;
 pub mod printable;

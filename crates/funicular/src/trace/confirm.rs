@@ -26,7 +26,8 @@ pub struct Confirmed {
     /// Those where it vanishes and the lengths are kept.
     pub critical: usize,
     /// Those where the number of directions in which the energy falls is that of the path; events,
-    /// where it changes, count as confirmed.
+    /// where it changes, and points next to them, where a curvature vanishes to rounding, count as
+    /// confirmed.
     pub same_index: usize,
     /// Stable points from whose neighbourhood the energy was minimised.
     pub minimised: usize,
@@ -86,12 +87,14 @@ pub(super) fn confirm(
         };
         found.points += 1;
         found.critical += usize::from(critical.is_equilibrium());
-        found.same_index += usize::from(*event || critical.index == *index);
+        // Where a curvature is none its sign is rounding.
+        let flat = critical.curvature.is_some_and(|curvature| curvature.abs() <= FLAT);
+        found.same_index += usize::from(*event || flat || critical.index == *index);
         let smooth = |event: &&LoadEvent| event.kind != LoadEventKind::Kink;
         let singular = events.iter().filter(smooth).any(|event| event.point == number);
-        if let (true, Some(curvature)) = (singular, critical.curvature) {
+        if singular && critical.curvature.is_some() {
             found.singular += 1;
-            found.flat += usize::from(curvature.abs() <= FLAT);
+            found.flat += usize::from(flat);
         }
         if *index == 0 && !event {
             stable += 1;

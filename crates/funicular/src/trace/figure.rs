@@ -54,7 +54,7 @@ fn curve(
     place: &dyn Fn(&LoadPoint) -> Option<[f64; 2]>,
 ) {
     // From the branch point on in which it begins.
-    let from = path.from.and_then(|BranchesFrom { path, event }| {
+    let from = path.branches_from.and_then(|BranchesFrom { path, event }| {
         let parent = found.paths.get(path)?;
         place(parent.points.get(parent.events.get(event)?.point)?)
     });

@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::confirm::{Confirmed, confirm};
 use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept, Line, line};
-use super::figure;
+use super::{figure, page};
 use crate::csv::quoted;
 use crate::error::Error;
 use crate::extremes::Extremes;
@@ -182,7 +182,7 @@ pub struct LoadPath {
     pub end: LoadEnd,
     /// The branch point in which it begins, if it is one of [`Trace::branches`](crate::Trace::branches).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub from: Option<BranchesFrom>,
+    pub branches_from: Option<BranchesFrom>,
     /// The branch point in which it ends, if it does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joins: Option<BranchesFrom>,
@@ -273,7 +273,8 @@ pub(super) fn trace(
             let at = |of: Parent| BranchesFrom { path: earlier + of.path, event: of.event };
             let joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };
             let linear_buckling = linear_buckling.filter(|_| main);
-            paths.push(LoadPath { from: one.parent.map(at), joins, linear_buckling, ..path });
+            let branches_from = one.parent.map(at);
+            paths.push(LoadPath { branches_from, joins, linear_buckling, ..path });
         }
     }
     let numbers = variation.numbers();
@@ -370,8 +371,8 @@ fn described(
         End::Lost => LoadEnd::Lost,
         End::Numbers(_) => LoadEnd::Numbers,
     };
-    let (from, joins, linear_buckling) = (None, None, None);
-    Ok(LoadPath { points, events, end, from, joins, linear_buckling, confirmed, proved })
+    let (branches_from, joins, linear_buckling) = (None, None, None);
+    Ok(LoadPath { points, events, end, branches_from, joins, linear_buckling, confirmed, proved })
 }
 
 fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
@@ -446,11 +447,18 @@ impl LoadPaths {
         self.paths.get(first)?;
         let mut family = vec![first];
         for (number, path) in self.paths.iter().enumerate() {
-            if path.from.is_some_and(|from| family.contains(&from.path)) {
+            if path.branches_from.is_some_and(|from| family.contains(&from.path)) {
                 family.push(number);
             }
         }
         Some(figure::figure(self, &family))
+    }
+
+    /// One HTML file with the shape at every point of all paths, moved along them, beside the load over
+    /// the first number shown.
+    #[must_use]
+    pub fn page(&self) -> String {
+        page::page(self)
     }
 
     pub(super) fn write_csv(&self, mut to: impl Write) -> io::Result<()> {

@@ -145,9 +145,11 @@ def trace(
     vary: list[str],
     numbers: list[str],
     max_points: int | None,
+    branches: int,
+    linear_buckling: bool,
     threads: int,
     progress: _Progress,
-) -> tuple[str, str, bool, bool, str]: ...
+) -> tuple[str, str, bool, bool, str, str]: ...
 def study(
     problem: Problem,
     vary: list[str],

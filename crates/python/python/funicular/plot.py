@@ -160,13 +160,18 @@ def plot_trace(trace: Trace, ax: Any, path: int) -> Any:
 def _plot_load_path(trace: Trace, ax: Any, path: int) -> Any:
     table, over = trace.table, trace.data["parameters"][-1]
     shown = trace.data["of"][0] if trace.data["of"] else "energy_j"
-    on = np.asarray(table["path"]) == path
-    index, x, y = (np.asarray(table[name])[on] for name in ("index", shown, over))
-    for stable, style in ((True, "-"), (False, "--")):
-        # A part begins at the event that ends the part before it.
-        is_so = (index == 0) == stable
-        is_so |= np.roll(is_so, -1) & (np.arange(len(index)) < len(index) - 1)
-        ax.plot(x, np.where(is_so, y, np.nan), style, color=PULLS if stable else PUSHES, linewidth=1.5)
+    family = [path]
+    for number, one in enumerate(trace.data["load_paths"], start=1):
+        if one.get("branches_from", {}).get("path", -1) + 1 in family:
+            family.append(number)
+    for member in family:
+        on = np.asarray(table["path"]) == member
+        index, x, y = (np.asarray(table[name])[on] for name in ("index", shown, over))
+        for stable, style in ((True, "-"), (False, "--")):
+            # A part begins at the event that ends the part before it.
+            is_so = (index == 0) == stable
+            is_so |= np.roll(is_so, -1) & (np.arange(len(index)) < len(index) - 1)
+            ax.plot(x, np.where(is_so, y, np.nan), style, color=PULLS if stable else PUSHES, linewidth=1.5)
     ax.set(xlabel=shown, ylabel=over)
     return ax
 

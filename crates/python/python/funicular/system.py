@@ -401,6 +401,8 @@ class System:
         *vary: str,
         of: Sequence[str] = (),
         max_points: int | None = None,
+        branches: int = 0,
+        linear_buckling: bool = False,
         threads: int = 0,
         progress: Progress = None,
     ) -> Trace:
@@ -410,7 +412,16 @@ class System:
         """
         from .trace import trace
 
-        return trace(self, *vary, of=of, max_points=max_points, threads=threads, progress=progress)
+        return trace(
+            self,
+            *vary,
+            of=of,
+            max_points=max_points,
+            branches=branches,
+            linear_buckling=linear_buckling,
+            threads=threads,
+            progress=progress,
+        )
 
     def sweep(self, seeds: int, **settings: Any) -> Sweep:
         """Many starts, and where each of them leads. See :func:`funicular.sweep`."""

@@ -23,6 +23,9 @@ class Trace(Result):
     ``events`` (folds, branch points, exchanges of stability) and ``checks``. Over a range alone (``loads=0..1.2``), and
     of what is no chain, one path from the equilibrium next to the drawing: ``points``, ``events`` (limit points, branch
     points, kinks), ``end``, ``confirmed``; ``first_loss`` is the first event after which it is unstable, or ``None``.
+    With ``branches=1`` the paths that branch off follow it, each with ``branches_from``, the path and the
+    event it begins in.
+    ``html`` is a page on which the shape moves along the paths.
 
     ``table``: a row for each point of each branch or path, with units in the names of the columns. ``checks_agree``:
     whether censuses find exactly the branches, or ``energy`` confirms every point of a load path.
@@ -37,8 +40,11 @@ class Trace(Result):
     ('limit-point', True)
     """
 
-    def __init__(self, system: System, text: str, points: str, agree: bool, decided: bool, said: str) -> None:
+    def __init__(
+        self, system: System, text: str, points: str, agree: bool, decided: bool, said: str, page: str
+    ) -> None:
         self.system = system
+        self._page = page
         self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self._points = points
@@ -59,6 +65,11 @@ class Trace(Result):
     def is_load_path(self) -> bool:
         """Whether load paths were followed."""
         return "load_paths" in self.data
+
+    @property
+    def html(self) -> str | None:
+        """The shape moved along the load paths, as a page that needs nothing else; ``None`` of all equilibria."""
+        return self._page or None
 
     @property
     def first_loss(self) -> dict[str, Any] | None:
@@ -98,12 +109,14 @@ def trace(
     *vary: str,
     of: Sequence[str] = (),
     max_points: int | None = None,
+    branches: int = 0,
+    linear_buckling: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> Trace:
     """Follow all equilibria of a chain over numbers of its system file, such as ``anchors.end_m.z=-2.9..-0.1:500``, or the
     load path of any system over a range, such as ``loads=0..1.2``, with the numbers ``of`` each point (as ``study`` has
-    them).
+    them), the paths that branch off to this depth, and the estimate of linear buckling.
 
     Raises ParameterError, NoCensus (longer chains than a census takes), TraceError (no path begins).
     """
@@ -111,6 +124,13 @@ def trace(
     points = None if max_points is None else whole("max_points", max_points)
     with shown(progress) as callback:
         found = _native.trace(
-            system._problem, list(map(str, vary)), list(map(str, of)), points, whole("threads", threads), callback
+            system._problem,
+            list(map(str, vary)),
+            list(map(str, of)),
+            points,
+            whole("branches", branches),
+            bool(linear_buckling),
+            whole("threads", threads),
+            callback,
         )
     return Trace(system, *found)

@@ -168,7 +168,7 @@ fn paths_that_branch_off() {
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("load paths", "paths_that_branch_off", &text);
     output.is("load_paths[].end", json!(["range", "joins"]));
-    for key in ["from", "joins"] {
+    for key in ["branches_from", "joins"] {
         output.is(&format!("load_paths[].{key}.path"), 0);
         output.is(&format!("load_paths[].{key}.event"), 0);
     }

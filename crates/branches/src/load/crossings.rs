@@ -1,0 +1,227 @@
+//! Other paths through the branch points of a path.
+//!
+//! In a branch point the null space of $J$ has the dimension by which the inertia changes. A path
+//! through it other than the first leaves in a direction $\phi$ of that space: with $(y, t)$ there,
+//!
+//! $$ G(y', t') = 0, \qquad \phi \cdot (y' - y) = \delta $$
+//!
+//! has a solution next to $(y + \delta \phi, t)$. With one mode $\pm \phi$ are all directions; with
+//! more of them so many are tried, and there may be others.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DVector;
+
+use super::bordered::Row;
+use super::events::without_symmetry;
+use super::here::{Here, Metric, correct};
+use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
+use crate::load::walk::{Walk, begin};
+
+/// How far from a branch point a path is picked up, in units of the length of the path: further away
+/// other modes that meet there are stiffer again.
+const AWAY: [f64; 3] = [4e-2, 4e-3, 4e-4];
+/// Starts beside a direction, along the parameter, in units of that.
+const BESIDE: [f64; 3] = [0.0, 1.0, -1.0];
+/// A path comes to a branch point if it passes it by less than this part of a step: from its side the
+/// place is known to the root of rounding.
+const SAME: f64 = 1e-3;
+/// A path does not come back to its own branch point in fewer points.
+const ROUND: usize = 8;
+/// Cosine of two directions that are one.
+const ALIKE: f64 = 0.97;
+/// Steps of inverse iteration to the null space.
+const ITERATIONS: usize = 3;
+/// Directions in a null space of two dimensions, and of more between each two of a basis.
+const AROUND: usize = 12;
+/// Most paths together.
+const MOST: usize = 64;
+
+/// A branch point, and the directions in which paths through it are known.
+#[derive(Debug, Clone)]
+pub(super) struct Crossing<S> {
+    pub(super) at: Here,
+    /// Where it is an event: the number of its path and of the event there.
+    pub(super) of: Parent,
+    /// The number of its point there.
+    pub(super) point: usize,
+    pub(super) modes: usize,
+    pub(super) depth: usize,
+    /// Conditions that are on other sides than at the start of the first path.
+    pub(super) switched: Vec<S>,
+    /// Unit vectors towards points of known paths.
+    pub(super) known: Vec<Row>,
+}
+
+/// The unit vector from one point to another.
+pub(super) fn towards(metric: Metric, from: &Here, to: &Here) -> Row {
+    let (y, t) = (&to.y - &from.y, to.t - from.t);
+    let norm = metric.norm(&y, t).max(f64::MIN_POSITIVE);
+    Row { y: y / norm, t: t / norm }
+}
+
+/// Follow the path from an equilibrium at $t = 0$ next to `start`, and the paths that branch from it,
+/// from those, and so on to a depth: 0 for the first one alone. `watch` is told the numbers of
+/// paths and of points of the last one so far.
+///
+/// # Errors
+///
+/// [`NoPath`] where no path begins.
+///
+/// # Panics
+///
+/// Never.
+pub fn follow<Q: Equations>(
+    equations: &mut Q,
+    start: &DVector<f64>,
+    settings: Settings,
+    watch: &dyn Fn(usize, usize),
+) -> Result<Vec<LoadPath<Q>>, NoPath<Q::Error>> {
+    let (metric, here) = begin(equations, start)?;
+    let mut walk = Walk::new(equations, settings, metric);
+    let mut all = vec![walk.path(&here, None, &|points| watch(0, points))];
+    // What branches off moves where the first path stands still.
+    let metric = metric.coarse();
+    walk.metric = metric;
+    let mut next = 0;
+    while let Some(crossing) = walk.crossings.get(next).cloned() {
+        if crossing.depth < settings.branches && all.len() < MOST {
+            walk.set(&crossing.switched).map_err(NoPath::Numbers)?;
+            for first in starts(walk.equations, metric, &crossing) {
+                // Another one of them may have led back to here.
+                let known = &walk.crossings[next].known;
+                let direction = towards(metric, &crossing.at, &first);
+                if all.len() == MOST || known.iter().any(|known| alike(metric, known, &direction)) {
+                    continue;
+                }
+                walk.crossings[next].known.push(direction);
+                walk.set(&crossing.switched).map_err(NoPath::Numbers)?;
+                walk.depth = crossing.depth + 1;
+                let number = all.len();
+                all.push(walk.path(&first, Some(crossing.of), &|points| watch(number, points)));
+            }
+        }
+        next += 1;
+    }
+    Ok(all)
+}
+
+fn alike(metric: Metric, a: &Row, b: &Row) -> bool {
+    metric.along(a).dot(&b.y, b.t) >= ALIKE
+}
+
+/// First points of other paths through a branch point, outward.
+fn starts<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    crossing: &Crossing<Q::Side>,
+) -> Vec<Here> {
+    let mut found: Vec<(Here, Row)> = vec![];
+    for direction in directions(&null_space(equations, metric, crossing)) {
+        let Some(first) = first(equations, metric, crossing, &direction) else { continue };
+        let way = towards(metric, &crossing.at, &first);
+        let again = found.iter().map(|(_, known)| known).chain(&crossing.known);
+        if !again.into_iter().any(|known| alike(metric, known, &way)) {
+            found.push((first, way));
+        }
+    }
+    found.into_iter().map(|(first, _)| first).collect()
+}
+
+/// A point of another path in a direction.
+fn first<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    crossing: &Crossing<Q::Side>,
+    direction: &DVector<f64>,
+) -> Option<Here> {
+    let at = &crossing.at;
+    let row = metric.along(&Row { y: direction.clone(), t: 0.0 });
+    for away in AWAY {
+        for beside in BESIDE {
+            let guess = (&at.y + direction * away, at.t + beside * away);
+            let Ok(column) = equations.by_parameter(&guess.0, guess.1) else { continue };
+            let found = correct(equations, (&guess.0, guess.1), &column, &row);
+            let Ok(Ok(found)) = found else { continue };
+            // Straight on is the path that is known.
+            let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
+            let far = metric.norm(&new.y, new.t);
+            let along = metric.along(&at.tangent).dot(&new.y, new.t).abs();
+            if far > 4.0 * away || along > ALIKE * far {
+                continue;
+            }
+            if let Ok(Some(here)) = Here::new(equations, metric, found, [&row, &row]) {
+                return Some(here);
+            }
+        }
+    }
+    None
+}
+
+/// A basis of the null space at a branch point, of unit length among the places.
+fn null_space<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    crossing: &Crossing<Q::Side>,
+) -> Vec<DVector<f64>> {
+    let at = &crossing.at;
+    if !matches!(equations.factorise(&at.y, at.t), Ok(Some(_))) {
+        return vec![];
+    }
+    let without = without_symmetry(at.y.len()).y;
+    let turned = |k: usize| DVector::from_fn(at.y.len(), |i, _| without[(i + 7 * k) % at.y.len()]);
+    let mut basis: Vec<_> = (0..crossing.modes).map(turned).collect();
+    for _ in 0..ITERATIONS {
+        for k in 0..basis.len() {
+            let mut next = equations.solve(&basis[k]);
+            for earlier in &basis[..k] {
+                let part = next.rows(0, metric.places).dot(&earlier.rows(0, metric.places));
+                next -= earlier * (part * metric.square);
+            }
+            let norm = metric.norm(&next, 0.0);
+            basis[k] = next / norm.max(f64::MIN_POSITIVE);
+        }
+    }
+    basis.retain(|mode| mode.sum().is_finite());
+    basis
+}
+
+/// Directions to try in a space.
+fn directions(basis: &[DVector<f64>]) -> Vec<DVector<f64>> {
+    let mut all: Vec<_> = basis.iter().flat_map(|mode| [mode.clone(), -mode]).collect();
+    for (k, one) in basis.iter().enumerate() {
+        for other in &basis[..k] {
+            let turned = |part: usize| {
+                let (sin, cos) = (TAU * part as f64 / AROUND as f64).sin_cos();
+                one * cos + other * sin
+            };
+            all.extend((0..AROUND).filter(|part| part % (AROUND / 4) > 0).map(turned));
+        }
+    }
+    all
+}
+
+/// Whether a path ends in a branch point that is known, and how; `number` and `point` are its own.
+pub(super) fn joins<E, S>(
+    metric: Metric,
+    crossings: &mut [Crossing<S>],
+    [before, at, after]: [&Here; 3],
+    (number, point): (usize, usize),
+) -> Option<End<E>> {
+    // It may have several of its own one after another, but does not turn round at once.
+    let new = |crossing: &Crossing<S>| crossing.of.path == number && point < crossing.point + ROUND;
+    let metric = metric.coarse();
+    let far = |from: &Here, to: &Here| {
+        let way = from.towards(to);
+        metric.norm(&way.y, way.t)
+    };
+    let near = SAME * far(before, after);
+    let others = crossings.iter_mut().filter(|crossing| !new(crossing));
+    let others = others.map(|crossing| (far(&crossing.at, at), crossing));
+    let (distance, known) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    if distance > near {
+        return None;
+    }
+    known.known.push(towards(metric, at, before));
+    Some(End::Joins(known.of))
+}
