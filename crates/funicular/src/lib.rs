@@ -148,7 +148,7 @@ pub use self::trace::load::{
     BranchesFrom, LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
 };
 #[cfg(feature = "branches")]
-pub use self::trace::{Confirmed, Trace, TraceAnswer};
+pub use self::trace::{Confirmed, PathProved, Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]

@@ -8,6 +8,7 @@ pub(crate) mod load;
 mod page;
 
 pub use self::confirm::Confirmed;
+pub use self::enclosed::PathProved;
 
 use std::io::{self, Write};
 

@@ -344,6 +344,21 @@ impl Interval {
         Self::new(down(self.lo.max(0.0).sqrt()).max(0.0), up(self.hi.max(0.0).sqrt()))
     }
 
+    /// Times a number that is exact as it stands.
+    ///
+    /// ```
+    /// use numerics::Interval;
+    /// let x = Interval::new(1.0, 3.0).times(-0.5);
+    /// assert!(x.encloses(Interval::new(-1.5, -0.5)) && x.width() < 1.0000001);
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn times(self, x: f64) -> Self {
+        let [a, b] = [self.lo * x, self.hi * x];
+        // What is not a number becomes the whole line.
+        if x < 0.0 { Self::rounded(b, a) } else { Self::rounded(a, b) }
+    }
+
     /// Times a power of two: exact unless the result is subnormal, which is rounded outward.
     ///
     /// ```

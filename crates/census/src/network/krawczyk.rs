@@ -1,12 +1,12 @@
-//! Krawczyk's test on the equations of a system.
+//! Krawczyk's test on equations.
 //!
-//! With $\tilde x$ and a box $\tilde x + D$ around it, Y near the inverse of the derivative and
-//! $z = -Y F(\tilde x)$: if
+//! With $\tilde x$ and a box $\tilde x + D$ around it, R near the inverse of the derivative and
+//! $z = R F(\tilde x)$: if
 //!
-//! $$ K(D) = z + (I - Y F'(\tilde x + D))\\, D $$
+//! $$ |z| + E D < D, \qquad E \ge |I - R F'(\tilde x + D)|, $$
 //!
-//! lies inside D, then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x +
-//! K(D)$. The box D is found by inflating $K$ a little, again and again.
+//! then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x - z + [-1, 1]\\,E D$. The box
+//! is found by widening $|z|$ a little, again and again.
 //!
 //! # References
 //!
@@ -14,51 +14,20 @@
 //! methods", Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X, section 13
 //! (inflation).
 
-use faer::Mat;
 use model::NoBox;
 use numerics::Interval;
 
+use super::arithmetic::sum;
 use super::equations::{Entry, Equations};
+use super::inverse::{Defect, Inverse};
 use super::newton::Refined;
 
-/// Inflations before the test counts as failed; three or four are usual.
-const ROUNDS: usize = 12;
-/// Room that each inflation adds, relative to the box.
-const ROOM: f64 = 0.25;
+/// Boxes that are tried before the test counts as failed; one or two are usual.
+const ROUNDS: usize = 6;
+/// First box, in units of what the middle is off, and each next one in units of the last bound.
+const WIDER: f64 = 2.0;
 /// Least room, in units of the last place of the point.
-const LAST_PLACES: f64 = 4.0;
-/// Times that the proved box is narrowed by the same map.
-const NARROW: usize = 3;
-
-/// As many equations as unknowns, with their derivative.
-pub(super) trait Zeros {
-    /// How many.
-    fn size(&self) -> usize;
-
-    /// Left-hand sides over a box.
-    ///
-    /// # Errors
-    ///
-    /// [`NoBox::NotFinite`] when one is not finite.
-    fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox>;
-
-    /// The derivative over a box, entries of the same place to be added.
-    fn slope(&self, unknowns: &[Interval]) -> Vec<Entry>;
-}
-
-impl Zeros for Equations {
-    fn size(&self) -> usize {
-        self.size
-    }
-
-    fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox> {
-        Self::value(self, unknowns)
-    }
-
-    fn slope(&self, unknowns: &[Interval]) -> Vec<Entry> {
-        Self::slope(self, unknowns)
-    }
-}
+const LAST_PLACES: f64 = 4.0 * f64::EPSILON;
 
 /// A zero, proved.
 pub(super) struct Zero {
@@ -66,72 +35,59 @@ pub(super) struct Zero {
     pub(super) tight: Vec<Interval>,
 }
 
-/// Prove the zero next to a refined point.
+/// A box around a point, or around all points of a line, that holds exactly one zero for each.
+#[derive(Debug)]
+pub(super) struct Proved {
+    /// Half-widths of the box.
+    pub(super) within: Vec<f64>,
+    /// Where the zeros are.
+    pub(super) tight: Vec<Interval>,
+    /// The derivative over the box, and what it differs from the inverted one.
+    pub(super) entries: Vec<Entry>,
+    pub(super) defect: Defect,
+}
+
+/// Prove the zeros next to the points of a line, where the left-hand sides times the approximate inverse
+/// are `newton`, with at least `room` around.
 ///
 /// # Errors
 ///
-/// [`NoBox::NotContracting`] when no inflated box is mapped into itself.
-pub(super) fn prove_zero(equations: &impl Zeros, refined: &Refined) -> Result<Zero, NoBox> {
-    let Refined { at, inverse } = refined;
-    let value = equations.value(&boxed(at, &vec![Interval::ZERO; at.len()]))?;
-    let newton: Vec<Interval> = (0..at.len())
-        .map(|row| {
-            -(0..at.len()).map(|k| Interval::point(inverse[(row, k)]) * value[k]).sum::<Interval>()
-        })
-        .collect();
-    let image = |around: &[Interval]| -> Vec<Interval> {
-        let rest = defect(equations, inverse, &boxed(at, around));
-        // Where nothing is unknown nothing has to be contracted.
-        let rows = rest.chunks_exact(around.len().max(1)).zip(&newton);
-        rows.map(|(row, z)| *z + row.iter().zip(around).map(|(c, d)| *c * *d).sum()).collect()
-    };
-    let mut inner = newton.clone();
+/// [`NoBox::NotContracting`] when no box is mapped into itself.
+pub(super) fn prove_around(
+    line: &[Interval],
+    newton: &[Interval],
+    room: f64,
+    inverse: &Inverse,
+    slope: impl Fn(&[Interval]) -> Vec<Entry>,
+) -> Result<Proved, NoBox> {
+    let least = |x: &Interval| LAST_PLACES * x.mag() + room + f64::MIN_POSITIVE;
+    let pairs = newton.iter().zip(line);
+    let mut guess: Vec<f64> = pairs.map(|(z, x)| WIDER * z.mag() + least(x)).collect();
     for _ in 0..ROUNDS {
-        let outer: Vec<Interval> =
-            inner.iter().zip(at).map(|(part, x)| inflated(*part, x.abs())).collect();
-        inner = image(&outer);
-        if inner.iter().zip(&outer).all(|(inner, outer)| inner.interior_to(*outer)) {
-            for _ in 0..NARROW {
-                let next = image(&inner);
-                // The zero is in both.
-                inner =
-                    inner.iter().zip(&next).map(|(a, b)| a.intersect(*b).unwrap_or(*a)).collect();
-            }
-            return Ok(Zero { tight: boxed(at, &inner) });
+        let around = line.iter().zip(&guess).map(|(x, by)| *x + Interval::around(0.0, *by));
+        let entries = slope(&around.collect::<Vec<_>>());
+        let defect = inverse.defect(&entries);
+        let [within, through] = defect.bound(newton, &guess).ok_or(NoBox::NotContracting)?;
+        if within.iter().zip(&guess).all(|(within, guess)| within <= guess) {
+            let zeros = line.iter().zip(newton).zip(&through);
+            let zeros = zeros.map(|((x, z), rest)| sum(*x, Interval::around(0.0, *rest) - *z));
+            return Ok(Proved { within, tight: zeros.collect(), entries, defect });
         }
-        if inner.iter().any(|part| !part.mag().is_finite()) {
-            break;
-        }
+        guess = within.iter().zip(&guess).map(|(w, g)| (WIDER * w).max(*g)).collect();
     }
     Err(NoBox::NotContracting)
 }
 
-/// The box around a point.
-fn boxed(at: &[f64], around: &[Interval]) -> Vec<Interval> {
-    let sum = |(x, part): (&f64, &Interval)| {
-        if *part == Interval::ZERO { Interval::point(*x) } else { Interval::point(*x) + *part }
-    };
-    at.iter().zip(around).map(sum).collect()
+/// Prove the zero next to a refined point.
+///
+/// # Errors
+///
+/// [`NoBox::NotContracting`] when no box is mapped into itself.
+pub(super) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Zero, NoBox> {
+    let Refined { at, inverse } = refined;
+    let at: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
+    let newton = inverse.apply(&equations.value(&at)?);
+    let slope = |x: &[Interval]| equations.slope(x);
+    let Proved { tight, .. } = prove_around(&at, &newton, 0.0, inverse, slope)?;
+    Ok(Zero { tight })
 }
-
-fn inflated(part: Interval, size: f64) -> Interval {
-    let room = ROOM * part.mag() + LAST_PLACES * f64::EPSILON * size + f64::MIN_POSITIVE;
-    part.hull(Interval::ZERO) + Interval::around(0.0, room)
-}
-
-/// `I − Y F'` over a box, row after row.
-fn defect(equations: &impl Zeros, inverse: &Mat<f64>, unknowns: &[Interval]) -> Vec<Interval> {
-    let size = unknowns.len();
-    let slope = equations.slope(unknowns);
-    let mut rest = vec![Interval::ZERO; size * size];
-    for (k, row) in rest.chunks_exact_mut(size.max(1)).enumerate() {
-        row[k] = Interval::ONE;
-        for (through, column, value) in &slope {
-            row[*column] = row[*column] - Interval::point(inverse[(k, *through)]) * *value;
-        }
-    }
-    rest
-}
-
-#[cfg(test)]
-mod tests;

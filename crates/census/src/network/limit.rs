@@ -1,40 +1,51 @@
-//! A limit point, enclosed.
+//! Limit points and branch points, enclosed.
 //!
-//! Along loads $f(t) = f_0 + t\\,(f_1 - f_0)$ the equations $F(y, t) = 0$ have a limit point where the
-//! derivative $J = F_y$ is singular and $F_t$ is not in its range. There
+//! Along loads $f(t) = f_0 + t\\,(f_1 - f_0)$ the equations $F(y) + t b = 0$ have a limit point where the
+//! derivative $J = F_y$ is singular and $b$ is not in its range. There
 //!
-//! $$ F(y, t) = 0, \qquad J(y)\\,\phi = 0, \qquad c \cdot \phi = 1 $$
+//! $$ F(y) + t b = 0, \qquad J(y)\\,\phi = 0, \qquad c \cdot \phi = 1 $$
 //!
 //! has a regular derivative in $(y, \phi, t)$ if the parameter turns with a curvature (Moore and
-//! Spence), so that Krawczyk's test proves exactly one of it in a box. Where other paths cross the
-//! derivative is singular, and there is no such proof.
+//! Spence). Where other paths cross it is singular; but where a mirror or half-turn maps the system onto
+//! itself and the mode breaks that symmetry, the same with $y$ symmetric and $\phi$ antisymmetric is
+//! regular (Werner and Spence).
+//!
+//! Both are solved by elimination. A [tube](super::tube) holds one curve $x(s) = (y, t)(s)$ with $\phi =
+//! \dot y$ for a limit point; the test $\tau = \dot t$ vanishes there. For a branch point
+//!
+//! $$ \begin{bmatrix} J_\chi & p \\\\ q & 0 \end{bmatrix} \begin{bmatrix} \phi \\\\ \tau \end{bmatrix}
+//!    = \begin{bmatrix} 0 \\\\ 1 \end{bmatrix}, $$
+//!
+//! with the part $J_\chi$ of the derivative that breaks the symmetry, has $\tau = 0$. If $\dot\tau$ is not
+//! zero in the tube and the interval Newton step $N = -\tau(0)/\dot\tau$ is inside, then exactly one singular
+//! point lies in the tube, at an $s$ in $N$. So matrices of one more row than unknowns are inverted.
 //!
 //! # References
 //!
-//! G. Moore, A. Spence, SIAM J. Numer. Anal. 17 (1980) 567-576, doi:10.1137/0717048.
+//! G. Moore, A. Spence, SIAM J. Numer. Anal. 17 (1980) 567-576, doi:10.1137/0717048. B. Werner, A. Spence,
+//! SIAM J. Numer. Anal. 21 (1984) 388-399, doi:10.1137/0721029.
 
-use faer::Mat;
 use model::system::System;
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
-use super::arithmetic::{NOWHERE, Vector, difference, dot, minus, norm, plus, product, sum, times};
-use super::equations::{Entry, Equations};
-use super::krawczyk::{Zero, Zeros, prove_zero};
-use super::newton::{inverse, refine};
-use super::prove::{MAX_UNKNOWNS, Posed, complementarity};
+use super::arithmetic::{difference, product, sum};
+use super::family::Family;
+use super::side::Side;
+use super::tube::{Centre, Test, Tube, last, points};
 
-/// Steps of inverse iteration towards the null vector; next to a limit point two suffice.
-const STEPS: usize = 3;
+/// Most unknowns of which limit points are proved: the inverse of 4096 takes 134 MB, four times that
+/// while it is computed, and some ten seconds.
+pub const MAX_LIMIT_UNKNOWNS: usize = 4096;
 
-/// The equations of a limit point: $(y, \phi, t)$.
-struct Limit {
-    equations: Equations,
-    /// $F_t$.
-    by_load: Vec<Interval>,
-    /// $c$.
-    measure: Vec<f64>,
-}
+/// Steps to the zero of a test, which converge like Newton's method.
+const STEPS: usize = 16;
+/// A step that has not fallen to this part of the last one is at the level of rounding.
+const FALLS: f64 = 0.5;
+/// An answer further from the point than this, in units of the system's length and force, was none.
+const REACH: f64 = 1e-3;
+/// Half-lengths of the tube in which the point is proved to be the only one, in units of the least one.
+const LONGER: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
 
 /// Prove that exactly one limit point of the loads, with its shape and mode, lies in a box next to an
 /// answer: an enclosure of the parameter there.
@@ -84,186 +95,203 @@ pub fn prove_limit(
     joints_m: &[Point],
     axial_n: &[f64],
 ) -> Result<Interval, NoBox> {
-    let Posed { equations, activities, .. } = Posed::new(at, joints_m, axial_n)?;
-    let size = equations.size;
-    let unknowns = 2 * size + 1;
-    if unknowns > MAX_UNKNOWNS {
-        return Err(NoBox::TooLarge { unknowns, limit: MAX_UNKNOWNS });
-    }
-    let [first, last] = ends.map(|system| equations.frame.loads(system));
-    let by_load = along(&equations, first.iter().zip(&last).map(|(a, b)| minus(*b, *a)));
-    let mut start = equations.start(joints_m, axial_n);
-    let equations = equations.with_loads(first);
-    let point: Vec<Interval> = start.iter().copied().map(Interval::point).collect();
-    let inverse = inverse(size, &equations.slope(&point)).ok_or(NoBox::Singular)?;
-    let mode = null_vector(&inverse);
-    start.extend_from_slice(&mode);
-    start.push((values[2] - values[0]) / (values[1] - values[0]));
-    let limit = Limit { equations, by_load, measure: mode };
-    let refined = refine(&limit, &start)?;
-    let Zero { mut tight } = prove_zero(&limit, &refined)?;
-    let t = tight[2 * size];
-    tight.truncate(size);
-    complementarity(at, &limit.equations, &activities, &Zero { tight })?;
-    let [from, to] = [values[0], values[1]].map(Interval::point);
-    Ok(sum(from, product(t, difference(to, from))))
+    let family = Family::new(ends, at, (joints_m, axial_n), false, MAX_LIMIT_UNKNOWNS)?;
+    let start = family.start(joints_m, axial_n, part(values));
+    // The loads do work along the mode.
+    let mut row: Vec<f64> = family.loads().iter().map(|load| load.mid()).collect();
+    row.push(0.0);
+    let found = singular(&family, &start, row, None)?;
+    near(&found.point, &start)?;
+    Ok(value(values, found.t))
 }
 
-/// Forces at the joints as they stand in the balances.
-fn along(equations: &Equations, forces: impl Iterator<Item = Vector>) -> Vec<Interval> {
-    let mut rows = vec![Interval::ZERO; equations.size];
-    for (joint, force) in equations.joints.iter().zip(forces) {
-        for (k, axis) in joint.axes.iter().enumerate() {
-            rows[joint.first + k] = dot(*axis, force);
+/// Prove that exactly one branch point of the loads, with its shape and a mode that breaks a symmetry,
+/// lies in a box next to an answer: an enclosure of the parameter there. What is given and what is not
+/// proved is as in [`prove_limit`].
+///
+/// The symmetry is a mirror across a vertical plane along X, along Y or between them, or the half-turn
+/// about a vertical, that maps supports, members and loads of both ends onto each other without any
+/// rounding. The box is one of symmetric shapes; another path crosses there.
+///
+/// # Errors
+///
+/// [`NoBox`], why there is no such proof: [`NoBox::Singular`] where there is no such symmetry, or
+/// the mode does not break it.
+///
+/// # Panics
+///
+/// When the systems differ in their joints.
+pub fn prove_branch(
+    ends: [&System; 2],
+    at: &System,
+    values: [f64; 3],
+    joints_m: &[Point],
+    axial_n: &[f64],
+) -> Result<Interval, NoBox> {
+    let family = Family::new(ends, at, (joints_m, axial_n), true, MAX_LIMIT_UNKNOWNS)?;
+    let start = family.start(joints_m, axial_n, part(values));
+    let mut row = vec![0.0; family.size()];
+    row[family.size() - 1] = 1.0;
+    let mut failure = NoBox::Singular;
+    for block in 1..family.blocks.len() {
+        let found = singular(&family, &start, row.clone(), Some(block));
+        match found.and_then(|found| near(&found.point, &start).map(|()| found)) {
+            Ok(found) => return Ok(value(values, found.t)),
+            Err(error) => failure = error,
         }
     }
-    rows
+    Err(failure)
 }
 
-/// The vector of unit length that a nearly singular matrix shortens most.
-fn null_vector(inverse: &Mat<f64>) -> Vec<f64> {
-    let mut mode = Mat::from_fn(inverse.nrows(), 1, |k, _| 1.0 + (k as f64).sin());
+/// Where between the ends the answer is.
+fn part([from, to, at]: [f64; 3]) -> f64 {
+    (at - from) / (to - from)
+}
+
+/// The value of the parameter.
+pub(super) fn value([from, to, _]: [f64; 3], t: Interval) -> Interval {
+    let [from, to] = [from, to].map(Interval::point);
+    sum(from, product(t, difference(to, from)))
+}
+
+/// A singular point that is proved.
+#[derive(Debug)]
+pub(super) struct Singular {
+    /// The parameter there.
+    pub(super) t: Interval,
+    /// The point.
+    pub(super) point: Vec<Interval>,
+}
+
+/// Whether what is proved is next to the answer.
+pub(super) fn near(point: &[Interval], start: &[f64]) -> Result<(), NoBox> {
+    let far = |(x, from): (&Interval, &f64)| {
+        let distance = (x.mid() - from).abs();
+        distance.is_nan() || distance > REACH * (1.0 + from.abs())
+    };
+    if point.iter().zip(start).any(far) { Err(NoBox::NotConverged) } else { Ok(()) }
+}
+
+/// Prove the singular point of one block next to a guess: the limit point of the first one, the branch
+/// point of another one.
+pub(super) fn singular(
+    family: &Family<'_>,
+    guess: &[f64],
+    row: Vec<f64>,
+    block: Option<usize>,
+) -> Result<Singular, NoBox> {
+    let (centre, side) = locate(family, guess, row, block)?;
+    let thin = centre.tube(family, Interval::ZERO)?;
+    let rate = centre.rate(family, &thin)?.vector;
+    let start = tested(family, &centre, &thin, side.as_ref(), &rate)?.0;
+    // The least length in which the point may be, and some longer ones.
+    let least = start.mag() / newton_slope(family, &centre, side.as_ref()).1.abs();
+    let mut failure = NoBox::NotContracting;
+    for longer in LONGER {
+        let length = longer * least + f64::MIN_POSITIVE;
+        match alone(family, &centre, side.as_ref(), (&thin, start), length) {
+            Ok((step, t_rate)) => {
+                // From the middle of the tube to the point.
+                let t = last(thin.curve());
+                let moved = thin.curve().iter().zip(&t_rate.1);
+                let point = moved.map(|(x, rate)| sum(*x, product(step, *rate))).collect();
+                return Ok(Singular { t: sum(t, product(step, t_rate.0)), point });
+            }
+            Err(error) => failure = error,
+        }
+    }
+    Err(failure)
+}
+
+/// At which $s$ the test of a tube around a centre has its only zero; $\dot t$ and $\dot x$ up to there.
+fn alone(
+    family: &Family<'_>,
+    centre: &Centre,
+    side: Option<&Side>,
+    (thin, start): (&Tube, Interval),
+    length: f64,
+) -> Result<(Interval, (Interval, Vec<Interval>)), NoBox> {
+    let tube = centre.tube(family, Interval::around(0.0, length))?;
+    // The curve of the thin tube is the one of this.
+    centre.shares(thin, &tube)?;
+    family.acts(family.spread(tube.curve()))?;
+    let rate = centre.rate(family, &tube)?.vector;
+    let slope = tested(family, centre, &tube, side, &rate)?.1;
+    let step = zero(start, slope, tube.over).ok_or(NoBox::NotContracting)?;
+    let mut t_rate = last(&rate);
+    if side.is_none() {
+        t_rate = sum(start, product(step.hull(Interval::ZERO), slope));
+    }
+    Ok((step, (t_rate, rate)))
+}
+
+/// Where the only zero is of what has this value at 0 and this slope in a range around it; nothing
+/// where that is not proved.
+pub(super) fn zero(start: Interval, slope: Interval, over: Interval) -> Option<Interval> {
+    let step = -start / slope;
+    step.interior_to(over).then_some(step)
+}
+
+/// The test of the block that may be singular, over a tube, and its slope.
+pub(super) fn tested(
+    family: &Family<'_>,
+    centre: &Centre,
+    tube: &Tube,
+    side: Option<&Side>,
+    rate: &[Interval],
+) -> Result<(Interval, Interval), NoBox> {
+    let of = |test: &Test<'_>| Ok((test.value(), test.slope(family, tube, rate)?));
+    let Some(side) = side else { return of(&centre.rate(family, tube)?) };
+    let entries = side.entries(family, &family.equations.slope(&family.spread(tube.curve())));
+    let defect = side.inverse.defect(&entries);
+    of(&Test::new(side.of(family), &side.inverse, (&entries, &defect), Interval::ONE)?)
+}
+
+/// The singular point next to a guess, in double precision.
+fn locate(
+    family: &Family<'_>,
+    guess: &[f64],
+    row: Vec<f64>,
+    block: Option<usize>,
+) -> Result<(Centre, Option<Side>), NoBox> {
+    let mut centre = Centre::new(family, guess, row)?;
+    let side = match block {
+        None => None,
+        Some(block) => Some(Side::new(family, block, guess, None).ok_or(NoBox::Singular)?),
+    };
+    let mut last = f64::INFINITY;
     for _ in 0..STEPS {
-        mode = inverse * mode;
-        let norm = mode.norm_l2();
-        mode *= faer::Scale(norm.recip());
+        let (value, slope) = newton_slope(family, &centre, side.as_ref());
+        let s = -value / slope;
+        if !s.is_finite() {
+            return Err(NoBox::NotConverged);
+        }
+        // At the level of rounding the steps stop shrinking.
+        if s.abs() >= FALLS * last {
+            break;
+        }
+        last = s.abs();
+        centre.at = centre.ahead(s);
+        centre.settle(family)?;
     }
-    (0..inverse.nrows()).map(|k| mode[(k, 0)]).collect()
+    Ok((centre, side))
 }
 
-impl Zeros for Limit {
-    fn size(&self) -> usize {
-        2 * self.equations.size + 1
-    }
-
-    fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox> {
-        let size = self.equations.size;
-        let (y, mode, t) = (&unknowns[..size], &unknowns[size..2 * size], unknowns[2 * size]);
-        let mut value = self.equations.value(y)?;
-        for (row, by_load) in value.iter_mut().zip(&self.by_load) {
-            *row = sum(*row, product(t, *by_load));
+/// $\tau$ and $\dot\tau$ at a centre, in double precision.
+fn newton_slope(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> (f64, f64) {
+    let y = family.spread(&points(&centre.at));
+    let along = family.spread(&points(&centre.along));
+    let (block, inverse, vector) = match side {
+        None => (&family.blocks[0], &centre.inverse, centre.along.clone()),
+        Some(side) => {
+            let block = side.of(family);
+            let mut last = vec![0.0; block.size() + 1];
+            last[block.size()] = 1.0;
+            let entries = side.entries(family, &family.equations.slope(&y));
+            (block, &side.inverse, side.inverse.solve(&entries, &last))
         }
-        value.resize(2 * size, Interval::ZERO);
-        for (row, column, entry) in self.equations.slope(y) {
-            value[size + row] = sum(value[size + row], product(entry, mode[column]));
-        }
-        let measured = mode.iter().zip(&self.measure).map(|(part, c)| Interval::point(*c) * *part);
-        value.push(measured.sum::<Interval>() - Interval::ONE);
-        let finite = value.iter().all(|part| part.mag().is_finite());
-        if finite { Ok(value) } else { Err(NoBox::NotFinite) }
-    }
-
-    fn slope(&self, unknowns: &[Interval]) -> Vec<Entry> {
-        let size = self.equations.size;
-        let (y, mode) = (&unknowns[..size], &unknowns[size..2 * size]);
-        let jacobian = self.equations.slope(y);
-        let shifted =
-            jacobian.iter().map(|(row, column, entry)| (size + row, size + column, *entry));
-        let mut entries: Vec<Entry> = shifted.collect();
-        entries.extend(jacobian);
-        entries.extend(self.by_load.iter().enumerate().map(|(row, entry)| (row, 2 * size, *entry)));
-        let measure = self.measure.iter().enumerate();
-        entries.extend(measure.map(|(k, c)| (2 * size, size + k, Interval::point(*c))));
-        self.curvature(y, mode, &mut entries);
-        entries
-    }
-}
-
-impl Limit {
-    /// The derivative of $J(y)\\,\phi$ by $y$.
-    fn curvature(&self, y: &[Interval], mode: &[Interval], entries: &mut Vec<Entry>) {
-        let Equations { joints, acting, size, .. } = &self.equations;
-        let places = self.equations.places(y);
-        let moves: Vec<Vector> = joints
-            .iter()
-            .map(|joint| {
-                let parts = joint.axes.iter().zip(&mode[joint.first..]);
-                parts.fold(NOWHERE, |all, (axis, part)| plus(all, times(*part, *axis)))
-            })
-            .collect();
-        for member in acting {
-            let [a, b] = member.ends;
-            let (span, change) = (minus(places[b], places[a]), minus(moves[b], moves[a]));
-            let (w, of_force) = (y[member.density], mode[member.density]);
-            let row = size + member.density;
-            let (by_span, by_force) = if member.is_rigid() {
-                (change, Interval::ZERO)
-            } else {
-                let length = norm(span);
-                let unit =
-                    span.map(|part| if part == Interval::ZERO { part } else { part / length });
-                let stretch = dot(unit, change);
-                let across = minus(change, times(stretch, unit));
-                let across = times(member.shrink(w) / length, across);
-                let along = times(product(member.compliance, of_force), unit);
-                (minus(across, along), -product(member.compliance, stretch))
-            };
-            entries.push((row, member.density, by_force));
-            for (here, sign) in [(a, -Interval::ONE), (b, Interval::ONE)] {
-                let joint = &joints[here];
-                for (k, axis) in joint.axes.iter().enumerate() {
-                    let at = joint.first + k;
-                    entries.push((row, at, product(sign, dot(*axis, by_span))));
-                    // Balance: what pulls a pulls b the other way.
-                    entries.push((size + at, member.density, -product(sign, dot(*axis, change))));
-                    for (there, other_sign) in [(a, -Interval::ONE), (b, Interval::ONE)] {
-                        for (i, towards) in joints[there].axes.iter().enumerate() {
-                            let block = product(of_force, dot(*axis, *towards));
-                            let block = -product(product(sign, other_sign), block);
-                            entries.push((size + at, joints[there].first + i, block));
-                        }
-                    }
-                }
-            }
-        }
-        entries.retain(|(_, _, value)| *value != Interval::ZERO);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use model::Bar;
-    use model::system::{Joint, Member};
-
-    use super::*;
-    use crate::network::newton::dense;
-
-    /// A bar and two springs to two joints.
-    #[test]
-    fn the_slope_is_its_difference_quotient() {
-        let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-        let joints = vec![
-            Joint::anchor("A", [0.0, 0.0, 0.0]),
-            Joint::free("P").with_mass(0.3),
-            Joint::free("Q").with_mass(0.2),
-        ];
-        let members = vec![
-            Member::bar(0, 1, light(1.0)),
-            Member::bar(1, 2, light(1.3)).with_stiffness(7.0),
-            Member::bar(2, 0, light(0.8)).with_stiffness(3.0),
-        ];
-        let system = System::new("twin", 10.0, joints, members).unwrap();
-        let at_m = [[0.0; 3], [0.6, 0.1, -0.7], [-0.3, 0.5, -0.9]];
-        let Posed { equations, .. } = Posed::new(&system, &at_m, &[1.0, 2.0, 3.0]).unwrap();
-        let size = equations.size;
-        let by_load = (0..size).map(|k| Interval::point(0.1 * k as f64)).collect();
-        let measure = (0..size).map(|k| (k as f64).cos()).collect();
-        let limit = Limit { equations, by_load, measure };
-        let at: Vec<f64> = (0..limit.size()).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();
-        let points = |at: &[f64]| at.iter().copied().map(Interval::point).collect::<Vec<_>>();
-        let slope = dense(limit.size(), &limit.slope(&points(&at)));
-        for column in 0..limit.size() {
-            let moved = |step: f64| {
-                let mut at = at.clone();
-                at[column] += step;
-                limit.value(&points(&at)).unwrap()
-            };
-            let (more, less) = (moved(1e-5), moved(-1e-5));
-            for row in 0..limit.size() {
-                let quotient = (more[row].mid() - less[row].mid()) / 2e-5;
-                let error = (slope[(row, column)] - quotient).abs();
-                assert!(error < 1e-7, "{row} {column}: {} {quotient}", slope[(row, column)]);
-            }
-        }
-    }
+    };
+    let bent = family.bent(block, &y, &block.spread(&points(&vector)), &along);
+    let slope: f64 = inverse.last_row().iter().zip(&bent).map(|(a, b)| a * b.mid()).sum();
+    (vector.last().copied().unwrap_or(f64::NAN), slope)
 }

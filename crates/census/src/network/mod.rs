@@ -30,11 +30,12 @@
 //! | $\mu_i$ | | free turns | force | moment that holds a turn; proved to be zero |
 //! | Y | `inverse` | n × n | | approximate inverse of the derivative |
 //!
-//! # A limit point in a box
+//! # Singular points, and the path to the first of them
 //!
-//! [`prove_limit`] encloses a load at which the derivative $J$ of the equations $F$ is singular, with
-//! Krawczyk's test on $F(y, t) = 0$, $J \phi = 0$, $c \cdot \phi = 1$, which is regular in a limit
-//! point (module `limit`).
+//! [`prove_limit`] encloses a load at which the derivative $J$ of the equations $F$ is singular: $F(y, t) =
+//! 0$, $J \phi = 0$, $c \cdot \phi = 1$; [`prove_branch`] one at which a symmetry breaks (module `limit`).
+//! [`prove_path`] proves the path of equilibria through a shape by Krawczyk's test with the load as an
+//! interval, box after box, up to its first singular point (modules `tube` and `path`).
 //!
 //! # All equilibria
 //!
@@ -70,23 +71,31 @@ mod activity;
 mod arithmetic;
 mod census;
 mod coordinates;
+mod curvature;
 mod diagnosis;
 mod equations;
+mod family;
 mod floor;
 mod frame;
+mod inverse;
 mod krawczyk;
 mod limit;
 mod newton;
+mod path;
 mod prove;
 mod proven;
+mod side;
+mod symmetry;
 #[cfg(test)]
 mod tests;
+mod tube;
 mod turns;
 
 pub use census::{
     ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
     UndecidedPlaces, bridle_seconds,
 };
-pub use limit::prove_limit;
+pub use limit::{MAX_LIMIT_UNKNOWNS, prove_branch, prove_limit};
+pub use path::{MAX_PATH_UNKNOWNS, PathProof, SingularKind, prove_path};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

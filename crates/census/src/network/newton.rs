@@ -2,12 +2,11 @@
 //! proof.
 
 use faer::Mat;
-use faer::linalg::solvers::DenseSolveCore;
 use model::NoBox;
 use numerics::Interval;
 
-use super::equations::Entry;
-use super::krawczyk::Zeros;
+use super::equations::{Entry, Equations};
+use super::inverse::Inverse;
 
 /// Steps from an answer that is good to some digits; quadratic convergence needs three.
 const STEPS: usize = 8;
@@ -19,7 +18,7 @@ const REACH: f64 = 1e-3;
 pub(super) struct Refined {
     pub(super) at: Vec<f64>,
     /// Approximate inverse of the derivative there.
-    pub(super) inverse: Mat<f64>,
+    pub(super) inverse: Inverse,
 }
 
 /// Refine an answer.
@@ -28,17 +27,17 @@ pub(super) struct Refined {
 ///
 /// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead
 /// away.
-pub(super) fn refine(equations: &impl Zeros, start: &[f64]) -> Result<Refined, NoBox> {
+pub(super) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, NoBox> {
     let mut at = start.to_vec();
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
         let point: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
-        let inverse = inverse(equations.size(), &equations.slope(&point)).ok_or(NoBox::Singular)?;
-        let value = equations.value(&point)?;
-        let value = Mat::from_fn(equations.size(), 1, |row, _| value[row].mid());
-        let step = &inverse * value;
-        let next: Vec<f64> = at.iter().enumerate().map(|(k, x)| x - step[(k, 0)]).collect();
-        let size = (0..at.len()).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);
+        let inverse =
+            Inverse::of(equations.size, &equations.slope(&point)).ok_or(NoBox::Singular)?;
+        let step: Vec<f64> =
+            inverse.apply(&equations.value(&point)?).iter().map(|part| part.mid()).collect();
+        let next: Vec<f64> = at.iter().zip(&step).map(|(x, step)| x - step).collect();
+        let size = step.iter().map(|step| step.abs()).fold(0.0, f64::max);
         let away = next.iter().zip(start).any(|(x, from)| {
             let distance = (x - from).abs();
             distance.is_nan() || distance > REACH * (1.0 + from.abs())
@@ -54,13 +53,6 @@ pub(super) fn refine(equations: &impl Zeros, start: &[f64]) -> Result<Refined, N
         last = size;
     }
     Err(NoBox::NotConverged)
-}
-
-/// The inverse of the middle of a matrix of intervals, if double precision has one.
-pub(super) fn inverse(size: usize, entries: &[Entry]) -> Option<Mat<f64>> {
-    let inverse = dense(size, entries).partial_piv_lu().inverse();
-    let finite = inverse.col_iter().all(|column| column.iter().all(|x| x.is_finite()));
-    finite.then_some(inverse)
 }
 
 /// The middle of a matrix of intervals.

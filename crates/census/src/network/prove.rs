@@ -87,7 +87,17 @@ pub(super) struct Posed {
 
 impl Posed {
     pub(super) fn new(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Self, NoBox> {
-        let frame = Frame::new(system, axial_n);
+        Self::within(system, Frame::new(system, axial_n), joints_m, axial_n, MAX_UNKNOWNS)
+    }
+
+    /// In these units, with so many unknowns at most.
+    pub(super) fn within(
+        system: &System,
+        frame: Frame,
+        joints_m: &[Point],
+        axial_n: &[f64],
+        limit: usize,
+    ) -> Result<Self, NoBox> {
         let activities = activities(system, &frame, joints_m, axial_n)?;
         let loose = loose_joints(system, &activities);
         let held: Vec<bool> = system
@@ -97,8 +107,8 @@ impl Posed {
             .map(|(joint, loose)| *loose || joint.support.is_fixed())
             .collect();
         let unknowns = unknowns(system, &activities, &held);
-        if unknowns > MAX_UNKNOWNS {
-            return Err(NoBox::TooLarge { unknowns, limit: MAX_UNKNOWNS });
+        if unknowns > limit {
+            return Err(NoBox::TooLarge { unknowns, limit });
         }
         let turns = turns(system, &activities, joints_m, &held);
         let equations = Equations::new(system, frame, &activities, &turns, joints_m, &held);

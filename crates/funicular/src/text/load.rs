@@ -6,10 +6,10 @@ use branches::load::MOST_PATHS;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, significant, table, wrapped};
-use crate::trace::Confirmed;
 use crate::trace::load::{
     BranchesFrom, LoadEnd, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
 };
+use crate::trace::{Confirmed, PathProved};
 
 /// Points of a path printed one by one besides its events; of more, as many spread over the path.
 const PRINTED: usize = 16;
@@ -58,8 +58,11 @@ fn fixed(found: &LoadPaths, path: &LoadPath) -> String {
 
 /// `loads = 0.5`, `joints.P.force_n.z = -3 N`.
 fn valued(name: &str, value: f64, unit: &str) -> String {
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    format!("{} = {}{unit}", Printable(name), significant(value, DIGITS))
+    format!("{} = {}", Printable(name), with_unit(significant(value, DIGITS), unit))
+}
+
+fn with_unit(number: String, unit: &str) -> String {
+    if unit == "1" { number } else { format!("{number} {unit}") }
 }
 
 fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
@@ -87,6 +90,7 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
         text.push('\n');
     };
     say(first_loss(found, path));
+    say(proved(found, path));
     if let Some(sentence) = imperfections(found, path) {
         say(sentence);
     }
@@ -172,6 +176,35 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
         format!("; it is proved to lie between {low} and {high}")
     });
     format!("first loss of stability along this path at {at}, by {by}{proved}{mode}")
+}
+
+/// What is proved of the path from its start on.
+fn proved(found: &LoadPaths, path: &LoadPath) -> String {
+    let (names, units) = found.parameters();
+    let last = names.len().saturating_sub(1);
+    let PathProved { to, first, between, because, .. } = &path.proved;
+    if let (Some(first), Some([low, high])) = (first, between) {
+        let [low, high] = outwards(*low, *high).map(|value| with_unit(value, units[last]));
+        let name = Printable(&names[last]);
+        let does = match first {
+            LoadEventKind::BranchPoint => {
+                "comes to its first branch point, where a symmetry breaks,"
+            }
+            _ => "reaches its first limit point",
+        };
+        return format!(
+            "proved: the path through the shape at its start {does} at {name} between {low} and {high}, and no other \
+             equilibrium meets it before"
+        );
+    }
+    let because = because.as_deref().unwrap_or("the range ends");
+    match to {
+        Some(to) => {
+            let to = valued(&names[last], *to, units[last]);
+            format!("proved: no other equilibrium meets the path before {to}; beyond: {because}")
+        }
+        None => format!("the path is not proved: {because}"),
+    }
 }
 
 /// Two numbers rounded away from each other, to as many digits as are needed to tell them apart from the

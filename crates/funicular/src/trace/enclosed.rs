@@ -1,18 +1,91 @@
-//! Limit points of loads, enclosed by interval arithmetic.
+//! What interval arithmetic proves of load paths: their limit and branch points, and the path from its
+//! start to the first of them.
 
 use branches::Variation;
-use census::network::prove_limit;
+use census::network::{PathProof, SingularKind, prove_branch, prove_limit, prove_path};
+use model::NoBox;
 use model::system::{Joint, Member, System};
+use serde::Serialize;
 
 use super::equations::Kept;
+use super::load::LoadEventKind;
 
-/// Values of the last parameter between which the limit point is proved to lie; nothing where more than
-/// loads vary, over a floor, or where there is no proof.
+/// What is proved of a load path from its start on. The path is the one through the shape at the start, as
+/// far as its parameter grows (or falls) all along; of other equilibria nothing is said but that they do not
+/// meet it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PathProved {
+    /// Up to this value of the last parameter the path is regular: no other equilibrium meets it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// What ends it: a limit point, or a branch point of a mode that breaks a symmetry.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first: Option<LoadEventKind>,
+    /// Values of the last parameter between which that point lies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub between: Option<[f64; 2]>,
+    /// Boxes that cover the path.
+    pub boxes: usize,
+    /// Why it is not proved further, before the end of the range and before any such point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub because: Option<String>,
+}
+
+impl PathProved {
+    fn nothing(because: impl Into<String>) -> Self {
+        Self { to: None, first: None, between: None, boxes: 0, because: Some(because.into()) }
+    }
+}
+
+/// The path from its start.
+pub(super) fn proved(
+    variation: &Variation<System>,
+    [from, to]: [&[f64]; 2],
+    start: Option<&Kept>,
+) -> PathProved {
+    let system = |values: &[f64]| variation.unloaded(values).ok();
+    let (Some(first), Some(last), Some(start)) = (system(from), system(to), start) else {
+        return PathProved::nothing("the numbers describe no system at its ends");
+    };
+    if start.values != from {
+        return PathProved::nothing("it begins in a branch point");
+    }
+    if first.floor_m().is_some() {
+        return PathProved::nothing("the system has a floor");
+    }
+    if !loads_alone(&first, &last) {
+        return PathProved::nothing("more than loads vary");
+    }
+    let values = [from, to].map(|values| values.last().copied().unwrap_or(f64::NAN));
+    let answer = &start.equilibrium;
+    match prove_path([&first, &last], values, &answer.joints_m, &answer.axial_n) {
+        Err(because) => PathProved::nothing(because.to_string()),
+        Ok(PathProof { to, first, tubes, stopped }) => PathProved {
+            to: Some(to),
+            first: first.map(|(kind, _)| match kind {
+                SingularKind::Limit => LoadEventKind::LimitPoint,
+                SingularKind::Branch => LoadEventKind::BranchPoint,
+            }),
+            between: first.map(|(_, value)| [value.lo(), value.hi()]),
+            boxes: tubes,
+            because: stopped.map(|because: NoBox| because.to_string()),
+        },
+    }
+}
+
+/// Values of the last parameter between which exactly one limit or branch point is proved to lie; nothing
+/// where more than loads vary, over a floor, or where there is no proof.
 pub(super) fn enclosed(
     variation: &Variation<System>,
     [from, to]: [&[f64]; 2],
     at: &Kept,
+    kind: LoadEventKind,
 ) -> Option<[f64; 2]> {
+    let prove = match kind {
+        LoadEventKind::LimitPoint => prove_limit,
+        LoadEventKind::BranchPoint => prove_branch,
+        LoadEventKind::Kink => return None,
+    };
     let system = |values: &[f64]| variation.unloaded(values).ok();
     let (first, last, here) = (system(from)?, system(to)?, system(&at.values)?);
     if here.floor_m().is_some() || !loads_alone(&first, &last) {
@@ -20,8 +93,7 @@ pub(super) fn enclosed(
     }
     let values = [from.last()?, to.last()?, at.values.last()?].map(|value| *value);
     let answer = &at.equilibrium;
-    let found =
-        prove_limit([&first, &last], &here, values, &answer.joints_m, &answer.axial_n).ok()?;
+    let found = prove([&first, &last], &here, values, &answer.joints_m, &answer.axial_n).ok()?;
     Some([found.lo(), found.hi()])
 }
 

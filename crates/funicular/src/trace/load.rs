@@ -10,7 +10,7 @@ use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
 use super::confirm::{Confirmed, confirm};
-use super::enclosed::enclosed;
+use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept, Line, line};
 use super::{figure, page};
 use crate::csv::quoted;
@@ -22,6 +22,10 @@ use crate::solve::SCHEMA_VERSION;
 
 /// Steps over the whole range, at least.
 const STEPS: f64 = 24.0;
+
+/// Most joints and bars together of a system of which all limit and branch points are proved, each in some
+/// tenths of a second; of a larger one the first loss of stability alone.
+const PROVED_ALL: usize = 300;
 
 /// Why there is no load path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,8 +131,9 @@ pub struct LoadEvent {
     pub index: [usize; 2],
     /// Whether the parameter turns back here.
     pub turns: bool,
-    /// Between these values of the last parameter exactly one limit point is proved to lie, next to this
-    /// shape: where loads alone vary, of systems that are not too large.
+    /// Between these values of the last parameter exactly one limit or branch point is proved to lie, next to
+    /// this shape: where loads alone vary, of systems that are not too large; a branch point where its mode
+    /// breaks a symmetry that is exact in double precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enclosed: Option<[f64; 2]>,
     /// Bars that become slack here, from 1.
@@ -160,6 +165,12 @@ pub struct BranchesFrom {
     pub event: usize,
 }
 
+impl LoadEvent {
+    fn is_loss(&self) -> bool {
+        self.index[0] == 0 && self.index[1] > 0
+    }
+}
+
 /// A load path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadPath {
@@ -181,13 +192,15 @@ pub struct LoadPath {
     pub linear_buckling: Option<f64>,
     /// What `energy` says of it.
     pub confirmed: Confirmed,
+    /// What interval arithmetic proves of it from its start on.
+    pub proved: PathProved,
 }
 
 impl LoadPath {
     /// The first event in which the index rises from 0; nothing where it does not.
     #[must_use]
     pub fn first_loss(&self) -> Option<&LoadEvent> {
-        self.events.iter().find(|event| event.index[0] == 0 && event.index[1] > 0)
+        self.events.iter().find(|event| event.is_loss())
     }
 }
 
@@ -330,13 +343,18 @@ fn described(
     let points = points.collect();
     let events = found.events.iter().map(|event| event_described(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
-    for (event, of) in events.iter_mut().zip(&found.events) {
+    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
+    let loss = events.iter().position(LoadEvent::is_loss);
+    for (number, (event, of)) in events.iter_mut().zip(&found.events).enumerate() {
+        let record = &found.points[event.point].record;
+        if small || loss == Some(number) {
+            event.enclosed = enclosed(variation, family.ends(), record, event.kind);
+        }
         if event.kind == LoadEventKind::LimitPoint {
-            let record = &found.points[event.point].record;
-            event.enclosed = enclosed(variation, family.ends(), record);
             (event.by_length, event.by_place) = family.imperfections(record, of)?;
         }
     }
+    let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
     let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
         .points
         .iter()
@@ -354,7 +372,7 @@ fn described(
         End::Numbers(_) => LoadEnd::Numbers,
     };
     let (branches_from, joins, linear_buckling) = (None, None, None);
-    Ok(LoadPath { points, events, end, branches_from, joins, linear_buckling, confirmed })
+    Ok(LoadPath { points, events, end, branches_from, joins, linear_buckling, confirmed, proved })
 }
 
 fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {

@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, clippy::format_push_string, reason = "helpers of tests")]
 
 use funicular::prelude::*;
-use funicular::{LoadEnd, LoadEvent, LoadEventKind, LoadPath};
+use funicular::{LoadEnd, LoadEvent, LoadEventKind, LoadPath, PathProved};
 
 /// Limits and branches are located to this part.
 const SHARP: f64 = 1e-9;
@@ -64,6 +64,15 @@ fn near(found: f64, wanted: f64) {
     assert!((found - wanted).abs() <= SHARP * wanted.abs().max(1.0), "{found} {wanted}");
 }
 
+/// The path is proved from its start up to this point.
+fn is_proved(path: &LoadPath, kind: LoadEventKind, wanted: f64) {
+    let PathProved { to, first, between, because, .. } = &path.proved;
+    assert_eq!((*first, because.as_deref()), (Some(kind), None), "{:?}", path.proved);
+    let [low, high] = between.unwrap();
+    assert!(low - 1e-15 <= wanted && wanted <= high + 1e-15 && high - low < 1e-11, "{low} {high}");
+    assert!((to.unwrap() - low).abs() < 1e-15);
+}
+
 #[test]
 fn a_shallow_gable_snaps_through_and_back() {
     let path = path(&gable(0.5, "z", ""), "loads=0,1,-1");
@@ -90,6 +99,7 @@ fn a_shallow_gable_snaps_through_and_back() {
     }
     let [x, y, z] = path.events[0].mode[2];
     assert!(x.abs().max(y.abs()) < 1e-15 && (z - 1.0).abs() < 1e-15);
+    is_proved(&path, kind, limit_n);
 }
 
 #[test]
@@ -105,6 +115,9 @@ fn a_steep_gable_sways_before_its_limit() {
         near(event.values[0], load_n(l0, l));
     }
     assert_eq!(path.first_loss(), Some(&path.events[0]));
+    is_proved(&path, branch, load_n(l0, first));
+    let [low, high] = path.events[0].enclosed.unwrap();
+    assert!(low - 1e-15 <= load_n(l0, first) && load_n(l0, first) <= high + 1e-15);
     let [x, _, z] = path.events[0].mode[2];
     assert!((x - 1.0).abs() < 1e-12 && z.abs() < 1e-6);
 }
@@ -312,6 +325,7 @@ fn a_steep_pyramid_sways_in_two_directions_at_once() {
     let first = &path.events[0];
     assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 2]));
     near(first.values[0], 2.0 * load_n(l0, l));
+    is_proved(&path, LoadEventKind::BranchPoint, 2.0 * load_n(l0, l));
 }
 
 /// Heated bars of a gable that may rise bear nothing: w^2 = (f l0)^2 - 1 at the factor f.
@@ -367,6 +381,11 @@ fn a_cable_becomes_slack_and_taut_again() {
     let [kink] = &up.events[..] else { panic!("{:?}", up.events) };
     assert_eq!((kink.kind, &kink.slack[..], kink.turns), (LoadEventKind::Kink, &[1][..], false));
     near(kink.values[0], 4.0);
+    let PathProved { to, first: None, because: Some(because), .. } = &up.proved else {
+        panic!("{up:?}")
+    };
+    let to = to.unwrap();
+    assert!(to < 4.0 && to > 3.999 && because.contains("member 1"), "{to} {because}");
     near(up.points.last().unwrap().joints_m[2][2], 0.4);
     let z = up.points[0].joints_m[2][2];
     near(10.0 * (0.2 - z) - 20.0 * z + 1.0, 0.0);
@@ -408,6 +427,10 @@ fn a_joint_meets_the_floor() {
     let [kink] = &path.events[..] else { panic!("{:?}", path.events) };
     assert_eq!((kink.kind, &kink.lands[..]), (LoadEventKind::Kink, &["P".to_owned()][..]));
     near(kink.values[0], 5.0);
+    assert_eq!(
+        (path.proved.to, path.proved.because.as_deref()),
+        (None, Some("the system has a floor"))
+    );
     near(path.points.last().unwrap().joints_m[1][2], -1.5);
 }
 
@@ -515,11 +538,12 @@ fn the_path_of_a_symmetric_truss_is_symmetric() {
     let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
     let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
     assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
-    assert!(
-        path.events
-            .iter()
-            .all(|event| event.enclosed.is_some() == (event.kind == LoadEventKind::LimitPoint))
-    );
+    // All limit points are proved, and all branch points: their modes break mirrors.
+    for event in &path.events {
+        let [low, high] = event.enclosed.unwrap_or_else(|| panic!("{event:?}"));
+        assert!(high - low < 1e-9);
+        near(event.values[0], 0.5 * (low + high));
+    }
     for (one, other) in limits.iter().zip(limits.iter().rev()) {
         near(*one, -other);
     }
@@ -544,4 +568,9 @@ fn the_star_dome_reaches_its_published_limit() {
     let [low, high] = path.first_loss().unwrap().enclosed.unwrap();
     // The file says between 0.66 and 0.675 P, by a Newton's method of others.
     assert!(0.3 * low > 0.66 && 0.3 * high < 0.675 && high - low < 1e-9, "{low} {high}");
+    is_proved(path, LoadEventKind::LimitPoint, 0.5 * (low + high));
+    let text = found.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    let claim = "reaches its first limit point at loads between 2.21926806 and 2.21926807, and no other equilibrium \
+                 meets it before";
+    assert!(text.contains(claim), "{text}");
 }

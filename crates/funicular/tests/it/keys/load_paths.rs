@@ -48,6 +48,10 @@ fn load_path_of_a_gable() {
     output.is(&at("by_place[][]"), by_place);
     let point = output.numbers(&at("point"))[0];
     output.is("load_paths[].end", "range");
+    output.is("load_paths[].proved.first", "limit-point");
+    output.is("load_paths[].proved.to", limit);
+    output.encloses("load_paths[].proved.between[]", limit);
+    output.within("load_paths[].proved.boxes", 2.0..=64.0);
     let at = |key: &str| format!("load_paths[].points[].{key}");
     let heights = output.numbers(&at("of[]"));
     let each = |of: &dyn Fn(f64, f64) -> Value| -> Value {
@@ -131,6 +135,7 @@ fn kinks_of_a_cable_and_a_floor() {
     down.is(&at("slack[]"), json!([]));
     down.is(&at("leaves[]"), json!([]));
     down.is(&at("turns"), json!([false, false]));
+    down.is("load_paths[].proved.because", "the system has a floor");
     down.done();
     let mut up = of("joints.P.force_n.z=-15..4", "-1.4");
     up.is(&at("kind"), json!(["kink", "kink"]));
@@ -141,6 +146,7 @@ fn kinks_of_a_cable_and_a_floor() {
     up.is(&at("taut[]"), json!([]));
     up.is(&at("lands[]"), json!([]));
     up.is(&at("turns"), json!([false, false]));
+    up.is("load_paths[].proved.because", "the system has a floor");
     up.done();
 }
 

@@ -1,0 +1,81 @@
+use model::Bar;
+use model::system::{Joint, Member, System};
+
+use super::*;
+use crate::network::frame::Frame;
+use crate::network::prove::Posed;
+
+/// Four feet about a centre, one moved by this along X, and an apex under this load.
+fn pyramid(centre: f64, off: f64, force_n: Point) -> (System, Vec<Point>) {
+    let feet = [[1.0 + off, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    let feet = feet.map(|[x, y]: [f64; 2]| [centre + x, y, 0.0]);
+    let names = ["A", "B", "C", "D"];
+    let mut joints: Vec<Joint> =
+        names.iter().zip(feet).map(|(name, at_m)| Joint::anchor(*name, at_m)).collect();
+    joints.push(Joint::free("P").with_force(force_n));
+    let bar = Bar::homogeneous(2.0, 0.0).unwrap();
+    let members = (0..4).map(|foot| Member::bar(foot, 4, bar).with_stiffness(1.0)).collect();
+    let system = System::new("pyramid", 9.81, joints, members).unwrap();
+    (system, feet.into_iter().chain([[centre, 0.0, 1.5]]).collect())
+}
+
+fn blocks(system: &System, shape: &[Point]) -> Option<(Equations, Vec<Block>)> {
+    let symmetry = Symmetry::of(&[system], shape)?;
+    let axial_n = [-0.1; 4];
+    let mut frame = Frame::new(system, &axial_n);
+    frame.origin_m = symmetry.centre_m;
+    let Posed { equations, .. } = Posed::within(system, frame, shape, &axial_n, 100).unwrap();
+    let blocks = Block::all(&equations, &symmetry)?;
+    Some((equations, blocks))
+}
+
+/// Seven unknowns: the height and two pairs of forces; a move to each side with the difference of a pair.
+#[test]
+fn unknowns_fall_apart_by_their_symmetry() {
+    let sizes = |centre, off, force_n| {
+        let (system, shape) = pyramid(centre, off, force_n);
+        let (_, blocks) = blocks(&system, &shape)?;
+        Some(blocks.iter().map(Block::size).collect::<Vec<_>>())
+    };
+    let down = [0.0, 0.0, -1.0];
+    for centre in [0.0, 3.5] {
+        assert_eq!(sizes(centre, 0.0, down), Some(vec![3, 2, 2, 0]));
+        // Under a push along X it is its mirror image across that alone.
+        assert_eq!(sizes(centre, 0.0, [0.1, 0.0, -1.0]), Some(vec![5, 2]));
+        // Along a diagonal.
+        assert_eq!(sizes(centre, 0.0, [0.1, 0.1, -1.0]), Some(vec![4, 3]));
+        assert_eq!(sizes(centre, 0.0, [0.1, 0.2, -1.0]), None);
+    }
+    // Off by the last place of a double, and what doubles cannot say of the centre.
+    assert_eq!(sizes(0.0, f64::EPSILON, down), Some(vec![5, 2]));
+    assert_eq!(sizes(0.1, 0.0, down), Some(vec![5, 2]));
+}
+
+/// The derivative at a symmetric shape maps each block into itself.
+#[test]
+fn blocks_are_kept_by_the_derivative() {
+    let (system, shape) = pyramid(0.0, 0.0, [0.0, 0.0, -1.0]);
+    let (equations, blocks) = blocks(&system, &shape).unwrap();
+    let z: Vec<Interval> = [1.3, -0.2, -0.4].map(Interval::point).to_vec();
+    let jacobian = equations.slope(&blocks[0].spread(&z));
+    for block in &blocks {
+        let own = block.restrict(&jacobian);
+        for orbit in 0..block.size() {
+            let mut unit = vec![Interval::ZERO; block.size()];
+            unit[orbit] = Interval::ONE;
+            let unit = block.spread(&unit);
+            let mut image = vec![0.0; equations.size];
+            for (row, column, entry) in &jacobian {
+                image[*row] += entry.mid() * unit[*column].mid();
+            }
+            let mut reduced = vec![0.0; block.size()];
+            for (row, column, entry) in &own {
+                reduced[*row] += if *column == orbit { entry.mid() } else { 0.0 };
+            }
+            let reduced: Vec<Interval> = reduced.into_iter().map(Interval::point).collect();
+            let whole = block.spread(&reduced);
+            let close = |(a, b): (&f64, &Interval)| (a - b.mid()).abs() < 1e-14;
+            assert!(image.iter().zip(&whole).all(close), "{image:?} {whole:?}");
+        }
+    }
+}
