@@ -39,7 +39,7 @@ fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
     let mut random = ChaCha8Rng::seed_from_u64(12);
     let (mut found, mut listed) = (0, 0);
     let shapes = [[3, 3, 3], [3, 2, 1], [4, 1, 1], [3, 1, 1], [3, 3, 2], [3, 3, 3]];
-    let bridles = std::env::var("BRIDLES").map_or(4, |n| n.parse().expect("a number"));
+    let bridles = std::env::var("BRIDLES").map_or(2, |n| n.parse().expect("a number"));
     for (seed, bars) in shapes.into_iter().cycle().take(bridles).enumerate() {
         let system = drawn(&mut random, bars);
         let census = taken(&system);
