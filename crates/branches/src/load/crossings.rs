@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 
 use super::bordered::Row;
-use super::events::without_symmetry;
 use super::here::{Here, Metric, correct};
+use super::singular::without_symmetry;
 use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
@@ -34,8 +34,8 @@ const ALIKE: f64 = 0.97;
 const ITERATIONS: usize = 3;
 /// Directions in a null space of two dimensions, and of more between each two of a basis.
 const AROUND: usize = 12;
-/// Most paths together.
-const MOST: usize = 64;
+/// Most paths together: beyond them no other is begun.
+pub const MOST_PATHS: usize = 64;
 
 /// A branch point, and the directions in which paths through it are known.
 #[derive(Debug, Clone)]
@@ -85,13 +85,15 @@ pub fn follow<Q: Equations>(
     walk.metric = metric;
     let mut next = 0;
     while let Some(crossing) = walk.crossings.get(next).cloned() {
-        if crossing.depth < settings.branches && all.len() < MOST {
+        if crossing.depth < settings.branches && all.len() < MOST_PATHS {
             walk.set(&crossing.switched).map_err(NoPath::Numbers)?;
             for first in starts(walk.equations, metric, &crossing) {
                 // Another one of them may have led back to here.
                 let known = &walk.crossings[next].known;
                 let direction = towards(metric, &crossing.at, &first);
-                if all.len() == MOST || known.iter().any(|known| alike(metric, known, &direction)) {
+                if all.len() == MOST_PATHS
+                    || known.iter().any(|known| alike(metric, known, &direction))
+                {
                     continue;
                 }
                 walk.crossings[next].known.push(direction);

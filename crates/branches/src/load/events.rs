@@ -4,13 +4,11 @@ use std::cell::RefCell;
 
 use nalgebra::DVector;
 
-use super::bordered::{Bordered, Row};
 use super::here::{Here, Metric};
+use super::singular::{beside, mode, settled, singular};
 use super::{Equations, Kind};
 use crate::locate::sign_change;
 
-/// How far before and after a singular point, as a part of the step, the inertia is counted.
-const BESIDE: f64 = 1e-3;
 /// Halvings of a step that holds several changes of the inertia.
 const HALVINGS: usize = 40;
 /// Changes of the inertia that are this near to each other are one event.
@@ -21,13 +19,6 @@ const NARROW: f64 = 1e-12;
 const VANISHES: f64 = 1e-6;
 /// A test that has become so many times larger than at both ends of a step is at a pole.
 const POLE: f64 = 4.0;
-/// Corrections of a mode, each by the part of a step at which the factor is.
-const CORRECTIONS: usize = 4;
-/// A condition below this has changed sides; above it, it is at zero to rounding.
-pub(super) const WRONG: f64 = 1e-10;
-
-/// A point with the conditions that change sides there.
-pub(super) type Switching<S> = (Here, Vec<S>);
 
 /// A point where the matrix is singular.
 pub(super) struct Singular {
@@ -40,111 +31,11 @@ pub(super) struct Singular {
     pub(super) load_on_mode: f64,
 }
 
-/// A fixed vector without symmetry.
-pub(super) fn without_symmetry(size: usize) -> Row {
-    let y =
-        DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
-    Row { y, t: 0.0 }
-}
-
-/// The test for a singular matrix, 0 where it is, and the null vector there.
-fn singular<Q: Equations>(equations: &mut Q, here: &Here) -> Option<(DVector<f64>, f64)> {
-    equations.factorise(&here.y, here.t).ok()??;
-    let row = without_symmetry(here.y.len());
-    let zero = DVector::zeros(here.y.len());
-    let bordered = Bordered::new(equations, &row.y, &row);
-    let (y, test) = bordered.solve(equations, (&zero, 1.0))?;
-    Some((y, test))
-}
-
-/// The mode with its largest entry among the places 1, and how much of the load acts on it.
-///
-/// In a singular point no factor is worth much. The mean of the modes before and after it is
-/// corrected by $J \phi = 0$ there with the factor before it.
-fn mode<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    at: &Here,
-    beside: [&Here; 2],
-) -> (DVector<f64>, f64) {
-    let none = (DVector::zeros(at.y.len()), 1.0);
-    let [Some((before, _)), Some((after, _))] = beside.map(|here| singular(equations, here)) else {
-        return none;
-    };
-    let mut mode = (before + after) * 0.5;
-    for _ in 0..CORRECTIONS {
-        let Some(off) = off(equations, &mode, [at, beside[0]]) else { break };
-        mode -= off;
-    }
-    let Ok(column) = equations.by_parameter(&at.y, at.t) else { return none };
-    let on = mode.dot(&column).abs() / (mode.norm() * column.norm()).max(f64::MIN_POSITIVE);
-    let places = mode.rows(0, metric.places);
-    let largest = places[places.iamax()];
-    let mode = if largest.abs() > 0.0 { mode / largest } else { mode };
-    (mode, on)
-}
-
-/// Points before and after one between two others, by a part of their distance.
-fn beside<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    at: &Here,
-    ends: [&Here; 2],
-) -> [Here; 2] {
-    let far = |from: &Here, to: &Here| {
-        let way = from.towards(to);
-        metric.norm(&way.y, way.t)
-    };
-    let wanted = BESIDE * far(ends[0], ends[1]);
-    ends.map(|end| {
-        let part = wanted / far(at, end);
-        let here = (part < 1.0).then(|| at.between(equations, metric, end, part)).flatten();
-        // Points that lead from the other end to this one.
-        let here = here.map(|here| if std::ptr::eq(end, ends[0]) { here.turned() } else { here });
-        here.unwrap_or_else(|| end.clone())
-    })
-}
-
-/// A point where paths cross, corrected with the factor of one beside it: its own is singular in more
-/// than one direction.
-fn settled<Q: Equations>(equations: &mut Q, at: Here, before: &Here) -> Here {
-    let mut best = at;
-    let corrected = |equations: &mut Q, at: &Here| -> Option<(Here, bool)> {
-        let (left, size) = equations.residual(&at.y, at.t).ok()?;
-        equations.factorise(&before.y, before.t).ok()??;
-        let step = equations.solve(&-left);
-        let y = equations.onto(&(&at.y + step), at.t).ok()?;
-        let (_, after) = equations.residual(&y, at.t).ok()?;
-        Some((Here { y, ..at.clone() }, after < 0.5 * size))
-    };
-    for _ in 0..CORRECTIONS {
-        match corrected(equations, &best) {
-            Some((better, true)) => best = better,
-            _ => break,
-        }
-    }
-    best
-}
-
-/// What is wrong with a mode in a singular point, by the factor beside it.
-fn off<Q: Equations>(
-    equations: &mut Q,
-    mode: &DVector<f64>,
-    [at, beside]: [&Here; 2],
-) -> Option<DVector<f64>> {
-    equations.factorise(&at.y, at.t).ok()??;
-    let left = equations.apply(mode);
-    equations.factorise(&beside.y, beside.t).ok()??;
-    let row = without_symmetry(mode.len());
-    let off = Bordered::new(equations, &row.y, &row).solve(equations, (&left, 0.0));
-    off.map(|(off, _)| off)
-}
-
 /// Where a test changes its sign between two points.
 ///
 /// Each guess is between its neighbours among the points found so far: where the corrector is
 /// singular, as where paths cross, it has less and less to do.
-fn located<Q: Equations>(
+pub(super) fn located<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
     [a, b]: [&Here; 2],
@@ -168,7 +59,7 @@ fn located<Q: Equations>(
 }
 
 /// Limit points and branch points between two points with the same active conditions, in their
-/// order; nothing where the two are on different paths.
+/// order; `None` when the two are on different paths.
 pub(super) fn smooth<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
@@ -268,47 +159,4 @@ fn branch<Q: Equations>(
     let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
     let (kind, index) = (Kind::Branch, [before.index, after.index]);
     Some((before, Singular { at, kind, index, turns: false, mode, load_on_mode }, after))
-}
-
-/// The first point between two at which conditions change sides, with these; nothing where none
-/// does.
-pub(super) fn kink<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    a: &Here,
-    b: &Here,
-) -> Result<Option<Switching<Q::Side>>, Q::Error> {
-    let begin = equations.sides(&a.y, a.t)?;
-    let mut end = b.clone();
-    let mut at_end = equations.sides(&b.y, b.t)?;
-    let wrong: Vec<bool> = at_end.iter().map(|(_, value)| *value < -WRONG).collect();
-    if !wrong.contains(&true) {
-        return Ok(None);
-    }
-    loop {
-        // The one that is estimated to change first; others that change before it come next.
-        let part = |k: &usize| begin[*k].1 / (begin[*k].1 - at_end[*k].1);
-        let violated = (0..begin.len()).filter(|k| wrong[*k] && at_end[*k].1 < -WRONG);
-        let Some(first) = violated.min_by(|a, b| part(a).total_cmp(&part(b))) else { break };
-        if begin[first].1 <= WRONG {
-            end = a.clone();
-            at_end = begin;
-            break;
-        }
-        let found = located(equations, metric, [a, &end], |equations, here| {
-            Some(equations.sides(&here.y, here.t).ok()?[first].1)
-        });
-        let Some(at) = found else { break };
-        at_end = equations.sides(&at.y, at.t)?;
-        // At zero to rounding.
-        let done = at_end[first].1.abs() > WRONG;
-        end = at;
-        if done {
-            break;
-        }
-    }
-    let sides = at_end.iter().zip(&wrong);
-    let sides = sides.filter(|((_, value), wrong)| **wrong && *value <= WRONG);
-    let sides: Vec<_> = sides.map(|((side, _), _)| *side).collect();
-    Ok((!sides.is_empty()).then_some((end, sides)))
 }

@@ -10,8 +10,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bordered::Row;
-use super::events::without_symmetry;
 use super::here::Here;
+use super::singular::without_symmetry;
 use super::walk::begin;
 use super::{Equations, NoPath};
 

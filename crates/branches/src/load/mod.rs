@@ -29,10 +29,12 @@ mod bordered;
 mod crossings;
 mod events;
 mod here;
+mod kinks;
 mod linear;
+mod singular;
 mod walk;
 
-pub use crossings::follow;
+pub use crossings::{MOST_PATHS, follow};
 pub use here::difference;
 pub use linear::linear_buckling;
 

@@ -6,8 +6,10 @@ use nalgebra::DVector;
 
 use super::bordered::Row;
 use super::crossings::{Crossing, joins, towards};
-use super::events::{Singular, kink, smooth, without_symmetry};
+use super::events::{Singular, smooth};
 use super::here::{Here, Metric, correct};
+use super::kinks::kink;
+use super::singular::without_symmetry;
 use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settings};
 
 /// The first step, as a part of the range.

@@ -129,7 +129,11 @@ impl UncheckedChain {
             Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[*axis] = value,
             Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[*axis] = value,
             // A chain has none of them; its variations are refused before.
-            Number::Loads | Number::Floor | Number::Joint(..) | Number::Row(..) => {}
+            Number::Loads
+            | Number::Lengths
+            | Number::Floor
+            | Number::Joint(..)
+            | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 let named = self.bars.iter_mut().enumerate().filter(|(k, _)| which.has(k + 1));
                 for (_, bar) in named {

@@ -31,6 +31,7 @@ impl Base for Chain {
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
             Number::Loads
+            | Number::Lengths
             | Number::Floor
             | Number::Joint(..)
             | Number::Row(..)
@@ -78,7 +79,7 @@ impl Base for System {
 
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
-            Number::Loads | Number::Gravity | Number::Floor => Ok(()),
+            Number::Loads | Number::Lengths | Number::Gravity | Number::Floor => Ok(()),
             Number::Bar(which, _) => bar(parameter, *which, self.members().len(), "system"),
             Number::Row(name, _) if row(self, name).is_some() => Ok(()),
             Number::Row(name, _) => {

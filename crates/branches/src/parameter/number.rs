@@ -20,6 +20,8 @@ use crate::parameter::error::ParameterError;
 pub enum Number {
     /// `loads`, of a system: a factor of all its forces and masses.
     Loads,
+    /// `lengths`, of a system: a factor of the lengths of all its bars, as all of them are heated.
+    Lengths,
     /// `gravity_m_s2`.
     Gravity,
     /// `floor_m`, of a system.
@@ -92,7 +94,7 @@ pub enum BarField {
     Count,
 }
 
-const TOP: &[&str] = &["loads", "gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
+const TOP: &[&str] = &["loads", "lengths", "gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
 const ANCHORS: &[&str] = &["start_m", "end_m"];
 const JOINT: &[&str] = &["at_m", "mass_kg", "force_n", "share"];
 const BAR: &[&str] = &[
@@ -167,7 +169,7 @@ impl Number {
             Self::Bar(_, field) | Self::Row(_, field) => field.unit(),
             Self::Joint(_, JointField::Mass) => "kg",
             Self::Joint(_, JointField::Force(_)) => "N",
-            Self::Loads | Self::Joint(_, JointField::Share) => "1",
+            Self::Loads | Self::Lengths | Self::Joint(_, JointField::Share) => "1",
         }
     }
 
@@ -191,6 +193,7 @@ impl Number {
         let top = parts.key(TOP, "a path")?;
         let number = match top {
             "loads" => Self::Loads,
+            "lengths" => Self::Lengths,
             "gravity_m_s2" => Self::Gravity,
             "floor_m" => Self::Floor,
             "joints" => {
@@ -244,6 +247,7 @@ impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Loads => f.write_str("loads"),
+            Self::Lengths => f.write_str("lengths"),
             Self::Gravity => f.write_str("gravity_m_s2"),
             Self::Floor => f.write_str("floor_m"),
             Self::Anchor(AnchorEnd::Start, axis) => write!(f, "anchors.start_m.{}", AXES[*axis]),

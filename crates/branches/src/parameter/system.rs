@@ -30,11 +30,13 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
     let (mut of_members, mut shares) = (Vec::new(), Vec::new());
     // First, whatever the order: other numbers are what they say.
-    let loads = numbers.iter().filter(|(number, _)| *number == Number::Loads);
-    let factor = loads.map(|(_, factor)| *factor).product::<f64>();
+    let factor = |of: Number| -> f64 {
+        numbers.iter().filter(|(number, _)| *number == of).map(|(_, factor)| *factor).product()
+    };
+    let factors = Factors { loads: factor(Number::Loads), lengths: factor(Number::Lengths) };
     for joint in &mut joints {
-        joint.mass_kg *= factor;
-        joint.force_n = joint.force_n.map(|force| force * factor);
+        joint.mass_kg *= factors.loads;
+        joint.force_n = joint.force_n.map(|force| force * factors.loads);
     }
     for (number, value) in numbers {
         match base.resolved(number) {
@@ -46,8 +48,9 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
                     set_joint(&mut joints[joint], field, *value);
                 }
             }
-            // Loads are set before, counts come last; what is of no row of bars is refused before.
+            // Factors are set before, counts come last; what is of no row of bars is refused before.
             Number::Loads
+            | Number::Lengths
             | Number::Bar(_, BarField::Count)
             | Number::Anchor(..)
             | Number::Row(..) => {}
@@ -58,9 +61,9 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
     }
     for (k, member) in members.iter_mut().enumerate() {
         let mut numbers = of_members.iter().filter(|(which, ..)| which.has(k + 1)).peekable();
-        if numbers.peek().is_some() || factor.to_bits() != 1.0_f64.to_bits() {
+        if numbers.peek().is_some() || factors != Factors::NONE {
             let numbers = numbers.map(|(_, field, value)| (*field, *value));
-            *member = with(member.clone(), k + 1, factor, numbers)?;
+            *member = with(member.clone(), k + 1, factors, numbers)?;
         }
     }
     for (name, value) in shares {
@@ -76,6 +79,17 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
         system = system.with_floor(floor_m)?;
     }
     Ok(system)
+}
+
+/// Factors of all bars.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Factors {
+    loads: f64,
+    lengths: f64,
+}
+
+impl Factors {
+    const NONE: Self = Self { loads: 1.0, lengths: 1.0 };
 }
 
 fn set_joint(joint: &mut Joint, field: JointField, value: f64) {
@@ -101,21 +115,24 @@ fn place(support: &mut Support) -> Option<&mut Vector> {
     }
 }
 
-/// A member with its loads times a factor and other numbers, all as a system file gives them: what follows from them, as an
+/// A member with its loads and its length times factors and other numbers, all as a system file gives them: what follows from them, as an
 /// unstretched length, is found when all are set.
 fn with(
     member: Member,
     bar: usize,
-    factor: f64,
+    factors: Factors,
     numbers: impl Iterator<Item = (BarField, f64)>,
 ) -> Result<Member, PointError> {
     let mut prestress_n = member.prestress_n();
     let mut member = member.as_given();
     let half_m = 0.5 * member.body.length_m();
     let mut body = UncheckedBar::new(&member.body);
-    body.set(BarField::Mass, factor * body.mass_kg);
+    body.set(BarField::Mass, factors.loads * body.mass_kg);
+    if factors.lengths.to_bits() != 1.0_f64.to_bits() {
+        body.set(BarField::Length, 2.0 * half_m * factors.lengths);
+    }
     for load in &mut member.loads {
-        load.force_n = load.force_n.map(|force| force * factor);
+        load.force_n = load.force_n.map(|force| force * factors.loads);
     }
     for (field, value) in numbers {
         match field {

@@ -56,6 +56,7 @@ the equilibrium next to the drawing (near_m of the file, --near; else the hangin
 through limit points and branch points, stable or not, until it leaves the range of the values:
   --vary loads=0..1.2        all forces and weights times a factor
   --vary loads=0,1.2,-1      from 0 to 1.2 first, and back to -1
+  --vary lengths=1..1.001    all bars times a factor, as when they are heated
   --vary joints.P.force_n.z=0..-50          --vary bars.3.length_m=1..0.9
 Located are limit points (the load turns), branch points, cables and struts that become slack or taut, joints
 that meet the floor; with --branches the paths that branch off are followed. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
@@ -94,7 +95,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,
     /// Follow also the paths that branch off a load path, and those that branch off from them to this
-    /// depth: --branches, --branches=2
+    /// depth, at most 64: --branches, --branches=2
     #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "1",
         default_value_t = 0, hide_default_value = true)]
     pub branches: usize,

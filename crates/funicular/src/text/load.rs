@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use branches::load::MOST_PATHS;
+
 use super::printable::Printable;
 use super::tables::{numbers_from, short, significant, table, wrapped};
 use crate::trace::load::{
@@ -29,6 +31,10 @@ pub(super) fn text(found: &LoadPaths) -> String {
             let _ = writeln!(text, "\npath {}{}{from}", number + 1, fixed(found, path));
         }
         text += &one_path(found, path);
+    }
+    if found.paths().iter().filter(|path| path.branches_from.is_some()).count() + 1 >= MOST_PATHS {
+        let _ =
+            writeln!(text, "\nno more than {MOST_PATHS} paths are followed; there may be others");
     }
     text
 }

@@ -328,6 +328,19 @@ fn a_steep_pyramid_sways_in_two_directions_at_once() {
     is_proved(&path, LoadEventKind::BranchPoint, 2.0 * load_n(l0, l));
 }
 
+/// Heated bars of a gable that may rise bear nothing: w^2 = (f l0)^2 - 1 at the factor f.
+#[test]
+fn a_heated_gable_rises() {
+    let unloaded = gable(0.5, "z", "").replace("force_n = [0, 0, -1]", "force_n = [0, 0, 0]");
+    let path = path(&unloaded, "lengths=1..1.05");
+    assert!(path.points.len() > 10 && path.end == LoadEnd::Range);
+    for point in &path.points {
+        let length = point.values[0] * 1.25_f64.sqrt();
+        let [_, _, w] = point.joints_m[2];
+        assert!((w - (length * length - 1.0).sqrt()).abs() < 1e-12, "{w}");
+    }
+}
+
 #[test]
 fn dead_load_an_elastic_support_and_an_apex_off_the_centre() {
     // Dead load is a part of the limit load.

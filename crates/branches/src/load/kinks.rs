@@ -1,0 +1,54 @@
+//! Where one-sided conditions change sides.
+
+use super::Equations;
+use super::events::located;
+use super::here::{Here, Metric};
+
+/// A condition below this has changed sides; above it, it is at zero to rounding.
+pub(super) const WRONG: f64 = 1e-10;
+
+/// A point with the conditions that change sides there.
+pub(super) type Switching<S> = (Here, Vec<S>);
+
+/// The first point between two at which conditions change sides, with these; `None` when
+/// none does.
+pub(super) fn kink<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    a: &Here,
+    b: &Here,
+) -> Result<Option<Switching<Q::Side>>, Q::Error> {
+    let begin = equations.sides(&a.y, a.t)?;
+    let mut end = b.clone();
+    let mut at_end = equations.sides(&b.y, b.t)?;
+    let wrong: Vec<bool> = at_end.iter().map(|(_, value)| *value < -WRONG).collect();
+    if !wrong.contains(&true) {
+        return Ok(None);
+    }
+    loop {
+        // The one that is estimated to change first; others that change before it come next.
+        let part = |k: &usize| begin[*k].1 / (begin[*k].1 - at_end[*k].1);
+        let violated = (0..begin.len()).filter(|k| wrong[*k] && at_end[*k].1 < -WRONG);
+        let Some(first) = violated.min_by(|a, b| part(a).total_cmp(&part(b))) else { break };
+        if begin[first].1 <= WRONG {
+            end = a.clone();
+            at_end = begin;
+            break;
+        }
+        let found = located(equations, metric, [a, &end], |equations, here| {
+            Some(equations.sides(&here.y, here.t).ok()?[first].1)
+        });
+        let Some(at) = found else { break };
+        at_end = equations.sides(&at.y, at.t)?;
+        // At zero to rounding.
+        let done = at_end[first].1.abs() > WRONG;
+        end = at;
+        if done {
+            break;
+        }
+    }
+    let sides = at_end.iter().zip(&wrong);
+    let sides = sides.filter(|((_, value), wrong)| **wrong && *value <= WRONG);
+    let sides: Vec<_> = sides.map(|((side, _), _)| *side).collect();
+    Ok((!sides.is_empty()).then_some((end, sides)))
+}

@@ -1,0 +1,115 @@
+//! Points where the derivative is singular: a test for them, their modes, and what is next to them.
+
+use nalgebra::DVector;
+
+use super::Equations;
+use super::bordered::{Bordered, Row};
+use super::here::{Here, Metric};
+
+/// How far before and after a singular point, as a part of the step, the inertia is counted.
+const BESIDE: f64 = 1e-3;
+/// Corrections of a mode, each by the part of a step at which the factor is.
+const CORRECTIONS: usize = 4;
+
+/// A fixed vector without symmetry.
+pub(super) fn without_symmetry(size: usize) -> Row {
+    let y =
+        DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
+    Row { y, t: 0.0 }
+}
+
+/// The test for a singular matrix, 0 where it is, and the null vector there.
+pub(super) fn singular<Q: Equations>(
+    equations: &mut Q,
+    here: &Here,
+) -> Option<(DVector<f64>, f64)> {
+    equations.factorise(&here.y, here.t).ok()??;
+    let row = without_symmetry(here.y.len());
+    let zero = DVector::zeros(here.y.len());
+    let bordered = Bordered::new(equations, &row.y, &row);
+    let (y, test) = bordered.solve(equations, (&zero, 1.0))?;
+    Some((y, test))
+}
+
+/// The mode with its largest entry among the places 1, and how much of the load acts on it.
+///
+/// In a singular point no factor is worth much. The mean of the modes before and after it is
+/// corrected by $J \phi = 0$ there with the factor before it.
+pub(super) fn mode<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    at: &Here,
+    beside: [&Here; 2],
+) -> (DVector<f64>, f64) {
+    let none = (DVector::zeros(at.y.len()), 1.0);
+    let [Some((before, _)), Some((after, _))] = beside.map(|here| singular(equations, here)) else {
+        return none;
+    };
+    let mut mode = (before + after) * 0.5;
+    for _ in 0..CORRECTIONS {
+        let Some(off) = off(equations, &mode, [at, beside[0]]) else { break };
+        mode -= off;
+    }
+    let Ok(column) = equations.by_parameter(&at.y, at.t) else { return none };
+    let on = mode.dot(&column).abs() / (mode.norm() * column.norm()).max(f64::MIN_POSITIVE);
+    let places = mode.rows(0, metric.places);
+    let largest = places[places.iamax()];
+    let mode = if largest.abs() > 0.0 { mode / largest } else { mode };
+    (mode, on)
+}
+
+/// Points before and after one between two others, by a part of their distance.
+pub(super) fn beside<Q: Equations>(
+    equations: &mut Q,
+    metric: Metric,
+    at: &Here,
+    ends: [&Here; 2],
+) -> [Here; 2] {
+    let far = |from: &Here, to: &Here| {
+        let way = from.towards(to);
+        metric.norm(&way.y, way.t)
+    };
+    let wanted = BESIDE * far(ends[0], ends[1]);
+    ends.map(|end| {
+        let part = wanted / far(at, end);
+        let here = (part < 1.0).then(|| at.between(equations, metric, end, part)).flatten();
+        // Points that lead from the other end to this one.
+        let here = here.map(|here| if std::ptr::eq(end, ends[0]) { here.turned() } else { here });
+        here.unwrap_or_else(|| end.clone())
+    })
+}
+
+/// A point where paths cross, corrected with the factor of one beside it: its own is singular in more
+/// than one direction.
+pub(super) fn settled<Q: Equations>(equations: &mut Q, at: Here, before: &Here) -> Here {
+    let mut best = at;
+    let corrected = |equations: &mut Q, at: &Here| -> Option<(Here, bool)> {
+        let (left, size) = equations.residual(&at.y, at.t).ok()?;
+        equations.factorise(&before.y, before.t).ok()??;
+        let step = equations.solve(&-left);
+        let y = equations.onto(&(&at.y + step), at.t).ok()?;
+        let (_, after) = equations.residual(&y, at.t).ok()?;
+        Some((Here { y, ..at.clone() }, after < 0.5 * size))
+    };
+    for _ in 0..CORRECTIONS {
+        match corrected(equations, &best) {
+            Some((better, true)) => best = better,
+            _ => break,
+        }
+    }
+    best
+}
+
+/// What is wrong with a mode in a singular point, by the factor beside it.
+fn off<Q: Equations>(
+    equations: &mut Q,
+    mode: &DVector<f64>,
+    [at, beside]: [&Here; 2],
+) -> Option<DVector<f64>> {
+    equations.factorise(&at.y, at.t).ok()??;
+    let left = equations.apply(mode);
+    equations.factorise(&beside.y, beside.t).ok()??;
+    let row = without_symmetry(mode.len());
+    let off = Bordered::new(equations, &row.y, &row).solve(equations, (&left, 0.0));
+    off.map(|(off, _)| off)
+}
