@@ -112,17 +112,18 @@ impl Inverse {
     /// Bounds of $|I - R M|$ over a matrix.
     pub(super) fn defect(&self, entries: &[Entry]) -> Defect {
         let size = self.size;
-        let row = |(k, row): (usize, &[f64])| {
+        let mut bounds = vec![0.0; self.rows.len()];
+        let each = bounds.par_chunks_exact_mut(size.max(1));
+        let each = each.zip(self.rows.par_chunks_exact(size.max(1))).with_min_len(APART);
+        each.enumerate().for_each(|(k, (bounds, row))| {
             let mut rest = vec![Interval::ZERO; size];
             rest[k] = Interval::ONE;
             for (through, column, entry) in entries {
                 rest[*column] = rest[*column] - entry.times(row[*through]);
             }
-            rest.into_iter().map(Interval::mag).collect::<Vec<f64>>()
-        };
-        let rows = self.rows.par_chunks_exact(size.max(1)).with_min_len(APART).enumerate().map(row);
-        let rows: Vec<Vec<f64>> = rows.collect();
-        Defect { size, rows: rows.concat() }
+            bounds.iter_mut().zip(rest).for_each(|(bound, rest)| *bound = rest.mag());
+        });
+        Defect { size, rows: bounds }
     }
 }
 

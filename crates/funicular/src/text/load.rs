@@ -171,7 +171,12 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
         LoadEventKind::Kink => happens(event),
     };
     let mode = mode(found, event);
-    let proved = event.enclosed.map_or_else(String::new, |[low, high]| {
+    // The sentence about the path says so where that comes to this point.
+    let of_path = |[low, high]: &[f64; 2]| {
+        path.proved.between.is_some_and(|[from, to]| from <= *high && *low <= to)
+    };
+    let enclosed = event.enclosed.filter(|between| !of_path(between));
+    let proved = enclosed.map_or_else(String::new, |[low, high]| {
         let [low, high] = outwards(low, high);
         format!("; it is proved to lie between {low} and {high}")
     });

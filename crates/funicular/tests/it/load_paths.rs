@@ -306,6 +306,57 @@ fn a_symmetric_dome_leaves_its_symmetry_before_its_limit() {
     assert_eq!([from(0), from(1), from(2)], [2, 6, 12]);
 }
 
+/// A dome of 20 m of radius over a sphere of 50 m on a triangular grid, under 1 kN at the top or at all joints:
+/// mirror images as doubles.
+fn grid(rings: i32, all: bool) -> String {
+    let edge = rings + 1;
+    let ring = |q: i32, r: i32| q.abs().max(r.abs()).max((q + r).abs());
+    let (mut file, mut bars) = ("[joints]\n".to_owned(), String::new());
+    for q in -edge..=edge {
+        for r in (-edge..=edge).filter(|r| ring(q, *r) <= edge) {
+            let step = 20.0 / f64::from(edge);
+            let x = (f64::from(q) + 0.5 * f64::from(r)) * step;
+            let y = f64::from(r) * 0.75_f64.sqrt() * step;
+            let z = (2500.0 - x * x - y * y).sqrt() - 2100_f64.sqrt();
+            let loaded = all || ring(q, r) == 0;
+            let (key, more) = match ring(q, r) {
+                far if far == edge => ("at_m", ""),
+                _ if loaded => ("near_m", ", force_n = [0, 0, -1000]"),
+                _ => ("near_m", ""),
+            };
+            file += &format!("\"{q} {r}\" = {{ {key} = [{x}, {y}, {z}]{more} }}\n");
+            for (a, b) in [(q + 1, r), (q, r + 1), (q + 1, r - 1)] {
+                if ring(a, b) <= edge && ring(a, b).min(ring(q, r)) < edge {
+                    let ends = format!("from = \"{q} {r}\"\nto = \"{a} {b}\"");
+                    bars += &format!("[[bars]]\n{ends}\nstiffness_n = 1e6\n");
+                }
+            }
+        }
+    }
+    file + &bars
+}
+
+#[test]
+fn the_branch_point_of_a_symmetric_dome_is_proved_to_come_first() {
+    let path = path(&grid(1, true), "loads=0..5");
+    let first = &path.events[0];
+    assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 1]));
+    is_proved(&path, LoadEventKind::BranchPoint, first.values[0]);
+}
+
+/// 61 joints, 393 unknowns.
+#[test]
+fn the_limit_of_a_larger_dome_is_proved() {
+    let path = path(&grid(4, false), "loads=0..0.15");
+    let limit = path.first_loss().unwrap();
+    let [low, high] = limit.enclosed.unwrap();
+    assert!(limit.kind == LoadEventKind::LimitPoint && high - low < 1e-9, "{low} {high}");
+    near(limit.values[0], 0.5 * (low + high));
+    // The path itself is too large, and says so.
+    let because = path.proved.because.as_deref().unwrap();
+    assert!(path.proved.to.is_none() && because.contains("393 unknowns"), "{because}");
+}
+
 /// Four bars to one apex: both sideways modes lose their stiffness at once.
 #[test]
 fn a_steep_pyramid_sways_in_two_directions_at_once() {
