@@ -274,6 +274,23 @@ print([name for name in ("pandas", "networkx", "pyarrow", "tqdm", "distributed")
     assert said.stdout.split("\n")[:2] == ["True", "[]"]
 
 
+def test_load_paths_branch_off():
+    # An upright bar of 1 m between two springs of 10 N: it falls to a side under 20 * 100 / 101^1.5 N.
+    joints = {"A": {"at_m": [0, 0, 0]}, "L": {"at_m": [-10, 0, 0]}, "R": {"at_m": [10, 0, 0]}}
+    joints["P"] = {"at_m": [0, 0, 1], "near_m": [0, 0, 1], "free": "xz", "force_n": [0, 0, -1]}
+    bars = [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]
+    bars += [{"from": end, "to": "P", "stiffness_n": 10, "mass_kg": 0} for end in "LR"]
+    system = fn.System.from_dict({"joints": joints, "bars": bars})
+    trace = system.trace("loads=0,4,-4", branches=1, linear_buckling=True)
+    straight, round_ = trace.paths
+    critical = 2000 / 101**1.5
+    assert straight.linear_buckling == pytest.approx(critical, rel=1e-6)
+    assert trace.first_loss["kind"] == "branch-point" and trace.first_loss["values"] == pytest.approx([critical])
+    assert (round_.end, round_.branches_from.path, round_.joins.event) == ("joins", 0, 0)
+    assert trace.html().startswith("<!DOCTYPE html>") and trace.checks_agree
+    assert system.trace("loads=0..4").html() != trace.html()
+
+
 def test_census_trace_sweep_modes_motion():
     system = fn.System.case("three-equal-bars")
     census = system.census()
@@ -287,6 +304,7 @@ def test_census_trace_sweep_modes_motion():
     trace = system.trace("anchors.end_m.z=-2.9..-1:20")
     table = trace.table
     assert trace.checks_agree and table.rows > 40 and table["energy_j"].min() < -40
+    assert trace.html() == ""
     sweep = system.sweep(5000, solver="lagrange", seed=3)
     assert set(sweep.counts("lagrange")) == {0, 1, 2, 3} and sweep.seeds == 5000
     modes = system.modes()

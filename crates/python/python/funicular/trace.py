@@ -25,7 +25,7 @@ class Trace(Result):
     points, kinks), ``end``, ``confirmed``; ``first_loss`` is the first event after which it is unstable, or ``None``.
     With ``branches=1`` the paths that branch off follow it, each with ``branches_from``, the path and the
     event it begins in.
-    ``html`` is a page on which the shape moves along the paths.
+    ``html()`` is a page on which the shape moves along the paths.
 
     ``table``: a row for each point of each branch or path, with units in the names of the columns. ``checks_agree``:
     whether censuses find exactly the branches, or ``energy`` confirms every point of a load path.
@@ -66,10 +66,9 @@ class Trace(Result):
         """Whether load paths were followed."""
         return "load_paths" in self.data
 
-    @property
-    def html(self) -> str | None:
-        """The shape moved along the load paths, as a page that needs nothing else; ``None`` of all equilibria."""
-        return self._page or None
+    def html(self) -> str:
+        """The shape moved along the load paths, as a page that needs nothing else; empty of all equilibria."""
+        return self._page
 
     @property
     def first_loss(self) -> dict[str, Any] | None:
