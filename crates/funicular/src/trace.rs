@@ -3,6 +3,7 @@
 mod confirm;
 mod enclosed;
 mod equations;
+mod everywhere;
 mod figure;
 pub(crate) mod load;
 mod page;

@@ -90,7 +90,10 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
         text.push('\n');
     };
     say(first_loss(found, path));
-    say(proved(found, path));
+    say(match path.equilibria_at_every_load {
+        Some(count) => everywhere(count),
+        None => proved(found, path),
+    });
     if let Some(sentence) = imperfections(found, path) {
         say(sentence);
     }
@@ -234,6 +237,15 @@ fn mode(found: &LoadPaths, event: &LoadEvent) -> String {
     });
     let moves: Vec<String> = moves.collect();
     if moves.is_empty() { String::new() } else { format!("; its mode moves {}", moves.join(", ")) }
+}
+
+/// That shapes do not depend on how large the loads are.
+fn everywhere(count: usize) -> String {
+    let plural = if count == 1 { "um" } else { "a" };
+    format!(
+        "proved: {count} equilibri{plural} at every load of the path, from a complete census: all members keep their \
+         lengths, so that shapes do not depend on the factor, and no other path meets this one"
+    )
 }
 
 /// What changes the first limit most: the bar, by its length, and the support, by its place.

@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::confirm::{Confirmed, confirm};
 use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept, Line, line};
+use super::everywhere::everywhere;
 use super::{figure, page};
 use crate::csv::quoted;
 use crate::error::Error;
@@ -190,6 +191,10 @@ pub struct LoadPath {
     /// was asked for and there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_buckling: Option<f64>,
+    /// How many equilibria there are at every load of the path, if that is proved: the path meets none of
+    /// the others, and no branch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibria_at_every_load: Option<usize>,
     /// What `energy` says of it.
     pub confirmed: Confirmed,
     /// What interval arithmetic proves of it from its start on.
@@ -227,6 +232,7 @@ pub(super) struct Asked {
 struct Followed<'a> {
     family: Family<'a>,
     linear_buckling: Option<f64>,
+    everywhere: Option<usize>,
     paths: Vec<FollowedPath<Family<'a>>>,
 }
 
@@ -255,7 +261,8 @@ pub(super) fn trace(
         let linear_buckling = buckles.and_then(|t| family.values(t).last().copied());
         let told = |_, points| watch(number, points);
         let paths = follow(&mut family, &start, settings, &told).map_err(LoadError::from)?;
-        all.push(Followed { family, linear_buckling, paths });
+        let everywhere = everywhere(variation, points);
+        all.push(Followed { family, linear_buckling, everywhere, paths });
     }
     let followed = all.iter().flat_map(|one| &one.paths);
     let moved = if named.is_empty() { most_moved(system, followed) } else { None };
@@ -265,7 +272,7 @@ pub(super) fn trace(
         None => of,
     };
     let mut paths: Vec<LoadPath> = Vec::new();
-    for Followed { mut family, linear_buckling, paths: found } in all {
+    for Followed { mut family, linear_buckling, everywhere, paths: found } in all {
         let earlier = paths.len();
         for one in found {
             let path = described(&mut family, variation, &of, &one)?;
@@ -274,7 +281,14 @@ pub(super) fn trace(
             let joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };
             let linear_buckling = linear_buckling.filter(|_| main);
             let branches_from = one.parent.map(at);
-            paths.push(LoadPath { branches_from, joins, linear_buckling, ..path });
+            let equilibria_at_every_load = everywhere.filter(|_| main);
+            paths.push(LoadPath {
+                branches_from,
+                joins,
+                linear_buckling,
+                equilibria_at_every_load,
+                ..path
+            });
         }
     }
     let numbers = variation.numbers();
@@ -372,7 +386,18 @@ fn described(
         End::Numbers(_) => LoadEnd::Numbers,
     };
     let (branches_from, joins, linear_buckling) = (None, None, None);
-    Ok(LoadPath { points, events, end, branches_from, joins, linear_buckling, confirmed, proved })
+    let equilibria_at_every_load = None;
+    Ok(LoadPath {
+        points,
+        events,
+        end,
+        branches_from,
+        joins,
+        linear_buckling,
+        equilibria_at_every_load,
+        confirmed,
+        proved,
+    })
 }
 
 fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {

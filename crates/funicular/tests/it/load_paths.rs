@@ -379,6 +379,20 @@ fn a_steep_pyramid_sways_in_two_directions_at_once() {
     is_proved(&path, LoadEventKind::BranchPoint, 2.0 * load_n(l0, l));
 }
 
+/// Two rigid bars between anchors hang or stand, at every load; the path of the hanging ones stays.
+#[test]
+fn rigid_bars_have_the_same_equilibria_at_every_load() {
+    let file = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\nP = { mass_kg = 1 }\n\
+        [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 1\n[[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 1\n";
+    let rigid = path(file, "loads=0.1..3");
+    assert_eq!(rigid.equilibria_at_every_load, Some(2));
+    assert!(rigid.events.is_empty() && rigid.end == LoadEnd::Range);
+    let deep = -0.75_f64.sqrt();
+    assert!(rigid.points.iter().all(|point| (point.joints_m[2][2] - deep).abs() < 1e-12));
+    let elastic = file.replace("length_m = 1\n", "length_m = 1\nstiffness_n = 1e5\n");
+    assert_eq!(path(&elastic, "loads=0.1..3").equilibria_at_every_load, None);
+}
+
 /// Heated bars of a gable that may rise bear nothing: w^2 = (f l0)^2 - 1 at the factor f.
 #[test]
 fn a_heated_gable_rises() {

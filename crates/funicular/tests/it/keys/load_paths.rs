@@ -176,6 +176,20 @@ fn paths_that_branch_off() {
     output.done();
 }
 
+/// Two rigid bars of 1 m between anchors 1 m apart hang or stand.
+#[test]
+fn load_path_of_rigid_bars() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\nP = { mass_kg = 1 }\n\
+        [[bars]]\nfrom = \"A\"\nto = \"P\"\nmass_kg = 0\nlength_m = 1\n\
+        [[bars]]\nfrom = \"P\"\nto = \"B\"\nmass_kg = 0\nlength_m = 1\n";
+    std::fs::write(folder.path().join("two.toml"), file).unwrap();
+    let text = good(folder.path(), &["trace", "two.toml", "--vary", "loads=1..2", "--json"]);
+    let mut output = Output::json("load paths", "load_path_of_rigid_bars", &text);
+    output.is("load_paths[].equilibria_at_every_load", 2);
+    output.done();
+}
+
 #[test]
 fn why_load_paths_end() {
     let folder = tempfile::tempdir().unwrap();
