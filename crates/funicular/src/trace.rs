@@ -22,7 +22,7 @@ use model::SystemSummary;
 use model::system::System;
 use serde::Serialize;
 
-use self::load::{LoadEnd, LoadPaths};
+use self::load::{LoadEnd, LoadPath, LoadPaths};
 use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::parameters::Parameters;
@@ -294,7 +294,7 @@ impl TraceAnswer {
     pub fn checks_agree(&self) -> bool {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().all(|path| path.checks.agree()),
-            Found::Load(found) => found.paths().iter().all(|path| path.confirmed.agrees()),
+            Found::Load(found) => found.paths().iter().all(LoadPath::agrees),
         }
     }
 

@@ -17,6 +17,8 @@ const TOGETHER: f64 = 1e-7;
 const NARROW: f64 = 1e-12;
 /// The test vanishes below this part of what it is at the ends of a step.
 const VANISHES: f64 = 1e-6;
+/// A load acts on a mode by less than this part of both if it does not.
+const OFF: f64 = 1e-3;
 /// A test that has become so many times larger than at both ends of a step is at a pole.
 const POLE: f64 = 4.0;
 
@@ -80,8 +82,9 @@ pub(super) fn smooth<Q: Equations>(
     let index = [before.index, after.index];
     branches(equations, metric, [a, &before], &mut all)?;
     // A limit exchanges stability; on a side path of a pitchfork the parameter turns where it meets
-    // the other one, and both halves are alike.
-    let kind = if index[0] == index[1] { Kind::Branch } else { Kind::Limit };
+    // the other one: both halves are alike, and the load does not act on the mode.
+    let alike = index[0] == index[1] && load_on_mode <= OFF;
+    let kind = if alike { Kind::Branch } else { Kind::Limit };
     all.push(Singular { at, kind, index, turns: true, mode, load_on_mode });
     branches(equations, metric, [&after, b], &mut all)?;
     Some(all)

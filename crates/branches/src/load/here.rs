@@ -147,6 +147,15 @@ impl Here {
             let norm = metric.norm(&dy, dt);
             Row { y: dy / norm, t: dt / norm }
         });
+        let given = equations.given(&y, t)?;
+        let tangent = tangent.map(|tangent| match given {
+            None => tangent,
+            Some(given) => {
+                let dy = tangent.y + given * tangent.t;
+                let norm = metric.norm(&dy, tangent.t);
+                Row { y: dy / norm, t: tangent.t / norm }
+            }
+        });
         let finite = tangent.filter(|tangent| tangent.t.is_finite() && tangent.y.sum().is_finite());
         Ok(finite.map(|tangent| Self { y, t, tangent, index }))
     }

@@ -75,6 +75,16 @@ pub trait Equations {
         difference(self, y, t)
     }
 
+    /// How the unknowns that are given move with the parameter, as places of supports do; `None` when they
+    /// do not.
+    ///
+    /// # Errors
+    ///
+    /// Where the parameter has no meaning.
+    fn given(&mut self, _y: &DVector<f64>, _t: f64) -> Result<Option<DVector<f64>>, Self::Error> {
+        Ok(None)
+    }
+
     /// Factorise $J$: the number of directions in which the energy falls, nothing where it cannot be
     /// factorised.
     ///

@@ -7,9 +7,9 @@ use super::bordered::{Bordered, Row};
 use super::here::{Here, Metric};
 
 /// How far before and after a singular point, as a part of the step, the inertia is counted.
-const BESIDE: f64 = 1e-3;
+const BESIDE: f64 = 1e-2;
 /// Corrections of a mode, each by the part of a step at which the factor is.
-const CORRECTIONS: usize = 4;
+const CORRECTIONS: usize = 6;
 
 /// A fixed vector without symmetry.
 pub(super) fn without_symmetry(size: usize) -> Row {

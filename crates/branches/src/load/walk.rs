@@ -14,10 +14,16 @@ use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settin
 
 /// The first step, as a part of the range.
 const FIRST: f64 = 1.0 / 64.0;
+/// A step in which the tangent is seen to turn.
+const PROBE: f64 = 1e-7;
+/// A corrector that moves a point by less leaves what it leaves of the equations.
+const ROUNDING: f64 = 1e-9;
 /// Cosine of the largest turn of the tangent in one step, about 14 degrees, and of one after which
 /// the next step is longer.
 const STRAIGHT_ENOUGH: f64 = 0.97;
 const STRAIGHT: f64 = 0.995;
+/// A chord that differs from the mean of the tangents at its ends by more than this spans no arc.
+const SKEW: f64 = 0.003;
 /// A corrector that moves a point further than this part of the step has found another path.
 const CORRECTION: f64 = 0.2;
 /// Growth of the next step after one that went well.
@@ -142,7 +148,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     }
 
     fn run(&mut self, mut here: Here, watch: &dyn Fn(usize)) -> Result<End<Q::Error>, Q::Error> {
-        let (mut length, mut kinks) = (FIRST, 0);
+        let (mut length, mut kinks) = (self.first(&here)?, 0);
         while self.points.len() < self.settings.max_points {
             watch(self.points.len());
             let slope = here.tangent.t.abs();
@@ -184,6 +190,20 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             length = if turn >= STRAIGHT { GROWTH * long } else { long };
         }
         Ok(End::MaxPoints)
+    }
+
+    /// The length of a first step: that in which the tangent would turn by a fifth, as it begins to, or
+    /// shorter. A longer one could pass a limit point at the very start unseen.
+    fn first(&mut self, here: &Here) -> Result<f64, Q::Error> {
+        let row = self.metric.along(&here.tangent);
+        let guess = (&here.y + &here.tangent.y * PROBE, here.t + here.tangent.t * PROBE);
+        let Some(next) = self.corrected(here, (&guess.0, guess.1), &row, PROBE)? else {
+            return Ok(PROBE);
+        };
+        let turned =
+            Row { y: next.tangent.y - &here.tangent.y, t: next.tangent.t - here.tangent.t };
+        let turn = self.metric.norm(&turned.y, turned.t) / PROBE;
+        Ok(FIRST.min(0.2 / turn.max(f64::MIN_POSITIVE)).max(PROBE))
     }
 
     /// Cosine of the angle between two tangents.
@@ -233,12 +253,23 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         let column = self.equations.by_parameter(guess.0, guess.1)?;
         let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
         let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
-        if moved > CORRECTION * long.max(SHORTEST) {
+        if moved > (CORRECTION * long).max(ROUNDING) {
             return Ok(None);
         }
         let along = self.metric.along(&here.tangent);
         let next = Here::new(self.equations, self.metric, found, [row, &along])?;
-        Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH))
+        Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH && self.one_arc(here, next)))
+    }
+
+    /// Whether the chord of two points points as the mean of their tangents, as that of an arc does: between
+    /// different paths, or over a bend and back, it does not.
+    fn one_arc(&self, a: &Here, b: &Here) -> bool {
+        let chord = towards(self.metric, a, b);
+        let (y, t) = (&a.tangent.y + &b.tangent.y, a.tangent.t + b.tangent.t);
+        let norm = self.metric.norm(&y, t);
+        let off = self.metric.norm(&(chord.y - y / norm), chord.t - t / norm);
+        let way = a.towards(b);
+        off <= SKEW || off * self.metric.norm(&way.y, way.t) <= ROUNDING
     }
 
     /// Limit points and branch points between two points; the end of the path where it comes to a

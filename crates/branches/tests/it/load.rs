@@ -181,6 +181,18 @@ fn a_path_is_not_left_for_one_next_to_it() {
     assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 0.0));
 }
 
+/// V = z^3 / 3 - (1e-6 - t) z + x^2 / 2: from z = 1e-3 the limit at t = 1e-6 of the range is not passed by, and the
+/// other side is followed down.
+#[test]
+fn a_limit_at_the_very_start_is_seen() {
+    let early =
+        Potential::new(|[x, z], t| [x, z * z - 1e-6 + t], |[_, z], _| [[1.0, 0.0], [0.0, 2.0 * z]]);
+    let path = early.path([0.0, 1e-3], [-1.0, 1.0]).unwrap();
+    let limit = path.events.iter().find(|event| event.kind == Kind::Limit).unwrap();
+    assert!((limit.t - 1e-6).abs() < 1e-12 && limit.index == [0, 1]);
+    assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, -1.0));
+}
+
 /// V = (1 - z) x^2 / 2 - x^3 / 3 + z^2 / 2 - t z: in t = 1 the upright path is crossed by x = 1 - z with
 /// z = t + x^2 / 2, on which the stable side and the other change places.
 #[test]

@@ -89,7 +89,12 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
         text += &wrapped(&sentence, 2);
         text.push('\n');
     };
-    say(first_loss(found, path));
+    say(if path.meets_proof() {
+        first_loss(found, path)
+    } else {
+        "the steps of the path are too long to meet what is proved of it: take a shorter range"
+            .to_owned()
+    });
     say(match path.equilibria_at_every_load {
         Some(count) => everywhere(count),
         None => proved(found, path),

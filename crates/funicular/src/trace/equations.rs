@@ -11,6 +11,9 @@ use validate::systems::Near;
 use super::enclosed::loads_alone;
 use super::load::LoadError;
 
+/// Step of the difference for how supports move.
+const GIVEN: f64 = 1e-3;
+
 /// A factor is good for unknowns that differ by rounding.
 const SAME: f64 = 1e-13;
 
@@ -170,6 +173,17 @@ impl load::Equations for Family<'_> {
             Some([_, change]) => Ok(DVector::from_vec(self.equations.of_loads(change.as_slice()))),
             None => load::difference(self, y, t),
         }
+    }
+
+    fn given(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<DVector<f64>>, LoadError> {
+        if self.loads.is_some() {
+            return Ok(None);
+        }
+        // Supports move on straight lines.
+        let (Ok(before), Ok(after)) = (self.onto(y, t - GIVEN), self.onto(y, t + GIVEN)) else {
+            return Ok(None);
+        };
+        Ok(Some((after - before) / (2.0 * GIVEN)))
     }
 
     fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, LoadError> {

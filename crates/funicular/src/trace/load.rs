@@ -201,7 +201,28 @@ pub struct LoadPath {
     pub proved: PathProved,
 }
 
+/// How far, as a part of it, a value followed may be from bounds that are proved.
+const NEAR: f64 = 1e-9;
+
 impl LoadPath {
+    /// Whether nothing contradicts the path: `energy` and the judge confirm its points, and the first loss of
+    /// stability that is proved is one that was met.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.confirmed.agrees() && self.meets_proof()
+    }
+
+    /// Whether the first loss of stability that is proved is one that was met: a path may turn back and forth
+    /// within one step.
+    pub(crate) fn meets_proof(&self) -> bool {
+        self.proved.between.is_none_or(|[low, high]| {
+            let off = NEAR * low.abs().max(high.abs());
+            let inside = |value: f64| low.min(high) - off <= value && value <= low.max(high) + off;
+            let met = |event: &LoadEvent| event.values.last().copied().is_some_and(inside);
+            self.end == LoadEnd::MaxPoints || self.events.iter().any(met)
+        })
+    }
+
     /// The first event in which the index rises from 0; nothing where it does not.
     #[must_use]
     pub fn first_loss(&self) -> Option<&LoadEvent> {

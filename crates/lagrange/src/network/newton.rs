@@ -24,6 +24,8 @@ use super::stiffness::Stiffness;
 /// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
 /// and far below the inverse of rounding.
 const PENALTY: f64 = 1e5;
+/// The same in units of the largest stiffness of an elastic member, where those have their true one.
+const STIFFER: f64 = 1e3;
 /// Sweeps of refinement in a step.
 const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
@@ -180,7 +182,8 @@ impl Derivative {
         stiffness.factorise_indefinite().then_some(new)
     }
 
-    /// The same with the true stiffness of the elastic members, however stiff they are.
+    /// The same with the true stiffness of the elastic members, however stiff they are; members that keep their
+    /// lengths are stiffer than these, however little they bear.
     pub fn elastic(
         framework: &Framework,
         stiffness: &mut Stiffness,
@@ -188,10 +191,15 @@ impl Derivative {
         residual: &Residual,
     ) -> Option<Self> {
         let mut new = Self::unfactored(framework, state, residual);
-        for row in &mut new.rows {
-            if row.taut && row.compliance > 0.0 {
-                row.along = row.compliance.recip();
-            }
+        let elastic = |row: &Row| row.taut && row.compliance > 0.0;
+        let stiffest = new.rows.iter().filter(|row| elastic(row)).map(|row| row.compliance.recip());
+        let stiffest = stiffest.fold(0.0, f64::max);
+        for row in new.rows.iter_mut().filter(|row| row.taut) {
+            row.along = if elastic(row) {
+                row.compliance.recip()
+            } else {
+                row.along.max(STIFFER * stiffest)
+            };
         }
         new.assembled(framework, stiffness);
         // Also where it is singular: what needs more borders it.
