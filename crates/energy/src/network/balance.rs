@@ -1,7 +1,8 @@
 //! Forces held against what the problem brings, not against the answer.
 //!
-//! The scale of a joint is its load, or the mean load of all joints where that is more; of a system
-//! without loads it is the largest force of an elastic member. A force found is no scale: an absurd
+//! The scale of a joint is its load, or the mean load of all joints where it has none: what is light
+//! might lie anywhere beside what is heavy. Of a system without loads it is the largest force of an
+//! elastic member. A force found is no scale: an absurd
 //! one would forgive everything.
 
 use model::system::System;
@@ -73,7 +74,8 @@ impl Frame {
         let most = self.force_scale(&shape.force);
         let mut worst = Balance { unbalance: 0.0, allowed: searched };
         for (joint, spot) in self.spots.iter().enumerate() {
-            let scale = loads[joint].max(least).max(NO_STRAIN);
+            let own = if loads[joint] > 0.0 { loads[joint] } else { least };
+            let scale = own.max(NO_STRAIN);
             let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
             let rounded = rounding * forces[joint] / scale;
             let kept = tolerance.max(BALANCE);

@@ -8,7 +8,7 @@ use super::framework::Framework;
 use super::state::State;
 use model::system::System;
 
-/// Balance is measured against the loads of a joint, or where the forces in its members are far
+/// Balance is measured against the loads of a joint (the mean load where it has none), or where the forces in its members are far
 /// larger, near a singular shape, against this part of them: the tolerance is then some fifty
 /// roundings of these forces.
 const OF_FORCES: f64 = 1e-2;
@@ -110,8 +110,11 @@ fn units<'a>(framework: &'a Framework, state: &State) -> impl Iterator<Item = f6
     }
     let least = framework.least_scale(state);
     framework.nodes.iter().zip(forces).map(move |(node, force)| {
-        let loads = node.load.norm().max(least);
-        let unit = loads.max((OF_FORCES * force).min(OF_LOADS * loads));
+        // What is light is held to its own load, or it might lie anywhere beside what is heavy.
+        let own = node.load.norm();
+        let loads = own.max(least);
+        let own = if own > 0.0 { own } else { loads };
+        let unit = own.max((OF_FORCES * force).min(OF_LOADS * loads));
         // In units of what is too large for a number every force would be small.
         if force.is_finite() { unit } else { f64::NAN }
     })
