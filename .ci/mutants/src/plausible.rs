@@ -56,7 +56,8 @@ pub fn proposed(krate: &str) -> Result<Vec<Mutant>, Failure> {
     let mut all = Vec::new();
     for file in files {
         let name = file.to_string_lossy().into_owned();
-        let spared = ["tests", "/error", "/settings", "/mx.rs", "/text", "/svg"];
+        let spared =
+            ["tests", "/error", "/settings", "/mx.rs", "/text", "/svg", "/figure", "/diagram"];
         if spared.iter().any(|part| name.contains(part)) {
             continue;
         }
