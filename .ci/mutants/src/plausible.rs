@@ -43,7 +43,8 @@ const PAIRS: [(&str, &str); 19] = [
 /// Methods that are left out by mistake.
 const LEFT_OUT: [&str; 7] = ["abs", "sqrt", "transpose", "recip", "powi", "signum", "clamp"];
 /// Their arguments commute.
-const SYMMETRIC: [&str; 8] = ["dot", "min", "max", "hypot", "distance", "zip", "swap", "sum"];
+const SYMMETRIC: [&str; 10] =
+    ["dot", "min", "max", "hypot", "distance", "zip", "swap", "sum", "plus", "product"];
 
 /// All of a crate, in the order of its files.
 ///
@@ -280,6 +281,10 @@ impl<'ast> Visit<'ast> for Proposals<'_> {
             Expr::Path(path) => path.path.segments.last().map(|part| part.ident.to_string()),
             _ => None,
         };
+        // How much room is made beforehand changes nothing.
+        if name.as_deref() == Some("with_capacity") {
+            return;
+        }
         if !name.is_some_and(|name| SYMMETRIC.contains(&name.as_str())) {
             self.exchanged(call, &call.args);
         }
@@ -288,6 +293,9 @@ impl<'ast> Visit<'ast> for Proposals<'_> {
 
     fn visit_expr_method_call(&mut self, call: &'ast syn::ExprMethodCall) {
         let name = call.method.to_string();
+        if name == "reserve" {
+            return;
+        }
         if !SYMMETRIC.contains(&name.as_str()) {
             self.exchanged(call, &call.args);
         }
