@@ -118,28 +118,26 @@ pub(crate) fn refine(
     } else {
         Refinement::Failed(first)
     };
-    let mut started_anew = unsettled.is_some();
-    let last = match point.straightened(problem.chain()) {
-        Some(unknown) => unknown,
-        None => match point.newton().filter(|_| point.closed()) {
-            Some(last) => last,
-            None => {
-                point = Point::new(problem, units, minimum);
-                started_anew = true;
-                match point.lightest(settings).and_then(|()| point.newton()) {
-                    Some(last) if point.closed() => last,
-                    _ => return failed,
-                }
-            }
-        },
+    // Newton's method finds any stationary point.
+    let is_minimum = |found: &Minimum| {
+        let curvature = found.curvature();
+        curvature.index(curvature.slope.zero) == 0
     };
-    let (refined, units) = point.into_minimum(minimum);
-    // Newton's method finds any stationary point; what was not known to be a minimum must prove it.
-    let curvature = refined.curvature();
-    if started_anew && curvature.index(curvature.slope.zero) > 0 {
-        return failed;
+    let (refined, last) = match point.refined(problem) {
+        Some(last) => (Some(point.into_minimum(minimum)), last),
+        None => (None, f64::NAN),
+    };
+    if let Some(refined) = refined.filter(|(found, _)| is_minimum(found)) {
+        return Refinement::Refined(Box::new(refined), last);
     }
-    Refinement::Refined(Box::new((refined, units)), last)
+    let mut anew = Point::new(problem, units, minimum);
+    if let Some(last) = anew.lightest(settings).and_then(|()| anew.refined(problem)) {
+        let refined = anew.into_minimum(minimum);
+        if is_minimum(&refined.0) {
+            return Refinement::Refined(Box::new(refined), last);
+        }
+    }
+    failed
 }
 
 /// Two bars over near anchors with their weights counted from the first: what hangs between them is
@@ -229,6 +227,11 @@ impl Point {
             multiplier,
             largest,
         })
+    }
+
+    /// Down to the last digits that there are; how far the shape is not known then, rad.
+    fn refined(&mut self, problem: &Problem) -> Option<f64> {
+        self.straightened(problem.chain()).or_else(|| self.newton().filter(|_| self.closed()))
     }
 
     /// Newton's method; the smallest step made, rad, or `None` if it leaves the neighbourhood.
