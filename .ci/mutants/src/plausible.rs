@@ -245,7 +245,7 @@ impl<'ast> Visit<'ast> for Proposals<'_> {
     fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
         let name = path.path.segments.last().map(|part| part.ident.to_string()).unwrap_or_default();
         let constant = name.len() > 2 && name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
-        if constant && name != "EPSILON" && name != "INFINITY" {
+        if constant && !["EPSILON", "INFINITY", "NAN"].contains(&name.as_str()) {
             self.propose(path.span(), format!("1000.0 * {}", self.text(path)));
         }
     }
