@@ -14,7 +14,7 @@ use crate::network::shape::{NO_STRAIN, Shape, largest};
 use crate::vector::norm;
 
 /// Unbalanced force at a joint over its scale that counts as balance.
-const BALANCE: f64 = 1e-9;
+const BALANCE: f64 = 1e-10;
 
 /// Rounding of a force over the loads from which on the forces say nothing.
 const ABSURD: f64 = 1e-6;
