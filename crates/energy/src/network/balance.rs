@@ -138,6 +138,17 @@ mod tests {
             assert_eq!(joint, named);
             assert!((unbalance / wanted - 1.0).abs() < 1e-9, "{unbalance}");
         }
+        // A joint without a load is held to the mean of all three: 1 N of 10 N.
+        let joints =
+            vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q").with_mass(3.0)];
+        let light = |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap());
+        let system = System::new("idle", 10.0, joints, vec![light(0, 1), light(1, 2)]).unwrap();
+        let frame = Frame::new(&system).unwrap();
+        let x = [0.0, -1.0, -2.0].map(|z| [0.0, 0.0, (z - frame.origin_m[2]) / frame.length_m]);
+        let force = [31.0, 30.0].map(|force_n| force_n / frame.force_n).to_vec();
+        let refused = frame.balance(&system, &Shape { x: x.to_vec(), force }, 1e-12);
+        let Err(Error::Unbalanced { joint, unbalance }) = refused else { panic!("{refused:?}") };
+        assert!(joint == "P" && (unbalance - 0.1).abs() < 1e-9, "{joint} {unbalance}");
         // A tolerance is allowed, of either joint's own load.
         let (system, frame, shape) = hung([20.005 + 1e-4, 0.005 + 1e-8]);
         let held = frame.balance(&system, &shape, 1e-5).unwrap();
