@@ -151,10 +151,7 @@ mod tests {
                 let curved = |x: f64| sign * (x.powi(9) - root * root.powi(8));
                 let (found, asked) = between(-0.5, 1.5, &curved);
                 let (part, x) = found.unwrap();
-                assert!(
-                    (x - root).abs() < 1e-13 && (part - (root + 0.5) / 2.0).abs() < 1e-13,
-                    "{x}"
-                );
+                assert!((x - root).abs() < 1e-13 && (2.0 * part - root - 0.5).abs() < 1e-13, "{x}");
                 assert!(asked < 60, "{asked}");
             }
         }

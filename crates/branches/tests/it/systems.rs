@@ -1,7 +1,8 @@
 //! A number of a system that varies gives the system of the file in which it is edited.
 
-use branches::{Combine, Parameter, PointError, Variation};
-use model::system::System;
+use branches::{Combine, Parameter, ParameterError, PointError, Variation};
+use model::Bar;
+use model::system::{Member, System};
 use model::system_file::{Described, parse};
 
 /// A rope of five bars over a rider at A-R, two more to R-B, a stiff row in line with them, a spring and a bar
@@ -53,6 +54,9 @@ length_m = 9
 mass_kg = 0.03125
 "#;
 
+/// Pieces of a text and what comes in their place.
+type Edits<'a> = &'a [(&'a str, &'a str)];
+
 fn read(text: &str) -> System {
     match parse(text, "varied.toml") {
         Ok(Described::System(system)) => system,
@@ -74,7 +78,7 @@ fn varied(vary: &[(&str, f64)]) -> System {
 }
 
 /// The file with pieces of its text in the place of others, each of which it has once.
-fn edited(edits: &[(&str, &str)]) -> System {
+fn edited(edits: Edits<'_>) -> System {
     let mut text = FILE.to_owned();
     for (old, new) in edits {
         assert_eq!(text.matches(old).count(), 1, "{old}");
@@ -85,7 +89,7 @@ fn edited(edits: &[(&str, &str)]) -> System {
 
 #[test]
 fn every_number_is_that_of_the_file() {
-    let tables: [(&str, f64, &[(&str, &str)]); 24] = [
+    let tables: [(&str, f64, Edits<'_>); 24] = [
         ("gravity_m_s2", 3.0, &[("9.5", "3")]),
         ("floor_m", -16.0, &[("-20", "-16")]),
         ("joints.A.at_m.x", 0.125, &[("[0, 0.5, 0.25]", "[0.125, 0.5, 0.25]")]),
@@ -239,5 +243,60 @@ fn counts_are_of_whole_rows_of_equal_bars() {
     }
     for path in ["bars.1-5.count=2", "bars.2-4.count=2", "bars.6-7.count=2", "bars.10.count=2"] {
         assert!(of(path).is_ok(), "{path}");
+    }
+}
+
+/// Where a third member meets a row it is two rows.
+#[test]
+fn a_row_ends_where_another_member_meets_it() {
+    let base = read(FILE);
+    let [from, to] = ["A-R.2", "T"].map(|name| base.joint(name).unwrap());
+    let mut members = base.members().to_vec();
+    members.push(Member::bar(from, to, Bar::homogeneous(9.0, 1.0).unwrap()));
+    let base = System::new("met", 10.0, base.joints().to_vec(), members).unwrap();
+    let of = |path: &str| {
+        let vary: Parameter = path.parse().unwrap();
+        Variation::new(base.clone(), &[vary], Combine::Product).map_err(|error| error.what)
+    };
+    assert_eq!(of("bars.1-5.count=2").unwrap_err(), "these bars are of several rows");
+    assert!(of("bars.1-2.count=3").is_ok() && of("bars.3-5.count=2").is_ok());
+}
+
+/// The rows of a chain are its runs of equal bars, each with its own first and last.
+#[test]
+fn a_count_of_a_chain_is_that_of_its_file() {
+    let file = |rows: &str| {
+        let anchors = "anchors = { start_m = [0, 0, 0], end_m = [3, 0, -1] }";
+        let Ok(Described::Chain(problem)) =
+            parse(&format!("{anchors}\nbars = [{rows}]"), "chain.toml")
+        else {
+            panic!("a chain")
+        };
+        problem.into_chain()
+    };
+    let [one, two, three] = [
+        "{ length_m = 1, mass_kg = 0.5, centre_m = 0.25, count = 2 }",
+        "{ length_m = 0.5, mass_kg = 2, count = 4 }",
+        "{ length_m = 0.75, mass_kg = 1 }",
+    ];
+    let base = file(&[one, two, three].join(", "));
+    let of = |texts: &[&str]| {
+        let vary: Vec<Parameter> = texts.iter().map(|text| text.parse().unwrap()).collect();
+        let variation = Variation::new(base.clone(), &vary, Combine::Product)?;
+        let values = variation.paths()[0][0].clone();
+        Ok::<_, ParameterError>(variation.problem(&values))
+    };
+    let other = ["{ length_m = 0.5, mass_kg = 0.25, centre_m = 0.125, count = 4 }", two, three];
+    for path in ["bars.1.count=4", "bars.1-2.count=4"] {
+        assert_eq!(of(&[path]).unwrap().unwrap().chain(), &file(&other.join(", ")), "{path}");
+    }
+    let other = [one, "{ length_m = 1, mass_kg = 4, count = 2 }", three];
+    for path in ["bars.4.count=2", "bars.3-6.count=2"] {
+        assert_eq!(of(&[path]).unwrap().unwrap().chain(), &file(&other.join(", ")), "{path}");
+    }
+    let unequal = of(&["bars.5.mass_kg=1", "bars.3.count=2"]).unwrap().unwrap_err();
+    assert_eq!(unequal, PointError::Unequal { first: 3, last: 6 });
+    for path in ["bars.2-3.count=2", "bars.6-7.count=1"] {
+        assert_eq!(of(&[path]).unwrap_err().what, "these bars are of several rows", "{path}");
     }
 }

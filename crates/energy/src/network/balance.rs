@@ -128,7 +128,7 @@ mod tests {
         assert!(held.unbalance <= held.allowed && held.allowed < 1e-9, "{held:?}");
         // At P 2 N too much of 20 N; at Q 1e-6 N too much of 5 mN.
         for (forces_n, named, wanted) in
-            [([22.005, 0.005], "P", 0.1), ([20.005001, 0.005001], "Q", 2e-4)]
+            [([22.005, 0.005], "P", 0.1), ([20.005_001, 0.005_001], "Q", 2e-4)]
         {
             let (system, frame, shape) = hung(forces_n);
             let refused = frame.balance(&system, &shape, 1e-12);

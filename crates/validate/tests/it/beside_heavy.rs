@@ -54,7 +54,7 @@ fn nets_with_one_heavy_bar_are_found_or_not_known() {
     let mut agreed = 0;
     for (stream, ratio) in (0..45).zip([1e8, 1e12, 1e14].into_iter().cycle()) {
         let mut random = samples::stream(33, stream);
-        let strands = random.random_range(2..5);
+        let strands: u32 = random.random_range(2..5);
         let mut joints = vec![Joint::free("P").with_mass(random.random_range(0.5..2.0))];
         let counts: Vec<usize> = (0..strands).map(|_| random.random_range(1..4)).collect();
         let mut rest = bars(&mut random, counts.iter().sum(), ratio).into_iter();
@@ -63,7 +63,7 @@ fn nets_with_one_heavy_bar_are_found_or_not_known() {
             let strand_bars: Vec<Bar> = rest.by_ref().take(count).collect();
             let length_m: f64 = strand_bars.iter().map(Bar::length_m).sum();
             let away_m = random.random_range(0.2..0.6) * length_m;
-            let angle = (strand as f64 + random.random_range(-0.3..0.3)) * TAU / strands as f64;
+            let angle = (strand as f64 + random.random_range(-0.3..0.3)) * TAU / f64::from(strands);
             let at_m = [away_m * angle.cos(), away_m * angle.sin(), random.random_range(-0.5..0.5)];
             joints.push(Joint::anchor(format!("A{strand}"), at_m));
             let mut from = joints.len() - 1;
