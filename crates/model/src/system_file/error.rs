@@ -44,8 +44,7 @@ impl SystemFileError {
         key: Option<String>,
         kind: SystemFileErrorKind,
     ) -> Self {
-        let text = if is_something_else(text, &kind) { blank(text) } else { text.to_owned() };
-        Self(Box::new(Details { file: file.to_owned(), text, span, key, kind }))
+        Self(Box::new(Details { file: file.to_owned(), text: text.to_owned(), span, key, kind }))
     }
 
     /// The same error in a text whose places are those of this one.
@@ -61,8 +60,7 @@ impl SystemFileError {
     }
 
     /// The text of the file as far as it could be read, without a byte order mark; bytes that are
-    /// not UTF-8 are replaced by U+FFFD. Blank where the file is no system file but something else,
-    /// whose lines are not to be shown.
+    /// not UTF-8 are replaced by U+FFFD.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.0.text
@@ -94,9 +92,17 @@ impl SystemFileError {
         Position::of(&self.0.text, self.0.span.as_ref()?.start)
     }
 
-    /// The line the error is about, without its line break.
+    /// The line the error is about, without its line break; nothing of a file that is something else,
+    /// whose lines are not to be shown: neither TOML nor JSON, and without the keys that every system
+    /// has.
     #[must_use]
     pub fn line(&self) -> Option<&str> {
+        let is_known = || ["anchors", "joints", "bars"].iter().any(|key| self.0.text.contains(key));
+        if matches!(self.0.kind, SystemFileErrorKind::Syntax(_) | SystemFileErrorKind::Json(_))
+            && !is_known()
+        {
+            return None;
+        }
         self.0.text.lines().nth(self.position()?.line - 1)
     }
 
@@ -105,17 +111,6 @@ impl SystemFileError {
     pub fn help(&self) -> Option<String> {
         self.0.kind.help()
     }
-}
-
-/// Whether a text is neither TOML nor JSON, and has none of the keys that every system has.
-fn is_something_else(text: &str, kind: &SystemFileErrorKind) -> bool {
-    matches!(kind, SystemFileErrorKind::Syntax(_) | SystemFileErrorKind::Json(_))
-        && !["anchors", "joints", "bars"].iter().any(|key| text.contains(key))
-}
-
-/// The same places with nothing to read.
-fn blank(text: &str) -> String {
-    text.chars().map(|c| if c == '\n' { c } else { ' ' }).collect()
 }
 
 impl fmt::Display for SystemFileError {
