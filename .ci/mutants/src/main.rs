@@ -68,7 +68,7 @@ fn run() -> Result<(), Failure> {
     };
     let drawn = match &options.only {
         Some(file) => draw::named(&all, &std::fs::read_to_string(file)?),
-        // Half of what people write by mistake the compiler refuses.
+        // Some of what people write by mistake the compiler refuses.
         None if options.plausible => draw::drawn(&all, 2 * options.draw, options.seed),
         None => draw::drawn(&all, options.draw, options.seed),
     };
