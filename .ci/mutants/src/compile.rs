@@ -25,6 +25,17 @@ pub struct Built {
     pub not_compiled: Vec<Mutant>,
 }
 
+impl Built {
+    /// The first ones drawn of those that can be run.
+    pub fn keep(&mut self, count: usize) {
+        self.run.sort_by_key(|mutant| mutant.id);
+        self.run.truncate(count);
+        let last = self.run.last().map_or(0, |mutant| mutant.id);
+        self.not_compiled.retain(|mutant| mutant.id < last);
+        self.without_switch.retain(|mutant| mutant.id < last);
+    }
+}
+
 /// # Errors
 ///
 /// Where the build fails at a place that no change stands at.

@@ -10,6 +10,7 @@ mod edit;
 mod judge;
 mod options;
 mod place;
+mod plausible;
 mod report;
 mod tests;
 mod tree;
@@ -60,14 +61,23 @@ fn main() -> std::process::ExitCode {
 
 fn run() -> Result<(), Failure> {
     let options = Options::from_args(std::env::args().skip(1))?;
-    let all = draw::listed(&options.krate)?;
+    let all = if options.plausible {
+        plausible::proposed(&options.krate)?
+    } else {
+        draw::listed(&options.krate)?
+    };
     let drawn = match &options.only {
         Some(file) => draw::named(&all, &std::fs::read_to_string(file)?),
+        // Some of what people write by mistake the compiler refuses.
+        None if options.plausible => draw::drawn(&all, 2 * options.draw, options.seed),
         None => draw::drawn(&all, options.draw, options.seed),
     };
     eprintln!("{} of {} changes", drawn.len(), all.len());
     let tree = Tree::copied(&options)?;
-    let built = compile::built(&tree, &options, drawn)?;
+    let mut built = compile::built(&tree, &options, drawn)?;
+    if options.plausible {
+        built.keep(options.draw);
+    }
     let tests = tests::traced(&built.programs, &options)?;
     if tests.iter().all(|test| test.reaches.is_empty()) {
         return Err(

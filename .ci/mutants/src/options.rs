@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use crate::Failure;
 
-pub const USAGE: &str = "usage: mutants CRATE [--draw N] [--seed S] [--only FILE] [--also CRATE]
+pub const USAGE: &str = "usage: mutants CRATE [--from LIST] [--draw N] [--seed S] [--only FILE] [--also CRATE]
                [--work DIR] [--target-dir DIR] [--limit SECONDS] [--jobs N] [--out FILE]
 Run at the top of the workspace.
-  --draw N          changes drawn at random; without it all
+  --from LIST       cargo: those of `cargo mutants` (else); plausible: those that people make by mistake
+  --draw N          changes drawn at random, and run where they compile; without it all
   --seed S          of the draw
   --only FILE       the changes named in the tables of a result, by file, text and nearest line
   --also CRATE      shows what survives to the tests of another crate, too
@@ -21,6 +22,7 @@ Run at the top of the workspace.
 pub struct Options {
     pub krate: String,
     pub also: Option<String>,
+    pub plausible: bool,
     pub draw: usize,
     pub seed: u64,
     pub only: Option<PathBuf>,
@@ -40,7 +42,8 @@ impl Options {
         let mut options = Self {
             krate,
             also: None,
-            draw: usize::MAX,
+            plausible: false,
+            draw: usize::MAX / 2,
             seed: 1,
             only: None,
             work: PathBuf::from("target/mutants"),
@@ -52,6 +55,9 @@ impl Options {
         while let Some(name) = args.next() {
             let value = args.next().ok_or(USAGE)?;
             match name.as_str() {
+                "--from" if value == "cargo" || value == "plausible" => {
+                    options.plausible = value == "plausible";
+                }
                 "--draw" => options.draw = value.parse()?,
                 "--seed" => options.seed = value.parse()?,
                 "--only" => options.only = Some(value.into()),

@@ -13,6 +13,7 @@ use crate::{Mutant, Position, Span};
 pub fn switched(source: &str, mutants: &[Mutant]) -> syn::Result<(String, Vec<u32>)> {
     let lines = Lines::new(source);
     let mut at: HashMap<Position, Vec<&Mutant>> = HashMap::new();
+    let mut whole: HashMap<Span, Vec<(u32, String)>> = HashMap::new();
     let (mut insertions, mut placed) = (Insertions::default(), Vec::new());
     for mutant in mutants {
         if mutant.genre == "FnValue" {
@@ -22,6 +23,10 @@ pub fn switched(source: &str, mutants: &[Mutant]) -> syn::Result<(String, Vec<u3
                 format!("if crate::mx::on({id}) {{ return ({value}); /*{id}*/ }} "),
             );
             placed.push(id);
+        } else if mutant.genre == "Plausible" {
+            let text = (mutant.id, mutant.replacement.clone());
+            whole.entry(mutant.span).or_default().push(text);
+            placed.push(mutant.id);
         } else {
             at.entry(mutant.span.start).or_default().push(mutant);
         }
@@ -29,6 +34,7 @@ pub fn switched(source: &str, mutants: &[Mutant]) -> syn::Result<(String, Vec<u3
     let file = syn::parse_file(source)?;
     let mut visitor = Visitor { lines, at, insertions, placed };
     visitor.visit_file(&file);
+    whole.iter().for_each(|(whole, texts)| visitor.choose(*whole, texts));
     Ok((visitor.insertions.applied(source), visitor.placed))
 }
 
@@ -39,14 +45,14 @@ struct Visitor<'a> {
     placed: Vec<u32>,
 }
 
-fn span(tokens: Tokens) -> Span {
+pub fn span(tokens: Tokens) -> Span {
     let (start, end) = (tokens.start(), tokens.end());
     let position = |at: proc_macro2::LineColumn| Position { line: at.line, column: at.column + 1 };
     Span { start: position(start), end: position(end) }
 }
 
 /// Whether a condition has a `let` among its parts.
-fn binds(condition: &syn::Expr) -> bool {
+pub fn binds(condition: &syn::Expr) -> bool {
     match condition {
         syn::Expr::Let(_) => true,
         syn::Expr::Binary(chain) => binds(&chain.left) || binds(&chain.right),
@@ -65,11 +71,10 @@ impl Visitor<'_> {
     }
 
     /// `whole` if no switch is on, else the text that belongs to it.
-    fn choose(&mut self, whole: Tokens, texts: &[(u32, String)]) {
+    fn choose(&mut self, whole: Span, texts: &[(u32, String)]) {
         if texts.is_empty() {
             return;
         }
-        let whole = span(whole);
         let arms: String = texts
             .iter()
             .map(|(id, text)| format!("if crate::mx::on({id}) {{ {text} /*{id}*/ }} else "))
@@ -104,7 +109,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
                 (id, text)
             })
             .collect();
-        self.choose(binary.span(), &texts);
+        self.choose(span(binary.span()), &texts);
         visit::visit_expr_binary(self, binary);
     }
 
@@ -115,7 +120,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
             .into_iter()
             .map(|(id, operator)| (id, format!("{operator}({operand})")))
             .collect();
-        self.choose(unary.span(), &texts);
+        self.choose(span(unary.span()), &texts);
         visit::visit_expr_unary(self, unary);
     }
 
@@ -125,7 +130,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
             None => Vec::new(),
         };
         if let Some((_, guard)) = &arm.guard {
-            self.choose(guard.span(), &guards);
+            self.choose(span(guard.span()), &guards);
         }
         for (id, _) in self.taken(arm.span(), "MatchArm") {
             match &arm.guard {
@@ -160,7 +165,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
                 texts.push((id, format!("{}{rest}", &whole[..start])));
             }
         }
-        self.choose(value.span(), &texts);
+        self.choose(span(value.span()), &texts);
         visit::visit_expr_struct(self, value);
     }
 }

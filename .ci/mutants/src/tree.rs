@@ -63,7 +63,8 @@ impl Tree {
     }
 }
 
-fn sources(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+/// The files of Rust below a folder.
+pub fn sources(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();

@@ -128,3 +128,43 @@ pub(crate) fn crossing_on_chord(
     }
     Some(values.swap_remove(0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_of_sign_is_found_to_the_last_digit() {
+        let between = |a: f64, b: f64, test: &dyn Fn(f64) -> f64| {
+            let mut asked = 0;
+            let found = sign_change(
+                [&a, &b],
+                |part| {
+                    asked += 1;
+                    Some(a + part * (b - a))
+                },
+                |x| Some(test(*x)),
+            );
+            (found, asked)
+        };
+        for root in [0.125, 0.3, 0.99_f64] {
+            for sign in [1.0, -1.0] {
+                // Curved to either side, and with a double slope: the secant alone would creep.
+                let curved = |x: f64| sign * (x.powi(9) - root * root.powi(8));
+                let (found, asked) = between(-0.5, 1.5, &curved);
+                let (part, x) = found.unwrap();
+                assert!((x - root).abs() < 1e-13 && (2.0 * part - root - 0.5).abs() < 1e-13, "{x}");
+                assert!(asked < 60, "{asked}");
+            }
+        }
+        let line = |x: f64| 3.0 * x - 1.5;
+        assert_eq!(between(0.5, 2.0, &line).0, Some((0.0, 0.5)));
+        assert_eq!(between(-1.0, 0.5, &line).0, Some((1.0, 0.5)));
+        assert_eq!(between(0.0, 1.0, &line), (Some((0.5, 0.5)), 1));
+        assert_eq!(between(0.75, 2.0, &line).0, None);
+        assert_eq!(between(0.0, 2.0, &|x| if x > 1.0 { f64::NAN } else { -1.0 }).0, None);
+        // A curve that is lost leaves the end that is nearer.
+        let lost = |a: f64, b: f64| sign_change([&a, &b], |_| None, |x| Some(line(*x)));
+        assert_eq!((lost(0.0, 0.75), lost(0.25, 2.0)), (Some((1.0, 0.75)), Some((0.0, 0.25))));
+    }
+}

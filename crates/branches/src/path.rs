@@ -194,3 +194,90 @@ impl<'a> Path<'a> {
         if self.plane(position).span[0] < 0.0 { -1.0 } else { 1.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::variation::Combine;
+
+    fn variation() -> Variation {
+        let vary = [
+            "anchors.end_m.z=-2,-1.5,-1,-1",
+            "bars.2.mass_kg=1,2,3,6",
+            "anchors.end_m.x=0.25,0.25,0.25,0.5",
+        ];
+        let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
+        let chain = model::cases::paper().into_chain();
+        Variation::new(chain, &vary, Combine::Zip).unwrap()
+    }
+
+    fn near(found: &[f64], wanted: &[f64]) {
+        let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-14;
+        assert!(
+            found.len() == wanted.len() && found.iter().zip(wanted).all(same),
+            "{found:?} {wanted:?}"
+        );
+    }
+
+    #[test]
+    fn values_go_straight_from_point_to_point() {
+        let variation = variation();
+        let path = Path::new(&variation, &variation.paths()[0]);
+        assert_eq!(
+            [0, 1, 2, 3].map(|point| path.position(point).to_bits()),
+            [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(f64::to_bits)
+        );
+        near(&path.values_at(0.1), &[-1.85, 1.3, 0.25]);
+        near(&path.values_at(0.5), &[-1.25, 2.5, 0.25]);
+        near(&path.values_at(0.75), &[-1.0, 3.75, 0.3125]);
+        // On beyond the ends.
+        near(&path.values_at(1.1), &[-1.0, 6.9, 0.575]);
+        near(&path.values_at(-0.1), &[-2.15, 0.7, 0.25]);
+        // The third point is a corner alone.
+        assert_eq!([0, 1, 2, 3].map(|point| path.bends(point)), [false, false, true, false]);
+        // Two parameters change before it, and two behind.
+        assert_eq!(path.moving(0.5), None);
+        let at = path.position_of(1, 2.5, 0.5);
+        assert!((at - 0.5).abs() < 1e-15, "{at}");
+        let at = path.position_of(2, 0.4375, 0.9);
+        assert!((at - 2.75 / 3.0).abs() < 1e-15, "{at}");
+        assert!(path.is_chain(0.2) && !path.is_chain(-0.4));
+    }
+
+    /// Within one interval it goes on as there; across a point it is the path itself.
+    #[test]
+    fn a_path_within_an_interval_goes_on_straight() {
+        let variation = variation();
+        let path = Path::new(&variation, &variation.paths()[0]);
+        near(&path.within(0.35, 0.65).values_at(0.9), &[-0.65, 3.7, 0.25]);
+        near(&path.within(1.0 / 3.0, 2.0 / 3.0).values_at(0.2), &[-1.7, 1.6, 0.25]);
+        near(&path.within(0.5, 0.75).values_at(0.9), &path.values_at(0.9));
+        near(&path.within(0.2, 0.5).values_at(0.9), &path.values_at(0.9));
+    }
+
+    /// Lengths in the total, weights from -1 to 1 by the levers of the bars, the span in the plane.
+    #[test]
+    fn the_plane_chain_is_that_of_the_numbers() {
+        use model::{Anchors, Bar, Chain};
+        let bar = |length, mass, centre| Bar::new(length, mass, centre, [0.0; 3]).unwrap();
+        let bars = vec![bar(2.0, 3.0, 0.5), bar(1.0, 2.0, 0.75), bar(5.0, 1.0, 2.0)];
+        let anchors = Anchors { start_m: [1.0, 2.0, 3.0], end_m: [4.0, 6.0, 1.0] };
+        let chain = Chain::new("", 10.0, anchors, bars).unwrap();
+        let vary = ["gravity_m_s2=10,20".parse().unwrap()];
+        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+        let path = Path::new(&variation, &variation.paths()[0]);
+        assert_eq!((path.bars(), path.moving(0.5)), (3, Some(0)));
+        let plane = path.plane(0.5);
+        near(&plane.length, &[0.25, 0.125, 0.625]);
+        // What is before each bar, and of its own mass the share at its first joint: 3/4, 1/4, 3/5.
+        let raw = [3.0 * 0.75, 3.0 + 2.0 * 0.25, 5.0 + 0.6];
+        let (middle, half) = (0.5 * (raw[0] + raw[2]), 0.5 * (raw[2] - raw[0]));
+        near(&plane.weight, &raw.map(|c| (c - middle) / half));
+        near(&[plane.offset_n, plane.force_unit_n], &[15.0 * middle, 15.0 * half]);
+        near(&plane.span, &[5.0 / 8.0, -2.0 / 8.0]);
+        assert!((plane.span_m() - 29.0_f64.sqrt()).abs() < 1e-14);
+        assert!(
+            (plane.total_n - 6.0 * 15.0).abs() < 1e-12 && (plane.length_unit_m - 8.0).abs() < 1e-15
+        );
+    }
+}

@@ -99,7 +99,7 @@ fn answer(
     settings: &Settings,
     clock: Instant,
 ) -> Result<Solution, Error> {
-    match refine(problem, &units, &minimum) {
+    match refine(problem, &units, &minimum, settings) {
         Refinement::Refined(refined, turn) => {
             let (minimum, units) = *refined;
             Ok(Solution::new(problem, &units, minimum, Some(turn), settings, clock))
@@ -211,7 +211,11 @@ fn descend_to_line(
             .map_err(ended)?;
     let evaluations = state.problem.counts.values().sum();
     let (mut state, unsettled) = (state.state, state.solver.unsettled);
-    outcome(&state)?;
+    // Newton's method may still get there from where the iterations ended.
+    let unsettled = match outcome(&state) {
+        Err(error @ Error::IterationLimit { .. }) => Some(error),
+        outcome => outcome.map(|()| unsettled)?,
+    };
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
             let gap = norm(shape.moments.gap);

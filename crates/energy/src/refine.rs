@@ -17,9 +17,14 @@
 //! [  J    0  ] [ dmu ] = [ -gap ]      J = [ l_1 P_1 ... l_n P_n ]
 //! ```
 //!
+//! Where bars carry so little that the minimiser leaves them anywhere, this does not converge; they
+//! are minimised by themselves first, between heavy bars that do not feel them. The vertical force
+//! never rises along a chain, and the level one is the same everywhere: such bars stand in a row.
+//!
 //! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the
 //! last step is how far the shape is known.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use model::{Bar, Problem, Vector};
@@ -27,8 +32,9 @@ use model::{Bar, Problem, Vector};
 use crate::closure::Shape;
 use crate::lever;
 use crate::links::{Links, Origin, Units};
-use crate::minimise::Minimum;
+use crate::minimise::{Minimum, descend};
 use crate::plane::Turn;
+use crate::settings::Settings;
 use crate::slope::Slope;
 use crate::solver::force_uncertainty;
 use crate::strands::off_the_line;
@@ -66,6 +72,10 @@ const ALIGNED: f64 = 1e-3;
 /// this.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
+/// Bars that carry this part of the largest force or less are minimised by themselves where they
+/// have to: of the others, what these pull, they change no more than Newton's method makes up for.
+const LIGHT: f64 = 1e-6;
+
 /// What the refinement says of a minimum.
 pub(crate) enum Refinement {
     /// The minimiser's digits are enough.
@@ -77,7 +87,12 @@ pub(crate) enum Refinement {
 }
 
 /// Refine a minimum if that is needed.
-pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Refinement {
+pub(crate) fn refine(
+    problem: &Problem,
+    units: &Units,
+    minimum: &Minimum,
+    settings: &Settings,
+) -> Refinement {
     if let Some(exact) = of_triangle(problem, units, minimum) {
         return Refinement::Refined(Box::new(exact), 0.0);
     }
@@ -103,20 +118,26 @@ pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Ref
     } else {
         Refinement::Failed(first)
     };
-    let last = match point.straightened(problem.chain()) {
-        Some(unknown) => unknown,
-        None => match point.newton() {
-            Some(last) if point.closed() => last,
-            _ => return failed,
-        },
+    // Newton's method finds any stationary point.
+    let is_minimum = |found: &Minimum| {
+        let curvature = found.curvature();
+        curvature.index(curvature.slope.zero) == 0
     };
-    let (refined, units) = point.into_minimum(minimum);
-    // Newton's method finds any stationary point; what was not known to be a minimum must prove it.
-    let curvature = refined.curvature();
-    if unsettled.is_some() && curvature.index(curvature.slope.zero) > 0 {
-        return failed;
+    let (refined, last) = match point.refined(problem) {
+        Some(last) => (Some(point.into_minimum(minimum)), last),
+        None => (None, f64::NAN),
+    };
+    if let Some(refined) = refined.filter(|(found, _)| is_minimum(found)) {
+        return Refinement::Refined(Box::new(refined), last);
     }
-    Refinement::Refined(Box::new((refined, units)), last)
+    let mut anew = Point::new(problem, units, minimum);
+    if let Some(last) = anew.lightest(settings).and_then(|()| anew.refined(problem)) {
+        let refined = anew.into_minimum(minimum);
+        if is_minimum(&refined.0) {
+            return Refinement::Refined(Box::new(refined), last);
+        }
+    }
+    failed
 }
 
 /// Two bars over near anchors with their weights counted from the first: what hangs between them is
@@ -208,6 +229,11 @@ impl Point {
         })
     }
 
+    /// Down to the last digits that there are; how far the shape is not known then, rad.
+    fn refined(&mut self, problem: &Problem) -> Option<f64> {
+        self.straightened(problem.chain()).or_else(|| self.newton().filter(|_| self.closed()))
+    }
+
     /// Newton's method; the smallest step made, rad, or `None` if it leaves the neighbourhood.
     fn newton(&mut self) -> Option<f64> {
         let (mut turn, mut last) = (f64::INFINITY, f64::INFINITY);
@@ -230,6 +256,40 @@ impl Point {
             last = size;
         }
         Some(turn)
+    }
+
+    /// The bars that carry next to nothing minimised by themselves, the lightest of them last;
+    /// `None` where there are none, or that fails.
+    fn lightest(&mut self, settings: &Settings) -> Option<()> {
+        let (mut run, mut found) = (0..self.links.bars(), None);
+        loop {
+            let light = self.light(&run);
+            if light.len() < 2 || light.len() == run.len() {
+                return found;
+            }
+            run = light;
+            let (part, turn) = self.links.part(run.clone(), &self.shape.u)?;
+            let Minimum { shape, slope, .. } =
+                descend(part, turn.of(&self.shape.u[run.clone()]), settings).ok()?;
+            for (u, new) in self.shape.u[run.clone()].iter_mut().zip(&shape.u) {
+                *u = turn.back(*new);
+            }
+            self.shape.moments = self.links.measure(&self.shape.u);
+            // A part counts its weights from its middle, in units of what is between its ends.
+            let (first, last) = (self.links.carried[run.start], self.links.carried[run.end - 1]);
+            let multiplier = scaled(first - last, turn.back(slope.multiplier));
+            self.multiplier = along(multiplier, -0.5 * (first + last), self.links.up);
+            found = Some(());
+        }
+    }
+
+    /// The bars of a run around its least loaded one that carry next to nothing of its largest load.
+    fn light(&self, run: &Range<usize>) -> Range<usize> {
+        let load = |i: usize| norm(self.links.load(i, self.multiplier));
+        let most = run.clone().map(load).fold(0.0, f64::max);
+        let is_light = |i: &usize| load(*i) <= LIGHT * most;
+        let first = run.clone().find(is_light).unwrap_or(run.end);
+        first..run.clone().rfind(is_light).map_or(first, |last| last + 1)
     }
 
     fn into_minimum(self, minimum: &Minimum) -> (Minimum, Units) {

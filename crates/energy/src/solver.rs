@@ -341,7 +341,10 @@ impl Solver<Objective, Run> for FeasibleNewton {
             Search::Found(place) => accept(problem, run, place),
             // The gradient has reached its rounding.
             Search::Exhausted if self.at_rounding(&curvature) => Ok(self.finish(run)),
-            Search::Exhausted => Err(stalled(&curvature, &run).into()),
+            Search::Exhausted => {
+                self.unsettled = Some(stalled(&curvature, &run));
+                Ok(self.finish(run))
+            }
         }
     }
 

@@ -35,6 +35,16 @@ impl<'a> Sheet<'a> {
             return Err(FormatError::new(file, None, Wrong::Empty));
         };
         let mut columns = vec![None; names.len()];
+        let known = |cell: &String| {
+            aliases.iter().any(|(alias, _)| alias == cell)
+                || model::system_file::nearest(cell, names).is_some()
+        };
+        // Such a file is another one, of which nothing is shown.
+        if !head.iter().any(known) {
+            let what = "its first line, which names no column,".to_owned();
+            let error = FormatError::new(file, Some(line), Wrong::Unknown { what });
+            return Err(error.with_help(format!("columns are: {}", names.join(", "))));
+        }
         for (k, cell) in head.iter().enumerate() {
             let cell =
                 aliases.iter().find(|(alias, _)| alias == cell).map_or(cell.as_str(), |a| a.1);

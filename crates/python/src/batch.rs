@@ -106,7 +106,7 @@ impl Batch {
 
     fn block(&self, chains: std::ops::Range<usize>) -> Block {
         let mut solver = condensed::Solver::default();
-        let settings = condensed::Settings::default();
+        let settings = Question::default().condensed(self.bars);
         let mut block = Block::new(chains.len(), self.bars);
         for chain in chains {
             let problem = match self.problem(chain) {

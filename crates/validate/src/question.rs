@@ -34,6 +34,23 @@ impl Question {
         energy::network::Settings { max_work: self.work(), ..usual }
     }
 
+    /// Settings of `lagrange` for the condensed equations of a row of so many bars.
+    #[must_use]
+    pub fn condensed(&self, bars: usize) -> lagrange::condensed::Settings {
+        let usual = lagrange::condensed::Settings::default();
+        let passes = self.passes(bars, usual.max_passes as u64);
+        let max_passes = passes.try_into().unwrap_or(usual.max_passes);
+        lagrange::condensed::Settings { max_passes, ..usual }
+    }
+
+    /// The same for the paper's equations.
+    pub(crate) fn full(&self, bars: usize) -> lagrange::Settings {
+        let usual = lagrange::Settings::default();
+        let passes = self.passes(bars, usual.max_iterations as u64);
+        let max_iterations = passes.try_into().unwrap_or(usual.max_iterations);
+        lagrange::Settings { max_iterations, ..usual }
+    }
+
     /// Passes over a chain of so many bars that the work allows, of this many at most.
     pub(crate) fn passes(&self, bars: usize, most: u64) -> u64 {
         (self.work() / bars as u64).clamp(1, most)
@@ -93,4 +110,24 @@ pub enum UseCensus {
     Auto,
     /// Wherever there can be one: chains of up to 16 bars, in some ten seconds.
     Always,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Work is bars times passes, of at least one: 1000 for 10 bars are 100 of either equations.
+    #[test]
+    fn work_bounds_the_passes_over_a_row() {
+        let with =
+            |max_work| Question { max_work: NonZeroU64::new(max_work), ..Question::default() };
+        let passes = |question: Question, bars| {
+            (question.condensed(bars).max_passes, question.full(bars).max_iterations)
+        };
+        assert_eq!(passes(with(1000), 10), (100, 100));
+        assert_eq!(passes(with(1000), 3), (333, lagrange::Settings::default().max_iterations));
+        assert_eq!(passes(with(1000), 10_000), (1, 1));
+        let usual = (lagrange::condensed::Settings::default(), lagrange::Settings::default());
+        assert_eq!(passes(with(0), 10), (usual.0.max_passes, usual.1.max_iterations));
+    }
 }

@@ -7,3 +7,4 @@ mod degenerate;
 mod load;
 mod parameters;
 mod random_chains;
+mod systems;

@@ -1,7 +1,8 @@
 //! Forces held against what the problem brings, not against the answer.
 //!
-//! The scale of a joint is its load, or the mean load of all joints where that is more; of a system
-//! without loads it is the largest force of an elastic member. A force found is no scale: an absurd
+//! The scale of a joint is its load, or the mean load of all joints where it has none: what is light
+//! might lie anywhere beside what is heavy. Of a system without loads it is the largest force of an
+//! elastic member. A force found is no scale: an absurd
 //! one would forgive everything.
 
 use model::system::System;
@@ -12,8 +13,9 @@ use crate::network::polish::rounding_floor;
 use crate::network::shape::{NO_STRAIN, Shape, largest};
 use crate::vector::norm;
 
-/// Unbalanced force at a joint over its scale that counts as balance.
-const BALANCE: f64 = 1e-9;
+/// Unbalanced force at a joint over its scale that counts as balance: a quarter of what two solvers are
+/// asked to agree to.
+const BALANCE: f64 = 2.5e-10;
 
 /// Rounding of a force over the loads from which on the forces say nothing.
 const ABSURD: f64 = 1e-6;
@@ -73,7 +75,8 @@ impl Frame {
         let most = self.force_scale(&shape.force);
         let mut worst = Balance { unbalance: 0.0, allowed: searched };
         for (joint, spot) in self.spots.iter().enumerate() {
-            let scale = loads[joint].max(least).max(NO_STRAIN);
+            let own = if loads[joint] > 0.0 { loads[joint] } else { least };
+            let scale = own.max(NO_STRAIN);
             let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
             let rounded = rounding * forces[joint] / scale;
             let kept = tolerance.max(BALANCE);
@@ -88,5 +91,68 @@ impl Frame {
             }
         }
         Ok(worst)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member};
+
+    use super::*;
+
+    /// P of 2 kg hangs 1 m below A, and Q of 0.5 g 2 m below P: upright members bear 20.005 N and 5 mN.
+    fn hung(forces_n: [f64; 2]) -> (System, Frame, Shape) {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P").with_mass(2.0),
+            Joint::free("Q").with_mass(5e-4),
+        ];
+        let bar =
+            |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap());
+        let system =
+            System::new("hung", 10.0, joints, vec![bar(0, 1, 1.0), bar(1, 2, 2.0)]).unwrap();
+        let frame = Frame::new(&system).unwrap();
+        let place = |z_m: f64| {
+            let away = |k: usize, x: f64| (x - frame.origin_m[k]) / frame.length_m;
+            [away(0, 0.0), away(1, 0.0), away(2, z_m)]
+        };
+        let x = [0.0, -1.0, -3.0].map(place).to_vec();
+        let force = forces_n.map(|force_n| force_n / frame.force_n).to_vec();
+        (system, frame, Shape { x, force })
+    }
+
+    #[test]
+    fn each_joint_is_held_to_its_own_load() {
+        let (system, frame, shape) = hung([20.005, 0.005]);
+        let held = frame.balance(&system, &shape, 1e-12).unwrap();
+        assert!(held.unbalance <= held.allowed && held.allowed < 1e-9, "{held:?}");
+        // At P 2 N too much of 20 N; at Q 1e-6 N too much of 5 mN.
+        for (forces_n, named, wanted) in
+            [([22.005, 0.005], "P", 0.1), ([20.005_001, 0.005_001], "Q", 2e-4)]
+        {
+            let (system, frame, shape) = hung(forces_n);
+            let refused = frame.balance(&system, &shape, 1e-12);
+            let Err(Error::Unbalanced { joint, unbalance }) = refused else {
+                panic!("{refused:?}")
+            };
+            assert_eq!(joint, named);
+            assert!((unbalance / wanted - 1.0).abs() < 1e-9, "{unbalance}");
+        }
+        // A joint without a load is held to the mean of all three: 1 N of 10 N.
+        let joints =
+            vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q").with_mass(3.0)];
+        let light = |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap());
+        let system = System::new("idle", 10.0, joints, vec![light(0, 1), light(1, 2)]).unwrap();
+        let frame = Frame::new(&system).unwrap();
+        let x = [0.0, -1.0, -2.0].map(|z| [0.0, 0.0, (z - frame.origin_m[2]) / frame.length_m]);
+        let force = [31.0, 30.0].map(|force_n| force_n / frame.force_n).to_vec();
+        let refused = frame.balance(&system, &Shape { x: x.to_vec(), force }, 1e-12);
+        let Err(Error::Unbalanced { joint, unbalance }) = refused else { panic!("{refused:?}") };
+        assert!(joint == "P" && (unbalance - 0.1).abs() < 1e-9, "{joint} {unbalance}");
+        // A tolerance is allowed, of either joint's own load.
+        let (system, frame, shape) = hung([20.005 + 1e-4, 0.005 + 1e-8]);
+        let held = frame.balance(&system, &shape, 1e-5).unwrap();
+        assert!(held.unbalance > 1e-6 && held.unbalance < 1e-5, "{held:?}");
     }
 }

@@ -12,7 +12,7 @@ use crate::network::error::Error;
 pub struct Settings {
     /// Largest unbalanced force at a joint over the largest force of the system, and largest misfit
     /// of a length over the length, that count as none (lengths that overdetermine the shape have
-    /// their own tolerances). An answer is refused besides where a joint is out of balance by 1e-9 of
+    /// their own tolerances). An answer is refused besides where a joint is out of balance by 2.5e-10 of
     /// its own or the mean load. Where the rounding of the places leaves
     /// more, the run ends there and says so in the residual. Default 1e-12; from 1e-15 to 1e-3.
     pub tolerance: f64,

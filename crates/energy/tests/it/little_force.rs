@@ -123,6 +123,32 @@ fn light_bars_hang_from_a_heavy_one() {
     }
 }
 
+/// The same where the minimiser leaves the light bars anywhere: 14 orders, and twice 7 of them, in
+/// which the second part hangs from the first as from an anchor. Bars that a heavy one stretches
+/// are on one line with it.
+#[test]
+fn light_bars_are_minimised_by_themselves() {
+    let light = [(2.0, 2.5, 0.5), (0.6, 1.3, 0.2), (1.7, 2.8, 0.7), (1.8, 1.0, 0.4)];
+    let end_m = [0.146_703_5, 0.0, -0.566_608_6];
+    for heavy_kg in [1e11, 1.3e14, 5e15] {
+        let bars = [light[0], light[1], light[2], light[3], (0.98, heavy_kg, 0.3)];
+        let (_, whole) = solved(&bars, end_m);
+        assert!(whole.equilibrium.evidence.ladder.is_reached(Rung::Converged));
+        let (_, alone) = solved(&light, [end_m[0], 0.0, end_m[2] - 0.98]);
+        let joints = whole.equilibrium.joints_m.iter().zip(&alone.equilibrium.joints_m);
+        for (joint, other) in joints {
+            assert!(difference(*joint, *other) < 1e-10, "{heavy_kg}: {joint:?} {other:?}");
+        }
+    }
+    let bars = [(1.0, 1e14, 0.5), (1.2, 3e7, 0.5), light[2], light[0], light[1]];
+    let (_, whole) = solved(&bars, [1.5, 0.0, -1.0]);
+    let (_, alone) = solved(&bars[2..], [1.5, 0.0, 1.2]);
+    for (joint, other) in whole.equilibrium.joints_m[2..].iter().zip(&alone.equilibrium.joints_m) {
+        let lowered = [other[0], other[1], other[2] - 2.2];
+        assert!(difference(*joint, lowered) < 1e-6, "{joint:?} {lowered:?}");
+    }
+}
+
 /// Nine bars, masses over eleven orders of magnitude.
 #[test]
 fn masses_over_eleven_orders() {

@@ -2,6 +2,7 @@
 
 mod chains;
 mod conditions;
+mod critical;
 mod little_force;
 mod network;
 mod network_large;

@@ -228,6 +228,28 @@ fn a_bead_on_a_slope_without_end_falls() {
     close(force_n, 16.0);
 }
 
+/// Of parts that hang side by side the one that falls is named with its own load, wherever it stands.
+#[test]
+fn the_part_that_falls_is_named_by_its_own_load() {
+    let slider = |name: &str, mass_kg| Joint {
+        support: Support::Line { at_m: [3.0, 0.0, 0.0], direction: [0.6, 0.0, -0.8] },
+        ..Joint::free(name).with_mass(mass_kg)
+    };
+    let held = || [Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(5.0)];
+    let falls = || [slider("bead", 2.0), Joint::free("lamp").with_mass(1.0)];
+    let members = || vec![bar(0, 1, 1.0, 0.0), bar(2, 3, 1.0, 0.0)];
+    let [a, p] = held();
+    let [bead, lamp] = falls();
+    for joints in [vec![a.clone(), p.clone(), bead.clone(), lamp.clone()], vec![bead, lamp, a, p]] {
+        let system = System::new("two", G, joints, members()).expect("a system");
+        let Err(Error::Falls { joint, force_n }) = minimise(&system, &Settings::default()) else {
+            panic!("it falls")
+        };
+        assert_eq!(joint, "bead");
+        close(force_n, 24.0);
+    }
+}
+
 /// A weight below its anchor on a strut falls: no force that a strut bears holds it.
 #[test]
 fn a_weight_below_its_anchor_on_a_strut_falls() {

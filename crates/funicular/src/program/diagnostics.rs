@@ -45,7 +45,8 @@ impl Diagnostic {
     /// An error in a system file.
     pub fn of_file(error: &SystemFileError) -> Self {
         let label = Printable(error.key().unwrap_or("here")).to_string();
-        let line = error.span().and_then(|span| Line::of(error.text(), span, label)).map(Box::new);
+        let span = error.span().filter(|_| error.line().is_some());
+        let line = span.and_then(|span| Line::of(error.text(), span, label)).map(Box::new);
         Self { message: error.to_string(), line, help: error.help() }
     }
 

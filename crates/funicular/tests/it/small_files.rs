@@ -210,6 +210,27 @@ fn errors_show_nothing_of_a_file_that_is_no_table() {
     }
 }
 
+/// Nor need what is named by mistake in the command.
+#[test]
+fn errors_show_nothing_of_a_file_that_is_something_else() {
+    let folder = folder("something-else");
+    for secret in ["root:$6$salt:20000:0:99999\nuser:$6$\n", "key,$6$\n", "{\"$6$\": $6$\n"] {
+        fs::write(folder.join("secret"), secret).unwrap();
+        for arguments in [
+            &["solve", "secret"][..],
+            &["solve", "--batch", "secret"],
+            &["solve", "--case", "lamp", "--near", "secret"],
+            &["judge", "--case", "lamp", "--answer", "secret"],
+            &["judge", "--case", "lamp", "--answer", "secret", "--members", "secret"],
+            &["simulate", "--case", "lamp", "--forces", "secret"],
+        ] {
+            let output = run(&folder, arguments);
+            let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+            assert!(!output.status.success() && !all.contains("$6$"), "{arguments:?}: {all}");
+        }
+    }
+}
+
 /// The lamp on two cables, between joints that a table would compute.
 const FORMULAS: &str = "name = \"a\\u202eb\\u0007\"\n\
     [joints]\n\"=1+2\" = { at_m = [-3, 0, 0] }\n\"@B\" = { at_m = [3, 0, 0] }\n\"-\\u202eP\" = { mass_kg = 2 }\n\

@@ -194,3 +194,20 @@ impl Condensed {
 fn power_of_two(number: f64) -> f64 {
     number.log2().round().clamp(-1000.0, 1000.0).exp2()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_powers_of_two_within_the_range_of_a_double() {
+        let exact = |number: f64, wanted: i32| {
+            assert!((power_of_two(number) / 2.0_f64.powi(wanted) - 1.0).abs() <= 0.0, "{number}");
+        };
+        for (number, wanted) in
+            [(1.0, 0), (3.0, 2), (2.8, 1), (0.3, -2), (1e-305, -1000), (1e305, 1000)]
+        {
+            exact(number, wanted);
+        }
+    }
+}

@@ -200,3 +200,41 @@ impl Decided {
         (0..probe.len()).filter(|k| self.rows[*k].1 > 0.0 && open(k)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member, System};
+
+    use super::*;
+
+    /// A move by d changes a length l by d²/2l, so a tolerance of 2e-6 of it hides one of 2e-3 l; no more than
+    /// a hundredth, no less than a millionth, and elastic members have none.
+    #[test]
+    fn the_widest_cut_is_that_of_the_loosest_rigid_member() {
+        let cut = |within: [Option<f64>; 2]| {
+            let joints = vec![
+                Joint::anchor("A", [0.0; 3]),
+                Joint::free("P").with_mass(1.0),
+                Joint::free("Q").with_mass(1.0),
+            ];
+            let bar =
+                |from, to, length| Member::bar(from, to, Bar::homogeneous(length, 0.0).unwrap());
+            let mut members =
+                vec![bar(0, 1, 4.0), bar(1, 2, 2.0), bar(0, 2, 3.0).with_stiffness(10.0)];
+            for (member, within) in members.iter_mut().zip(within) {
+                member.length_tolerance_m = within;
+            }
+            wide(&Framework::new(&System::new("", 10.0, joints, members).unwrap()))
+        };
+        for (within, wanted) in [
+            ([Some(8e-6), Some(1e-6)], 2e-3),
+            ([Some(1e-6), Some(4e-6)], 2e-3),
+            ([Some(0.4), None], WIDEST),
+            ([Some(1e-15), Some(1e-15)], SHARP),
+        ] {
+            let found = cut(within);
+            assert!((found / wanted - 1.0).abs() < 1e-12, "{within:?}: {found}");
+        }
+    }
+}

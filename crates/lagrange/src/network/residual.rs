@@ -8,7 +8,7 @@ use super::framework::Framework;
 use super::state::State;
 use model::system::System;
 
-/// Balance is measured against the loads of a joint, or where the forces in its members are far
+/// Balance is measured against the loads of a joint (the mean load where it has none), or where the forces in its members are far
 /// larger, near a singular shape, against this part of them: the tolerance is then some fifty
 /// roundings of these forces.
 const OF_FORCES: f64 = 1e-2;
@@ -110,8 +110,11 @@ fn units<'a>(framework: &'a Framework, state: &State) -> impl Iterator<Item = f6
     }
     let least = framework.least_scale(state);
     framework.nodes.iter().zip(forces).map(move |(node, force)| {
-        let loads = node.load.norm().max(least);
-        let unit = loads.max((OF_FORCES * force).min(OF_LOADS * loads));
+        // What is light is held to its own load, or it might lie anywhere beside what is heavy.
+        let own = node.load.norm();
+        let loads = own.max(least);
+        let own = if own > 0.0 { own } else { loads };
+        let unit = own.max((OF_FORCES * force).min(OF_LOADS * loads));
         // In units of what is too large for a number every force would be small.
         if force.is_finite() { unit } else { f64::NAN }
     })
@@ -122,4 +125,88 @@ fn largest(values: impl Iterator<Item = f64>) -> (f64, usize) {
     values.enumerate().fold((0.0, 0), |(most, at), (k, value)| {
         if value > most || value.is_nan() { (value, k) } else { (most, at) }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member};
+
+    use super::*;
+
+    /// A cable and an elastic bar in an L, every number of another size: the unit of length is the mean of
+    /// both, 2 m, that of force the mean load.
+    fn bent(mass_kg: f64) -> (System, Framework, State) {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P").with_mass(1.0),
+            Joint::free("Q").with_mass(mass_kg),
+        ];
+        let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let members = vec![
+            Member::cable(0, 1, body(3.0)),
+            Member::bar(1, 2, body(1.0)).with_stiffness(50.0 * (1.0 + mass_kg)),
+        ];
+        let system = System::new("bent", 10.0, joints, members).unwrap();
+        let framework = Framework::new(&system);
+        let place = |at_m: [f64; 3]| {
+            (Vector3::from(at_m) - framework.units.origin_m) / framework.units.length_m
+        };
+        let places = [[0.0; 3], [3.03, 0.0, 0.0], [3.03, 0.0, -1.5]].map(place).to_vec();
+        let axial = [4.0, 25.0].map(|force_n| force_n / framework.units.force_n).to_vec();
+        let state = State::new(places, axial, vec![true; 2]);
+        (system, framework, state)
+    }
+
+    #[test]
+    fn balance_and_lengths_are_those_of_a_bent_line() {
+        let (_, framework, state) = bent(3.0);
+        let residual = Residual::new(&framework, &state);
+        let unit_n = framework.units.force_n;
+        let near = |found: f64, wanted: f64| {
+            assert!((found - wanted).abs() < 1e-12 * wanted.abs().max(1.0), "{found} {wanted}");
+        };
+        // At P 10 N and 25 N down, 4 N back; at Q 30 N down and 25 N up.
+        for (joint, wanted) in [(1, [-4.0, 0.0, -35.0]), (2, [0.0, 0.0, -5.0])] {
+            for (k, wanted_n) in wanted.into_iter().enumerate() {
+                near(residual.forces[joint][k] * unit_n, wanted_n);
+            }
+        }
+        // Held against the 10 N at P, not against the mean.
+        assert_eq!(residual.balance.1, 1);
+        near(residual.balance.0, 4.0_f64.hypot(35.0) / 10.0);
+        near(residual.unit * unit_n, 30.0);
+        // Longer than 3 m by a hundredth; of 1 m, 1.125 m by 25 N, and 1.5 m.
+        near(residual.lengths[0] * framework.units.length_m, -0.03);
+        near(residual.lengths[1] * framework.units.length_m, 1.0 + 25.0 / 200.0 - 1.5);
+        assert_eq!(residual.length.1, 1);
+        near(residual.length.0, 0.375);
+        let squares = (16.0 + 35.0 * 35.0 + 25.0) / 900.0 + (0.03 * 0.03 + 0.375 * 0.375) / 4.0;
+        near(residual.merit, squares);
+        near(residual.size(), 4.0_f64.hypot(35.0) / 10.0);
+    }
+
+    /// A load a billion times less than the other is held to itself, and slack members to no length.
+    #[test]
+    fn what_is_light_is_held_to_its_own_load() {
+        let (system, framework, mut state) = bent(1e-9);
+        state.axial = [10.0, 2e-8].map(|force_n| force_n / framework.units.force_n).to_vec();
+        state.taut[0] = false;
+        let residual = Residual::new(&framework, &state);
+        // At Q 2e-8 N up and 1e-8 N down; at P all 10 N, and the pull across, of 10 N.
+        assert!((residual.forces[2][2] * framework.units.force_n / 1e-8 - 1.0).abs() < 1e-6);
+        assert_eq!(residual.balance.1, 1);
+        assert!(residual.lengths[0].abs() <= 0.0 && residual.length.1 == 1);
+        state.axial[0] = 0.0;
+        state.places[1] = state.places[0] - Vector3::new(0.0, 0.0, 1.0);
+        state.axial[0] = 10.0 / framework.units.force_n;
+        let hanging = Residual::new(&framework, &state);
+        assert_eq!(hanging.balance.1, 2);
+        let text = hanging.not_converged(&system, &framework, 7);
+        let Error::NotConverged { iterations, joint, unbalance, member, .. } = text else {
+            panic!()
+        };
+        assert_eq!((iterations, joint.as_str(), member), (7, "Q", 2));
+        assert!(unbalance > 0.5 && unbalance < 4.0, "{unbalance}");
+    }
 }

@@ -92,9 +92,17 @@ impl SystemFileError {
         Position::of(&self.0.text, self.0.span.as_ref()?.start)
     }
 
-    /// The line the error is about, without its line break.
+    /// The line the error is about, without its line break; nothing of a file that is something else,
+    /// whose lines are not to be shown: neither TOML nor JSON, and without the keys that every system
+    /// has.
     #[must_use]
     pub fn line(&self) -> Option<&str> {
+        let is_known = || ["anchors", "joints", "bars"].iter().any(|key| self.0.text.contains(key));
+        if matches!(self.0.kind, SystemFileErrorKind::Syntax(_) | SystemFileErrorKind::Json(_))
+            && !is_known()
+        {
+            return None;
+        }
         self.0.text.lines().nth(self.position()?.line - 1)
     }
 

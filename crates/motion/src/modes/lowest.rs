@@ -326,3 +326,41 @@ impl Operator for Search<'_> {
         self.rest(w)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pairs(all: &[f64]) -> Vec<Pair> {
+        let pair =
+            |omega2: &f64| Pair { omega2: *omega2, residual: 0.0, is_zero: false, y: vec![] };
+        all.iter().map(pair).collect()
+    }
+
+    /// The middle of the widest gap behind those asked for; beside equal ones below them; beyond all.
+    #[test]
+    fn the_shift_that_counts_lies_in_a_gap() {
+        let found = pairs(&[1.0, 9.0, 10.0, 13.0, 14.0]);
+        for (count, wanted, below) in
+            [(1, 5.0, 1), (2, 11.5, 3), (3, 11.5, 3), (4, 13.5, 4), (0, 5.0, 1)]
+        {
+            let (shift, counted) = counting_shift(&found, count, 9, 0.5);
+            assert!(
+                (shift - wanted).abs() < 1e-14 && counted == below,
+                "{count}: {shift} {counted}"
+            );
+        }
+        let (shift, counted) = counting_shift(&found, 2, 5, 0.5);
+        assert!((shift - 14.0 * (1.0 + ONE_FREQUENCY)).abs() < 1e-14 && counted == 5);
+        // A unit that is larger than the frequencies says how near is equal.
+        let (shift, counted) = counting_shift(&found, 2, 5, 1e3);
+        assert!((shift - 14.001).abs() < 1e-12 && counted == 5);
+        let equal = pairs(&[1.0, 4.0, 4.0, 4.0 + 4e-6]);
+        let (shift, counted) = counting_shift(&equal, 2, 9, 0.5);
+        assert!((shift - 4.0 * (1.0 - 1.5e-6)).abs() < 1e-14 && counted == 1, "{shift} {counted}");
+        // Two of them apart: three times what is near is a gap.
+        let apart = pairs(&[1.0, 4.0, 4.0 + 12e-6]);
+        let (shift, counted) = counting_shift(&apart, 2, 9, 0.5);
+        assert!((shift - 4.0 - 6e-6).abs() < 1e-14 && counted == 2, "{shift} {counted}");
+    }
+}

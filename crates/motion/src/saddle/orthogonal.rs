@@ -159,4 +159,49 @@ mod tests {
             }
         }
     }
+
+    /// With rows, by the formulas that it spares: `T = Wᵀ A⁻¹ W + S`, `H = A⁻¹ W T⁻¹` and
+    /// `P = A⁻¹ - H Wᵀ A⁻¹`, every number of another size.
+    #[test]
+    fn rows_leave_what_the_products_say() {
+        use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector3};
+        let a = Matrix3::new(4.0, 2.0, 1.0, 2.0, 5.0, -1.0, 1.0, -1.0, 3.0);
+        let rows = [[1.0, 0.5, -2.0], [0.25, 3.0, 1.5]];
+        let roots = [0.5, 1.75];
+        let left = eliminate([4.0, 2.0, 1.0, 5.0, -1.0, 3.0], &rows, &roots);
+        let left = left.map_err(|x| x.to_string()).unwrap();
+        let w = Matrix3x2::from_columns(&rows.map(Vector3::from));
+        let inverse = a.try_inverse().unwrap();
+        let t = w.transpose() * inverse * w
+            + Matrix2::from_diagonal(&roots.map(|root| root * root).into());
+        let t_inverse = t.try_inverse().unwrap();
+        let h = inverse * w * t_inverse;
+        let p = inverse - h * w.transpose() * inverse;
+        let near = |found: f64, wanted: f64| {
+            assert!((found - wanted).abs() < 1e-14, "{found} {wanted}");
+        };
+        for i in 0..2 {
+            for j in 0..2 {
+                near(left.t_inverse[2 * i + j], t_inverse[(i, j)]);
+            }
+            for k in 0..3 {
+                near(left.h[i][k], h[(k, i)]);
+            }
+        }
+        let places = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+        for (found, place) in left.p().into_iter().zip(places) {
+            near(found, p[place]);
+        }
+        let d = Vector3::new(0.5, -1.0, 2.0);
+        near(left.root(d.into()), (d.transpose() * p * d)[0].sqrt());
+        // Rows that depend on each other, to rounding, are refused.
+        assert!(
+            eliminate(
+                [1.0, 0.0, 0.0, 1.0, 0.0, 1.0],
+                &[[1.0, 2.0, 3.0], [2.0, 4.0, 6.0]],
+                &[0.0; 2]
+            )
+            .is_err()
+        );
+    }
 }

@@ -229,3 +229,20 @@ fn moments_that_no_body_has_and_those_of_members_that_stretch_are_refused() {
     let plate = modes(&system([0.1, 0.2, 0.3], None), &at, None).unwrap();
     near(of(&plate, Direction::Across)[0], G * 0.5 / (0.25 + 0.3), 1e-13);
 }
+
+/// No moment is more than the other two, whichever it is; one as large is a plate's.
+#[test]
+fn moments_that_no_body_has_are_refused() {
+    for [jx, jy, jz] in [[5.0, 2.0, 1.0], [1.0, 5.0, 2.0], [2.0, 1.0, 5.0]] {
+        let body = |j| hanging(&[Bar::new(1.0, 1.0, 0.5, j).unwrap()], &[]);
+        let refused = modes(&body([jx, jy, jz]), &string(&[1.0], &[0.0]), None).unwrap_err();
+        let MotionError::UnequalMoments { member: 1, reason, .. } = refused else {
+            panic!("{refused}")
+        };
+        assert_eq!(reason, "no body has one that is more than the other two");
+        let largest = jx.max(jy).max(jz);
+        let others = jx + jy + jz - largest;
+        let plate = [jx, jy, jz].map(|j| if j < largest { j } else { others });
+        assert!(modes(&body(plate), &string(&[1.0], &[0.0]), None).is_ok(), "{plate:?}");
+    }
+}

@@ -1,7 +1,7 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
 use model::system::{Row, System, SystemEquilibrium};
-use model::{NoAnswer, NoCensus, Reason, SolverName, Status, Vector};
+use model::{NoAnswer, NoCensus, Reason, Rung, SolverName, Status, Vector};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
@@ -214,17 +214,14 @@ fn by_lagrange(
     question: &Question,
 ) -> Result<SystemEquilibrium, SystemFailure> {
     if let Some(row) = row {
+        let bars = system.members().len();
         if question.equations == Equations::Full {
-            let found = lagrange::solve(row.problem(), &lagrange::Settings::default())?;
+            let found = lagrange::solve(row.problem(), &question.full(bars))?;
             return Ok(row.equilibrium(found.equilibrium));
         }
         // The bits of the answer do not depend on how many share the work.
         let mut solver = lagrange::condensed::Solver::with_processors(question.threads);
-        let usual = lagrange::condensed::Settings::default();
-        let passes = question.passes(system.members().len(), usual.max_passes as u64);
-        let max_passes = passes.try_into().unwrap_or(usual.max_passes);
-        let settings = lagrange::condensed::Settings { max_passes, ..usual };
-        if let Ok(found) = solver.solve(row.problem(), &settings) {
+        if let Ok(found) = solver.solve(row.problem(), &question.condensed(bars)) {
             return Ok(row.equilibrium(found.equilibrium));
         }
     }
@@ -241,7 +238,11 @@ fn by_energy(
     let usual = energy::Settings::default();
     let max_iterations = question.passes(system.members().len(), usual.max_iterations);
     let settings = energy::Settings { max_iterations, ..usual };
-    let over_directions = |row: &Row| energy::minimise(row.problem(), &settings).ok();
+    // One whose bars are not known well enough has no answer.
+    let over_directions = |row: &Row| {
+        let found = energy::minimise(row.problem(), &settings).ok()?;
+        found.equilibrium.evidence.ladder.is_reached(Rung::Converged).then_some(found)
+    };
     if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
         return Ok(row.equilibrium(found.equilibrium));
     }

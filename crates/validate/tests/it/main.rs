@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
 
 mod agreement;
+mod beside_heavy;
 mod census;
 mod chains;
 mod chains_as_networks;

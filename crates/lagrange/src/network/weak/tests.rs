@@ -17,3 +17,18 @@ fn small_elongations_keep_their_digits() {
     let across = elongation_m(&ORIGIN, &[(3.0, 0.0), (4.0, 0.0), (1e-6, 0.0)], 5.0);
     assert!((across / 1e-13 - 1.0).abs() < 1e-12);
 }
+
+/// The same from a place whose own cut counts: 2, 3, 6 and a move of e along the member from either end.
+#[test]
+fn what_is_cut_off_either_end_counts() {
+    for e in [1e-17, 3e-19] {
+        let from = [(1.0, 2.0 / 7.0 * e), (-2.0, 3.0 / 7.0 * e), (0.5, 6.0 / 7.0 * e)];
+        let to = [(3.0, 0.0), (1.0, 0.0), (6.5, 0.0)];
+        let found = elongation_m(&from, &to, 7.0);
+        assert!((found / -e - 1.0).abs() < 1e-12, "{e}: {found}");
+        let both = to.map(|(x, _)| x).into_iter().zip([2.0, 3.0, 6.0]);
+        let to: Vec<(f64, f64)> = both.map(|(x, part)| (x, 3.0 * part / 7.0 * e)).collect();
+        let found = elongation_m(&from, &[to[0], to[1], to[2]], 7.0);
+        assert!((found / (2.0 * e) - 1.0).abs() < 1e-12, "{e}: {found}");
+    }
+}

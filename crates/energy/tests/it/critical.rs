@@ -1,0 +1,79 @@
+//! What the energy says of a shape, against closed forms.
+
+use energy::network::{Critical, critical};
+use model::system::{Joint, Member, System};
+use model::{Bar, Vector};
+
+use crate::network_support::{bar, close};
+
+/// A lamp of 5 kg on two bars of 5 m between anchors 8 m apart, 50 N, and a cable of 7 m beside them.
+fn lamp(kind: fn(usize, usize, Bar) -> Member) -> System {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [8.0, 0.0, 0.0]),
+        Joint::free("lamp").with_mass(5.0),
+        Joint::anchor("C", [4.0, 0.0, 2.0]),
+    ];
+    let light = |length_m| Bar::homogeneous(length_m, 0.0).expect("a bar");
+    let cable = Member::cable(3, 2, light(7.0));
+    let members = vec![cable, kind(0, 2, light(5.0)), kind(2, 1, light(5.0))];
+    System::new("lamp", 10.0, joints, members).expect("a system")
+}
+
+fn at(system: &System, lamp_m: Vector) -> Critical {
+    let found = critical(system, &[[0.0; 3], [8.0, 0.0, 0.0], lamp_m, [4.0, 0.0, 2.0]]);
+    found.expect("it has an energy").expect("it is small")
+}
+
+/// Below the anchors the bars pull with 50 N · 5 / 6 and swing out of their plane with twice that over their
+/// length, twice the stiffness across of one; above them they push, and it falls to the side.
+#[test]
+fn a_lamp_on_two_bars_hangs_or_stands() {
+    let system = lamp(Member::bar);
+    for (z_m, index, curvature) in [(-3.0, 0, 2.0), (3.0, 1, -2.0)] {
+        let found = at(&system, [4.0, 0.0, z_m]);
+        assert!(found.is_equilibrium() && found.misfit < 1e-14, "{found:?}");
+        assert_eq!(found.index, index);
+        close(found.curvature.expect("it is small"), curvature);
+    }
+    // A shape that keeps the lengths and is not level, and one that does not keep them.
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let aside = at(&system, [4.0, -3.0 * sine, -3.0 * cosine]);
+    assert!(!aside.is_equilibrium() && aside.misfit < 1e-14, "{aside:?}");
+    let longer = at(&system, [4.0, 0.0, -3.3]);
+    assert!(longer.misfit > 0.01 && !longer.is_equilibrium(), "{longer:?}");
+}
+
+/// Cables do not push: above the anchors nothing bears the 50 N, of which the largest force is made.
+#[test]
+fn cables_bear_nothing_above_their_anchors() {
+    let system = lamp(Member::cable);
+    assert!(at(&system, [4.0, 0.0, -3.0]).is_equilibrium());
+    let above = at(&system, [4.0, 0.0, 3.0]);
+    assert!(!above.is_equilibrium());
+    close(above.unbalance, 1.0);
+}
+
+/// A spring of 2 m and EA 40 N from above bears 10 N at 2.5 m, and its own 40 N / 2 m up and down; two bars do
+/// the rest: balance with other terms at each place.
+#[test]
+fn springs_bear_what_their_length_says() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [8.0, 0.0, 0.0]),
+        Joint::free("lamp").with_mass(5.0),
+        Joint::anchor("C", [4.0, 0.0, -0.5]),
+    ];
+    let spring = Bar::homogeneous(2.0, 0.0).expect("a bar");
+    let members = vec![
+        Member::bar(3, 2, spring).with_stiffness(40.0),
+        bar(0, 2, 5.0, 0.0),
+        bar(2, 1, 5.0, 0.0),
+    ];
+    let system = System::new("held", 10.0, joints, members).expect("a system");
+    let at_m = [[0.0; 3], [8.0, 0.0, 0.0], [4.0, 0.0, -3.0], [4.0, 0.0, -0.5]];
+    let found = critical(&system, &at_m).expect("it has an energy").expect("it is small");
+    assert!(found.is_equilibrium() && found.index == 0, "{found:?}");
+    // Across: 10 N over 2.5 m, and twice 40 N · 5 / 6 over 5 m; the stiffest is the spring, 20 N/m.
+    close(found.curvature.expect("it is small"), (4.0 + 2.0 * 200.0 / 30.0) / 20.0);
+}
