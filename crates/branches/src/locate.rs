@@ -139,11 +139,12 @@ mod tests {
             let mut asked = 0;
             let found = sign_change(
                 [&a, &b],
+                NARROW,
                 |part| {
                     asked += 1;
                     Some(a + part * (b - a))
                 },
-                |x| Some(test(*x)),
+                |x: &f64| Some(test(*x)),
             );
             (found, asked)
         };
@@ -164,7 +165,8 @@ mod tests {
         assert_eq!(between(0.75, 2.0, &line).0, None);
         assert_eq!(between(0.0, 2.0, &|x| if x > 1.0 { f64::NAN } else { -1.0 }).0, None);
         // A curve that is lost leaves the end that is nearer.
-        let lost = |a: f64, b: f64| sign_change([&a, &b], |_| None, |x| Some(line(*x)));
+        let lost =
+            |a: f64, b: f64| sign_change([&a, &b], NARROW, |_| None, |x: &f64| Some(line(*x)));
         assert_eq!((lost(0.0, 0.75), lost(0.25, 2.0)), (Some((1.0, 0.75)), Some((0.0, 0.25))));
     }
 }

@@ -239,8 +239,8 @@ impl Stops {
     }
 
     fn path(&mut self, range: [f64; 2]) -> LoadPath<Self> {
-        let settings = Settings { range, longest: 0.125, max_points: 500 };
-        follow(self, &DVector::zeros(2), settings, &|_| {}).unwrap()
+        let settings = Settings { range, longest: 0.125, max_points: 500, branches: 0 };
+        follow(self, &DVector::zeros(2), settings, &|_, _| {}).unwrap().remove(0)
     }
 }
 

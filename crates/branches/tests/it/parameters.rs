@@ -89,7 +89,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("bars.0.mass_kg=1", 6, "`0` is no bar", "from 1"),
         ("bars.two.mass_kg=1", 6, "`two` is no bar", "a range 1-20, a row FROM-TO.*, or * for all"),
         ("bars.2.mass_kg.x=1", 16, "has no parts", "bars.2.mass_kg="),
-        ("=1", 1, "unknown key ``", "loads, gravity_m_s2, floor_m, anchors, joints, bars"),
+        ("=1", 1, "unknown key ``", "loads, lengths, gravity_m_s2, floor_m, anchors, joints, bars"),
         ("gravity_m_s2", 13, "`=` and the values are missing", "0.1,1,10"),
         ("gravity_m_s2=", 14, "a number is missing", "-2.9..-0.1:500"),
         ("gravity_m_s2=1,,2", 16, "a number is missing", "list"),
