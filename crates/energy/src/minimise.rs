@@ -211,11 +211,7 @@ fn descend_to_line(
             .map_err(ended)?;
     let evaluations = state.problem.counts.values().sum();
     let (mut state, unsettled) = (state.state, state.solver.unsettled);
-    // Newton's method may still get there from where the iterations ended.
-    let unsettled = match outcome(&state) {
-        Err(error @ Error::IterationLimit { .. }) => Some(error),
-        outcome => outcome.map(|()| unsettled)?,
-    };
+    outcome(&state)?;
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
             let gap = norm(shape.moments.gap);

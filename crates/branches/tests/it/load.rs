@@ -193,6 +193,31 @@ fn a_limit_at_the_very_start_is_seen() {
     assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, -1.0));
 }
 
+/// The transcritical point below, with x pushed by e: where it was crossed there is a limit at the largest
+/// t = 1 - x - e / x - x^2 / 2. The loss goes with the root of the push, Koiter's half power.
+#[test]
+fn what_a_push_costs_an_unsymmetric_point_goes_with_its_root() {
+    fn pushed(x: f64, z: f64, t: f64, push: f64) -> [f64; 2] {
+        [(1.0 - z) * x - x * x - push, z - t - 0.5 * x * x]
+    }
+    let second: Second = |[x, z], _| [[1.0 - z - 2.0 * x, -x], [-x, 1.0]];
+    let loss = |gradient: Gradient, push: f64| {
+        let path = Potential::new(gradient, second).path([0.0, 0.0], [0.0, 2.0]).unwrap();
+        let limit = &path.events[0];
+        assert_eq!((limit.kind, limit.index), (Kind::Limit, [0, 1]));
+        // 1 + x - e / x^2 = 0 there.
+        let mut x = push.sqrt();
+        for _ in 0..50 {
+            x = (push / (1.0 + x)).sqrt();
+        }
+        assert!((limit.t - (1.0 - x - push / x - 0.5 * x * x)).abs() < 1e-11);
+        1.0 - limit.t
+    };
+    let small = loss(|[x, z], t| pushed(x, z, t, 1e-8), 1e-8);
+    let large = loss(|[x, z], t| pushed(x, z, t, 4e-8), 4e-8);
+    assert!((large / small - 2.0).abs() < 1e-3, "{}", large / small);
+}
+
 /// V = (1 - z) x^2 / 2 - x^3 / 3 + z^2 / 2 - t z: in t = 1 the upright path is crossed by x = 1 - z with
 /// z = t + x^2 / 2, on which the stable side and the other change places.
 #[test]
