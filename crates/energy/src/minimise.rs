@@ -211,7 +211,12 @@ fn descend_to_line(
             .map_err(ended)?;
     let evaluations = state.problem.counts.values().sum();
     let (mut state, unsettled) = (state.state, state.solver.unsettled);
-    outcome(&state)?;
+    // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
+    let asked = settings.max_iterations < Settings::default().max_iterations;
+    let unsettled = match outcome(&state) {
+        Err(error @ Error::IterationLimit { .. }) if !asked => Some(error),
+        outcome => outcome.map(|()| unsettled)?,
+    };
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
             let gap = norm(shape.moments.gap);

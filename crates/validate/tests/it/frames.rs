@@ -16,7 +16,7 @@ use validate::systems::{SystemAnswer, ask_with};
 use validate::{Question, UseCensus};
 
 /// How many frames of each draw, unless `FRAMES` says otherwise.
-const FRAMES: u64 = 24;
+const FRAMES: u64 = 60;
 
 /// Force over the loads by which an answer may differ from the expected one, times the condition.
 const FORCE: f64 = 1e-9;
