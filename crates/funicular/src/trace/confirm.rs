@@ -1,7 +1,9 @@
 //! What `energy` and the judge say of a load path that `lagrange` has followed.
 
 use branches::Variation;
+use energy::network::Critical;
 use model::system::{System, SystemEquilibrium};
+use rayon::prelude::*;
 use serde::Serialize;
 use validate::Tolerances;
 use validate::systems::judge;
@@ -54,10 +56,22 @@ impl Confirmed {
     }
 }
 
+/// A point of a path: values, equilibrium, index, and whether an event happens there.
+type Point<'a> = (&'a [f64], &'a SystemEquilibrium, usize, bool);
+
+/// What is seen of a point by itself.
+struct Seen {
+    load_n: f64,
+    statics: f64,
+    critical: Option<Critical>,
+    /// Whether it is a minimum, where that was looked at.
+    minimum: Option<bool>,
+}
+
 /// Look at every point of a path: values, equilibrium, index, whether an event happens there.
 pub(super) fn confirm(
     variation: &Variation<System>,
-    points: &[(&[f64], &SystemEquilibrium, usize, bool)],
+    points: &[Point<'_>],
     events: &[LoadEvent],
 ) -> Confirmed {
     let mut found = Confirmed {
@@ -70,21 +84,28 @@ pub(super) fn confirm(
         flat: 0,
         statics: 0.0,
     };
-    let loads = points.iter().filter_map(|(values, ..)| variation.unloaded(values).ok());
-    let most_n = loads.map(|system| load_n(&system)).fold(0.0, f64::max);
-    let stable = points.iter().filter(|(_, _, index, event)| *index == 0 && !event).count();
-    let large = variation.base().joints().len() > SMALL;
-    let every = stable.div_ceil(if large { 1 } else { MINIMISED }).max(1);
-    let mut stable = 0;
-    for (number, (values, equilibrium, index, event)) in points.iter().enumerate() {
-        let Ok(system) = variation.unloaded(values) else { continue };
-        let of_most = load_n(&system) / most_n.max(f64::MIN_POSITIVE);
-        let statics = judge(&system, equilibrium).largest() * of_most;
+    let minimised = minimised(variation.base(), points);
+    let look = |(point, minimised): (&Point<'_>, &bool)| {
+        let (values, equilibrium, ..) = point;
+        let system = variation.unloaded(values).ok()?;
+        let critical = energy::network::critical(&system, &equilibrium.joints_m).ok().flatten();
+        let looked_at = *minimised && critical.is_some() && !system.is_unloaded();
+        Some(Seen {
+            load_n: load_n(&system),
+            statics: judge(&system, equilibrium).largest(),
+            minimum: looked_at.then(|| is_minimum(&system, equilibrium)),
+            critical,
+        })
+    };
+    let seen: Vec<Option<Seen>> = points.par_iter().zip(&minimised).map(look).collect();
+    let most_n = seen.iter().flatten().map(|seen| seen.load_n).fold(0.0, f64::max);
+    for (number, ((_, _, index, event), seen)) in points.iter().zip(&seen).enumerate() {
+        let Some(Seen { load_n, statics, critical, minimum }) = seen else { continue };
+        let of_most = load_n / most_n.max(f64::MIN_POSITIVE);
+        let statics = statics * of_most;
         let worse = statics > found.statics || (statics.is_nan() && of_most > 0.0);
         found.statics = if worse { statics } else { found.statics };
-        let Ok(Some(critical)) = energy::network::critical(&system, &equilibrium.joints_m) else {
-            continue;
-        };
+        let Some(critical) = critical else { continue };
         found.points += 1;
         found.critical += usize::from(critical.is_equilibrium());
         // Where a curvature is none its sign is rounding.
@@ -96,16 +117,25 @@ pub(super) fn confirm(
             found.singular += 1;
             found.flat += usize::from(flat);
         }
-        if *index == 0 && !event {
-            stable += 1;
-            // The last one, next to a limit point, would be a minimum to few digits.
-            if stable % every == every / 2 && !system.is_unloaded() {
-                found.minimised += 1;
-                found.minima += usize::from(is_minimum(&system, equilibrium));
-            }
-        }
+        found.minimised += usize::from(minimum.is_some());
+        found.minima += usize::from(*minimum == Some(true));
     }
     found
+}
+
+/// The stable points that are minimised from: the last one, next to a limit point, would be a minimum to
+/// few digits.
+fn minimised(system: &System, points: &[Point<'_>]) -> Vec<bool> {
+    let is_stable = |(_, _, index, event): &Point<'_>| *index == 0 && !event;
+    let all = points.iter().filter(|point| is_stable(point)).count();
+    let large = system.joints().len() > SMALL;
+    let every = all.div_ceil(if large { 1 } else { MINIMISED }).max(1);
+    let mut stable = 0;
+    let chosen = |point| {
+        stable += usize::from(is_stable(point));
+        is_stable(point) && stable % every == every / 2
+    };
+    points.iter().map(chosen).collect()
 }
 
 /// All loads together, N.
