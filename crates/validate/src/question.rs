@@ -53,7 +53,7 @@ impl Question {
 
     /// Passes over a chain of so many bars that the work allows, of this many at most.
     pub(crate) fn passes(&self, bars: usize, most: u64) -> u64 {
-        (self.work() / bars as u64).clamp(1, most)
+        (self.work() / bars.max(1) as u64).clamp(1, most)
     }
 
     fn work(&self) -> u64 {
@@ -127,6 +127,8 @@ mod tests {
         assert_eq!(passes(with(1000), 10), (100, 100));
         assert_eq!(passes(with(1000), 3), (333, lagrange::Settings::default().max_iterations));
         assert_eq!(passes(with(1000), 10_000), (1, 1));
+        // Of a chain without bars another error says what is wrong.
+        assert!(passes(with(1000), 0).0 > 0);
         let usual = (lagrange::condensed::Settings::default(), lagrange::Settings::default());
         assert_eq!(passes(with(0), 10), (usual.0.max_passes, usual.1.max_iterations));
     }
