@@ -1,6 +1,7 @@
 //! All equilibria of a chain over a parameter, and load paths of any system.
 
 mod confirm;
+mod description;
 mod enclosed;
 mod equations;
 mod everywhere;

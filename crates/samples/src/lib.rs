@@ -18,23 +18,29 @@
 //! | of so many equal bars | [`equal_bars`] |
 //! | of bars written down as numbers | [`chain`] |
 //!
+//! [`dome`] is the text of a system file, [`root`] what closed forms need.
+//!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
 //! Here are lengths, masses and places, and no mechanics: so both solvers may draw their test
 //! chains from here and still have nothing in common but data.
 
+mod dome;
 mod extreme;
 mod folded;
 mod frozen;
 mod general;
 mod named;
+mod root;
 mod shape;
 mod stream;
 
+pub use dome::dome;
 pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use named::{chain, equal_bars};
+pub use root::root;
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

@@ -21,6 +21,9 @@ use crate::load::walk::{Walk, begin};
 /// How far from a branch point a path is picked up, in units of the length of the path: further away
 /// other modes that meet there are stiffer again.
 const AWAY: [f64; 3] = [4e-2, 4e-3, 4e-4];
+/// A point farther from the branch point than so many times that is of no path through it: it went there along the
+/// parameter alone, or jumped.
+const FARTHEST: f64 = 4.0;
 /// Starts beside a direction, along the parameter, in units of that.
 const BESIDE: [f64; 3] = [0.0, 1.0, -1.0];
 /// A path comes to a branch point if it passes it by less than this part of a step: from its side the
@@ -149,7 +152,7 @@ fn first<Q: Equations>(
             let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
             let far = metric.norm(&new.y, new.t);
             let along = metric.along(&at.tangent).dot(&new.y, new.t).abs();
-            if far > 4.0 * away || along > ALIKE * far {
+            if far > FARTHEST * away || along > ALIKE * far {
                 continue;
             }
             if let Ok(Some(here)) = Here::new(equations, metric, found, [&row, &row]) {

@@ -12,7 +12,7 @@ const LOOSE: f64 = 1e-9;
 const ITERATIONS: usize = 12;
 /// A residual that has not fallen to this part in an iteration is at rounding, or the corrector
 /// diverges.
-const FALLS: f64 = 0.5;
+pub(super) const FALLS: f64 = 0.5;
 /// Step of the difference for the derivative by the parameter.
 const DIFFERENCE: f64 = 1e-5;
 

@@ -52,12 +52,14 @@ pub trait Equations {
     /// How many of the unknowns, the first ones, are places: these measure the path.
     fn places(&self) -> usize;
 
-    /// The unknowns moved to where the model allows them.
+    /// The unknowns moved to where the model allows them; where all are free they stay.
     ///
     /// # Errors
     ///
     /// Where the parameter has no meaning.
-    fn onto(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, Self::Error>;
+    fn onto(&mut self, y: &DVector<f64>, _t: f64) -> Result<DVector<f64>, Self::Error> {
+        Ok(y.clone())
+    }
 
     /// $G(y, t)$, and its size, of which rounding leaves some 1e-14.
     ///

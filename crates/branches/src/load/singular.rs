@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::Equations;
 use super::bordered::{Bordered, Row};
-use super::here::{Here, Metric};
+use super::here::{FALLS, Here, Metric};
 
 /// How far before and after a singular point, as a part of the step, the inertia is counted.
 const BESIDE: f64 = 1e-2;
@@ -89,7 +89,7 @@ pub(super) fn settled<Q: Equations>(equations: &mut Q, at: Here, before: &Here) 
         let step = equations.solve(&-left);
         let y = equations.onto(&(&at.y + step), at.t).ok()?;
         let (_, after) = equations.residual(&y, at.t).ok()?;
-        Some((Here { y, ..at.clone() }, after < 0.5 * size))
+        Some((Here { y, ..at.clone() }, after < FALLS * size))
     };
     for _ in 0..CORRECTIONS {
         match corrected(equations, &best) {

@@ -14,6 +14,8 @@ use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settin
 
 /// The first step, as a part of the range.
 const FIRST: f64 = 1.0 / 64.0;
+/// In a first step the tangent turns by as much, in radians: about what a later step may.
+const BEND: f64 = 0.2;
 /// A step in which the tangent is seen to turn.
 const PROBE: f64 = 1e-7;
 /// A corrector that moves a point by less leaves what it leaves of the equations.
@@ -203,7 +205,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         let turned =
             Row { y: next.tangent.y - &here.tangent.y, t: next.tangent.t - here.tangent.t };
         let turn = self.metric.norm(&turned.y, turned.t) / PROBE;
-        Ok(FIRST.min(0.2 / turn.max(f64::MIN_POSITIVE)).max(PROBE))
+        Ok(FIRST.min(BEND / turn.max(f64::MIN_POSITIVE)).max(PROBE))
     }
 
     /// Cosine of the angle between two tangents.

@@ -42,10 +42,6 @@ impl Equations for Potential {
         2
     }
 
-    fn onto(&mut self, y: &DVector<f64>, _: f64) -> Result<DVector<f64>, ()> {
-        Ok(y.clone())
-    }
-
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {
         let rows = DVector::from_row_slice(&(self.gradient)([y[0], y[1]], t));
         let size = rows.amax();
@@ -276,10 +272,6 @@ impl Equations for Stops {
 
     fn places(&self) -> usize {
         2
-    }
-
-    fn onto(&mut self, y: &DVector<f64>, _: f64) -> Result<DVector<f64>, ()> {
-        Ok(y.clone())
     }
 
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {

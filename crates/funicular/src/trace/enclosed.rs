@@ -8,7 +8,7 @@ use model::system::{Joint, Member, System};
 use serde::Serialize;
 
 use super::equations::Kept;
-use super::load::LoadEventKind;
+use super::load::{LoadEvent, LoadEventKind};
 
 /// What is proved of a load path from its start on. The path is the one through the shape at the start, as
 /// far as its parameter grows (or falls) all along; of other equilibria nothing is said but that they do not
@@ -31,7 +31,20 @@ pub struct PathProved {
     pub because: Option<String>,
 }
 
+/// How far, as a part of it, a value followed may be from bounds that are proved.
+const NEAR: f64 = 1e-9;
+
 impl PathProved {
+    /// Whether an event is the point that the proof of the path comes to.
+    pub(super) fn is_of(&self, event: &LoadEvent) -> bool {
+        let (Some([low, high]), Some(value)) = (self.between, event.values.last()) else {
+            return false;
+        };
+        let off = NEAR * low.abs().max(high.abs());
+        let inside = low.min(high) - off <= *value && *value <= low.max(high) + off;
+        inside && self.first == Some(event.kind)
+    }
+
     fn nothing(because: impl Into<String>) -> Self {
         Self { to: None, first: None, between: None, boxes: 0, because: Some(because.into()) }
     }

@@ -2,31 +2,26 @@
 
 use std::io::{self, Write};
 
-use branches::load::{End, Event, Kind, LoadPath as FollowedPath, Parent, Settings, follow};
+use branches::load::{End, LoadPath as FollowedPath, Parent, Settings, follow};
 use branches::{Number, PointError, Variation};
-use lagrange::network::Side;
 use model::Vector;
-use model::system::{System, SystemEquilibrium};
+use model::system::System;
 use serde::Serialize;
 
-use super::confirm::{Confirmed, confirm};
-use super::enclosed::{PathProved, enclosed, proved};
-use super::equations::{Family, Kept, Line, line};
+use super::confirm::Confirmed;
+use super::description::{described, most_moved};
+use super::enclosed::PathProved;
+use super::equations::{Family, Line, line};
 use super::everywhere::everywhere;
 use super::{figure, page};
 use crate::csv::quoted;
 use crate::error::Error;
-use crate::extremes::Extremes;
 use crate::modes::Summary;
 use crate::observable::Observable;
 use crate::solve::SCHEMA_VERSION;
 
 /// Steps over the whole range, at least.
 const STEPS: f64 = 24.0;
-
-/// Most joints and bars together of a system of which all limit and branch points are proved, each in some
-/// tenths of a second; of a larger one the first loss of stability alone.
-const PROVED_ALL: usize = 300;
 
 /// Why there is no load path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -167,7 +162,7 @@ pub struct BranchesFrom {
 }
 
 impl LoadEvent {
-    fn is_loss(&self) -> bool {
+    pub(super) fn is_loss(&self) -> bool {
         self.index[0] == 0 && self.index[1] > 0
     }
 }
@@ -201,9 +196,6 @@ pub struct LoadPath {
     pub proved: PathProved,
 }
 
-/// How far, as a part of it, a value followed may be from bounds that are proved.
-const NEAR: f64 = 1e-9;
-
 impl LoadPath {
     /// Whether nothing contradicts the path: `energy` and the judge confirm its points, and the first loss of
     /// stability that is proved is one that was met.
@@ -212,15 +204,15 @@ impl LoadPath {
         self.confirmed.agrees() && self.meets_proof()
     }
 
-    /// Whether the first loss of stability that is proved is one that was met: a path may turn back and forth
-    /// within one step.
+    /// Whether the first limit or branch point that is proved is the first that was met: a path may turn back
+    /// and forth within one step.
     pub(crate) fn meets_proof(&self) -> bool {
-        self.proved.between.is_none_or(|[low, high]| {
-            let off = NEAR * low.abs().max(high.abs());
-            let inside = |value: f64| low.min(high) - off <= value && value <= low.max(high) + off;
-            let met = |event: &LoadEvent| event.values.last().copied().is_some_and(inside);
-            self.end == LoadEnd::MaxPoints || self.events.iter().any(met)
-        })
+        let first = self.events.iter().find(|event| event.kind != LoadEventKind::Kink);
+        match first {
+            _ if self.proved.between.is_none() => true,
+            Some(event) => self.proved.is_of(event),
+            None => self.end == LoadEnd::MaxPoints,
+        }
     }
 
     /// The first event in which the index rises from 0; nothing where it does not.
@@ -320,144 +312,6 @@ pub(super) fn trace(
         of: named.into_iter().zip(of.iter().map(|one| one.unit())).collect(),
         paths,
     })
-}
-
-/// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
-fn most_moved<'a: 'b, 'b>(
-    system: &System,
-    paths: impl Iterator<Item = &'b FollowedPath<Family<'a>>>,
-) -> Option<String> {
-    let mut most = (0.0, None);
-    for path in paths {
-        let first = &path.points.first()?.record.equilibrium.joints_m;
-        for point in &path.points {
-            for (joint, (at_m, from_m)) in
-                point.record.equilibrium.joints_m.iter().zip(first).enumerate()
-            {
-                for axis in 0..3 {
-                    let moved = (at_m[axis] - from_m[axis]).abs();
-                    // What is equal to rounding is the first of them, upright if that is one.
-                    if moved > most.0 * (1.0 + 1e-9) {
-                        most = (moved, Some((joint, axis)));
-                    }
-                }
-            }
-        }
-    }
-    let Some((joint, axis)) = most.1 else {
-        return (!system.members().is_empty()).then(|| "bars.1.axial_n".to_owned());
-    };
-    let name = &system.joints()[joint].name;
-    let quoted = name.contains(['.', '[', ']', '"']);
-    let name = if quoted { format!("\"{name}\"") } else { name.clone() };
-    Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
-}
-
-/// A path as it is described.
-fn described(
-    family: &mut Family<'_>,
-    variation: &Variation<System>,
-    of: &[Observable],
-    found: &FollowedPath<Family<'_>>,
-) -> Result<LoadPath, LoadError> {
-    let system = variation.base();
-    let points = found.points.iter().map(|point| {
-        let Kept { values, equilibrium } = &point.record;
-        let extremes = Extremes::of(system, equilibrium);
-        let shown = |one: &Observable| one.of(system, equilibrium, extremes.as_ref()?);
-        LoadPoint {
-            values: values.clone(),
-            index: point.index,
-            event: point.event,
-            energy_j: equilibrium.energy_j,
-            of: of.iter().map(shown).collect(),
-            joints_m: equilibrium.joints_m.clone(),
-            axial_n: equilibrium.axial_n.clone(),
-        }
-    });
-    let points = points.collect();
-    let events = found.events.iter().map(|event| event_described(system, family, event));
-    let mut events: Vec<LoadEvent> = events.collect();
-    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
-    let loss = events.iter().position(LoadEvent::is_loss);
-    for (number, (event, of)) in events.iter_mut().zip(&found.events).enumerate() {
-        let record = &found.points[event.point].record;
-        if small || loss == Some(number) {
-            event.enclosed = enclosed(variation, family.ends(), record, event.kind);
-        }
-        if event.kind == LoadEventKind::LimitPoint {
-            (event.by_length, event.by_place) = family.imperfections(record, of)?;
-        }
-    }
-    let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
-    let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
-        .points
-        .iter()
-        .map(|point| {
-            let Kept { values, equilibrium } = &point.record;
-            (values.as_slice(), equilibrium, point.index, point.event.is_some())
-        })
-        .collect();
-    let confirmed = confirm(variation, &equilibria, &events);
-    let end = match &found.end {
-        End::Range => LoadEnd::Range,
-        End::MaxPoints => LoadEnd::MaxPoints,
-        End::Joins(_) => LoadEnd::Joins,
-        End::Lost => LoadEnd::Lost,
-        End::Numbers(_) => LoadEnd::Numbers,
-    };
-    let (branches_from, joins, linear_buckling) = (None, None, None);
-    let equilibria_at_every_load = None;
-    Ok(LoadPath {
-        points,
-        events,
-        end,
-        branches_from,
-        joins,
-        linear_buckling,
-        equilibria_at_every_load,
-        confirmed,
-        proved,
-    })
-}
-
-fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
-    let bars = |active: bool| {
-        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
-        let bar = |side: &(Side, bool)| match side.0 {
-            Side::Member(member) => Some(member + 1),
-            Side::Joint(_) => None,
-        };
-        sides.filter_map(bar).collect()
-    };
-    let joints = |active: bool| {
-        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
-        let joint = |side: &(Side, bool)| match side.0 {
-            Side::Joint(joint) => Some(system.joints()[joint].name.clone()),
-            Side::Member(_) => None,
-        };
-        sides.filter_map(joint).collect()
-    };
-    let places = event.mode.get(..3 * system.joints().len()).unwrap_or_default();
-    LoadEvent {
-        kind: match event.kind {
-            Kind::Limit => LoadEventKind::LimitPoint,
-            Kind::Branch => LoadEventKind::BranchPoint,
-            Kind::Kink => LoadEventKind::Kink,
-        },
-        values: family.values(event.t),
-        point: event.point,
-        index: event.index,
-        turns: event.turns,
-        enclosed: None,
-        slack: bars(false),
-        taut: bars(true),
-        lands: joints(true),
-        leaves: joints(false),
-        mode: places.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect(),
-        by_length: vec![],
-        by_place: vec![],
-    }
 }
 
 impl LoadPaths {

@@ -3,15 +3,19 @@
 
 #![expect(clippy::unwrap_used, clippy::format_push_string, reason = "helpers of tests")]
 
+mod domes;
+
 use funicular::prelude::*;
 use funicular::{LoadEnd, LoadEvent, LoadEventKind, LoadPath, PathProved};
+use samples::root;
 
 /// Limits and branches are located to this part.
 const SHARP: f64 = 1e-9;
 
 /// A file whose bars have no mass.
 fn light(file: &str) -> Problem {
-    Problem::parse(&file.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n"), "test.toml").unwrap()
+    let bare = file.replace("mass_kg = 0\n", "");
+    Problem::parse(&bare.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n"), "test.toml").unwrap()
 }
 
 fn paths(file: &str, trace: &Trace) -> Vec<LoadPath> {
@@ -38,16 +42,6 @@ fn gable(height: f64, free: &str, more: &str) -> String {
 /// The load on a gable whose bars are this long, N.
 fn load_n(l0: f64, l: f64) -> f64 {
     2.0 * (l * l - 1.0).sqrt() / l * (l0 - l) / l0
-}
-
-/// Where a function changes its sign.
-fn root(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    assert!(f(low) * f(high) < 0.0);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if f(low) * f(middle) <= 0.0 { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
 }
 
 fn derivative(f: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
@@ -253,132 +247,6 @@ fn linear_buckling_of_a_gable_is_its_closed_form() {
     }
 }
 
-/// A dome of seven joints on a hexagon, as symmetric as rounding lets it be: it leaves its symmetry at half the load
-/// of its limit. From its first branch point two paths lead, from that with two modes six, one for each axis and
-/// direction, and six of each of two kinds from the next.
-#[test]
-fn a_symmetric_dome_leaves_its_symmetry_before_its_limit() {
-    let corner = |k: usize, r: f64| {
-        let angle = std::f64::consts::TAU * k as f64 / 6.0;
-        [r * angle.cos(), r * angle.sin()]
-    };
-    let height = |x: f64, y: f64| (2500.0 - x * x - y * y).sqrt() - 2100_f64.sqrt();
-    let mut file = String::from("[joints]\n");
-    let mut joints: Vec<[f64; 3]> = vec![];
-    let mut add = |[x, y]: [f64; 2], held: bool| {
-        let (name, z) = (joints.len(), height(x, y));
-        file += &if held {
-            format!("F{name} = {{ at_m = [{x}, {y}, {z}] }}\n")
-        } else {
-            format!("P{name} = {{ near_m = [{x}, {y}, {z}], force_n = [0, 0, -1000] }}\n")
-        };
-        joints.push([x, y, z]);
-    };
-    add([0.0, 0.0], false);
-    (0..6).for_each(|k| add(corner(k, 10.0), false));
-    for k in 0..6 {
-        let [[x, y], [u, v]] = [corner(k, 20.0), corner(k + 1, 20.0)];
-        add([x, y], true);
-        add([0.5 * (x + u), 0.5 * (y + v)], true);
-    }
-    let name = |k: usize| if k < 7 { format!("P{k}") } else { format!("F{k}") };
-    for a in 0..joints.len() {
-        for b in a + 1..joints.len() {
-            let [[x, y, _], [u, v, _]] = [joints[a], joints[b]];
-            if a < 7 && (x - u).hypot(y - v) < 10.1 {
-                let (from, to) = (name(a), name(b));
-                file += &format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 1e6\n");
-            }
-        }
-    }
-    let trace = Trace::new().vary("loads=0..5").unwrap().branches(1).max_points(300);
-    let paths = paths(&file, &trace);
-    let (limit, branch) = (LoadEventKind::LimitPoint, LoadEventKind::BranchPoint);
-    let first: Vec<_> = told(&paths[0].events).into_iter().take(4).collect();
-    let wanted = [(branch, [0, 1]), (branch, [1, 3]), (branch, [3, 5]), (limit, [5, 6])];
-    assert_eq!(first, wanted);
-    assert!(2.0 * paths[0].events[0].values[0] > paths[0].events[3].values[0]);
-    assert!(1.9 * paths[0].events[0].values[0] < paths[0].events[3].values[0]);
-    let from = |event: usize| {
-        let all = paths.iter().filter_map(|path| path.branches_from);
-        all.filter(|from| (from.path, from.event) == (0, event)).count()
-    };
-    assert_eq!([from(0), from(1), from(2)], [2, 6, 12]);
-}
-
-/// A dome of 20 m of radius over a sphere of 50 m on a triangular grid, under 1 kN at the top or at all joints:
-/// mirror images as doubles.
-fn grid(rings: i32, all: bool) -> String {
-    let edge = rings + 1;
-    let ring = |q: i32, r: i32| q.abs().max(r.abs()).max((q + r).abs());
-    let (mut file, mut bars) = ("[joints]\n".to_owned(), String::new());
-    for q in -edge..=edge {
-        for r in (-edge..=edge).filter(|r| ring(q, *r) <= edge) {
-            let step = 20.0 / f64::from(edge);
-            let x = (f64::from(q) + 0.5 * f64::from(r)) * step;
-            let y = f64::from(r) * 0.75_f64.sqrt() * step;
-            let z = (2500.0 - x * x - y * y).sqrt() - 2100_f64.sqrt();
-            let loaded = all || ring(q, r) == 0;
-            let (key, more) = match ring(q, r) {
-                far if far == edge => ("at_m", ""),
-                _ if loaded => ("near_m", ", force_n = [0, 0, -1000]"),
-                _ => ("near_m", ""),
-            };
-            file += &format!("\"{q} {r}\" = {{ {key} = [{x}, {y}, {z}]{more} }}\n");
-            for (a, b) in [(q + 1, r), (q, r + 1), (q + 1, r - 1)] {
-                if ring(a, b) <= edge && ring(a, b).min(ring(q, r)) < edge {
-                    let ends = format!("from = \"{q} {r}\"\nto = \"{a} {b}\"");
-                    bars += &format!("[[bars]]\n{ends}\nstiffness_n = 1e6\n");
-                }
-            }
-        }
-    }
-    file + &bars
-}
-
-#[test]
-fn the_branch_point_of_a_symmetric_dome_is_proved_to_come_first() {
-    let path = path(&grid(1, true), "loads=0..5");
-    let first = &path.events[0];
-    assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 1]));
-    is_proved(&path, LoadEventKind::BranchPoint, first.values[0]);
-}
-
-/// 61 joints, 393 unknowns.
-#[test]
-fn the_limit_of_a_larger_dome_is_proved() {
-    let path = path(&grid(4, false), "loads=0..0.15");
-    let limit = path.first_loss().unwrap();
-    let [low, high] = limit.enclosed.unwrap();
-    assert!(limit.kind == LoadEventKind::LimitPoint && high - low < 1e-9, "{low} {high}");
-    near(limit.values[0], 0.5 * (low + high));
-    // The path itself is too large, and says so.
-    let because = path.proved.because.as_deref().unwrap();
-    assert!(path.proved.to.is_none() && because.contains("393 unknowns"), "{because}");
-}
-
-/// Four bars to one apex: both sideways modes lose their stiffness at once.
-#[test]
-fn a_steep_pyramid_sways_in_two_directions_at_once() {
-    let h = 4.0;
-    let feet = [[1, 0], [0, 1], [-1, 0], [0, -1]];
-    let mut file = format!("[joints]\nP = {{ near_m = [0, 0, {h}], force_n = [0, 0, -1] }}\n");
-    for (k, [x, y]) in feet.iter().enumerate() {
-        file += &format!("F{k} = {{ at_m = [{x}, {y}, 0] }}\n");
-    }
-    for k in 0..4 {
-        file += &format!("[[bars]]\nfrom = \"F{k}\"\nto = \"P\"\nstiffness_n = 1\n");
-    }
-    let path = path(&file, "loads=0..1");
-    let l0 = f64::hypot(1.0, h);
-    let across = |l: f64| 0.5 / l + (l - l0) * (1.0 - 0.5 / (l * l));
-    let l = root(across, [2.0, l0]);
-    let first = &path.events[0];
-    assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 2]));
-    near(first.values[0], 2.0 * load_n(l0, l));
-    is_proved(&path, LoadEventKind::BranchPoint, 2.0 * load_n(l0, l));
-}
-
 /// Two rigid bars between anchors hang or stand, at every load; the path of the hanging ones stays.
 #[test]
 fn rigid_bars_have_the_same_equilibria_at_every_load() {
@@ -570,72 +438,4 @@ fn where_no_path_begins_the_error_says_why() {
     assert!(turns.to_string().contains("turns or moves freely"), "{turns}");
     assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
     assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
-}
-
-/// Hrinda's truss of sixteen bars (AIAA 2010-2611): unloaded, turned over, it is itself, so under upward
-/// loads the path is that under downward ones turned over.
-#[test]
-fn the_path_of_a_symmetric_truss_is_symmetric() {
-    let (r, h) = (0.127, 0.0508);
-    let mut file =
-        format!("[joints]\nN1 = {{ near_m = [0, 0, {}], force_n = [0, 0, -445e3] }}\n", 2.0 * h);
-    for (k, [x, y]) in [[1, -1], [1, 1], [-1, 1], [-1, -1]].iter().enumerate() {
-        let [x, y] = [f64::from(*x), f64::from(*y)];
-        file += &format!("R{k} = {{ near_m = [{}, {}, {h}] }}\n", r * x, r * y);
-        let [x, y] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][k];
-        file += &format!("F{k} = {{ at_m = [{}, {}, 0] }}\n", 2.0 * r * x, 2.0 * r * y);
-    }
-    for k in 0..4 {
-        let next = (k + 1) % 4;
-        for ends in [
-            ["N1".into(), format!("R{k}")],
-            [format!("R{k}"), format!("R{next}")],
-            [format!("R{k}"), format!("F{k}")],
-            [format!("R{next}"), format!("F{k}")],
-        ] {
-            let [from, to]: [String; 2] = ends;
-            file += &format!(
-                "[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nstiffness_n = 44482233.616\n"
-            );
-        }
-    }
-    let path = path(&file, "loads=0,4,-4");
-    let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
-    let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
-    assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
-    // All limit points are proved, and all branch points: their modes break mirrors.
-    for event in &path.events {
-        let [low, high] = event.enclosed.unwrap_or_else(|| panic!("{event:?}"));
-        assert!(high - low < 1e-9);
-        near(event.values[0], 0.5 * (low + high));
-    }
-    for (one, other) in limits.iter().zip(limits.iter().rev()) {
-        near(*one, -other);
-    }
-    let branches = path.events.iter().filter(|event| event.kind == LoadEventKind::BranchPoint);
-    let branches: Vec<_> = branches.map(|event| (event.values[0], event.index)).collect();
-    assert_eq!(branches.len(), 4);
-    for ((one, [a, b]), (other, [c, d])) in branches.iter().zip(branches.iter().rev()) {
-        near(*one, -other);
-        // Two modes at once among them.
-        assert_eq!([a, b], [d, c]);
-    }
-    assert_eq!(branches[1].1, [2, 4]);
-}
-
-#[test]
-fn the_star_dome_reaches_its_published_limit() {
-    // Levy and Spillers print "about sixty percent" of P = 220.46 lbf = 980.65 N; 0.3 P is in the file.
-    let dome = Problem::case("star-dome").unwrap();
-    let found = Trace::new().vary("loads=0..4").unwrap().of("joints.N1.z").run(&dome).unwrap();
-    assert!(found.checks_agree(), "{found}");
-    let path = &found.load_paths().unwrap().paths()[0];
-    let [low, high] = path.first_loss().unwrap().enclosed.unwrap();
-    // The file says between 0.66 and 0.675 P, by a Newton's method of others.
-    assert!(0.3 * low > 0.66 && 0.3 * high < 0.675 && high - low < 1e-9, "{low} {high}");
-    is_proved(path, LoadEventKind::LimitPoint, 0.5 * (low + high));
-    let text = found.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
-    let claim = "reaches its first limit point at loads between 2.21926806 and 2.21926807, and no other equilibrium \
-                 meets it before";
-    assert!(text.contains(claim), "{text}");
 }

@@ -2,6 +2,7 @@
 
 use model::Bar;
 use model::system::{Joint, Member, Support, System};
+use samples::root;
 
 use super::*;
 use crate::network::{prove_branch, prove_limit};
@@ -42,15 +43,6 @@ const PYRAMID: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]
 /// What one bar of a tent bears at this length.
 fn borne_n(l0: f64, l: f64) -> f64 {
     (l * l - 1.0).sqrt() / l * (l0 - l) / l0
-}
-
-fn root(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    assert!(f(low) * f(high) < 0.0);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if f(low) * f(middle) <= 0.0 { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
 }
 
 fn first_is(found: &PathProof, kind: SingularKind, wanted: f64) {

@@ -1,0 +1,161 @@
+//! Paths that are followed, as load paths: what is shown, what happens, what is proved and confirmed.
+
+use branches::Variation;
+use branches::load::{End, Event, Kind, LoadPath as FollowedPath};
+use lagrange::network::Side;
+use model::system::{System, SystemEquilibrium};
+
+use super::confirm::confirm;
+use super::enclosed::{enclosed, proved};
+use super::equations::{Family, Kept};
+use super::load::{LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPoint};
+use crate::extremes::Extremes;
+use crate::observable::Observable;
+
+/// Most joints and bars together of a system of which all limit and branch points are proved, each in some
+/// tenths of a second; of a larger one the first loss of stability alone.
+const PROVED_ALL: usize = 300;
+
+/// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
+pub(super) fn most_moved<'a: 'b, 'b>(
+    system: &System,
+    paths: impl Iterator<Item = &'b FollowedPath<Family<'a>>>,
+) -> Option<String> {
+    let mut most = (0.0, None);
+    for path in paths {
+        let first = &path.points.first()?.record.equilibrium.joints_m;
+        for point in &path.points {
+            for (joint, (at_m, from_m)) in
+                point.record.equilibrium.joints_m.iter().zip(first).enumerate()
+            {
+                for axis in 0..3 {
+                    let moved = (at_m[axis] - from_m[axis]).abs();
+                    // What is equal to rounding is the first of them, upright if that is one.
+                    if moved > most.0 * (1.0 + 1e-9) {
+                        most = (moved, Some((joint, axis)));
+                    }
+                }
+            }
+        }
+    }
+    let Some((joint, axis)) = most.1 else {
+        return (!system.members().is_empty()).then(|| "bars.1.axial_n".to_owned());
+    };
+    let name = &system.joints()[joint].name;
+    let quoted = name.contains(['.', '[', ']', '"']);
+    let name = if quoted { format!("\"{name}\"") } else { name.clone() };
+    Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
+}
+
+/// A path as it is described.
+pub(super) fn described(
+    family: &mut Family<'_>,
+    variation: &Variation<System>,
+    of: &[Observable],
+    found: &FollowedPath<Family<'_>>,
+) -> Result<LoadPath, LoadError> {
+    let system = variation.base();
+    let points = found.points.iter().map(|point| {
+        let Kept { values, equilibrium } = &point.record;
+        let extremes = Extremes::of(system, equilibrium);
+        let shown = |one: &Observable| one.of(system, equilibrium, extremes.as_ref()?);
+        LoadPoint {
+            values: values.clone(),
+            index: point.index,
+            event: point.event,
+            energy_j: equilibrium.energy_j,
+            of: of.iter().map(shown).collect(),
+            joints_m: equilibrium.joints_m.clone(),
+            axial_n: equilibrium.axial_n.clone(),
+        }
+    });
+    let points = points.collect();
+    let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
+    let events = found.events.iter().map(|event| event_described(system, family, event));
+    let mut events: Vec<LoadEvent> = events.collect();
+    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
+    let loss = events.iter().position(LoadEvent::is_loss);
+    let first = events.iter().position(|event| event.kind != LoadEventKind::Kink);
+    for (number, (event, of)) in events.iter_mut().zip(&found.events).enumerate() {
+        let record = &found.points[event.point].record;
+        // What the proof of the path says of its first point is not proved again.
+        event.enclosed = match proved.between {
+            Some(between) if first == Some(number) && proved.is_of(event) => Some(between),
+            _ if small || loss == Some(number) => {
+                enclosed(variation, family.ends(), record, event.kind)
+            }
+            _ => None,
+        };
+        if event.kind == LoadEventKind::LimitPoint {
+            (event.by_length, event.by_place) = family.imperfections(record, of)?;
+        }
+    }
+    let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
+        .points
+        .iter()
+        .map(|point| {
+            let Kept { values, equilibrium } = &point.record;
+            (values.as_slice(), equilibrium, point.index, point.event.is_some())
+        })
+        .collect();
+    let confirmed = confirm(variation, &equilibria, &events);
+    let end = match &found.end {
+        End::Range => LoadEnd::Range,
+        End::MaxPoints => LoadEnd::MaxPoints,
+        End::Joins(_) => LoadEnd::Joins,
+        End::Lost => LoadEnd::Lost,
+        End::Numbers(_) => LoadEnd::Numbers,
+    };
+    let (branches_from, joins, linear_buckling) = (None, None, None);
+    let equilibria_at_every_load = None;
+    Ok(LoadPath {
+        points,
+        events,
+        end,
+        branches_from,
+        joins,
+        linear_buckling,
+        equilibria_at_every_load,
+        confirmed,
+        proved,
+    })
+}
+
+fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
+    let bars = |active: bool| {
+        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
+        let bar = |side: &(Side, bool)| match side.0 {
+            Side::Member(member) => Some(member + 1),
+            Side::Joint(_) => None,
+        };
+        sides.filter_map(bar).collect()
+    };
+    let joints = |active: bool| {
+        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
+        let joint = |side: &(Side, bool)| match side.0 {
+            Side::Joint(joint) => Some(system.joints()[joint].name.clone()),
+            Side::Member(_) => None,
+        };
+        sides.filter_map(joint).collect()
+    };
+    let places = event.mode.get(..3 * system.joints().len()).unwrap_or_default();
+    LoadEvent {
+        kind: match event.kind {
+            Kind::Limit => LoadEventKind::LimitPoint,
+            Kind::Branch => LoadEventKind::BranchPoint,
+            Kind::Kink => LoadEventKind::Kink,
+        },
+        values: family.values(event.t),
+        point: event.point,
+        index: event.index,
+        turns: event.turns,
+        enclosed: None,
+        slack: bars(false),
+        taut: bars(true),
+        lands: joints(true),
+        leaves: joints(false),
+        mode: places.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect(),
+        by_length: vec![],
+        by_place: vec![],
+    }
+}
