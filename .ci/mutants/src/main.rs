@@ -68,16 +68,13 @@ fn run() -> Result<(), Failure> {
     };
     let drawn = match &options.only {
         Some(file) => draw::named(&all, &std::fs::read_to_string(file)?),
-        // Some of what people write by mistake the compiler refuses.
-        None if options.plausible => draw::drawn(&all, 2 * options.draw, options.seed),
-        None => draw::drawn(&all, options.draw, options.seed),
+        // The compiler refuses some.
+        None => draw::drawn(&all, 2 * options.draw, options.seed),
     };
     eprintln!("{} of {} changes", drawn.len(), all.len());
     let tree = Tree::copied(&options)?;
     let mut built = compile::built(&tree, &options, drawn)?;
-    if options.plausible {
-        built.keep(options.draw);
-    }
+    built.keep(options.draw);
     let tests = tests::traced(&built.programs, &options)?;
     if tests.iter().all(|test| test.reaches.is_empty()) {
         return Err(

@@ -220,16 +220,16 @@ fn work_of_systems() {
         "lamp: [1, 1, 0, 0, 0, 1] 95 [-47, -45]",
         "bridle: Bridle { bars: 24, limit: 4 }",
         "mobile: NotABar { member: 1 }",
-        "footbridge: Slider { joint: 3 }",
+        "footbridge: Slider { joint: 4 }",
         "net: Motions { closures: 67, motions: 87, limit: 2 }",
         "ring: NotABar { member: 13 }",
         "tripod: [2, 1, 0, 0, 0, 1] 0 [-90, -74]",
         "pendulum-chain: [32, 1, 0, 0, 160, 1] 0 [-1504, -1376]",
         "four-bar-linkage: [4, 1, 0, 0, 8, 0] 315 [-192, -162]",
-        "x-cross: Slider { joint: 2 }",
-        "prism: Slider { joint: 3 }",
-        "expandable-octahedron: Slider { joint: 2 }",
-        "simplex-tower: Slider { joint: 3 }",
+        "x-cross: Slider { joint: 3 }",
+        "prism: Slider { joint: 4 }",
+        "expandable-octahedron: Slider { joint: 3 }",
+        "simplex-tower: Slider { joint: 4 }",
     ];
     assert_frozen(&found[..], &expected.map(str::to_owned));
 }
