@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use crate::arc::{Arcs, arcs};
-use crate::census_point::{CensusPoint, Node};
+use crate::census_point::CensusPoint;
 use crate::curve::{Border, Curve, CurveEnd, Exit, Gate, follow};
 use crate::path::Path;
 
@@ -92,7 +92,8 @@ fn attempt(
             let from = &nodes[side][start].y;
             let (points, exit) = follow(path, from, side == 0, borders, longest);
             let end = points.last().map_or(from, |point| &point.y);
-            let mut arrive = |side: usize| match nearest(nodes[side], end) {
+            let away = |side: usize| nodes[side].iter().map(|node| distance(&node.y, end));
+            let mut arrive = |side: usize| match nearest(away(side)) {
                 _ if borders[side].gate != Gate::Open => CurveEnd::Border,
                 Some(node) if !taken[side][node] => {
                     taken[side][node] = true;
@@ -113,12 +114,11 @@ fn attempt(
     (curves, sure)
 }
 
-/// The equilibrium at which a curve ends, if that is clear.
-fn nearest(nodes: &[Node], y: &DVector<f64>) -> Option<usize> {
+/// The equilibrium at which a curve ends, by its distance from each, if that is clear.
+fn nearest(distances: impl Iterator<Item = f64>) -> Option<usize> {
     let mut best = (f64::INFINITY, None);
     let mut second = f64::INFINITY;
-    for (k, node) in nodes.iter().enumerate() {
-        let distance = distance(&node.y, y);
+    for (k, distance) in distances.enumerate() {
         if distance < best.0 {
             second = best.0;
             best = (distance, Some(k));
@@ -139,4 +139,47 @@ pub(crate) fn distance(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
     });
     let [p, q] = [a, b].map(|y| y.fixed_rows::<3>(n).into_owned());
     angles.fold(p.cross(&q).norm(), f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Within a millionth the nearest, whatever else is there; within a thousandth where others are twenty times
+    /// as far; else none.
+    #[test]
+    fn curves_end_where_it_is_clear() {
+        for (distances, end) in [
+            (vec![0.3, 9e-7, 0.9, 1e-6], Some(1)),
+            (vec![2e-6, 9e-7], Some(1)),
+            (vec![0.3, 2e-6, 5e-5], Some(1)),
+            (vec![3e-5, 0.3, 2e-6], None),
+            (vec![1e-3, 0.3], Some(0)),
+            (vec![1.1e-3, 0.3], None),
+            (vec![2e-4, 9e-4, 0.1], None),
+            (vec![9e-4, 0.1, 2e-5], Some(2)),
+            (vec![0.5], None),
+            (vec![], None),
+        ] {
+            assert_eq!(nearest(distances.iter().copied()), end, "{distances:?}");
+        }
+    }
+
+    /// Angles count modulo a turn, homogeneous pulls by the sine of the angle between them, either way round.
+    #[test]
+    fn distances_are_those_of_directions() {
+        let at = |angles: [f64; 2], [h, v, w]: [f64; 3]| {
+            DVector::from_column_slice(&[angles[0], angles[1], h, v, w, 0.7])
+        };
+        let here = at([0.1, 3.0], [0.6, 0.0, 0.8]);
+        for (there, wanted) in [
+            (at([0.35, 3.0], [0.6, 0.0, 0.8]), 0.25),
+            (at([0.1 + std::f64::consts::TAU, 3.0 - std::f64::consts::TAU], [-0.6, 0.0, -0.8]), 0.0),
+            (at([0.1, -3.0], [0.6, 0.0, 0.8]), std::f64::consts::TAU - 6.0),
+            (at([0.2, 3.0], [0.36, 0.48, 0.8]), 0.267264_f64.sqrt()),
+        ] {
+            let found = [distance(&here, &there), distance(&there, &here)];
+            assert!(found.iter().all(|d| (d - wanted).abs() < 1e-14), "{found:?} {wanted}");
+        }
+    }
 }

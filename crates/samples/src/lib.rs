@@ -18,7 +18,7 @@
 //! | of so many equal bars | [`equal_bars`] |
 //! | of bars written down as numbers | [`chain`] |
 //!
-//! [`dome`] is the text of a system file, [`root`] what closed forms need.
+//! [`dome`] is the text of a system file, [`scaled`] a system in other units, [`root`] what closed forms need.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -32,6 +32,7 @@ mod frozen;
 mod general;
 mod named;
 mod root;
+mod scaled;
 mod shape;
 mod stream;
 
@@ -42,5 +43,6 @@ pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use named::{chain, equal_bars};
 pub use root::root;
+pub use scaled::scaled;
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

@@ -189,3 +189,29 @@ fn joints_between(
     };
     (1..count).map(joint).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of seven bars the first three belong together, and the last two.
+    #[test]
+    fn runs_end_where_bars_do_not_belong_to_the_next() {
+        let belongs = |k: usize| [0, 1, 5].contains(&k);
+        for (of, ends) in
+            [(0, [0, 2]), (1, [0, 2]), (2, [0, 2]), (3, [3, 3]), (4, [4, 4]), (5, [5, 6]), (6, [5, 6])]
+        {
+            assert_eq!(run(of, 7, belongs), ends);
+            assert_eq!(run(of, 7, |_| true), [0, 6]);
+            assert_eq!(run(of, 7, |_| false), [of, of]);
+        }
+        assert_eq!(run(0, 1, |_| false), [0, 0]);
+        // Bars from 1: those of one run are the whole of it; beyond it, or beyond the last, they are of none.
+        let row = |of: usize| run(of, 7, belongs);
+        let range = |first, last| whole(Which::Range(first, last), 7, row);
+        assert_eq!(range(1, 2), Some(Which::Range(1, 3)));
+        assert_eq!(range(6, 6), Some(Which::Range(6, 7)));
+        assert_eq!(range(6, 9), Some(Which::Range(6, 7)));
+        assert_eq!((range(3, 4), range(5, 6), range(8, 8)), (None, None, None));
+    }
+}

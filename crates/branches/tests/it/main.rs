@@ -4,7 +4,9 @@
 
 mod closed_forms;
 mod degenerate;
+mod diagram;
 mod load;
 mod parameters;
 mod random_chains;
 mod systems;
+mod work;

@@ -488,16 +488,26 @@ mod tests {
         assert!((width(&shown) - 672.0).abs() < 1e-9, "{}", width(&shown));
     }
 
-    /// Anchors (3, 4) apart, from (1, 2, 3): a joint at (3/2, 4, 1) is `3/5 · 1/2 + 4/5 · 2` along them.
+    /// Anchors (3, 4) apart, from (1, 2, 3): a joint at (3/2, 4, 1) is `3/5 · 1/2 + 4/5 · 2` along them;
+    /// circles, and what begins and ends on one vertical, are seen along Y.
     #[test]
     fn shapes_are_seen_from_the_first_anchor() {
         let census = take(&model::cases::get("three-bars-off-centre").unwrap().problem());
         let mut position = census.positions().next().unwrap();
-        let places = [[1.0, 2.0, 3.0], [1.5, 4.0, 1.0], [4.0, 6.0, 2.0]];
-        position.equilibrium.joints_m = places.map(|at| at.map(Interval::point)).to_vec();
-        let wanted = [[0.0, 0.0], [1.9, -2.0], [5.0, -1.0]];
-        for (found, wanted) in shape(&position).iter().flatten().zip(wanted.iter().flatten()) {
-            assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
+        let (start, middle) = ([1.0, 2.0, 3.0], [1.5, 4.0, 1.0]);
+        for (circle, end, wanted) in [
+            (false, [4.0, 6.0, 2.0], [[1.9, -2.0], [5.0, -1.0]]),
+            (true, [4.0, 6.0, 2.0], [[2.0, -2.0], [4.0, -1.0]]),
+            (false, [1.0, 2.0, 2.0], [[2.0, -2.0], [0.0, -1.0]]),
+        ] {
+            position.equilibrium.circle = circle;
+            position.equilibrium.joints_m =
+                [start, middle, end].map(|at| at.map(Interval::point)).to_vec();
+            let found = shape(&position);
+            assert_eq!(found[0], [0.0; 2]);
+            for (found, wanted) in found[1..].iter().flatten().zip(wanted.iter().flatten()) {
+                assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
+            }
         }
     }
 }

@@ -272,3 +272,35 @@ impl<'a> Test<'a> {
 pub(super) fn last(x: &[Interval]) -> Interval {
     x.last().copied().unwrap_or(Interval::LINE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Along (2, 3, 6), of length 7, from (1, 1, 2), with the row (5, -1, 1): a step of 1 is 13 along the row.
+    #[test]
+    fn lines_have_a_direction_and_a_pace() {
+        let entries: Vec<Entry> = (0..3).map(|k| (k, k, Interval::ONE)).collect();
+        let inverse = Inverse::of(3, &entries).unwrap();
+        let (at, along) = (vec![1.0, 1.0, 2.0], vec![2.0, 3.0, 6.0]);
+        let centre = Centre { at, along, row: vec![5.0, -1.0, 1.0], inverse };
+        let close = |found: f64, wanted: f64| {
+            assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
+        };
+        for (found, wanted) in centre.unit().into_iter().zip([2.0, 3.0, 6.0]) {
+            close(found, wanted / 7.0);
+        }
+        assert_eq!(centre.ahead(0.5), [2.0, 2.5, 5.0]);
+        close(centre.pace().mid(), 13.0);
+        // (1, 2, 4) lies 1/13 ahead, across which it is.
+        let seen = centre.seen(&points(&[1.0, 2.0, 4.0]));
+        assert!(seen.contains(1.0 / 13.0) && seen.width() < 1e-15, "{seen:?}");
+        let line = centre.line(Interval::new(0.25, 0.5));
+        for (found, (low, high)) in line.iter().zip([(1.5, 2.0), (1.75, 2.5), (3.5, 5.0)]) {
+            close(found.lo(), low);
+            close(found.hi(), high);
+        }
+        assert!(!centre.keeps_parameter());
+        assert!(Centre { row: vec![0.0, 0.0, 2.0], ..centre }.keeps_parameter());
+    }
+}

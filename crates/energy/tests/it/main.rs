@@ -13,6 +13,7 @@ mod network_support;
 mod network_work;
 mod paper;
 mod physics;
+mod scale;
 mod settings;
 mod support;
 mod work;

@@ -5,7 +5,7 @@ use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed;
 use lagrange::network::{self, Solution};
 use lagrange::{Settings, solve_from};
-use model::system::{Joint, Kind, Member, PointLoad, Support, System};
+use model::system::{Kind, Support};
 use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
 use rand::RngExt;
 
@@ -124,35 +124,6 @@ fn batches_scale_without_rounding() {
     }
 }
 
-fn scaled_system(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
-    let force = mass * gravity;
-    let joints = system.joints().iter().map(|joint| {
-        let support = match joint.support {
-            Support::Free => Support::Free,
-            Support::Fixed { at_m } => Support::Fixed { at_m: times(at_m, length) },
-            Support::Line { at_m, direction } => {
-                Support::Line { at_m: times(at_m, length), direction }
-            }
-            Support::Plane { at_m, normal } => Support::Plane { at_m: times(at_m, length), normal },
-        };
-        let (mass_kg, force_n) = (joint.mass_kg * mass, times(joint.force_n, force));
-        Joint { support, mass_kg, force_n, ..joint.clone() }
-    });
-    let members = system.members().iter().map(|member| {
-        let bar = &member.body;
-        let (length_m, centre_m) = (bar.length_m() * length, bar.centre_m() * length);
-        let body = Bar::new(length_m, bar.mass_kg() * mass, centre_m, [0.0; 3]).unwrap();
-        let loads = member.loads.iter().map(|load| PointLoad {
-            at_m: load.at_m * length,
-            force_n: times(load.force_n, force),
-        });
-        let stiffness_n = member.stiffness_n.map(|stiffness| stiffness * force);
-        Member { body, stiffness_n, loads: loads.collect(), ..member.clone() }
-    });
-    let gravity_m_s2 = system.gravity_m_s2() * gravity;
-    System::new("scaled", gravity_m_s2, joints.collect(), members.collect()).unwrap()
-}
-
 fn assert_system_scaled(one: &Solution, other: &Solution, [length, mass, gravity]: [f64; 3]) {
     let force = mass * gravity;
     assert_eq!(one.factorisations, other.factorisations);
@@ -180,7 +151,7 @@ fn systems_scale_without_rounding() {
         let system = random(seed, &kinds[..=k % 3], k % 2 == 0);
         let one = network::solve(&system, &network::Settings::default());
         for factors in FACTORS {
-            let other = scaled_system(&system, factors);
+            let other = samples::scaled(&system, factors);
             let other = network::solve(&other, &network::Settings::default());
             match (&one, &other) {
                 (Ok(one), Ok(other)) => {
@@ -228,7 +199,7 @@ fn floors_push_small_weights() {
         let on = |system: System| {
             network::solve(&system.with_floor(floor_m).unwrap(), &network::Settings::default())
         };
-        let other = on(scaled_system(&system, factors));
+        let other = on(samples::scaled(&system, factors));
         match (on(system), other) {
             (Ok(one), Ok(other)) => {
                 answers += 1;

@@ -59,8 +59,7 @@ pub(super) fn modes(
             let part = unit.dot(b);
             unit.axpy(-part, b, 1.0);
         }
-        let room = named.len() + others.len() < zeros.len();
-        if room && unit.norm() > 1.0 / (2.0 * zeros.len() as f64).sqrt() {
+        if unit.norm() > 1.0 / (2.0 * zeros.len() as f64).sqrt() {
             others.push(unit.normalize());
         }
     }

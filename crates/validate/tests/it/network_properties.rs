@@ -82,28 +82,7 @@ fn members_may_run_either_way() {
 fn units_do_not_matter() {
     for (length, mass) in [(0.125, 256.0), (1024.0, 0.03125)] {
         for (system, answers_before) in systems() {
-            let place = |at_m: [f64; 3]| at_m.map(|x| length * x);
-            let joints = system.joints().iter().map(|joint| Joint {
-                support: match joint.support {
-                    Support::Fixed { at_m } => Support::Fixed { at_m: place(at_m) },
-                    other => other,
-                },
-                mass_kg: mass * joint.mass_kg,
-                force_n: joint.force_n.map(|n| mass * n),
-                ..joint.clone()
-            });
-            let members = system.members().iter().map(|member| {
-                let body = &member.body;
-                let [long, centre] = [body.length_m(), body.centre_m()].map(|x| length * x);
-                Member {
-                    body: Bar::new(long, mass * body.mass_kg(), centre, [0.0; 3]).unwrap(),
-                    stiffness_n: member.stiffness_n.map(|n| mass * n),
-                    ..member.clone()
-                }
-            });
-            let gravity = system.gravity_m_s2();
-            let scaled = System::new("scaled", gravity, joints.collect(), members.collect());
-            let found = answers(&scaled.unwrap()).unwrap();
+            let found = answers(&samples::scaled(&system, [length, mass, 1.0])).unwrap();
             for (found, wanted) in found.iter().zip(&answers_before) {
                 same(found, wanted, [length, mass]);
             }

@@ -51,6 +51,35 @@ fn unknowns_fall_apart_by_their_symmetry() {
     assert_eq!(sizes(0.1, 0.0, down), Some(vec![5, 2]));
 }
 
+/// Five bars of 1, 2, 3, 2 and 1 m, alike otherwise, are turned over end for end: each joint goes to the one that
+/// stands there, not to the first that looks like it. A shape off by more than a ten-millionth of their 9 m is
+/// its own image across the plane it lies in alone.
+#[test]
+fn joints_go_where_their_images_stand() {
+    let heights = [0.0, -0.5, -1.5, -1.5, -0.5, 0.0];
+    let places = [-3.0, -2.5, -1.0, 1.0, 2.5, 3.0];
+    let mut shape: Vec<Point> = (0..6).map(|k| [places[k], 0.0, heights[k]]).collect();
+    let joints = (0..6).map(|k| match k {
+        0 | 5 => Joint::anchor(format!("{k}"), shape[k]),
+        _ => Joint::free(format!("{k}")).with_force([0.0, 0.0, -1.0]),
+    });
+    let bars = [1.0, 2.0, 3.0, 2.0, 1.0].map(|length_m| Bar::homogeneous(length_m, 1.0).unwrap());
+    let members = bars.into_iter().enumerate().map(|(k, bar)| Member::bar(k, k + 1, bar));
+    let system = System::new("chain", 9.81, joints.collect(), members.collect()).unwrap();
+    for (off, mirrors) in [(0.0, 2), (0.8e-6, 2), (1.0e-6, 1)] {
+        shape[3][2] = heights[3] + off;
+        let symmetry = Symmetry::of(&[&system], &shape).unwrap();
+        assert_eq!(symmetry.mirrors.len(), mirrors, "{off}");
+        for mirror in &symmetry.mirrors {
+            let across = mirror.axes[0].1 < 0.0;
+            let images = |count: usize| {
+                (0..count).map(|k| if across { count - 1 - k } else { k }).collect::<Vec<_>>()
+            };
+            assert_eq!((&mirror.joints, &mirror.members), (&images(6), &images(5)));
+        }
+    }
+}
+
 /// The derivative at a symmetric shape maps each block into itself.
 #[test]
 fn blocks_are_kept_by_the_derivative() {

@@ -1,0 +1,94 @@
+//! The bifurcation diagram against closed forms, in pixels.
+
+use branches::{
+    Abscissa, Combine, Continuation, ContinuationSettings, EventKind, Variation, diagram,
+};
+
+fn run(vary: &[&str]) -> Continuation {
+    let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
+    let chain = model::cases::paper().into_chain();
+    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap()
+}
+
+fn attribute(line: &str, name: &str) -> f64 {
+    let (_, rest) = line.split_once(&format!(" {name}=\"")).unwrap();
+    rest.split_once('"').unwrap().0.parse().unwrap()
+}
+
+/// Level anchors from 1.1 m to 1.3 m apart, on 770 pixels with a margin of 2 % of the range on both sides.
+#[test]
+fn folds_stand_where_the_distance_is_the_root_of_three_halves() {
+    let found = run(&["anchors.end_m.z=0", "anchors.end_m.x=1.1..1.3:3"]);
+    for abscissa in [Abscissa::Parameter, Abscissa::Span] {
+        let svg = diagram(&found, "level", abscissa, 2);
+        let circles: Vec<&str> = svg.lines().filter(|line| line.contains("<circle")).collect();
+        let folds: Vec<_> = found.events.iter().filter(|e| e.kind == EventKind::Fold).collect();
+        // In both panels, and once in the legend.
+        assert_eq!((folds.len(), circles.len()), (4, 9));
+        let x = 100.0 + 770.0 * (1.5_f64.sqrt() - 1.1 + 0.004) / 0.208;
+        for (circle, fold) in circles[4..8].iter().zip(&folds) {
+            let y = 750.0 - 310.0 * (fold.angles_rad[1].to_degrees() + 190.0) / 380.0;
+            let at = [attribute(circle, "cx"), attribute(circle, "cy")];
+            assert!((at[0] - x).abs() < 0.01 && (at[1] - y).abs() < 0.01, "{at:?} {x} {y}");
+        }
+        // Of energies the highest is as far below the upper edge as the lowest above the lower one: 5 % of their
+        // range.
+        let points = || found.branches.iter().flat_map(|branch| &branch.points);
+        let low = points().map(|point| point.energy_j).fold(f64::INFINITY, f64::min);
+        let high = points().map(|point| point.energy_j).fold(f64::NEG_INFINITY, f64::max);
+        for (circle, fold) in circles[..4].iter().zip(&folds) {
+            let part = (fold.energy_j - low + 0.05 * (high - low)) / (1.1 * (high - low));
+            assert!((attribute(circle, "cy") - (400.0 - 310.0 * part)).abs() < 0.01);
+        }
+        let named = |text: &str| svg.matches(&format!(">{text}<")).count();
+        let over = match abscissa {
+            Abscissa::Parameter => "anchors.end_m.x / m",
+            Abscissa::Span => "distance of the anchors / m",
+        };
+        let angle = "angle of bar 2 from the vertical / \u{b0}";
+        assert_eq!([over, angle, "anchors.end_m.z = 0 m"].map(named), [1, 1, 1]);
+    }
+}
+
+/// What is drawn is in the legend, and nothing else.
+#[test]
+fn legends_name_what_is_drawn() {
+    let level = ["anchors.end_m.z=0", "anchors.end_m.x=0.05..2.9:12"];
+    let upright = ["anchors.end_m.z=-3.3..-0.9:9"];
+    for (vary, wanted) in [
+        (&["anchors.end_m.z=0", "anchors.end_m.x=2.5..2.9:2"][..], vec![]),
+        (
+            &level[..],
+            vec!["fold", "branch point", "straight chain"],
+        ),
+        (&upright[..], vec!["straight chain", "no chain"]),
+        (&["anchors.end_m.x=1", "anchors.end_m.z=-2.2..-1.8:2"][..], vec!["several branches meet"]),
+    ] {
+        let found = run(vary);
+        let svg = diagram(&found, "drawn", Abscissa::Parameter, 1);
+        let points = || found.branches.iter().flat_map(|branch| &branch.points);
+        let styles = [
+            ("stable in space", points().any(|p| p.index_in_space == 0)),
+            (
+                "stable in the plane only",
+                points().any(|p| p.index_in_space > 0 && p.index_in_plane == 0),
+            ),
+            ("unstable", points().any(|p| p.index_in_plane > 0)),
+        ];
+        for (name, drawn) in styles {
+            assert_eq!(svg.contains(&format!(">{name}<")), drawn, "{vary:?}: {name}");
+        }
+        let exchanges = found.events.iter().any(|event| event.kind.name() == "space-exchange");
+        for (name, drawn) in [
+            ("fold", wanted.contains(&"fold")),
+            ("several branches meet", wanted.contains(&"several branches meet")),
+            ("branch point", wanted.contains(&"branch point")),
+            ("straight chain", wanted.contains(&"straight chain")),
+            ("stability in space changes", exchanges),
+            ("no chain", wanted.contains(&"no chain")),
+        ] {
+            assert_eq!(svg.contains(&format!(">{name}<")), drawn, "{vary:?}: {name}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The same system in other units.
+
+use model::system::{Joint, Member, PointLoad, Support, System};
+use model::{Bar, Vector};
+
+/// A system with its lengths, masses and gravity times these factors: where they are powers of two, not a digit
+/// of its answers changes but by them. So a number in some unit that is added to one in another is noticed,
+/// whatever its size.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// let joints = vec![Joint::anchor("A", [0.0, 0.0, 3.0]), Joint::free("P").with_force([0.0, 0.0, -5.0])];
+/// let members = vec![Member::bar(0, 1, Bar::homogeneous(1.0, 2.0)?).with_stiffness(10.0)];
+/// let other = samples::scaled(&System::new("s", 9.81, joints, members)?, [4.0, 0.5, 2.0]);
+/// assert_eq!((other.total_length_m(), other.total_mass_kg()), (4.0, 1.0));
+/// assert_eq!((other.members()[0].stiffness_n, other.joints()[1].force_n[2]), (Some(10.0), -5.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Panics
+///
+/// Where the factors make no system of it.
+#[must_use]
+pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
+    let force = mass * gravity;
+    let times = |vector: Vector, factor: f64| vector.map(|x| x * factor);
+    let joints = system.joints().iter().map(|joint| {
+        let mut support = joint.support;
+        match &mut support {
+            Support::Free => {}
+            Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
+                *at_m = times(*at_m, length);
+            }
+        }
+        Joint {
+            name: joint.name.clone(),
+            support,
+            mass_kg: joint.mass_kg * mass,
+            force_n: times(joint.force_n, force),
+            near_m: joint.near_m.map(|at_m| times(at_m, length)),
+        }
+    });
+    let members = system.members().iter().map(|member| {
+        let given = member.clone().as_given();
+        let bar = &given.body;
+        let inertia = bar.given_inertia_kg_m2().map(|x| times(x, mass * length * length));
+        let centre_m = bar.given_centre_m().map(|x| x * length);
+        let body = Bar::given(bar.length_m() * length, bar.mass_kg() * mass, centre_m, inertia);
+        let load = |load: &PointLoad| PointLoad {
+            at_m: load.at_m * length,
+            force_n: times(load.force_n, force),
+        };
+        let scaled = Member {
+            body: body.expect("a bar in other units"),
+            stiffness_n: given.stiffness_n.map(|stiffness_n| stiffness_n * force),
+            length_tolerance_m: given.length_tolerance_m.map(|within_m| within_m * length),
+            loads: given.loads.iter().map(load).collect(),
+            ..given
+        };
+        match member.prestress_n() {
+            Some(prestress_n) => scaled.with_prestress(prestress_n * force).expect("as before"),
+            None => scaled,
+        }
+    });
+    let gravity_m_s2 = system.gravity_m_s2() * gravity;
+    let scaled = System::new(system.name(), gravity_m_s2, joints.collect(), members.collect())
+        .expect("a system in other units");
+    match system.floor_m() {
+        Some(floor_m) => scaled.with_floor(floor_m * length).expect("a floor"),
+        None => scaled,
+    }
+}
