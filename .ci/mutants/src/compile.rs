@@ -110,7 +110,7 @@ fn program(message: &Value, options: &Options) -> Option<Program> {
 }
 
 /// The changes that an error is about: the innermost one around a place that it names, else all between these places,
-/// or on their lines.
+/// or on their lines, else the last one before them, as a value that a function returns at once.
 fn blamed(tree: &Tree, error: &Value) -> Result<BTreeSet<u32>, Failure> {
     let mut spans = Vec::new();
     collect(error, &mut spans);
@@ -137,6 +137,10 @@ fn blamed(tree: &Tree, error: &Value) -> Result<BTreeSet<u32>, Failure> {
                     .filter(|(_, region)| region.start < to && from < region.end)
                     .map(|(id, _)| *id),
             );
+            let before = regions.iter().filter(|(_, region)| region.end <= from);
+            if blamed.is_empty() {
+                blamed.extend(before.max_by_key(|(_, region)| region.start).map(|(id, _)| *id));
+            }
         }
     }
     Ok(blamed)

@@ -80,7 +80,8 @@ impl Visitor<'_> {
             .map(|(id, text)| format!("if crate::mx::on({id}) {{ {text} /*{id}*/ }} else "))
             .collect();
         let (start, end) = (self.lines.byte(whole.start), self.lines.byte(whole.end));
-        self.insertions.around(start, end, format!("({arms}{{ "), " })");
+        // In parentheses: what begins with `if` and goes on would be a statement.
+        self.insertions.around(start, end, format!("({arms}{{ ("), ") })");
     }
 }
 

@@ -52,7 +52,10 @@ impl Tree {
         for (file, mutants) in &files {
             let source = std::fs::read_to_string(file)?;
             let (mut text, ids) = place::switched(&source, mutants)?;
-            syn::parse_file(&text).map_err(|error| format!("{}: {error}", file.display()))?;
+            syn::parse_file(&text).map_err(|error| {
+                let line = text.lines().nth(error.span().start().line - 1).unwrap_or_default();
+                format!("{}: {error} in\n{line}", file.display())
+            })?;
             if *file == self.krate.join("src/lib.rs") {
                 text.push_str("\n#[doc(hidden)]\npub mod mx;\n");
             }

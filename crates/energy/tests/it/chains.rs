@@ -257,6 +257,16 @@ fn bad_seeds_and_settings_are_refused_with_their_numbers() {
         minimise_from(&chain, &upside_down, &short).unwrap_err(),
         Error::IterationLimit { iterations: 1, .. }
     ));
+    // However few are asked for, and however near that was.
+    let iterations = minimise_from(&chain, &upside_down, &settings).unwrap().work.iterations;
+    for max_iterations in 1..iterations {
+        let short = Settings { max_iterations, ..settings };
+        let refused = minimise_from(&chain, &upside_down, &short).unwrap_err();
+        assert!(
+            matches!(refused, Error::IterationLimit { iterations, .. } if iterations == max_iterations),
+            "{max_iterations}: {refused}"
+        );
+    }
     // A seed of another chain.
     let other = problem(&equal(4, 1.0), [0.5, 0.0, 0.0], 9.81);
     let seed = Seed::angles(&other, &[0.0; 4]).unwrap();

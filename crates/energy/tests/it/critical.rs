@@ -77,3 +77,28 @@ fn springs_bear_what_their_length_says() {
     // Across: 10 N over 2.5 m, and twice 40 N · 5 / 6 over 5 m; the stiffest is the spring, 20 N/m.
     close(found.curvature.expect("it is small"), (4.0 + 2.0 * 200.0 / 30.0) / 20.0);
 }
+
+/// What rounding of the places leaves open: eight roundings of the furthest place over the shortest length, times
+/// the stiffness of the stiffest member over the largest force. Of members of 2 m and 0.25 m, 40 GN and 10 N.
+#[test]
+fn stiff_members_may_be_out_of_balance_by_rounding() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [0.0, 0.0, -2.25]),
+        Joint::free("P").with_mass(0.5),
+    ];
+    for stiffness_n in [4e10, 3e8] {
+        let members = vec![
+            bar(0, 2, 2.0, 0.0).with_stiffness(stiffness_n),
+            bar(1, 2, 0.25, 0.0).with_stiffness(10.0),
+        ];
+        let system = System::new("stiff", 10.0, joints.clone(), members).expect("a system");
+        let at_m = [[0.0; 3], [0.0, 0.0, -2.25], [0.0, 0.0, -2.0 * (1.0 + 5.0 / stiffness_n)]];
+        let found = critical(&system, &at_m).expect("it has an energy").expect("it is small");
+        let reference_m = system.reference_m();
+        let extent_m = at_m.iter().map(|at| (at[2] - reference_m[2]).abs()).fold(0.0, f64::max);
+        let rounding = 8.0 * f64::EPSILON * (1.0 + extent_m / 0.25) * stiffness_n / 5.0;
+        assert!((found.allowed / (1e-9 + rounding) - 1.0).abs() < 1e-4, "{found:?} {rounding:e}");
+        assert!(found.is_equilibrium(), "{found:?}");
+    }
+}

@@ -5,7 +5,7 @@ use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed;
 use lagrange::network::{self, Solution};
 use lagrange::{Settings, solve_from};
-use model::system::{Kind, Support};
+use model::system::{Kind, Support, System};
 use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
 use rand::RngExt;
 

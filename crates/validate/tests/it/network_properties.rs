@@ -1,7 +1,7 @@
 //! What must not matter to a system of mixed members, and what elastic ones tend to.
 
 use model::Bar;
-use model::system::{Joint, Member, PointLoad, Support, System, SystemEquilibrium};
+use model::system::{Member, PointLoad, System, SystemEquilibrium};
 use validate::Solvers;
 use validate::systems::ask;
 

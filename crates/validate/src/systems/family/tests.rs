@@ -222,3 +222,53 @@ fn a_floor_is_touched_to_the_rounding_of_places() {
     assert_eq!([0.0, -5e-15].map(count), [Some(2); 2]);
     assert_eq!([-2e-14, -1e-12, -1e-9].map(count), [Some(1); 3]);
 }
+
+/// A bar may be off by its tolerance, and so may a cable that bears; one that does not by a rounding of its 4 m; a
+/// spring has no length to be off from.
+#[test]
+fn misfits_are_those_of_members_at_their_lengths() {
+    let body = Bar::homogeneous(4.0, 0.0).unwrap();
+    let bar = Member::bar(0, 1, body);
+    let cable = Member::cable(0, 1, body).with_length_tolerance(1e-3);
+    for (member, off_m, bears, within) in [
+        (bar.clone(), 3.9e-9, false, true),
+        (bar.clone(), -3.9e-9, true, true),
+        (bar.clone(), 4.1e-9, true, false),
+        (bar.clone().with_length_tolerance(1e-3), -0.9e-3, false, true),
+        (bar.clone().with_length_tolerance(1e-3), 1.1e-3, false, false),
+        (cable.clone(), -0.9e-3, true, true),
+        (cable.clone(), -0.9e-3, false, false),
+        (cable.clone(), -3.9e-9, false, true),
+        (cable.clone(), -4.1e-9, false, false),
+        (bar.with_stiffness(1e6), 0.0, true, false),
+    ] {
+        let found = misfit(&member, 4.0 + off_m, bears);
+        assert_eq!(found.is_some(), within, "{member:?} {off_m} {bears}");
+        assert!(found.is_none_or(|found| (found - off_m).abs() < 1e-15));
+    }
+}
+
+/// A ring on an upright line between bars of 4 m and 2 m: of 0.6 mm too long and 0.3 mm too short, together
+/// 0.3 mm, the longer keeps two parts and the shorter one.
+#[test]
+fn what_no_shape_removes_is_shared_by_length() {
+    let support = Support::Line { at_m: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    let joints = vec![
+        Joint::anchor("A", [0.0, 0.0, 4.0]),
+        Joint::anchor("B", [0.0, 0.0, -2.0]),
+        Joint { support, ..Joint::free("P") },
+    ];
+    let member = |from: usize, length_m: f64| {
+        Member::bar(from, 2, Bar::homogeneous(length_m, 0.0).unwrap()).with_length_tolerance(1e-3)
+    };
+    let members = vec![member(0, 3.9994), member(1, 2.0003)];
+    let system = System::new("ring", 10.0, joints, members).unwrap();
+    let (_, like) = lamp();
+    let joints_m = vec![[0.0, 0.0, 4.0], [0.0, 0.0, -2.0], [0.0; 3]];
+    let family = Family::of(&system, &SystemEquilibrium { joints_m, ..like }).unwrap();
+    for (found, wanted) in family.unremovable_m(&system).iter().zip([0.2e-3, 0.1e-3]) {
+        assert!((found - wanted).abs() < 1e-7, "{found}, not {wanted}");
+    }
+    let parts = family.part_of(&[1.0, 0.0]);
+    assert!(parts.iter().all(|part| (part - 0.5).abs() < 1e-14), "{parts:?}");
+}
