@@ -210,3 +210,50 @@ fn node(plane: &PlanarChain, position: f64, found: &ProvenEquilibrium, facing: f
     };
     Node { y, seen, agrees }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::variation::{Combine, Variation};
+
+    /// Of the three bars of the paper between other anchors.
+    #[test]
+    fn a_census_is_held_against_the_formulas_of_the_curves() {
+        let vary =
+            ["anchors.end_m.x=0.7".parse().unwrap(), "anchors.end_m.z=-1.3".parse().unwrap()];
+        let chain = model::cases::paper().into_chain();
+        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+        let paths = variation.paths();
+        let path = Path::new(&variation, &paths[0]);
+        let problem = path.problem(&path.values_at(0.0)).unwrap();
+        let census = Census::take(&problem, &census::Settings::default()).unwrap();
+        let plane = path.plane(0.0);
+        for found in &census.equilibria {
+            let agrees = |change: &dyn Fn(&mut ProvenEquilibrium)| {
+                let mut found = found.clone();
+                change(&mut found);
+                node(&plane, 0.0, &found, 1.0).agrees
+            };
+            assert!(agrees(&|_| {}));
+            assert!(!agrees(&|found| found.index_in_plane += 1));
+            assert!(!agrees(&|found| found.index_out_of_plane += 1));
+            let joule = plane.total_n * plane.length_unit_m;
+            let higher = |by: f64| numerics::Interval::point(by * joule);
+            assert!(!agrees(&|found| found.energy_j = found.energy_j + higher(1e-10)));
+            assert!(agrees(&|found| found.energy_j = found.energy_j + higher(1e-12)));
+            // The same pull in newtons, by the angles and the shares of the weights.
+            let seen = node(&plane, 0.0, found, 1.0);
+            let own = Observables::at(&plane, &seen.y);
+            for (own, census) in own.pull_n.iter().zip(seen.seen.pull_n) {
+                assert!((own - census).abs() < 1e-12 * plane.total_n, "{own} {census}");
+            }
+            for (own, census) in own.axial_n.iter().zip(&seen.seen.axial_n) {
+                assert!((own - census).abs() < 1e-11 * plane.total_n, "{own} {census}");
+            }
+            // Its mirror image pulls to the other side.
+            let image = node(&plane, 0.0, found, -1.0);
+            assert_eq!(image.seen.pull_n, [-seen.seen.pull_n[0], seen.seen.pull_n[1]]);
+            assert!(image.agrees && image.y.rows(0, 3) == -seen.y.rows(0, 3));
+        }
+    }
+}

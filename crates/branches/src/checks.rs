@@ -84,10 +84,13 @@ fn branch_indices(branches: &[Branch], position: f64) -> Vec<[usize; 2]> {
         .iter()
         .filter(|branch| branch.covers(position))
         .filter_map(|branch| {
-            // Behind an event the index is that of the next point.
+            // Behind an event the index is that of the next point; so it is where a branch begins, as it may on
+            // the vertical, whose turn is no part of the index.
             let after = branch.points.partition_point(|point| point.position < position);
             let before = branch.before(position)?;
-            let point = if before.event.is_some() { branch.points.get(after)? } else { before };
+            let begins = before.position <= branch.points[0].position;
+            let next = before.event.is_some() || begins;
+            let point = if next { branch.points.get(after)? } else { before };
             Some([point.index_in_plane, point.index_in_space])
         })
         .collect();

@@ -414,3 +414,35 @@ fn count_disagreements(census_points: &[CensusPoint], checks: &mut Checks) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::variation::Combine;
+
+    /// An equilibrium that is seen otherwise, and a sum of indices that is not the Euler characteristic.
+    #[test]
+    fn disagreements_are_counted() {
+        let vary = ["anchors.end_m.x=0.7".parse().unwrap()];
+        let chain = model::cases::paper().into_chain();
+        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+        let paths = variation.paths();
+        let path = Path::new(&variation, &paths[0]);
+        let point = CensusPoint::at(&path, 0.0, Some(0), &census::Settings::default()).unwrap();
+        let counted = |change: &dyn Fn(&mut CensusPoint)| {
+            let mut other = point.clone();
+            change(&mut other);
+            let mut checks = Checks::default();
+            count_disagreements(&[point.clone(), other], &mut checks);
+            (checks.disagreements, checks.euler_violations)
+        };
+        assert_eq!(counted(&|_| {}), (0, 0));
+        let other = |point: &mut CensusPoint| point.nodes.as_mut().unwrap()[1].agrees = false;
+        assert_eq!(counted(&other), (1, 0));
+        let other = |point: &mut CensusPoint| {
+            let PointStatus::Complete { alternating_sum, .. } = &mut point.status else { panic!() };
+            *alternating_sum += 2;
+        };
+        assert_eq!(counted(&other), (0, 1));
+    }
+}

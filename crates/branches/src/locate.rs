@@ -158,6 +158,15 @@ mod tests {
                 assert!(asked < 60, "{asked}");
             }
         }
+        // Points that are asked for, of which each gains digits: a bend, one to either side, a step.
+        let tests: [(&dyn Fn(f64) -> f64, usize); 4] = [
+            (&|x| x * x - 0.5, 11),
+            (&|x| 0.5 - x.powi(5), 13),
+            (&|x| (x - 0.3).cbrt(), 39),
+            (&|x| if x > 0.7 { 1.0 } else { -3.0 }, 54),
+        ];
+        let found = tests.map(|(test, _)| between(0.0, 1.0, test).1);
+        assert_eq!(found, tests.map(|(_, asked)| asked));
         let line = |x: f64| 3.0 * x - 1.5;
         assert_eq!(between(0.5, 2.0, &line).0, Some((0.0, 0.5)));
         assert_eq!(between(-1.0, 0.5, &line).0, Some((1.0, 0.5)));

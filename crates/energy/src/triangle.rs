@@ -149,3 +149,18 @@ fn direction(v: Wide) -> Wide {
     let size = product(v, v).sqrt();
     v.map(|x| x / size)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_cross_to_the_right() {
+        let found = crossed(wide([2.0, 3.0, -5.0]), wide([7.0, 11.0, 13.0]));
+        assert_eq!(found.map(Twofold::value), [94.0, -61.0, 1.0]);
+        let along = direction(wide([2.0, -3.0, 6.0])).map(Twofold::value);
+        assert_eq!(along, [2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0]);
+        let part = product(wide([2.0, 3.0, -5.0]), wide([7.0, 11.0, 13.0])).value();
+        assert!((part + 18.0).abs() < 1e-15, "{part}");
+    }
+}

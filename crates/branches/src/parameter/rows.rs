@@ -81,7 +81,9 @@ fn is_between(joint: &Joint, before: &str) -> bool {
     let bare = joint.mass_kg <= 0.0 && joint.force_n.iter().all(|x| x.abs() <= 0.0);
     let follows = match joint.name.rsplit_once('.') {
         Some((row, "1")) => row.strip_prefix(before).is_some_and(|rest| rest.starts_with('-')),
-        Some((row, k)) => k.parse().is_ok_and(|k: usize| before == format!("{row}.{}", k - 1)),
+        Some((row, k)) => {
+            k.parse().is_ok_and(|k: usize| k > 0 && before == format!("{row}.{}", k - 1))
+        }
         None => joint.name.parse().is_ok_and(|k: usize| k > 0 && before == (k - 1).to_string()),
     };
     bare && follows && matches!(joint.support, Support::Free | Support::Plane { .. })
@@ -198,9 +200,15 @@ mod tests {
     #[test]
     fn runs_end_where_bars_do_not_belong_to_the_next() {
         let belongs = |k: usize| [0, 1, 5].contains(&k);
-        for (of, ends) in
-            [(0, [0, 2]), (1, [0, 2]), (2, [0, 2]), (3, [3, 3]), (4, [4, 4]), (5, [5, 6]), (6, [5, 6])]
-        {
+        for (of, ends) in [
+            (0, [0, 2]),
+            (1, [0, 2]),
+            (2, [0, 2]),
+            (3, [3, 3]),
+            (4, [4, 4]),
+            (5, [5, 6]),
+            (6, [5, 6]),
+        ] {
             assert_eq!(run(of, 7, belongs), ends);
             assert_eq!(run(of, 7, |_| true), [0, 6]);
             assert_eq!(run(of, 7, |_| false), [of, of]);
@@ -213,5 +221,49 @@ mod tests {
         assert_eq!(range(6, 6), Some(Which::Range(6, 7)));
         assert_eq!(range(6, 9), Some(Which::Range(6, 7)));
         assert_eq!((range(3, 4), range(5, 6), range(8, 8)), (None, None, None));
+    }
+
+    /// A row of A is A-R.1, A-R.2.., a chain 1, 2..: without load, and free or in a plane.
+    #[test]
+    fn joints_of_a_row_follow_by_their_numbers() {
+        for (name, before, follows) in [
+            ("A-R.1", "A", true),
+            ("A-R.1", "B", false),
+            ("A-R.2", "A-R.1", true),
+            ("A-R.3", "A-R.1", false),
+            ("A-R.0", "A", false),
+            ("1", "0", true),
+            ("12", "11", true),
+            ("0", "", false),
+            ("2", "0", false),
+            ("P", "A", false),
+        ] {
+            let joint = Joint::free(name);
+            assert_eq!(is_between(&joint, before), follows, "{before} {name}");
+            assert!(!is_between(&joint.clone().with_mass(0.1), before), "{before} {name}");
+            assert!(!is_between(&joint.clone().with_force([0.0, -1.0, 0.0]), before));
+            assert!(!is_between(&Joint::anchor(name, [0.0; 3]), before), "{before} {name}");
+            let support = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+            assert_eq!(is_between(&Joint { support, ..joint }, before), follows);
+        }
+    }
+
+    /// Of three bars from (1, 2, 3) to (4, 8, -3) the joints are drawn at a third and two of the way; where nothing
+    /// is drawn they are not.
+    #[test]
+    fn new_joints_are_drawn_between_the_ends() {
+        let drawn = Joint { near_m: Some([4.0, 8.0, -3.0]), ..Joint::free("B") };
+        let joints = [Joint::anchor("A", [1.0, 2.0, 3.0]), Joint::free("A-R.1"), drawn];
+        let new = joints_between(&joints, [0, 2], Some(&joints[1]), 3);
+        let names: Vec<&str> = new.iter().map(|joint| joint.name.as_str()).collect();
+        assert_eq!(names, ["A-R.1", "A-R.2"]);
+        for (joint, wanted) in new.iter().zip([[2.0, 4.0, 1.0], [3.0, 6.0, -1.0]]) {
+            let at = joint.near_m.unwrap();
+            assert!((0..3).all(|k| (at[k] - wanted[k]).abs() < 1e-14), "{at:?}");
+            assert_eq!(joint.support, Support::Free);
+        }
+        let joints = [Joint::anchor("A", [1.0, 2.0, 3.0]), Joint::anchor("B", [4.0, 8.0, -3.0])];
+        let new = joints_between(&joints, [0, 1], None, 2);
+        assert_eq!((new.len(), new[0].name.as_str(), new[0].near_m), (1, "A-B.1", None));
     }
 }

@@ -157,6 +157,34 @@ fn stability_in_space_is_exchanged_where_the_anchors_pass_one_vertical() {
     }
 }
 
+/// An exchange on the vertical itself is a point of its branch; one that a path begins or ends with is none.
+#[test]
+fn exchanges_on_the_vertical_are_points_of_their_branches() {
+    let trace =
+        run("three-equal-bars", &["anchors.end_m.z=-0.5", "anchors.end_m.x=-0.6..0.6:5"], 0);
+    sound(&trace);
+    let mut exchanges = 0;
+    for event in &trace.events {
+        let EventKind::SpaceExchange { from, to } = event.kind else { continue };
+        exchanges += 1;
+        assert_eq!((event.values[1], event.branches.len()), (0.0, 1));
+        let branch = &trace.branches[event.branches[0] - 1];
+        let at = branch.points.iter().position(|point| point.event == Some(event.id)).unwrap();
+        let [before, here, after] = [at - 1, at, at + 1].map(|k| &branch.points[k]);
+        assert_eq!((before.index_in_space, after.index_in_space), (from, to));
+        assert_eq!(here.angles_rad, event.angles_rad);
+        assert_eq!((here.position, here.energy_j), (event.position, event.energy_j));
+    }
+    assert_eq!(exchanges, 4);
+    for range in ["-0.6..0:4", "0..0.6:4"] {
+        let vary = ["anchors.end_m.z=-0.5", &format!("anchors.end_m.x={range}")];
+        let trace = run("three-equal-bars", &vary, 0);
+        sound(&trace);
+        let exchanges = trace.events.iter().filter(|event| event.kind.name() == "space-exchange");
+        assert_eq!(exchanges.count(), 0, "{range}");
+    }
+}
+
 /// The mirror image of a path has the mirror image of its events.
 #[test]
 fn a_mirrored_path_has_mirrored_folds() {

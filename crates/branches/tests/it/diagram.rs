@@ -58,10 +58,7 @@ fn legends_name_what_is_drawn() {
     let upright = ["anchors.end_m.z=-3.3..-0.9:9"];
     for (vary, wanted) in [
         (&["anchors.end_m.z=0", "anchors.end_m.x=2.5..2.9:2"][..], vec![]),
-        (
-            &level[..],
-            vec!["fold", "branch point", "straight chain"],
-        ),
+        (&level[..], vec!["fold", "branch point", "straight chain"]),
         (&upright[..], vec!["straight chain", "no chain"]),
         (&["anchors.end_m.x=1", "anchors.end_m.z=-2.2..-1.8:2"][..], vec!["several branches meet"]),
     ] {
@@ -89,6 +86,67 @@ fn legends_name_what_is_drawn() {
             ("no chain", wanted.contains(&"no chain")),
         ] {
             assert_eq!(svg.contains(&format!(">{name}<")), drawn, "{vary:?}: {name}");
+        }
+    }
+}
+
+/// Marks by their corners: triangles where the anchors pass a vertical, between ±0.6 m; diamonds and squares where
+/// level anchors are 2^(2/3) - 1 and 1 from each other, between 0.4 m and 1.1 m.
+#[test]
+fn marks_have_their_corners_around_their_events() {
+    let corners = |line: &str| -> Vec<[f64; 2]> {
+        let (_, rest) = line.split_once("points=\"").unwrap();
+        let pair = |text: &str| {
+            let (x, y) = text.split_once(',').unwrap();
+            [x.parse().unwrap(), y.parse().unwrap()]
+        };
+        rest.split_once('"').unwrap().0.split(' ').map(pair).collect()
+    };
+    let angle = |degrees: f64| 750.0 - 310.0 * (degrees + 190.0) / 380.0;
+    for (vary, kind, low, high, shape) in [
+        (
+            ["anchors.end_m.z=-0.5", "anchors.end_m.x=-0.6..0.6:5"],
+            "space-exchange",
+            -0.6,
+            0.6,
+            vec![[0.0, -6.0], [5.5, 4.0], [-5.5, 4.0]],
+        ),
+        (
+            ["anchors.end_m.z=0", "anchors.end_m.x=0.4..1.1:4"],
+            "branch-point",
+            0.4,
+            1.1,
+            vec![[0.0, -6.0], [6.0, 0.0], [0.0, 6.0], [-6.0, 0.0]],
+        ),
+    ] {
+        let found = run(&vary);
+        let svg = diagram(&found, "marks", Abscissa::Parameter, 1);
+        let drawn: Vec<_> =
+            svg.lines().filter(|line| line.contains("<polygon")).map(corners).collect();
+        let events: Vec<_> = found.events.iter().filter(|e| e.kind.name() == kind).collect();
+        // In both panels, and once in the legend.
+        assert!(!events.is_empty() && drawn.len() == 2 * events.len() + 1, "{}", drawn.len());
+        for (found, event) in drawn[events.len()..].iter().zip(&events) {
+            let x = 100.0 + 770.0 * ((event.values[1] - low) / (high - low) + 0.02) / 1.04;
+            let y = angle(event.angles_rad[0].to_degrees());
+            assert_eq!(found.len(), shape.len());
+            for (found, [right, down]) in found.iter().zip(&shape) {
+                assert!((found[0] - x - right).abs() < 0.01, "{found:?} {x} {right}");
+                assert!((found[1] - y - down).abs() < 0.01, "{found:?} {y} {down}");
+            }
+        }
+        let squares: Vec<&str> = svg
+            .lines()
+            .filter(|line| line.contains("<rect") && line.contains("\"8.00\""))
+            .collect();
+        let straight: Vec<_> =
+            found.events.iter().filter(|event| event.kind == EventKind::Straight).collect();
+        assert_eq!(squares.len(), if straight.is_empty() { 0 } else { 2 * straight.len() + 1 });
+        for (square, event) in squares.iter().skip(straight.len()).zip(&straight) {
+            let x = 100.0 + 770.0 * ((event.values[1] - low) / (high - low) + 0.02) / 1.04;
+            let y = angle(event.angles_rad[0].to_degrees());
+            assert!((attribute(square, "x") - (x - 4.0)).abs() < 0.01, "{square} {x}");
+            assert!((attribute(square, "y") - (y - 4.0)).abs() < 0.01, "{square} {y}");
         }
     }
 }

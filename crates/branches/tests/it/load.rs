@@ -1,6 +1,8 @@
 //! Load paths of potentials with closed forms.
 
-use branches::load::{End, Equations, Kind, LoadPath, NoPath, Parent, Settings, follow};
+use branches::load::{
+    End, Equations, Kind, LoadPath, NoPath, Parent, Settings, difference, follow, linear_buckling,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// The gradient of a potential of x and z and its second derivative, both at a load t.
@@ -13,11 +15,22 @@ struct Potential {
     matrix: DMatrix<f64>,
     /// How often the gradient was asked for, and a factor.
     asked: [usize; 2],
+    /// How many of x and z are places.
+    places: usize,
+    /// Loads at which there is a gradient.
+    loads: [f64; 2],
 }
 
 impl Potential {
     fn new(gradient: Gradient, second: Second) -> Self {
-        Self { gradient, second, matrix: DMatrix::zeros(2, 2), asked: [0; 2] }
+        Self {
+            gradient,
+            second,
+            matrix: DMatrix::zeros(2, 2),
+            asked: [0; 2],
+            places: 2,
+            loads: [f64::NEG_INFINITY, f64::INFINITY],
+        }
     }
 
     fn path(self, start: [f64; 2], range: [f64; 2]) -> Result<LoadPath<Self>, NoPath<()>> {
@@ -50,11 +63,14 @@ impl Equations for Potential {
     type Error = ();
 
     fn places(&self) -> usize {
-        2
+        self.places
     }
 
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {
         self.asked[0] += 1;
+        if !(self.loads[0]..=self.loads[1]).contains(&t) {
+            return Err(());
+        }
         let rows = DVector::from_row_slice(&(self.gradient)([y[0], y[1]], t));
         let size = rows.amax();
         Ok((rows, size))
@@ -264,12 +280,14 @@ struct Stops {
     /// Places, slopes, and whether each is touched.
     stops: Vec<(f64, f64, bool)>,
     slope: f64,
+    /// How far all places move with the load.
+    drift: f64,
 }
 
 impl Stops {
     fn new(stops: &[(f64, f64)]) -> Self {
         let free = |(at, slope): &(f64, f64)| (*at, *slope, false);
-        Self { stops: stops.iter().map(free).collect(), slope: 1.0 }
+        Self { stops: stops.iter().map(free).collect(), slope: 1.0, drift: 0.0 }
     }
 
     fn path(&mut self, range: [f64; 2]) -> LoadPath<Self> {
@@ -289,7 +307,8 @@ impl Equations for Stops {
 
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {
         let touched = self.stops.iter().filter(|(.., touched)| *touched);
-        let held: f64 = touched.map(|(at, slope, _)| slope * (y[1] - at)).sum();
+        let held = touched.map(|(at, slope, _)| slope * (y[1] - at - self.drift * t));
+        let held: f64 = held.sum();
         let rows = DVector::from_row_slice(&[2.0 * y[0] - t, y[1] + held - t]);
         let size = rows.amax();
         Ok((rows, size))
@@ -309,9 +328,11 @@ impl Equations for Stops {
         DVector::from_row_slice(&[2.0 * y[0], self.slope * y[1]])
     }
 
-    fn sides(&mut self, y: &DVector<f64>, _: f64) -> Result<Vec<(usize, f64)>, ()> {
-        let value =
-            |(at, _, touched): &(f64, f64, bool)| if *touched { y[1] - at } else { at - y[1] };
+    fn sides(&mut self, y: &DVector<f64>, t: f64) -> Result<Vec<(usize, f64)>, ()> {
+        let value = |(at, _, touched): &(f64, f64, bool)| {
+            let off = at + self.drift * t - y[1];
+            if *touched { -off } else { off }
+        };
         Ok(self.stops.iter().map(value).enumerate().collect())
     }
 
@@ -449,4 +470,79 @@ fn work_of_paths() {
         [3, 62, 1, 703, 219],
     ];
     samples::assert_frozen(&found, &expected);
+}
+
+/// A stop at 1 - t/2 is met by z = t at t = 2/3; from there on 4 z = 3 - t/2, up to where a second one at 3 - t/2
+/// would be. One at 1 + 2 t is never met.
+#[test]
+fn stops_that_move_with_the_load_are_met_on_their_way() {
+    let mut coming = Stops::new(&[(1.0, 3.0), (3.0, 1.0)]);
+    coming.drift = -0.5;
+    let path = coming.path([-0.25, 2.0]);
+    let [event] = &path.events[..] else { panic!("{:?}", path.events) };
+    assert_eq!(
+        (event.kind, event.turns, event.sides.clone()),
+        (Kind::Kink, false, vec![(0, true)])
+    );
+    assert!((event.t - 2.0 / 3.0).abs() < 1e-9, "{}", event.t);
+    assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 2.0));
+    for point in &path.points {
+        let t = point.t;
+        let z = if t < 2.0 / 3.0 { t } else { 0.75 - 0.125 * t };
+        assert!((point.record[1] - z).abs() < 1e-9 && (point.record[0] - 0.5 * t).abs() < 1e-9);
+    }
+    let mut going = Stops::new(&[(1.0, 3.0)]);
+    going.drift = 2.0;
+    let path = going.path([-0.25, 2.0]);
+    assert!(path.events.is_empty() && path.end == End::Range);
+}
+
+/// Of (t^2 + x, 3 t - t^2/2) by t, from both sides or one: exactly (2 t, 3 - t).
+#[test]
+fn a_difference_is_taken_on_the_side_that_has_a_meaning() {
+    for (loads, t) in [([-1.0, 2.0], 0.5), ([0.25, 2.0], 0.25), ([-1.0, 0.75], 0.75)] {
+        let mut parabola = Potential::new(
+            |[x, _], t| [t * t + x, 3.0 * t - 0.5 * t * t],
+            |_, _| [[1.0, 0.0], [0.0, 1.0]],
+        );
+        parabola.loads = loads;
+        let found = difference(&mut parabola, &DVector::from_row_slice(&[7.0, 0.0]), t).unwrap();
+        for (found, wanted) in found.iter().zip([2.0 * t, 3.0 - t]) {
+            assert!((found - wanted).abs() < 1e-9, "{t}: {found}, not {wanted}");
+        }
+        assert!(difference(&mut parabola, &DVector::zeros(2), 3.0).is_err());
+    }
+}
+
+/// A column of stiffness 5/2 under a force n = t gives way at t = 5/2: V = (5/2 - n) x^2/2 - n^2/2 + t n. Two places
+/// under a load that takes from their stiffness at the lesser root of (3 - 2 t)(4 - t) = (1 - t/2)^2, and with the
+/// load the other way nowhere.
+#[test]
+fn linear_buckling_is_the_least_load_of_the_pencil() {
+    let start = DVector::zeros(2);
+    let mut column = Potential::new(
+        |[x, n], t| [(2.5 - n) * x, t - n - 0.5 * x * x],
+        |[x, n], _| [[2.5 - n, -x], [-x, -1.0]],
+    );
+    column.places = 1;
+    let found = linear_buckling(&mut column, &start).unwrap().unwrap();
+    assert!((found - 2.5).abs() < 1e-6, "{found}");
+    let mut pencil = Potential::new(
+        |[x, z], t| {
+            let mixed = 1.0 - 0.5 * t;
+            [(3.0 - 2.0 * t) * x + mixed * z, mixed * x + (4.0 - t) * z]
+        },
+        |_, t| [[3.0 - 2.0 * t, 1.0 - 0.5 * t], [1.0 - 0.5 * t, 4.0 - t]],
+    );
+    // 7/4 t^2 - 10 t + 11 = 0.
+    let wanted = (10.0 - (100.0_f64 - 77.0).sqrt()) / 3.5;
+    let found = linear_buckling(&mut pencil, &start).unwrap().unwrap();
+    assert!((found - wanted).abs() < 1e-6, "{found}, not {wanted}");
+    let mut away = Potential::new(
+        |[x, z], t| [(3.0 + 2.0 * t) * x, (4.0 + t) * z],
+        |_, t| [[3.0 + 2.0 * t, 0.0], [0.0, 4.0 + t]],
+    );
+    assert_eq!(linear_buckling(&mut away, &start).unwrap(), None);
+    let mut still = Potential::new(|[x, z], _| [3.0 * x, 4.0 * z], |_, _| [[3.0, 0.0], [0.0, 4.0]]);
+    assert_eq!(linear_buckling(&mut still, &start).unwrap(), None);
 }

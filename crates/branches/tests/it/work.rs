@@ -114,7 +114,10 @@ fn continuations_scale_without_rounding() {
                 assert_eq!((one * factor).to_bits(), other.to_bits(), "{one} {factor} {other}");
             };
             for (a, b) in one.events.iter().zip(&other.events) {
-                assert_eq!((a.kind, &a.angles_rad, &a.branches), (b.kind, &b.angles_rad, &b.branches));
+                assert_eq!(
+                    (a.kind, &a.angles_rad, &a.branches),
+                    (b.kind, &b.angles_rad, &b.branches)
+                );
                 assert_eq!((a.position, a.position_error), (b.position, b.position_error));
                 assert_eq!((a.residual, a.singular), (b.residual, b.singular));
                 same(a.energy_j, length * mass, b.energy_j);
@@ -148,4 +151,72 @@ fn events_say_how_far_they_may_be_off() {
             assert!(!singular || event.singular < 1e-7, "{event:?}");
         }
     }
+}
+
+/// At every point of every branch, by its angles and its pull alone: with `F` the pull and the weight hung on a bar,
+/// half ways by the lever rule, `F` is along the bar, its part along it the axial force; the bars reach from anchor
+/// to anchor; and the energy is that of the weights.
+#[test]
+fn points_are_equilibria_by_statics_alone() {
+    const G: f64 = 9.80665;
+    for drawn in CHAINS {
+        let found = run(drawn, [1.0; 2]);
+        let points = found.branches.iter().flat_map(|branch| &branch.points);
+        for point in points {
+            let (mut bars, mut end_m) = (drawn.0.to_vec(), drawn.1);
+            for (name, value) in found.parameters.iter().zip(&point.values) {
+                match name.split('.').collect::<Vec<_>>()[..] {
+                    ["anchors", "end_m", axis] => end_m["xyz".find(axis).unwrap()] = *value,
+                    ["bars", bar, field] => {
+                        let fields = ["length_m", "mass_kg", "centre_m"];
+                        let field = fields.iter().position(|name| *name == field).unwrap();
+                        bars[bar.parse::<usize>().unwrap() - 1][field] = *value;
+                    }
+                    _ => panic!("{name}"),
+                }
+            }
+            let (mut at, mut energy_j, mut carried_kg) = ([0.0; 2], 0.0, 0.0);
+            let weight_n: f64 = bars.iter().map(|[_, mass_kg, _]| G * mass_kg).sum();
+            for (k, [length_m, mass_kg, centre_m]) in bars.iter().enumerate() {
+                let (sin, cos) = point.angles_rad[k].sin_cos();
+                energy_j += G * mass_kg * (at[1] - centre_m * cos);
+                at = [at[0] + length_m * sin, at[1] - length_m * cos];
+                let hung_n = G * (carried_kg + mass_kg * (1.0 - centre_m / length_m));
+                carried_kg += mass_kg;
+                let Some([h, v]) = point.pull_n else { continue };
+                let size = h.abs() + v.abs() + weight_n;
+                let along = h * sin - (v + hung_n) * cos;
+                let across = h * cos + (v + hung_n) * sin;
+                assert!(across.abs() < 1e-9 * size, "{drawn:?}: {across} of {size} N");
+                let axial_n = point.axial_n[k];
+                assert!((along - axial_n).abs() < 1e-11 * size, "{along} {axial_n} N");
+            }
+            let level_m = end_m[0].hypot(end_m[1]);
+            assert!((at[0].abs() - level_m).abs() < 1e-10 && (at[1] - end_m[2]).abs() < 1e-10);
+            assert!((energy_j - point.energy_j).abs() < 1e-11 * weight_n, "{energy_j} {point:?}");
+            assert!((point.span_m - level_m.hypot(end_m[2])).abs() < 1e-12);
+        }
+    }
+}
+
+/// Each census is told of once, and the last is the last of all.
+#[test]
+fn censuses_are_counted_as_they_are_taken() {
+    let vary =
+        ["anchors.end_m.z=0".parse().unwrap(), "anchors.end_m.x=0.7..1.4:4".parse().unwrap()];
+    let chain = model::cases::paper().into_chain();
+    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    let seen = std::sync::Mutex::new(vec![]);
+    let found =
+        Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|progress| {
+            seen.lock().unwrap().push((progress.done, progress.total));
+        });
+    let mut seen = seen.into_inner().unwrap();
+    seen.sort_unstable();
+    let all = 4 + found.unwrap().checks.between;
+    assert_eq!(
+        seen.iter().map(|(done, _)| *done).collect::<Vec<_>>(),
+        (1..=all).collect::<Vec<_>>()
+    );
+    assert!(seen[..4].iter().all(|(_, total)| *total == 4) && seen[all - 1].1 == all, "{seen:?}");
 }

@@ -155,4 +155,29 @@ mod tests {
         let held = frame.balance(&system, &shape, 1e-5).unwrap();
         assert!(held.unbalance > 1e-6 && held.unbalance < 1e-5, "{held:?}");
     }
+
+    /// Two springs of 1 m and 2 m, 40 N, between anchors 4 m apart, without weight: stretched to 1.5 m and 2.5 m
+    /// they pull with 20 N and 10 N. What is left is held to the larger one.
+    #[test]
+    fn without_loads_the_prestress_is_the_scale() {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P"),
+            Joint::anchor("B", [0.0, 0.0, -4.0]),
+        ];
+        let spring = |from, to, length_m| {
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap()).with_stiffness(40.0)
+        };
+        let members = vec![spring(0, 1, 1.0), spring(1, 2, 2.0)];
+        let system = System::new("string", 10.0, joints, members).unwrap();
+        let frame = Frame::new(&system).unwrap();
+        let x = [0.0, -1.5, -4.0].map(|z| [0.0, 0.0, (z - frame.origin_m[2]) / frame.length_m]);
+        let force: Vec<f64> = [20.0, 10.0].map(|force_n| force_n / frame.force_n).to_vec();
+        let shape = Shape { x: x.to_vec(), force };
+        assert!((frame.elastic_force(&shape) * frame.force_n - 20.0).abs() < 1e-12);
+        let refused = frame.balance(&system, &shape, 1e-12);
+        let Err(Error::Unbalanced { joint, unbalance }) = refused else { panic!("{refused:?}") };
+        assert!(joint == "P" && (unbalance - 0.5).abs() < 1e-12, "{joint} {unbalance}");
+        assert!(frame.absurd(&shape).is_none());
+    }
 }

@@ -200,4 +200,55 @@ mod tests {
         let across = difference_of_squares(([2.0, 0.0, 0.0], [0.0; 3]), [0.0, 1e-9, 0.0], 2.0);
         assert!((across / 1e-18 - 1.0).abs() < 1e-14);
     }
+
+    /// A member of 7 m from (1, 2, 3) whose end is moved to 7.07 m along (2, 3, 6): a spring is 0.07 m too long, of
+    /// a rigid one it is the difference of the squares over 14 m, 0.07 + 0.07^2/14. The law of a spring of 50 N
+    /// wants 1/2 N.
+    #[test]
+    fn excesses_are_those_of_the_moved_ends() {
+        use model::Bar;
+        use model::system::{Joint, Member};
+        let foot = [1.0, 2.0, 3.0];
+        let joints = vec![
+            Joint::anchor("A", foot),
+            Joint::free("P").with_force([0.0, 0.0, -8.0]),
+            Joint::free("Q").with_mass(1.0),
+        ];
+        let bar = |from, to, length_m| {
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).expect("a bar"))
+        };
+        for (stiffness_n, wanted_m) in [(Some(50.0), 0.07), (None, 0.07 + 0.07 * 0.07 / 14.0)] {
+            let members =
+                vec![Member { stiffness_n, ..bar(0, 1, 7.0) }, bar(1, 2, 3.0).with_stiffness(9.0)];
+            let system = System::new("moved", 10.0, joints.clone(), members).expect("a system");
+            let frame = Frame::new(&system).expect("a frame");
+            let by = |part: f64| -> Vector {
+                std::array::from_fn(|k| foot[k] + part * [2.0, 3.0, 6.0][k])
+            };
+            let x = [foot, by(1.0), [by(1.0)[0], by(1.0)[1], by(1.0)[2] - 3.0]];
+            let moved = [2.0, 3.0, 6.0].map(|x: f64| 0.01 * x);
+            let force = |newtons: f64| vec![newtons / frame.force_n, 0.0];
+            let displaced = |newtons: f64| Displaced {
+                frame: &frame,
+                lengths: &[7.0, 3.0],
+                x: &x,
+                u: vec![[0.0; 3], moved, moved],
+                force: force(newtons),
+            };
+            let (value, gradient) = displaced(1.0).excess(0);
+            assert!((value * frame.length_m - wanted_m).abs() < 1e-14, "{value} {wanted_m}");
+            assert!((0..3).all(|k| (gradient[k] - [2.0, 3.0, 6.0][k] / 7.0).abs() < 1e-14));
+            let Some(stiffness_n) = stiffness_n else { continue };
+            // Of the law alone, where nothing hangs on the balance.
+            let law_n = stiffness_n * 0.01;
+            for newtons in [2.0, 4.0] {
+                let here = displaced(newtons);
+                let unbalance = largest(&here.gradient(|e| here.force[e]));
+                let off = (law_n - newtons).abs() / frame.force_n;
+                let wanted = off.max(unbalance) / frame.largest_force(&here.force);
+                let found = here.error(&[true, false]);
+                assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+            }
+        }
+    }
 }

@@ -34,7 +34,9 @@ fn mixed(system: &System) -> System {
 fn systems_scale_without_rounding() {
     let mut answers = 0;
     for seed in 0..8 {
-        for (k, make) in [bridle, ring, tree, |rng: &mut ChaCha8Rng| net(rng, 0.6)].iter().enumerate() {
+        for (k, make) in
+            [bridle, ring, tree, |rng: &mut ChaCha8Rng| net(rng, 0.6)].iter().enumerate()
+        {
             let system = make(&mut ChaCha8Rng::seed_from_u64(4000 + seed));
             let system = if (seed as usize + k) % 2 == 0 { mixed(&system) } else { system };
             let one = minimise(&system, &Settings::default());

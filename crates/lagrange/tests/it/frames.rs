@@ -448,9 +448,12 @@ fn misfits_are_told_in_metres() {
         assert!((found.misfit_m - misfit_m).abs() < 1e-6, "{misfits:?}");
         assert!((found.within_m - within_m).abs() < 1e-18, "{misfits:?}");
     }
-    // Known to 1 mm it hangs by all of them alike, each by a quarter of its 5 kg over the cosine 4/5.
+    // Known to 1 mm it hangs by all of them alike, each by a quarter of the 4 kg at the joint over the cosine 4/5.
+    // It moves away from the longer one by half of the 2 mm over the cosine 3/5, and down by a quarter over 4/5.
     let shared = solved([1e-3; 4]).unwrap().equilibrium;
-    assert!(shared.joints_m[0].iter().all(|x| x.abs() < 1e-3), "{:?}", shared.joints_m);
+    for (found, wanted) in shared.joints_m[0].iter().zip([0.0, -1e-3 / 0.6, -0.5e-3 / 0.8]) {
+        assert!((found - wanted).abs() < 2e-6, "{:?}", shared.joints_m[0]);
+    }
     for axial_n in shared.axial_n {
         assert!((axial_n / (GRAVITY * 4.0 / 4.0 / 0.8) - 1.0).abs() < 1e-3, "{axial_n}");
     }

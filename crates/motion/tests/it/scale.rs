@@ -169,15 +169,8 @@ fn mobile() -> (System, Vec<[f64; 3]>) {
     let out = [x + aside * cos, y + aside * sin, top - down];
     let below = |[x, y, z]: [f64; 3], length_m: f64| [x, y, z - length_m];
     let (knee, ring) = (below(out, 0.4), [2.0, 1.0, 0.5]);
-    let at = vec![
-        [x, y, top],
-        [x, y, top - 0.7],
-        out,
-        knee,
-        below(knee, 0.35),
-        ring,
-        below(ring, 0.55),
-    ];
+    let at =
+        vec![[x, y, top], [x, y, top - 0.7], out, knee, below(knee, 0.35), ring, below(ring, 0.55)];
     let wire = Support::Line { at_m: ring, direction: [0.6, 0.8, 0.0] };
     let joints = vec![
         Joint::anchor("A", at[0]),

@@ -180,3 +180,47 @@ fn two_bars_on_a_line_pull_against_each_other() {
     assert!((stress[0].abs() - std::f64::consts::FRAC_1_SQRT_2).abs() < 1e-15);
     assert!((stress[0] - stress[1]).abs() < 1e-15);
 }
+
+/// The truss turned about the vertical and moved away is in its own plane.
+#[test]
+fn planes_may_stand_anywhere() {
+    let (frame, shape) = truss(1.0 / 40.0);
+    let (sin, cos) = 0.7_f64.sin_cos();
+    for away in [ZERO3, [5.0, -3.0, 2.0]] {
+        let place = |[x, y, z]: &Vector| -> Vector {
+            [away[0] + cos * x - sin * y, away[1] + sin * x + cos * y, away[2] + z]
+        };
+        let x: Vec<Vector> = shape.x.iter().map(place).collect();
+        let frame = Frame { supports: x.clone(), ..frame.clone() };
+        let there = Shape { x, force: shape.force.clone() };
+        assert_eq!(index_in_plane(&frame, &there), Some(1), "{away:?}");
+        // A joint off by a thousandth takes it out of every plane.
+        let mut bent = there.clone();
+        bent.x[2][0] += 1e-3 * sin;
+        bent.x[2][1] -= 1e-3 * cos;
+        assert_eq!(index_in_plane(&frame, &bent), None, "{away:?}");
+    }
+}
+
+/// Values count over the largest, whatever that is.
+#[test]
+fn ranks_are_relative() {
+    for size in [1e3, 1.0, 1e-3] {
+        for (lesser, rank) in [(2e-7, 2), (0.5e-7, 1)] {
+            let matrix = Mat::from_fn(2, 3, |row, column| match (row, column) {
+                (0, 0) => size,
+                (1, 1) => lesser * size,
+                _ => 0.0,
+            });
+            let (motions, stresses, rigidity) = kernels(&matrix, 1e-7);
+            assert_eq!(
+                (rigidity.rank, motions.ncols(), stresses.ncols()),
+                (rank, 3 - rank, 2 - rank)
+            );
+            let gap = [if rank == 2 { lesser } else { 1.0 }, if rank == 2 { 0.0 } else { lesser }];
+            for (found, wanted) in rigidity.gap.iter().zip(gap) {
+                assert!((found - wanted).abs() < 1e-15, "{:?}", rigidity.gap);
+            }
+        }
+    }
+}
