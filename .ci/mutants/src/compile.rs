@@ -148,10 +148,12 @@ fn blamed(tree: &Tree, error: &Value) -> Result<BTreeSet<u32>, Failure> {
 
 /// The places that a message and what belongs to it name.
 fn collect(message: &Value, spans: &mut Vec<(String, Range<usize>)>) {
-    for span in message["spans"].as_array().into_iter().flatten() {
-        let byte = |key: &str| span[key].as_u64().unwrap_or(0) as usize;
-        if let Some(file) = span["file_name"].as_str() {
+    for mut span in message["spans"].as_array().into_iter().flatten() {
+        // What a macro became stands in the file of the macro: the place that used it comes after that.
+        while let Some(file) = span["file_name"].as_str() {
+            let byte = |key: &str| span[key].as_u64().unwrap_or(0) as usize;
             spans.push((file.to_owned(), byte("byte_start")..byte("byte_end")));
+            span = &span["expansion"]["span"];
         }
     }
     for child in message["children"].as_array().into_iter().flatten() {
