@@ -83,4 +83,16 @@ mod tests {
             assert!(spin(angles[1], angles[2]).norm() >= 1.0 - 1e-15);
         }
     }
+
+    #[test]
+    fn directions_across_are_a_right_handed_pair() {
+        let vectors =
+            [[2.0, 3.0, 6.0], [-6.0, 2.0, -3.0], [0.0, 0.0, -1.0], [1e-200, 0.0, 0.0], [0.0; 3]];
+        for v in vectors.map(Vector3::from) {
+            let [a, b] = across(&v);
+            let axis = if v.norm() > 0.0 { v / v.norm() } else { Vector3::x() };
+            assert!((a.cross(&b) - axis).norm() < 1e-15, "{v}");
+            assert!((a.norm() - 1.0).abs() < 1e-15 && a.dot(&b).abs() < 1e-15, "{v}");
+        }
+    }
 }

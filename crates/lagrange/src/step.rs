@@ -360,4 +360,20 @@ mod tests {
             assert!(left.amax() < ROUNDING * step.amax().max(1.0), "{left}");
         }
     }
+
+    /// The largest norm of a block of moments and that of the closure together, over the smallest singular value.
+    #[test]
+    fn condition_is_of_the_written_matrix() {
+        for index in 0..20 {
+            let (_, _, mut matrix) = state(index);
+            let (jacobian, _) = written_out(&matrix);
+            let block = |at: usize| jacobian.view((2 * at, 2 * at), (2, 2)).norm();
+            let largest = (0..3).map(block).fold(0.0, f64::max);
+            let bound = largest + jacobian.view((6, 0), (3, 6)).norm();
+            let values = jacobian.singular_values();
+            assert!(bound >= values[0]);
+            let ratio = matrix.condition(1e-9) / (bound / values[8]);
+            assert!((0.8..1.0 + 1e-9).contains(&ratio), "{index}: {ratio}");
+        }
+    }
 }

@@ -42,3 +42,20 @@ impl Folded {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A bar along (-3/5, -4/5) between anchors (3, -1) apart: its force is along (3/5, 4/5), on which they are 1
+    /// apart, of which the other bars reach 2; across it they are -3 apart.
+    #[test]
+    fn frames_stand_along_the_force_of_a_bar() {
+        let folded =
+            Folded { slack: 0.0, excess: DoubleDouble::sum(2.0, 0.0), across: 3.0, rise: -1.0 };
+        let Frame::Aligned { up, slack, aside, .. } = folded.frame([-0.6, -0.8]) else { panic!() };
+        for (found, wanted) in [(up[0], 0.8), (up[1], 0.6), (slack, 1.0), (aside, -3.0)] {
+            assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
+        }
+    }
+}

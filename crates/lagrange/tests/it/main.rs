@@ -9,6 +9,7 @@ mod condensed_processors;
 mod condensed_random;
 mod derivatives;
 mod details;
+mod equations;
 mod extremes;
 mod false_roots;
 mod frames;
