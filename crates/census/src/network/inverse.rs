@@ -203,4 +203,23 @@ mod tests {
         // At e = -5/2 it is singular.
         assert_eq!(solve(Interval::around(0.0, 2.5)), None);
     }
+
+    /// With what a bound says it is one: |z| + E D < D, in sums that doubles have exactly.
+    #[test]
+    fn bounds_hold_what_they_bound() {
+        let defect = Defect { size: 2, rows: vec![0.5, 0.125, 0.0625, 0.25] };
+        let middle = [1.0, -3.0].map(Interval::point);
+        for guess in [[0.1, 0.1], [2.0, 5.0], [1e-300, 40.0], [64.0, 64.0]] {
+            let [bound, through] = defect.bound(&middle, &guess).unwrap();
+            let rows = [[0.5, 0.125], [0.0625, 0.25]];
+            for k in 0..2 {
+                let e = rows[k][0] * bound[0] + rows[k][1] * bound[1];
+                assert!(through[k] >= e && through[k] <= e * (1.0 + 1e-14), "{through:?} {e}");
+                assert!(middle[k].mag() + e < bound[k], "{guess:?}: {bound:?}");
+            }
+        }
+        // What is as large as it was is no bound: of spectral radius 1.
+        let whole = Defect { size: 2, rows: vec![1.0, 0.0, 0.0, 0.5] };
+        assert_eq!(whole.bound(&middle, &[8.0, 8.0]), None);
+    }
 }

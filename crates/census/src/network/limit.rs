@@ -295,3 +295,17 @@ fn newton_slope(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> (f
     let slope: f64 = inverse.last_row().iter().zip(&bent).map(|(a, b)| a * b.mid()).sum();
     (vector.last().copied().unwrap_or(f64::NAN), slope)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_go_straight_from_end_to_end() {
+        for (ends, t) in [([2.0, 6.0, 3.0], 0.25), ([5.0, 1.0, 2.0], 0.75), ([0.0, 0.5, 2.0], 4.0)]
+        {
+            assert!((part(ends) - t).abs() < 1e-15, "{ends:?}");
+            assert!(value(ends, Interval::point(t)).contains(ends[2]), "{ends:?}");
+        }
+    }
+}

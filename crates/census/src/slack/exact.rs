@@ -189,4 +189,28 @@ mod tests {
         // Too many digits between the largest and the smallest.
         assert_eq!(fits(&[1.0, 1e-17], [1.0, 0.0, 0.0]), None);
     }
+
+    /// 6 is 3 times 2, 3/4 three quarters; the smallest double is 2^-1074.
+    #[test]
+    fn doubles_are_odd_integers_times_powers_of_two() {
+        for (x, wanted) in [
+            (6.0, Some((3, 1))),
+            (-0.75, Some((-3, -2))),
+            (1.0 + f64::EPSILON, Some(((1 << 52) + 1, -52))),
+            (f64::MIN_POSITIVE, Some((1, -1022))),
+            (f64::from_bits(3), Some((3, -1074))),
+            (f64::MAX, Some(((1 << 53) - 1, 971))),
+            (0.0, None),
+        ] {
+            assert_eq!(odd(x), wanted, "{x:e}");
+        }
+        assert_eq!(integers(&[0.5, -3.0, 0.0]), Some(vec![1, -6, 0]));
+        // 61 binary digits, and one more; a long number far above a short one.
+        let power = |power: i32| 2.0_f64.powi(power);
+        assert_eq!(integers(&[power(60), 1.0]), Some(vec![1 << 60, 1]));
+        assert_eq!(integers(&[power(61), 1.0]), None);
+        assert_eq!(integers(&[3.0 * power(59), 1.0]), Some(vec![3 << 59, 1]));
+        assert_eq!(integers(&[3.0 * power(60), 1.0]), None);
+        assert_eq!(integers(&[7.0 * power(90), power(90)]), Some(vec![7, 1]));
+    }
 }

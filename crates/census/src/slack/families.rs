@@ -271,6 +271,9 @@ mod tests {
         assert!(near(hanging.axial_n[0], 20.0 * 0.3 / 0.9));
         assert!(near(hanging.axial_n[3], 15.0 * 0.5 / 0.7));
         assert_eq!((hanging.index_in_plane, hanging.index_in_space()), (0, 0));
+        // Both stand: each falls in the plane and out of it.
+        let stand = census.families.iter().find(|family| family.signs == [-1, 0, 0, -1]).unwrap();
+        assert_eq!((stand.index_in_plane, stand.index_in_space()), (2, 4));
         // No equilibrium is lower.
         let lowest = census.equilibria.first().map_or(f64::INFINITY, |e| e.energy_j.lo());
         assert!(hanging.energy_j.hi() < lowest);

@@ -238,4 +238,27 @@ mod tests {
         assert_eq!(sum([1, 2], [1, 3]), Some([5, 6]));
         assert_eq!(sum([i128::MAX, 1], [1, 1]), None);
     }
+
+    /// Bar 2 of three carries nothing: 1 m hangs and 1 m stands with the forces 1 and 1 to either side, whose turning
+    /// parts 1/1 - 1/1 cancel; it bridges sqrt(5) m exactly or not at all.
+    #[test]
+    fn a_bar_without_force_has_to_bridge_its_gap() {
+        let moments = |length: i128, level_square: i128, rise: i128| ExactMoments {
+            lengths: vec![1, length, 1],
+            weights: vec![-1, 0, 1],
+            level_square,
+            rise,
+        };
+        // Bar 1 is drawn down by its force -1 and bar 3 up by 1: with the signs + - the gap is rise + 2.
+        let found = |length, level_square, rise| {
+            moments(length, level_square, rise).multiplicity(1, &[1, 0, -1])
+        };
+        let bridged = found(5, 16, 1);
+        assert!(bridged.is_some());
+        for (length, level_square, rise) in [(4, 16, 1), (6, 16, 1), (5, 15, 1), (5, 16, 2)] {
+            assert_eq!(found(length, level_square, rise), None);
+        }
+        // On one vertical it may turn about it.
+        assert_eq!(found(3, 0, 1), None);
+    }
 }

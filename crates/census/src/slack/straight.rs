@@ -327,4 +327,20 @@ mod tests {
             assert!(isolated(&system, Pattern(pattern), way, false).is_some());
         }
     }
+
+    /// Weights −1, 0, 3 and lengths 1, 2, 1 over 2 m with the signs − + +: the moments are 2, 4 and 8, and the signed
+    /// variance 2 · 8 − 4² is nothing; with a weight of 5/2 it is 2 · 21/4 − (7/2)².
+    #[test]
+    fn the_mean_is_of_lengths_that_differ() {
+        let system = |mass_kg: f64| {
+            let bar = |length: f64, mass_kg| Bar::new(length, mass_kg, length, [0.0; 3]).unwrap();
+            let bars = vec![bar(1.0, 1.0), bar(2.0, mass_kg), bar(1.0, 1.0)];
+            let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
+            System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
+        };
+        for (way, pattern) in [(1, 0b100), (-1, 0b011)] {
+            assert!(isolated(&system(3.0), Pattern(pattern), way, false).is_none());
+            assert!(isolated(&system(2.5), Pattern(pattern), way, false).is_some());
+        }
+    }
 }

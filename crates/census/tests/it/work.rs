@@ -6,7 +6,7 @@
 #![expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
 
-use census::network::SystemCensus;
+use census::network::{SystemCensus, prove};
 use census::{Census, Interval, ProvenEquilibrium, Settings};
 use model::{Anchors, Bar, Chain, Problem};
 use samples::{General, Line, assert_frozen, stream};
@@ -232,4 +232,69 @@ fn work_of_systems() {
         "simplex-tower: Slider { joint: 4 }",
     ];
     assert_frozen(&found[..], &expected.map(str::to_owned));
+}
+
+/// Lengths, masses and gravity of systems times powers of two: the same list, number for number, and the same
+/// proofs of its entries.
+#[test]
+fn systems_scale_without_rounding() {
+    let settings =
+        Settings { max_bars: 6, max_bridle_bars: 4, max_motions: 2, ..Settings::default() };
+    let mut compared = 0;
+    for exhibit in model::cases::systems() {
+        let system = exhibit.system();
+        let Ok(one) = SystemCensus::take(&system, &settings) else { continue };
+        for factors in [[8.0, 1.0, 1.0], [1.0, 0.0625, 4.0], [0.25, 32.0, 0.5]] {
+            let [length, mass, gravity] = factors;
+            let other = samples::scaled(&system, factors);
+            let there = SystemCensus::take(&other, &settings).unwrap();
+            assert_eq!(one.equilibria.len(), there.equilibria.len(), "{}", exhibit.name);
+            assert_eq!((one.complete, one.cells()), (there.complete, there.cells()));
+            let same = |a: &Interval, factor: f64, b: &Interval| {
+                // What is nearly nothing has fewer digits.
+                let whole = |x: f64| if x.abs() < 1e-300 { 0.0 } else { x };
+                let [one, other] = [(factor * a.lo(), factor * a.hi()), (b.lo(), b.hi())]
+                    .map(|(lo, hi)| (whole(lo), whole(hi)));
+                assert_eq!(one, other, "{} {factors:?}", exhibit.name);
+            };
+            for (a, b) in one.equilibria.iter().zip(&there.equilibria) {
+                compared += 1;
+                assert_eq!(
+                    (a.index_in_space, a.index_in_plane),
+                    (b.index_in_space, b.index_in_plane)
+                );
+                same(&a.energy_j, length * mass * gravity, &b.energy_j);
+                for (a, b) in a.joints_m.as_flattened().iter().zip(b.joints_m.as_flattened()) {
+                    same(a, length, b);
+                }
+                for (a, b) in a.axial_n.iter().zip(&b.axial_n) {
+                    same(a, mass * gravity, b);
+                }
+                for (a, b) in a.reactions_n.as_flattened().iter().zip(b.reactions_n.as_flattened())
+                {
+                    same(a, mass * gravity, b);
+                }
+                let mids = |joints_m: &[[Interval; 3]]| -> Vec<[f64; 3]> {
+                    joints_m.iter().map(|at| at.map(Interval::mid)).collect()
+                };
+                let forces = |axial_n: &[Interval]| -> Vec<f64> {
+                    axial_n.iter().map(|axial| axial.mid()).collect()
+                };
+                let [a, b] = [(&system, a), (&other, b)]
+                    .map(|(system, at)| prove(system, &mids(&at.joints_m), &forces(&at.axial_n)));
+                let (Ok(a), Ok(b)) = (&a, &b) else {
+                    assert_eq!(a.is_ok(), b.is_ok());
+                    continue;
+                };
+                assert_eq!((a.turns, &a.slack), (b.turns, &b.slack));
+                for (a, b) in a.joints_m.as_flattened().iter().zip(b.joints_m.as_flattened()) {
+                    same(a, length, b);
+                }
+                for (a, b) in a.axial_n.iter().zip(&b.axial_n) {
+                    same(a, mass * gravity, b);
+                }
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
 }

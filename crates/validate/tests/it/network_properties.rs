@@ -90,6 +90,62 @@ fn units_do_not_matter() {
     }
 }
 
+/// Numbers of an answer by their keys, each over the unit that its key ends with; seconds are left out.
+fn numbers(found: &serde_json::Value, key: &str, units: [f64; 3], all: &mut Vec<(String, f64)>) {
+    let [length, mass, gravity] = units;
+    match found {
+        serde_json::Value::Number(number) if !key.ends_with("_s") => {
+            let last = key.rsplit('_').next().unwrap_or_default();
+            let unit = match last {
+                "m" => length,
+                "n" => mass * gravity,
+                "j" => mass * gravity * length,
+                _ => 1.0,
+            };
+            all.push((key.to_owned(), number.as_f64().unwrap() / unit));
+        }
+        serde_json::Value::Array(items) => {
+            items.iter().for_each(|item| numbers(item, key, units, all));
+        }
+        serde_json::Value::Object(items) => {
+            items.iter().for_each(|(key, item)| numbers(item, key, units, all));
+        }
+        _ => {}
+    }
+}
+
+/// Not a digit of an answer changes with its units: neither of both equilibria with their evidence, nor of how far
+/// they are from each other and from balance.
+#[test]
+fn answers_scale_without_rounding() {
+    for (system, _) in systems() {
+        let found = |units: [f64; 3]| {
+            let answer = ask(&samples::scaled(&system, units), Solvers::Both, &|_| {});
+            assert!(answer.agrees(), "{units:?}");
+            let mut all = vec![];
+            let equilibria = answer.equilibria.iter().map(|found| {
+                serde_json::json!({
+                    "joints_m": found.joints_m, "axial_n": found.axial_n,
+                    "start_forces_n": found.start_forces_n, "end_forces_n": found.end_forces_n,
+                    "reactions_n": found.reactions_n, "energy_j": found.energy_j,
+                    "stability": found.stability, "evidence": found.evidence,
+                })
+            });
+            let agreement = serde_json::to_value(&answer.agreement).unwrap();
+            let value = serde_json::Value::Array(equilibria.chain([agreement]).collect());
+            numbers(&value, "", units, &mut all);
+            all
+        };
+        let one = found([1.0; 3]);
+        assert!(one.len() > 100, "{}", one.len());
+        for units in [[0.125, 1.0, 1.0], [1.0, 256.0, 0.5], [1024.0, 0.03125, 4.0]] {
+            for (one, other) in one.iter().zip(found(units)) {
+                assert_eq!(*one, other, "{} {units:?}", system.name());
+            }
+        }
+    }
+}
+
 /// The shape of springs is that of bars up to their flexibility, to first order: ten times as stiff
 /// is ten times as near, by either solver.
 #[test]
