@@ -188,4 +188,27 @@ mod tests {
             "{refused}"
         );
     }
+
+    /// Of (1, 2, 2) and the same with a part of (2, 1, -2), by the part over the whole, in any unit.
+    #[test]
+    fn columns_depend_on_each_other_by_their_size() {
+        for size in [1e3, 1.0, 1e-3] {
+            for (part, dimension) in [(3.0 * INDEPENDENT, 1), (0.3 * INDEPENDENT, 2)] {
+                let first = [1.0, 2.0, 2.0].map(|x| size * x);
+                let second = [2.0, 1.0, -2.0].map(|x| size * part * x);
+                let columns = DMatrix::from_fn(3, 2, |row, column| {
+                    first[row] + if column == 1 { second[row] } else { 0.0 }
+                });
+                let found = null_space(&columns);
+                assert_eq!(found.ncols(), dimension, "{size} {part}");
+                assert!(
+                    (found.transpose() * &found - DMatrix::identity(dimension, dimension)).amax()
+                        < 1e-14
+                );
+                // Across the first but for what counts as nothing.
+                let along = (columns.column(0).transpose() * &found).amax();
+                assert!(along < 3.0 * INDEPENDENT * size, "{along}");
+            }
+        }
+    }
 }

@@ -246,3 +246,61 @@ fn a_bar_with_inertia_about_its_axis_spins_and_a_slender_one_does_not() {
     assert_eq!(named[0], What::Spin { member: 1 });
     assert!(named[1..].iter().all(|what| *what == What::Oscillation), "{named:?}");
 }
+
+/// Two homogeneous bars between level anchors, in a vertical plane that looks neither way and stands anywhere, hang
+/// h below them and swing across their plane with `ω² = 3/2 g/h`; a rod on their joint swings in it and across. Two
+/// that stand leave that place as fast.
+#[test]
+fn planes_of_modes_stand_anywhere() {
+    let (lengths, span) = ([0.9, 0.7], 1.2);
+    // 0.81 = h² + d², 0.49 = h² + (1.2 - d)².
+    let d: f64 = (0.81 - 0.49 + span * span) / (2.0 * span);
+    let h = (0.81 - d * d).sqrt();
+    for (azimuth, away) in [(0.0, [0.0; 3]), (0.7, [3.0, -2.0, 5.0]), (2.5, [-1.0, 4.0, -3.0])] {
+        let (sin, cos) = f64::sin_cos(azimuth);
+        let at = |along: f64, up: f64| [away[0] + along * cos, away[1] + along * sin, away[2] + up];
+        for (up, rod) in [(-h, true), (-h, false), (h, false)] {
+            let mut joints = vec![
+                Joint::anchor("A", at(0.0, 0.0)),
+                Joint::free("P"),
+                Joint::anchor("B", at(span, 0.0)),
+            ];
+            let bar = |from, to, length_m, mass_kg| {
+                Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+            };
+            let mut members = vec![bar(0, 1, lengths[0], 0.8), bar(1, 2, lengths[1], 0.3)];
+            let mut places = vec![at(0.0, 0.0), at(d, up), at(span, 0.0)];
+            if rod {
+                joints.push(Joint::free("Q"));
+                members.push(bar(1, 3, 0.5, 1e-9));
+                places.push(at(d, up - 0.5));
+            }
+            let system = System::new("turned", G, joints, members).unwrap();
+            let found = modes(&system, &places, None).unwrap();
+            let of = |direction| {
+                let modes = found.modes.iter().filter(move |mode| mode.direction == direction);
+                modes.map(|mode| mode.omega2_s2).collect::<Vec<f64>>()
+            };
+            let swing = 1.5 * G / -up;
+            let (in_plane, across) = (of(Direction::InPlane), of(Direction::Across));
+            if rod {
+                // It has next to no weight: the one swings as if it were alone, the other as if it hung from a
+                // wall.
+                near(&in_plane, &[1.5 * G / 0.5], 1e-6);
+                near(&across, &[swing, 1.5 * G / 0.5], 1e-6);
+                continue;
+            }
+            assert!(in_plane.is_empty(), "{in_plane:?}");
+            near(&across, &[swing], 1e-12);
+            let mode = &found.modes[0];
+            let hertz = swing.abs().sqrt() / std::f64::consts::TAU;
+            let [oscillates, leaves] = [mode.frequency_hz(), mode.rate_1_s()];
+            if up < 0.0 {
+                assert!((oscillates.unwrap() / hertz - 1.0).abs() < 1e-12 && leaves.is_none());
+            } else {
+                let rate = leaves.unwrap() / (hertz * std::f64::consts::TAU);
+                assert!((rate - 1.0).abs() < 1e-12 && oscillates.is_none());
+            }
+        }
+    }
+}
