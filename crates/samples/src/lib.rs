@@ -18,7 +18,7 @@
 //! | of so many equal bars | [`equal_bars`] |
 //! | of bars written down as numbers | [`chain`] |
 //!
-//! [`dome`] is the text of a system file, [`scaled`] a system in other units, [`root`] what closed forms need.
+//! [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system in other units, [`root`] what closed forms need.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -41,7 +41,7 @@ pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
-pub use named::{chain, equal_bars};
+pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs};
 pub use root::root;
 pub use scaled::scaled;
 pub use shape::{Shape, random_chain};

@@ -1,5 +1,6 @@
-//! Chains written down as numbers.
+//! Chains written down as numbers, and a frame whose lengths do not fit.
 
+use model::system::{Joint, Member, Misfit, System};
 use model::{Anchors, Bar, Chain, Problem, Vector};
 
 /// A chain from the origin to `end_m`, in gravity 9.81 m/s²; bars as (length m, mass kg, distance
@@ -40,4 +41,58 @@ fn problem(gravity_m_s2: f64, end_m: Vector, bars: Vec<Bar>) -> Problem {
     let anchors = Anchors { start_m: [0.0; 3], end_m };
     let chain = Chain::new("of a test", gravity_m_s2, anchors, bars).expect("a valid chain");
     Problem::new(chain).expect("a chain with an answer")
+}
+
+/// Four bars from a square of anchors, 3 m aside and 4 m above the joint 0 with its 3 kg: 5 m long and 0.5 kg heavy,
+/// but the third is 2 mm longer. All are known to within what is given, m.
+///
+/// # Panics
+///
+/// When a tolerance is out of range.
+///
+/// ```
+/// assert_eq!(samples::legs([1e-3; 4]).members()[2].body.length_m(), 5.002);
+/// ```
+#[must_use]
+pub fn legs(within_m: [f64; 4]) -> System {
+    let corners = [[3.0, 0.0, 4.0], [-3.0, 0.0, 4.0], [0.0, 3.0, 4.0], [0.0, -3.0, 4.0]];
+    let mut joints = vec![Joint::free("P").with_mass(3.0)];
+    joints.extend(corners.iter().enumerate().map(|(k, at)| Joint::anchor(format!("A{k}"), *at)));
+    let bars = [5.0, 5.0, 5.002, 5.0].into_iter().zip(within_m).enumerate();
+    let members = bars.map(|(k, (length_m, within_m))| {
+        let body = Bar::homogeneous(length_m, 0.5).expect("a valid bar");
+        Member::bar(k + 1, 0, body).with_length_tolerance(within_m)
+    });
+    System::new("legs", 10.0, joints, members.collect()).expect("a valid system")
+}
+
+/// Assert that these are the misfits of [`legs`]: of the shape that meets all lengths best a quarter of the 2 mm
+/// is left in each, the two across the longer one too long, and it and the one opposite too short. They come in
+/// this order, of members by what they may be off.
+///
+/// # Panics
+///
+/// When they are not.
+pub fn assert_misfits_of_legs(misfits: &[Misfit], order: [(usize, f64); 4]) {
+    assert_eq!(misfits.len(), 4);
+    for (found, (member, within_m)) in misfits.iter().zip(order) {
+        let misfit_m = if member < 2 { 5e-4 } else { -5e-4 };
+        assert_eq!(found.member, member, "{misfits:?}");
+        assert!((found.misfit_m - misfit_m).abs() < 1e-6, "{misfits:?}");
+        assert!((found.within_m - within_m).abs() < 1e-18, "{misfits:?}");
+    }
+}
+
+/// Assert that these are the place of the joint of [`legs`] and the forces of its bars, where they are known to
+/// within the 2 mm: it moves away from the longer one by half of them over the cosine 3/5, and down by a quarter
+/// over 4/5; it hangs by all alike, each by a quarter of the 4 kg over the cosine 4/5.
+///
+/// # Panics
+///
+/// When they are not.
+pub fn assert_shared_by_legs(at_m: Vector, axial_n: &[f64]) {
+    for (found, wanted) in at_m.iter().zip([0.0, -1e-3 / 0.6, -0.5e-3 / 0.8]) {
+        assert!((found - wanted).abs() < 2e-6, "{at_m:?}");
+    }
+    assert!(axial_n.iter().all(|axial_n| (axial_n / 12.5 - 1.0).abs() < 2e-3), "{axial_n:?}");
 }

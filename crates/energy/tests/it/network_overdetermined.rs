@@ -562,3 +562,13 @@ fn nearly_taut_lines_keep_their_sag() {
         assert!(found.evidence.self_stresses.is_none());
     }
 }
+
+/// In metres, the first by how far it is beyond what it may be off; within their tolerances they are shared.
+#[test]
+fn misfits_are_those_of_the_best_shape() {
+    let solved = |within_m| minimise(&samples::legs(within_m), &Settings::default());
+    let Err(Error::Misfit { misfits }) = solved([1e-4, 2e-5, 4e-5, 5e-5]) else { panic!() };
+    samples::assert_misfits_of_legs(&misfits, [(1, 2e-5), (2, 4e-5), (3, 5e-5), (0, 1e-4)]);
+    let shared = solved([1e-3; 4]).unwrap().equilibrium;
+    samples::assert_shared_by_legs(shared.joints_m[0], &shared.axial_n);
+}

@@ -240,3 +240,30 @@ fn members_in_independent_directions_bear_nothing() {
     assert_eq!(bears(&[x, [0.0; 3], back], &[(0, 1), (1, 2)], &[0]), [false; 2]);
     assert_eq!(bears(&[back, x, [0.0; 3]], &[(0, 2), (2, 1)], &[0]), [false; 2]);
 }
+
+/// By their angles, whatever the lengths of the members: two of 7 m and 21 m, or 7 mm and 21 mm, at twice and at
+/// half of a millionth of a radian; three by the volume between them.
+#[test]
+fn members_are_independent_by_their_directions() {
+    let (_, like) = lamp();
+    for length in [7.0, 7e-3] {
+        let along = |joints_m: Vec<Vector>, to: usize| {
+            let body = Bar::homogeneous(1.0, 0.0).unwrap();
+            let answer = SystemEquilibrium { joints_m, ..like.clone() };
+            direction(&Member::bar(0, to, body), &answer)
+        };
+        for (angle, wanted) in [(2.0 * INDEPENDENT, true), (0.5 * INDEPENDENT, false)] {
+            let first = [2.0, 3.0, 6.0].map(|x| length / 7.0 * x);
+            // Across it, of length 1.
+            let aside = [6.0, 2.0, -3.0].map(|x| x / 7.0);
+            let second: Vector =
+                std::array::from_fn(|k| 3.0 * first[k] + 3.0 * length * angle * aside[k]);
+            let third = [3.0, -6.0, 2.0].map(|x| 5.0 * length * x);
+            let places = vec![[0.0; 3], first, second, third];
+            let all = [1, 2, 3].map(|to| along(places.clone(), to));
+            assert!(all.iter().all(|one| (norm(*one) - 1.0).abs() < 1e-14), "{all:?}");
+            assert_eq!(independent(&all[..2]), wanted, "{length} {angle}");
+            assert_eq!(independent(&all), wanted, "{length} {angle}");
+        }
+    }
+}
