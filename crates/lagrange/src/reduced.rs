@@ -156,3 +156,40 @@ impl Equations for Reduced {
         self.leave_gimbal_lock(self.lock_margin);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::cases;
+
+    use super::*;
+    use crate::mechanism::Units;
+
+    /// Three bars along (2, 3, 6), (6, -2, 3) and (3, -6, 2): of each what pulls at it across it times its length,
+    /// over the largest force and a third.
+    #[test]
+    fn the_largest_moment_is_in_units_of_the_largest_force() {
+        let chain = cases::paper();
+        let mut mechanism = Mechanism::scaled(chain.chain(), Units::total(chain.chain()));
+        mechanism.lengths = vec![0.2, 0.5, 0.3];
+        mechanism.centres = vec![0.15, 0.2, 0.1];
+        mechanism.weights = vec![0.3, 0.1, 0.6];
+        let directions = [[2.0, 3.0, 6.0], [6.0, -2.0, 3.0], [3.0, -6.0, 2.0]];
+        let directions = directions.map(|u| Vector3::from(u) / 7.0);
+        // Of the weights, by the lever rule, what hangs before each bar.
+        let carried = [0.3 * 0.25, 0.3 + 0.1 * 0.6, 0.4 + 0.6 * 2.0 / 3.0];
+        for pull in [[2.0, -3.0, -6.0], [0.3, 0.1, -0.2]] {
+            let pull = Vector3::from(pull);
+            let mut reduced = Reduced::new(mechanism.clone(), 0.0);
+            reduced.resume(directions.iter().map(regular_angles), pull);
+            let largest = pull.norm().max((pull + Vector3::z()).norm());
+            let moments = [0, 1, 2].map(|k| {
+                let force = pull + Vector3::z() * carried[k];
+                mechanism.lengths[k] * directions[k].cross(&force).norm() / (largest / 3.0)
+            });
+            let wanted = moments.iter().fold(0.0, |most: f64, moment| most.max(*moment));
+            let (bar, found) = reduced.largest_moment();
+            assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {moments:?}");
+            assert!((moments[bar] - wanted).abs() < 1e-12 && bar < 3, "{bar} {moments:?}");
+        }
+    }
+}
