@@ -278,7 +278,7 @@ fn starts_that_are_none() {
 /// of it; x follows t with half its stiffness.
 struct Stops {
     /// Places, slopes, and whether each is touched.
-    stops: Vec<(f64, f64, bool)>,
+    all: Vec<(f64, f64, bool)>,
     slope: f64,
     /// How far all places move with the load.
     drift: f64,
@@ -287,7 +287,7 @@ struct Stops {
 impl Stops {
     fn new(stops: &[(f64, f64)]) -> Self {
         let free = |(at, slope): &(f64, f64)| (*at, *slope, false);
-        Self { stops: stops.iter().map(free).collect(), slope: 1.0, drift: 0.0 }
+        Self { all: stops.iter().map(free).collect(), slope: 1.0, drift: 0.0 }
     }
 
     fn path(&mut self, range: [f64; 2]) -> LoadPath<Self> {
@@ -306,7 +306,7 @@ impl Equations for Stops {
     }
 
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), ()> {
-        let touched = self.stops.iter().filter(|(.., touched)| *touched);
+        let touched = self.all.iter().filter(|(.., touched)| *touched);
         let held = touched.map(|(at, slope, _)| slope * (y[1] - at - self.drift * t));
         let held: f64 = held.sum();
         let rows = DVector::from_row_slice(&[2.0 * y[0] - t, y[1] + held - t]);
@@ -315,7 +315,7 @@ impl Equations for Stops {
     }
 
     fn factorise(&mut self, _: &DVector<f64>, _: f64) -> Result<Option<usize>, ()> {
-        let touched = self.stops.iter().filter(|(.., touched)| *touched);
+        let touched = self.all.iter().filter(|(.., touched)| *touched);
         self.slope = 1.0 + touched.map(|(_, slope, _)| slope).sum::<f64>();
         Ok(Some(usize::from(self.slope < 0.0)))
     }
@@ -333,12 +333,12 @@ impl Equations for Stops {
             let off = at + self.drift * t - y[1];
             if *touched { -off } else { off }
         };
-        Ok(self.stops.iter().map(value).enumerate().collect())
+        Ok(self.all.iter().map(value).enumerate().collect())
     }
 
     fn switch(&mut self, side: usize) -> Result<bool, ()> {
-        self.stops[side].2 ^= true;
-        Ok(self.stops[side].2)
+        self.all[side].2 ^= true;
+        Ok(self.all[side].2)
     }
 
     fn record(&mut self, y: &DVector<f64>, _: f64, _: usize) -> Result<[f64; 2], ()> {
