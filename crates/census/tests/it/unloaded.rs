@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::support::{census, equal, problem};
-use census::{Census, ProvenEquilibrium};
+use census::network::SystemCensus;
+use census::{Census, ProvenEquilibrium, Settings};
+use model::system::System;
 use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -167,4 +169,18 @@ fn strands_of_a_family_are_vertical() {
         let found = family.angles_rad(&problem);
         assert!(found.iter().map(bits).eq(expected.iter().map(bits)), "{found:?}");
     }
+}
+
+/// Slack bars in a chain are slack in its system: two that hang at the ends with two slack ones between, and what
+/// else the chain has; weights at the joints.
+#[test]
+fn families_of_a_system_are_those_of_its_chain() {
+    let bars = [(0.9, 2.0, 0.3), (0.5, 0.0, 0.25), (0.6, 0.0, 0.3), (0.7, 1.5, 0.2)];
+    let problem = problem(&bars, [0.3, 0.0, -0.1]);
+    let chain = Census::take(&problem, &Settings::default()).unwrap();
+    let system = System::from(problem.chain());
+    let system = SystemCensus::take(&system, &Settings::default()).unwrap();
+    assert!(chain.complete && system.complete && !chain.families.is_empty());
+    assert_eq!(system.families(), chain.families.len());
+    assert_eq!(system.equilibria.len(), chain.equilibria.len());
 }

@@ -197,7 +197,7 @@ fn mobile() -> (System, Vec<[f64; 3]>) {
 #[test]
 fn modes_scale_without_rounding() {
     let long: Vec<Bar> =
-        (0..130).map(|k| Bar::homogeneous(0.1 + 0.001 * k as f64, 0.2).unwrap()).collect();
+        (0..130).map(|k| Bar::homogeneous(0.1 + 0.001 * f64::from(k), 0.2).unwrap()).collect();
     let lengths: Vec<f64> = long.iter().map(Bar::length_m).collect();
     let down = string(&lengths, &vec![0.0; lengths.len()]);
     for (system, at) in [mobile(), (hanging(&long, &[0.3; 3]), down)] {
@@ -254,7 +254,9 @@ fn modes_are_orthogonal_in_the_inertia() {
         assert!(of.next().is_none() && first.omega2_s2.to_bits() == 0);
         first
     };
-    let turn = named(|what| matches!(what, What::Turn { axis_m } if *axis_m == [0.3, -0.7]));
+    let turn = named(
+        |what| matches!(what, What::Turn { axis_m: [x, y] } if (x - 0.3).hypot(y + 0.7) < 1e-14),
+    );
     let largest = 2;
     for (joint, shape) in turn.shape.iter().enumerate() {
         let moves = (2..5).contains(&joint);

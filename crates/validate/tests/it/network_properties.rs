@@ -105,10 +105,14 @@ fn numbers(found: &serde_json::Value, key: &str, units: [f64; 3], all: &mut Vec<
             all.push((key.to_owned(), number.as_f64().unwrap() / unit));
         }
         serde_json::Value::Array(items) => {
-            items.iter().for_each(|item| numbers(item, key, units, all));
+            for item in items {
+                numbers(item, key, units, all);
+            }
         }
         serde_json::Value::Object(items) => {
-            items.iter().for_each(|(key, item)| numbers(item, key, units, all));
+            for (key, item) in items {
+                numbers(item, key, units, all);
+            }
         }
         _ => {}
     }
