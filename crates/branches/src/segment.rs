@@ -179,7 +179,7 @@ mod tests {
                 0.0,
             ),
             (at([0.1, -3.0], [0.6, 0.0, 0.8]), std::f64::consts::TAU - 6.0),
-            (at([0.2, 3.0], [0.36, 0.48, 0.8]), 0.267264_f64.sqrt()),
+            (at([0.2, 3.0], [0.36, 0.48, 0.8]), 0.267_264_f64.sqrt()),
         ] {
             let found = [distance(&here, &there), distance(&there, &here)];
             assert!(found.iter().all(|d| (d - wanted).abs() < 1e-14), "{found:?} {wanted}");

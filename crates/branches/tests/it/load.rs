@@ -19,6 +19,8 @@ struct Potential {
     places: usize,
     /// Loads at which there is a gradient.
     loads: [f64; 2],
+    /// Where z meets a stop, its slope, and whether it is touched.
+    stop: (f64, f64, bool),
 }
 
 impl Potential {
@@ -30,6 +32,7 @@ impl Potential {
             asked: [0; 2],
             places: 2,
             loads: [f64::NEG_INFINITY, f64::INFINITY],
+            stop: (f64::INFINITY, 0.0, false),
         }
     }
 
@@ -71,7 +74,10 @@ impl Equations for Potential {
         if !(self.loads[0]..=self.loads[1]).contains(&t) {
             return Err(());
         }
-        let rows = DVector::from_row_slice(&(self.gradient)([y[0], y[1]], t));
+        let mut rows = DVector::from_row_slice(&(self.gradient)([y[0], y[1]], t));
+        if let (at, slope, true) = self.stop {
+            rows[1] += slope * (y[1] - at);
+        }
         let size = rows.amax();
         Ok((rows, size))
     }
@@ -79,7 +85,8 @@ impl Equations for Potential {
     fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, ()> {
         self.asked[1] += 1;
         let [a, b] = (self.second)([y[0], y[1]], t);
-        self.matrix = DMatrix::from_row_slice(2, 2, &[a[0], a[1], b[0], b[1]]);
+        let stiff = if self.stop.2 { self.stop.1 } else { 0.0 };
+        self.matrix = DMatrix::from_row_slice(2, 2, &[a[0], a[1], b[0], b[1] + stiff]);
         let values = self.matrix.symmetric_eigenvalues();
         Ok(Some(values.iter().filter(|value| **value < 0.0).count()))
     }
@@ -95,12 +102,15 @@ impl Equations for Potential {
         &self.matrix * y
     }
 
-    fn sides(&mut self, _: &DVector<f64>, _: f64) -> Result<Vec<((), f64)>, ()> {
-        Ok(vec![])
+    fn sides(&mut self, y: &DVector<f64>, _: f64) -> Result<Vec<((), f64)>, ()> {
+        let (at, _, touched) = self.stop;
+        let off = if touched { y[1] - at } else { at - y[1] };
+        Ok(if at.is_finite() { vec![((), off)] } else { vec![] })
     }
 
     fn switch(&mut self, (): ()) -> Result<bool, ()> {
-        Ok(false)
+        self.stop.2 ^= true;
+        Ok(self.stop.2)
     }
 
     fn record(&mut self, y: &DVector<f64>, _: f64, _: usize) -> Result<[f64; 2], ()> {
@@ -545,4 +555,37 @@ fn linear_buckling_is_the_least_load_of_the_pencil() {
     assert_eq!(linear_buckling(&mut away, &start).unwrap(), None);
     let mut still = Potential::new(|[x, z], _| [3.0 * x, 4.0 * z], |_, _| [[3.0, 0.0], [0.0, 4.0]]);
     assert_eq!(linear_buckling(&mut still, &start).unwrap(), None);
+}
+
+/// The pitchfork with a stop of slope 3 at z = 3/2: the upright path meets it at t = 3/2 and goes on with
+/// z = (t + 9/2)/4; those beside it, which begin at t = 1 before the stop, with z = 2 t - 1 meet it at t = 5/4
+/// and go on with z = (t + 4) 2/7.
+#[test]
+fn paths_beside_meet_the_stops_anew() {
+    let mut pitchfork = Potential::new(
+        |[x, z], t| [(1.0 - z) * x + x.powi(3), z - t - 0.5 * x * x],
+        |[x, z], _| [[1.0 - z + 3.0 * x * x, -x], [-x, 1.0]],
+    );
+    pitchfork.stop = (1.5, 3.0, false);
+    let paths = pitchfork.follow([0.0, 0.0], [0.0, 2.0], 1).unwrap();
+    assert_eq!(paths.len(), 3);
+    for (number, path) in paths.iter().enumerate() {
+        let meets = if number == 0 { 1.5 } else { 1.25 };
+        let kinks: Vec<_> = path.events.iter().filter(|event| event.kind == Kind::Kink).collect();
+        let [kink] = kinks[..] else { panic!("{number}: {:?}", path.events) };
+        assert!((kink.t - meets).abs() < 1e-9 && kink.sides == [((), true)], "{kink:?}");
+        assert_eq!((path.end.clone(), path.points.last().unwrap().t), (End::Range, 2.0));
+        for point in &path.points {
+            let ([x, z], t) = (point.record, point.t);
+            let wanted = match (number, t < meets) {
+                (0, true) => t,
+                (0, false) => (t + 4.5) / 4.0,
+                (_, true) => 2.0 * t - 1.0,
+                (_, false) => (t + 4.0) / 3.5,
+            };
+            assert!((z - wanted).abs() < 1e-8, "{number}: {z} at {t}, not {wanted}");
+            let square = if number == 0 { 0.0 } else { z - 1.0 };
+            assert!((x * x - square).abs() < 1e-8, "{number}: {x} at {t}");
+        }
+    }
 }

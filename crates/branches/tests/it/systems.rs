@@ -180,6 +180,35 @@ fn loads_are_a_factor_of_all_loads() {
     }
 }
 
+/// Lengths alone, and what is in the middle of them by default: loads at given places and given centres stay, one
+/// member may have another length besides.
+#[test]
+fn lengths_are_a_factor_of_all_lengths() {
+    let base = read(FILE);
+    let found = varied(&[("lengths", 1.25), ("bars.9.length_m", 8.0)]);
+    assert_eq!(found.joints(), base.joints());
+    for (k, (found, base)) in found.members().iter().zip(base.members()).enumerate() {
+        let [found, base] = [found, base].map(|member| member.clone().as_given());
+        let (own, other) = (&found.body, &base.body);
+        let length_m = if k == 8 { 8.0 } else { 1.25 * other.length_m() };
+        assert!((own.length_m() - length_m).abs() < 1e-14, "{k}: {}", own.length_m());
+        assert!((own.mass_kg() - other.mass_kg()).abs() < 1e-15, "{k}");
+        assert_eq!(own.given_centre_m(), other.given_centre_m(), "{k}");
+        let centre_m = other.given_centre_m().unwrap_or(0.5 * length_m);
+        assert!((own.centre_m() - centre_m).abs() < 1e-14, "{k}");
+        assert_eq!(
+            (found.prestress_n(), found.stiffness_n),
+            (base.prestress_n(), base.stiffness_n)
+        );
+        for (load, other) in found.loads.iter().zip(&base.loads) {
+            let middle = (other.at_m - 0.5 * base.body.length_m()).abs() < 1e-15;
+            let at_m = if middle { 0.5 * length_m } else { other.at_m };
+            assert!((load.at_m - at_m).abs() < 1e-14, "{k}");
+            assert_eq!(load.force_n, other.force_n, "{k}");
+        }
+    }
+}
+
 /// A rider's share: the lengths on both sides have the sum they had, and go with masses and loads.
 #[test]
 fn a_share_moves_length_from_one_row_to_the_other() {

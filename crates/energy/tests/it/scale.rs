@@ -27,18 +27,20 @@ fn mixed(system: &System) -> System {
         force_n: if k == 2 { [0.5, -1.5, 0.25] } else { joint.force_n },
         ..joint.clone()
     });
-    System::new("mixed", system.gravity_m_s2(), joints.collect(), members.collect()).unwrap()
+    System::new("mixed", system.gravity_m_s2(), joints.collect(), members.collect())
+        .expect("a system")
 }
 
 #[test]
 fn systems_scale_without_rounding() {
     let mut answers = 0;
-    for seed in 0..8 {
+    for seed in 0..8_u32 {
         for (k, make) in
             [bridle, ring, tree, |rng: &mut ChaCha8Rng| net(rng, 0.6)].iter().enumerate()
         {
-            let system = make(&mut ChaCha8Rng::seed_from_u64(4000 + seed));
-            let system = if (seed as usize + k) % 2 == 0 { mixed(&system) } else { system };
+            let system = make(&mut ChaCha8Rng::seed_from_u64(4000 + u64::from(seed)));
+            let system =
+                if k.is_multiple_of(2) == seed.is_multiple_of(2) { mixed(&system) } else { system };
             let one = minimise(&system, &Settings::default());
             for factors in FACTORS {
                 let [length, mass, gravity] = factors;

@@ -147,3 +147,31 @@ fn a_loaded_string_has_the_frequencies_of_lagrange() {
         }
     }
 }
+
+/// A ring on the floor, on a rod from an anchor at the same height, is pushed by its weight and half of the rod's: by
+/// more than a ten-millionth of the largest force, that of a weight which hangs elsewhere, or not at all.
+#[test]
+fn a_push_counts_beside_the_largest_force() {
+    for (light_kg, heavy_kg, pushed) in
+        [(2.0, 1e6, true), (2.0, 1e8, false), (2e-3, 1e3, true), (2e-3, 1e5, false)]
+    {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("ring").with_mass(light_kg),
+            Joint::anchor("B", [5.0, 0.0, 4.0]),
+            Joint::free("weight").with_mass(heavy_kg),
+        ];
+        let link = |from, to| Member::bar(from, to, Bar::homogeneous(1.5, 0.0).unwrap());
+        let system = System::new("floor", G, joints, vec![link(0, 1), link(2, 3)]).unwrap();
+        let system = system.with_floor(0.0).unwrap();
+        let at = [[0.0; 3], [1.5, 0.0, 0.0], [5.0, 0.0, 4.0], [5.0, 0.0, 2.5]];
+        match modes(&system, &at, None) {
+            Ok(_) => assert!(pushed, "{light_kg} {heavy_kg}"),
+            Err(MotionError::NotPushed { joint, push_n }) => {
+                assert!(!pushed && joint == "ring", "{light_kg} {heavy_kg}");
+                assert!((push_n / (G * light_kg) - 1.0).abs() < 1e-6, "{push_n}");
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+}
