@@ -8,7 +8,7 @@ pub const USAGE: &str = "usage: mutants CRATE [--from LIST] [--draw N] [--seed S
                [--work DIR] [--target-dir DIR] [--limit SECONDS] [--jobs N] [--out FILE]
 Run at the top of the workspace.
   --from LIST       cargo: those of `cargo mutants` (else); plausible: those that people make by mistake
-  --draw N          changes drawn at random, and run where they compile; without it all
+  --draw N          changes drawn at random, the first ones that compile; without it all
   --seed S          of the draw
   --only FILE       the changes named in the tables of a result, by file, text and nearest line
   --also CRATE      shows what survives to the tests of another crate, too

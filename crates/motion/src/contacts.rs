@@ -238,3 +238,44 @@ impl Contacts {
         self.list.iter().map(force).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member};
+
+    use super::*;
+
+    /// A cable of 2 m from an anchor 2.5 m above the floor, a strut of 4 m beside it: where P is 1.5 m from the one and
+    /// 5 m from the other, half of the squares' difference over the length's square; above the floor by parts of 6 m.
+    #[test]
+    fn gaps_are_parts_of_lengths() {
+        let joints = vec![
+            Joint::anchor("A", [0.0, 0.0, 2.5]),
+            Joint::free("P").with_mass(1.0),
+            Joint::anchor("B", [4.0, 0.0, 4.0]),
+        ];
+        let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let strut = Member { kind: Kind::Strut, ..Member::bar(2, 1, body(4.0)) };
+        let members = vec![Member::cable(0, 1, body(2.0)), strut];
+        let system = System::new("gaps", 10.0, joints, members).unwrap().with_floor(-0.25).unwrap();
+        let mut contacts = Contacts::of(&system).unwrap();
+        let list = [Contact::Member(0), Contact::Member(1), Contact::Floor(1)];
+        assert_eq!(contacts.list, list);
+        let at = |z: f64| [[0.0, 0.0, 2.5], [0.0, 0.0, z], [4.0, 0.0, 4.0]];
+        for (contact, gap) in
+            list.into_iter().zip([(4.0 - 2.25) / 8.0, (25.0 - 16.0) / 32.0, 1.25 / 6.0])
+        {
+            let found = contacts.gap_at(contact, &at(1.0));
+            assert!((found - gap).abs() < 1e-15, "{contact:?}: {found}, not {gap}");
+        }
+        // Below the floor by less than what may be, and by more.
+        for (part, held) in [(0.5, false), (2.0, true)] {
+            let below = at(-0.25 - part * CLOSED * 6.0);
+            assert!(contacts.gap_at(list[2], &below) < 0.0);
+            contacts.holds = vec![true, true, false];
+            assert_eq!(contacts.hold_negative(&below), held, "{part}");
+            assert_eq!(contacts.holds[2], held);
+        }
+    }
+}

@@ -233,3 +233,20 @@ fn numbers_have_the_units_of_their_names() {
         assert_eq!(parameter.number.unit(), unit, "{path}");
     }
 }
+
+/// What an error is about, to the byte: the wrong sign alone, of however many bytes, or the whole wrong word.
+#[test]
+fn errors_are_about_a_piece_of_the_text() {
+    for (text, piece, what) in [
+        ("bars2].mass_kg=1", "]", "this bracket is not opened"),
+        ("bars[2]\u{e4}.mass_kg=1", "\u{e4}", "a dot is missing here"),
+        ("bars[2.mass_kg=1", "[", "this bracket is not closed"),
+        ("bars[2=1", "[", "this bracket is not closed"),
+        ("joints.A.m\u{e4}ss_kg=1", "m\u{e4}ss_kg", "unknown key"),
+        ("gravity_m_s2=1,x,2", "x", "is not a number"),
+    ] {
+        let error = text.parse::<Parameter>().unwrap_err();
+        assert!(error.what.contains(what), "{text}: {}", error.what);
+        assert_eq!(&text[error.span.clone()], piece, "{text}: {error}");
+    }
+}

@@ -504,7 +504,7 @@ mod tests {
             position.equilibrium.joints_m =
                 [start, middle, end].map(|at| at.map(Interval::point)).to_vec();
             let found = shape(&position);
-            assert_eq!(found[0], [0.0; 2]);
+            assert!(found[0].iter().all(|x| x.abs() <= 0.0));
             for (found, wanted) in found[1..].iter().flatten().zip(wanted.iter().flatten()) {
                 assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
             }

@@ -274,6 +274,15 @@ mod tests {
         // Both stand: each falls in the plane and out of it.
         let stand = census.families.iter().find(|family| family.signs == [-1, 0, 0, -1]).unwrap();
         assert_eq!((stand.index_in_plane, stand.index_in_space()), (2, 4));
+        // From the first joint of each bar to its second: down from the start and up to the end, and the other way.
+        let parts = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap()).collect();
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.3, 0.0, -0.1] };
+        let problem = Problem::new(Chain::new("slack", 10.0, anchors, parts).unwrap()).unwrap();
+        let half_turn = std::f64::consts::PI;
+        for (family, ends) in [(hanging, [0.0, half_turn]), (stand, [half_turn, 0.0])] {
+            let [first, last] = ends.map(Some);
+            assert_eq!(family.angles_rad(&problem), [first, None, None, last]);
+        }
         // No equilibrium is lower.
         let lowest = census.equilibria.first().map_or(f64::INFINITY, |e| e.energy_j.lo());
         assert!(hanging.energy_j.hi() < lowest);

@@ -254,4 +254,39 @@ mod tests {
             }
         }
     }
+
+    /// 2 mN under a rod under a spring of 1 TN from (1, 2, 3), which stretches it by 2e-15 m, far less than a digit of
+    /// its place: both bear the load, whatever they are said to bear.
+    #[test]
+    fn forces_are_settled_where_places_are_rounded() {
+        use model::Bar;
+        use model::system::{Joint, Member};
+        let joints = vec![
+            Joint::anchor("A", [1.0, 2.0, 3.0]),
+            Joint::free("P"),
+            Joint::free("Q").with_force([0.0, 0.0, -2e-3]),
+        ];
+        let bar = |from, to, length_m| {
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).expect("a bar"))
+        };
+        let members = vec![bar(0, 1, 1.0).with_stiffness(1e12), bar(1, 2, 0.5)];
+        let system = System::new("weak", 10.0, joints, members).expect("a system");
+        let frame = Frame::new(&system).expect("a frame");
+        let place = |z: f64| -> Vector {
+            std::array::from_fn(|k| ([1.0, 2.0, z][k] - frame.origin_m[k]) / frame.length_m)
+        };
+        for said in [[1.03, 0.98], [0.5, 2.0]] {
+            let shape = Shape {
+                x: [3.0, 2.0, 1.5].map(place).to_vec(),
+                force: said.map(|part| part * 2e-3 / frame.force_n).to_vec(),
+            };
+            let mut factor =
+                Factor::new(&frame.spots, &frame.rods, &frame.meter).expect("a factor");
+            let found = settled(&system, &frame, &mut factor, shape);
+            for force in &found.force {
+                let off = force * frame.force_n / 2e-3 - 1.0;
+                assert!(off.abs() < 1e-9, "{said:?}: off by {off:e}");
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The equations of a system as others see them, against differences and closed forms.
 
-use lagrange::network::{Equations, Side};
+use lagrange::network::{Equations, Settings, Side, solve};
 use model::Bar;
 use model::system::{Joint, Kind, Member, Support, System};
 use rand::RngExt;
@@ -205,4 +205,34 @@ fn drawings_say_what_is_taut() {
     for (member, taut) in [(0, false), (1, true), (2, false), (6, false), (7, true)] {
         assert_eq!(equations.switch(Side::Member(member)).unwrap(), taut, "{member}");
     }
+}
+
+/// 8 N in a V of two bars of 5 m over 6 m, with a cable of 7 m beside it to an anchor 6 m above: at the answer nothing is
+/// left, the bars bear 5 N, and the cable is slack by 7 m - 6 m.
+#[test]
+fn answers_are_where_nothing_is_left() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_force([0.0, 0.0, -8.0]),
+        Joint::anchor("C", [0.0, 0.0, 2.0]),
+    ];
+    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members = vec![
+        Member::bar(0, 2, body(5.0)),
+        Member::bar(1, 2, body(5.0)),
+        Member::cable(3, 2, body(7.0)),
+    ];
+    let system = System::new("V", 9.81, joints, members).unwrap();
+    let mut equations = Equations::new(&system).unwrap();
+    let y = equations.at(&system, &solve(&system, &Settings::default()).unwrap());
+    let [length_m, force_n] = equations.units();
+    assert!(equations.residual(&y).1 < 1e-14 && y.len() == 15);
+    assert!((equations.units()[0] - 17.0 / 3.0).abs() < 1e-14);
+    let axial: Vec<f64> = y[12..].iter().map(|n| n * force_n).collect();
+    close(&axial, &[5.0, 5.0, 0.0], 1e-12);
+    assert!(((y[8] - y[11]) * length_m + 6.0).abs() < 1e-12, "{y:?}");
+    let [(side, value)] = equations.sides(&y)[..] else { panic!() };
+    assert!(side == Side::Member(2) && (value * length_m - 1.0).abs() < 1e-12, "{value}");
+    assert_eq!(equations.factorise(&y), Some(0));
 }

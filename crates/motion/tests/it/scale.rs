@@ -179,7 +179,7 @@ fn shapes(found: &[Mode]) -> Numbers {
 }
 
 /// Two bars of 0.6 m and 0.5 m between anchors on one vertical, 0.7 m apart, which turn about it, with a pendulum of
-/// two rods on the joint between them; and a weight on a rod under a ring on a level wire. Masses in the middle of
+/// two rods on the joint between them, and a rod under the upper anchor; and a weight on a rod under a ring on a level wire. Masses in the middle of
 /// bars or not, and moments of inertia of their own.
 fn mobile() -> (System, Vec<[f64; 3]>) {
     let (x, y, top) = (0.3, -0.7, 0.45);
@@ -190,8 +190,16 @@ fn mobile() -> (System, Vec<[f64; 3]>) {
     let out = [x + aside * cos, y + aside * sin, top - down];
     let below = |[x, y, z]: [f64; 3], length_m: f64| [x, y, z - length_m];
     let (knee, ring) = (below(out, 0.4), [2.0, 1.0, 0.5]);
-    let at =
-        vec![[x, y, top], [x, y, top - 0.7], out, knee, below(knee, 0.35), ring, below(ring, 0.55)];
+    let at = vec![
+        [x, y, top],
+        [x, y, top - 0.7],
+        out,
+        knee,
+        below(knee, 0.35),
+        ring,
+        below(ring, 0.55),
+        [x, y, top - 0.3],
+    ];
     let wire = Support::Line { at_m: ring, direction: [0.6, 0.8, 0.0] };
     let joints = vec![
         Joint::anchor("A", at[0]),
@@ -201,16 +209,18 @@ fn mobile() -> (System, Vec<[f64; 3]>) {
         Joint::free("R").with_mass(0.15),
         Joint { support: wire, ..Joint::free("ring").with_mass(0.5) },
         Joint::free("W").with_mass(0.9),
+        Joint::free("S"),
     ];
     let bar = |length_m, mass_kg, centre_m, inertia| {
         Bar::given(length_m, mass_kg, Some(centre_m), Some(inertia)).unwrap()
     };
     let members = vec![
-        Member::bar(0, 2, bar(0.6, 0.8, 0.25, [0.04, 0.07, 0.05])),
+        Member::bar(2, 0, bar(0.6, 0.8, 0.35, [0.04, 0.07, 0.05])),
         Member::bar(2, 1, Bar::homogeneous(0.5, 0.3).unwrap()),
         Member::bar(2, 3, bar(0.4, 0.25, 0.15, [0.0, 0.03, 0.03])),
         Member::bar(4, 3, Bar::given(0.35, 0.1, Some(0.1), None).unwrap()),
         Member::bar(5, 6, Bar::homogeneous(0.55, 0.4).unwrap()),
+        Member::bar(0, 7, Bar::homogeneous(0.3, 0.6).unwrap()),
     ];
     (System::new("mobile", G, joints, members).unwrap(), at)
 }
@@ -245,8 +255,8 @@ fn modes_are_orthogonal_in_the_inertia() {
     let (system, at) = mobile();
     let mut found = modes(&system, &at, None).unwrap();
     found.modes.retain(|mode| !matches!(mode.what, What::Spin { .. }));
-    // Of five moving joints 15 freedoms less five lengths and two of the wire.
-    assert_eq!((found.modes.len(), found.negative), (8, 0));
+    // Of six moving joints 18 freedoms less six lengths and two of the wire.
+    assert_eq!((found.modes.len(), found.negative), (10, 0));
     let inner = |a: &[[f64; 3]], b: &[[f64; 3]]| {
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let joints = system.joints().iter().enumerate();
@@ -311,7 +321,7 @@ fn modes_are_orthogonal_in_the_inertia() {
     }
     let rolls = named(|what| *what == What::Neutral);
     for (joint, shape) in rolls.shape.iter().enumerate() {
-        let wanted = if joint < 5 { [0.0; 3] } else { [0.6, 0.8, 0.0] };
+        let wanted = if [5, 6].contains(&joint) { [0.6, 0.8, 0.0] } else { [0.0; 3] };
         for (found, wanted) in shape.iter().zip(wanted) {
             assert!((found - wanted).abs() < 1e-10, "{joint}: {shape:?}");
         }
