@@ -8,5 +8,6 @@ mod diagram;
 mod load;
 mod parameters;
 mod random_chains;
+mod stops;
 mod systems;
 mod work;
