@@ -13,7 +13,7 @@
 //! slack.
 
 use model::system::{Kind, Member, Row, Support, System, SystemEquilibrium};
-use model::{Equilibrium, Place, Problem, Vector, sum};
+use model::{Equilibrium, Place, Problem, Sum, Vector, sum};
 use serde::Serialize;
 
 use super::certificate::total_load_n;
@@ -136,6 +136,9 @@ impl SystemStatics {
 
     /// Keep the larger of two violations, and where it is.
     fn note(&mut self, field: fn(&mut Self) -> &mut f64, value: f64, place: Place) {
+        if value <= 0.0 {
+            return;
+        }
         let most = self.largest();
         let kept = field(self);
         *kept = worse(*kept, value);
@@ -473,24 +476,24 @@ fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut Syst
 fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    // Made anew for each sum: a list would take more memory than the answer.
-    let all = || {
-        let ground = answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force));
-        loads_at(system, &place).chain(ground)
-    };
-    let left = |of: &dyn Fn((Vector, Vector)) -> Vector| -> f64 {
-        norm(std::array::from_fn(|c| sum(all().map(|one| of(one)[c]))))
-    };
-    let unit_n = sum(all().map(|(_, force)| norm(force)));
+    let ground = answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force));
+    let (mut left, mut turn, mut unit) = ([Sum::default(); 3], [Sum::default(); 3], Sum::default());
+    for (at, force) in loads_at(system, &place).chain(ground) {
+        left.iter_mut().zip(force).for_each(|(sum, part)| sum.add(part));
+        turn.iter_mut().zip(cross(at, force)).for_each(|(sum, part)| sum.add(part));
+        unit.add(norm(force));
+    }
+    let [left_n, turn_nm] = [left, turn].map(|all| norm(all.map(Sum::value)));
+    let unit_n = unit.value();
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
     // Without loads the prestress is what the ground's forces are measured by, not these themselves.
     let least_n =
         if total_load_n(system) > 0.0 || units.total_n.is_infinite() { 0.0 } else { units.total_n };
     let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n };
     // A displaced joint turns the whole: force times displacement.
-    let turn_n = beyond(left(&|(at, force)| cross(at, force)), unit_n * units.rounding_m);
+    let turn_n = beyond(turn_nm, unit_n * units.rounding_m);
     let turn_n = if turn_n > 0.0 { turn_n / units.size_m } else { turn_n };
-    worse(local.part(left(&|(_, force)| force), unit_n), local.part(turn_n, unit_n))
+    worse(local.part(left_n, unit_n), local.part(turn_n, unit_n))
 }
 
 /// Every load with where it acts.
