@@ -1,6 +1,7 @@
 //! How an equilibrium changes with the numbers of its system.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use branches::{BarField, Base, JointField, Number, Which};
 use lagrange::network::{self, Gradient, Settings};
@@ -49,7 +50,7 @@ pub struct Derivatives;
 /// An equilibrium, ready to be asked for its derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DerivativesAnswer {
-    system: System,
+    system: Arc<System>,
     solution: network::Solution,
 }
 

@@ -1,5 +1,7 @@
 //! The equilibria of a problem, all of them where a census is complete.
 
+use std::sync::Arc;
+
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 
@@ -29,12 +31,8 @@ pub(crate) struct Equilibria {
 /// The system of joints and members of a problem: a chain as a system has joints named by their
 /// numbers, from `0`.
 #[must_use]
-pub fn system_of(problem: &Problem) -> System {
-    match (problem.as_chain(), problem.as_system()) {
-        (Some(chain), _) => System::from(chain.chain()),
-        (None, Some(system)) => system.clone(),
-        (None, None) => unreachable!("a problem is a chain or a system"),
-    }
+pub fn system_of(problem: &Problem) -> Arc<System> {
+    problem.system()
 }
 
 /// The equilibrium that the solvers find, the stable one.

@@ -2,6 +2,7 @@
 //! ([`Ensemble`](crate::Ensemble)), or by the solvers ([`Sweep`](crate::Sweep) of a system).
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use model::Vector;
 use model::system::System;
@@ -57,7 +58,7 @@ impl End {
 /// Starts of a system, with the list that their ends are numbered by.
 #[derive(Debug, Clone)]
 pub(crate) struct Followed<F> {
-    pub system: System,
+    pub system: Arc<System>,
     follow: F,
     starts: Stream,
     list: Vec<Member>,
@@ -83,7 +84,7 @@ impl<F: Follow> Followed<F> {
         let list = known.list.iter().map(|one| listed(one, known.complete)).collect();
         let mut text = match problem.as_chain() {
             Some(chain) => SystemText::of(chain.chain()),
-            None => SystemText::from(&system),
+            None => SystemText::from(&*system),
         };
         if let Some(one) = known.list.first() {
             text.unit_j = energy_size_j(&system, &one.found);

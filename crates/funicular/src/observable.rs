@@ -5,7 +5,6 @@ use model::system_file::nearest;
 
 use branches::ParameterError;
 
-use crate::extremes::Extremes;
 use crate::sag::Sag;
 
 const HELP: &str = "`joints.NAME` (or one coordinate of it, `joints.NAME.z`), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `height` or `height=DATUM`";
@@ -99,12 +98,7 @@ impl Observable {
     }
 
     /// Its value; `None` where no members connect the two joints, or one is above the other.
-    pub(crate) fn of(
-        self,
-        system: &System,
-        found: &SystemEquilibrium,
-        extremes: &Extremes,
-    ) -> Option<f64> {
+    pub(crate) fn of(self, system: &System, found: &SystemEquilibrium) -> Option<f64> {
         match self {
             Self::Place(joint, axis) => Some(found.joints_m[joint][axis]),
             Self::Sag(ends) => Sag::between(system, &found.joints_m, ends).map(|sag| sag.depth_m),
@@ -113,7 +107,10 @@ impl Observable {
                 let middle_n = found.axial_n[member];
                 Some([middle_n, along.from_n, along.to_n, along.largest_n()][key])
             }
-            Self::Height(datum_m) => Some(extremes.lowest_m[2] - datum_m),
+            Self::Height(datum_m) => {
+                let lowest_m = found.joints_m.iter().map(|at_m| at_m[2]).min_by(f64::total_cmp)?;
+                Some(lowest_m - datum_m)
+            }
         }
     }
 }

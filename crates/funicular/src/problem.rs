@@ -2,10 +2,11 @@
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use model::Vector;
 use model::budget::Budget;
-use model::system::System;
+use model::system::{Row, System};
 use model::system_file::{self, Described, Readers, Rows};
 
 use crate::error::Error;
@@ -27,8 +28,7 @@ pub struct Problem(Kind);
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
     Chain(model::Problem),
-    /// With the chain that it is, where it is one.
-    System(System, Option<Box<model::Problem>>),
+    System(Arc<System>),
 }
 
 impl Problem {
@@ -90,7 +90,7 @@ impl Problem {
     pub fn name(&self) -> &str {
         match &self.0 {
             Kind::Chain(problem) => problem.chain().name(),
-            Kind::System(system, _) => system.name(),
+            Kind::System(system) => system.name(),
         }
     }
 
@@ -99,7 +99,15 @@ impl Problem {
     pub fn as_chain(&self) -> Option<&model::Problem> {
         match &self.0 {
             Kind::Chain(problem) => Some(problem),
-            Kind::System(..) => None,
+            Kind::System(_) => None,
+        }
+    }
+
+    /// The same as joints and members, which may be shared.
+    pub(crate) fn system(&self) -> Arc<System> {
+        match &self.0 {
+            Kind::Chain(problem) => Arc::new(System::from(problem.chain())),
+            Kind::System(system) => Arc::clone(system),
         }
     }
 
@@ -108,7 +116,7 @@ impl Problem {
     pub fn as_system(&self) -> Option<&System> {
         match &self.0 {
             Kind::Chain(_) => None,
-            Kind::System(system, _) => Some(system),
+            Kind::System(system) => Some(system),
         }
     }
 
@@ -119,7 +127,7 @@ impl Problem {
     pub fn row(&self) -> Option<&model::Problem> {
         match &self.0 {
             Kind::Chain(problem) => Some(problem),
-            Kind::System(_, row) => row.as_deref(),
+            Kind::System(system) => system.as_row().map(Row::problem),
         }
     }
 
@@ -127,7 +135,7 @@ impl Problem {
     pub(crate) fn fits(&self, each: u64) -> Result<(), Error> {
         let members = match &self.0 {
             Kind::Chain(problem) => problem.chain().bars().len(),
-            Kind::System(system, _) => system.members().len(),
+            Kind::System(system) => system.members().len(),
         };
         Ok(Budget::default().fits_members(members, each)?)
     }
@@ -158,7 +166,7 @@ impl Problem {
     pub fn near(&self, joints_m: &[Vector]) -> Result<Self, Error> {
         let system = crate::system_of(self);
         let shape = ForeignAnswer::in_order(&system, "a shape", joints_m.to_vec(), None)?;
-        Ok(system.drawn_at(&shape.joints_m)?.into())
+        Ok(Arc::unwrap_or_clone(system).drawn_at(&shape.joints_m)?.into())
     }
 }
 
@@ -208,8 +216,7 @@ impl From<Described> for Problem {
 
 impl From<System> for Problem {
     fn from(system: System) -> Self {
-        let row = system.as_row().map(|row| Box::new(row.problem().clone()));
-        Self(Kind::System(system, row))
+        Self(Kind::System(Arc::new(system)))
     }
 }
 

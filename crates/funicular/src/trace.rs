@@ -13,6 +13,7 @@ pub use self::confirm::Confirmed;
 pub use self::enclosed::PathProved;
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use branches::{
     Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, ParameterError,
@@ -193,7 +194,7 @@ impl Trace {
     ///
     /// [`Error::Parameter`] when a parameter does not fit the problem.
     pub fn load_variation(&self, problem: &Problem) -> Result<Variation<System>, Error> {
-        self.parameters.along(system_of(problem))
+        self.parameters.along(Arc::unwrap_or_clone(system_of(problem)))
     }
 
     /// Processor time of the censuses at all points, s, good to an order of magnitude, as the

@@ -70,7 +70,7 @@ pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;
 pub use stability::{InPlane, InSpace, Stability};
 pub use steers::steers;
-pub use sum::sum;
+pub use sum::{Sum, sum};
 
 /// A point or a vector in the world frame: `[x, y, z]`, unit as said where it is used.
 pub type Vector = [f64; 3];

@@ -12,13 +12,36 @@
 /// A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39-51, doi:10.1002/zamm.19740540106
 #[must_use]
 pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut total, mut lost) = (0.0_f64, 0.0_f64);
-    for term in terms {
-        let next = total + term;
-        lost +=
-            if total.abs() >= term.abs() { (total - next) + term } else { (term - next) + total };
-        total = next;
+    let mut all = Sum::default();
+    terms.into_iter().for_each(|term| all.add(term));
+    all.value()
+}
+
+/// The same, term by term: for several sums over one list.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Sum {
+    total: f64,
+    lost: f64,
+}
+
+impl Sum {
+    /// One more term.
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        let next = self.total + term;
+        self.lost += if self.total.abs() >= term.abs() {
+            (self.total - next) + term
+        } else {
+            (term - next) + self.total
+        };
+        self.total = next;
     }
-    // An overflow leaves NaN in `lost`; the plain total then says it better.
-    if lost.is_finite() { total + lost } else { total }
+
+    /// The sum so far.
+    #[inline]
+    #[must_use]
+    pub fn value(self) -> f64 {
+        // An overflow leaves NaN in `lost`; the plain total then says it better.
+        if self.lost.is_finite() { self.total + self.lost } else { self.total }
+    }
 }

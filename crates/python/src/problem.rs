@@ -272,7 +272,7 @@ impl Problem {
 
 impl Problem {
     /// As joints and members.
-    pub fn system(&self) -> System {
+    pub fn system(&self) -> Arc<System> {
         funicular::system_of(&self.of)
     }
 }

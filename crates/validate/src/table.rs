@@ -85,7 +85,7 @@ fn run(case: &Case) -> CaseResult {
     };
     let system = System::from(chain);
     let answer = ask_with(&system, &question(), &|_| {});
-    let rows = system.as_row().and_then(|row| rows(case.name, &system, &row, &answer.equilibria));
+    let rows = system.as_row().and_then(|row| rows(case.name, &system, row, &answer.equilibria));
     let Some((agreement, rows)) = answer.agreement.zip(rows) else {
         let why: Vec<_> = answer.failures.iter().map(ToString::to_string).collect();
         result.failure = Some(why.join("; "));

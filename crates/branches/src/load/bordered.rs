@@ -31,7 +31,7 @@ impl Row {
 /// singular $J$.
 pub(super) struct Bordered<'a> {
     column: &'a DVector<f64>,
-    row: &'a Row,
+    pub(super) row: &'a Row,
     /// $J^{-T} c$ and $J^{-1} b$.
     by_row: DVector<f64>,
     by_column: DVector<f64>,

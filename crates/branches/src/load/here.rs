@@ -116,14 +116,12 @@ pub(super) fn correct<Q: Equations>(
 fn polished<Q: Equations>(
     equations: &mut Q,
     (y, t): (DVector<f64>, f64),
-    column: &DVector<f64>,
-    row: &Row,
+    across: &Bordered<'_>,
 ) -> Result<(DVector<f64>, f64), Q::Error> {
     let (left, size) = equations.residual(&y, t)?;
-    let step = Bordered::new(equations, column, row).solve(equations, (&-left, 0.0));
-    let Some((dy, dt)) = step else { return Ok((y, t)) };
+    let Some((dy, dt)) = across.solve(equations, (&-left, 0.0)) else { return Ok((y, t)) };
     // At an end of the range the parameter stays.
-    let later = if row.y.amax() > 0.0 { t + dt } else { t };
+    let later = if across.row.y.amax() > 0.0 { t + dt } else { t };
     let better = equations.onto(&(&y + dy), later)?;
     let (_, after) = equations.residual(&better, later)?;
     Ok(if after < size { (better, later) } else { (y, t) })
@@ -140,9 +138,13 @@ impl Here {
     ) -> Result<Option<Self>, Q::Error> {
         let column = equations.by_parameter(&y, t)?;
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
-        let (y, t) = polished(equations, (y, t), &column, across)?;
+        let mut bordered = Bordered::new(equations, &column, across);
+        let (y, t) = polished(equations, (y, t), &bordered)?;
+        if !std::ptr::eq(across, row) {
+            bordered = Bordered::new(equations, &column, row);
+        }
         let zero = DVector::zeros(y.len());
-        let tangent = Bordered::new(equations, &column, row).solve(equations, (&zero, 1.0));
+        let tangent = bordered.solve(equations, (&zero, 1.0));
         let tangent = tangent.map(|(dy, dt)| {
             let norm = metric.norm(&dy, dt);
             Row { y: dy / norm, t: dt / norm }

@@ -54,6 +54,14 @@ enum Passed<E> {
     End(End<E>),
 }
 
+/// Across what a guess is corrected.
+#[derive(Clone, Copy)]
+enum Across {
+    Tangent,
+    /// At this value of the parameter.
+    Parameter,
+}
+
 pub(super) struct Walk<'a, Q: Equations> {
     pub(super) equations: &'a mut Q,
     settings: Settings,
@@ -197,11 +205,9 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     /// The length of a first step: that in which the tangent would turn by a fifth, as it begins to, or
     /// shorter. A longer one could pass a limit point at the very start unseen.
     fn first(&mut self, here: &Here) -> Result<f64, Q::Error> {
-        let row = self.metric.along(&here.tangent);
         let guess = (&here.y + &here.tangent.y * PROBE, here.t + here.tangent.t * PROBE);
-        let Some(next) = self.corrected(here, (&guess.0, guess.1), &row, PROBE)? else {
-            return Ok(PROBE);
-        };
+        let next = self.corrected(here, (&guess.0, guess.1), Across::Tangent, PROBE)?;
+        let Some(next) = next else { return Ok(PROBE) };
         let turned =
             Row { y: next.tangent.y - &here.tangent.y, t: next.tangent.t - here.tangent.t };
         let turn = self.metric.norm(&turned.y, turned.t) / PROBE;
@@ -215,50 +221,46 @@ impl<'a, Q: Equations> Walk<'a, Q> {
 
     /// The next point, and whether it is at an end of the range; nothing where the step is too long.
     fn step(&mut self, here: &Here, long: f64) -> Result<Option<(Here, bool)>, Q::Error> {
-        let row = self.metric.along(&here.tangent);
         let guess = (&here.y + &here.tangent.y * long, here.t + here.tangent.t * long);
         let inside = guess.1.clamp(self.settings.range[0], self.settings.range[1]);
         if inside.to_bits() != guess.1.to_bits() {
             let part = (inside - here.t) / (guess.1 - here.t);
             let guess = &here.y + &here.tangent.y * (long * part);
-            return Ok(self.land(here, (&guess, inside), long * part)?.map(|next| (next, true)));
+            let end = self.corrected(here, (&guess, inside), Across::Parameter, long * part)?;
+            return Ok(end.map(|end| (end, true)));
         }
-        let Some(next) = self.corrected(here, (&guess.0, guess.1), &row, long)? else {
-            return Ok(None);
-        };
+        let next = self.corrected(here, (&guess.0, guess.1), Across::Tangent, long)?;
+        let Some(next) = next else { return Ok(None) };
         let inside = next.t.clamp(self.settings.range[0], self.settings.range[1]);
         if inside.to_bits() == next.t.to_bits() {
             return Ok(Some((next, false)));
         }
         let part = (inside - here.t) / (next.t - here.t);
         let guess = &here.y + (&next.y - &here.y) * part;
-        Ok(self.land(here, (&guess, inside), long * part)?.map(|next| (next, true)))
+        let end = self.corrected(here, (&guess, inside), Across::Parameter, long * part)?;
+        Ok(end.map(|end| (end, true)))
     }
 
-    /// The point at an end of the range.
-    fn land(
-        &mut self,
-        here: &Here,
-        guess: (&DVector<f64>, f64),
-        long: f64,
-    ) -> Result<Option<Here>, Q::Error> {
-        self.corrected(here, guess, &Row::parameter(guess.0.len()), long)
-    }
-
+    /// A guess corrected, with what is there; nothing where it is moved too far.
     fn corrected(
         &mut self,
         here: &Here,
         guess: (&DVector<f64>, f64),
-        row: &Row,
+        across: Across,
         long: f64,
     ) -> Result<Option<Here>, Q::Error> {
+        let along = self.metric.along(&here.tangent);
+        let parameter = Row::parameter(guess.0.len());
+        let row = match across {
+            Across::Tangent => &along,
+            Across::Parameter => &parameter,
+        };
         let column = self.equations.by_parameter(guess.0, guess.1)?;
         let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
         let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
         if moved > (CORRECTION * long).max(ROUNDING) {
             return Ok(None);
         }
-        let along = self.metric.along(&here.tangent);
         let next = Here::new(self.equations, self.metric, found, [row, &along])?;
         Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH && self.one_arc(here, next)))
     }

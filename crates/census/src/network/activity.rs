@@ -32,14 +32,16 @@ pub(super) fn activities(
         if held(member.from) && held(member.to) {
             return Ok(Activity::Idle);
         }
+        if member.kind == Kind::Bar {
+            return Ok(Activity::Acts);
+        }
         let [x, y, z]: [f64; 3] =
             std::array::from_fn(|i| joints_m[member.to][i] - joints_m[member.from][i]);
         let length_m = member.body.length_m();
         let stretch = x.hypot(y).hypot(z) / length_m - 1.0;
         // How far the member is on the side on which it is slack, and how much it bears.
         let (spare, borne) = match member.kind {
-            Kind::Bar => return Ok(Activity::Acts),
-            Kind::Cable => (-stretch, axial_n[k]),
+            Kind::Bar | Kind::Cable => (-stretch, axial_n[k]),
             Kind::Strut => (stretch, -axial_n[k]),
         };
         let borne = borne / frame.force_n;

@@ -242,7 +242,7 @@ pub(super) fn tested(
 ) -> Result<(Interval, Interval), NoBox> {
     let of = |test: &Test<'_>| Ok((test.value(), test.slope(family, tube, rate)?));
     let Some(side) = side else { return of(&centre.rate(family, tube)?) };
-    let entries = side.entries(family, &family.equations.slope(&family.spread(tube.curve())));
+    let entries = side.entries(family, tube.slope(family));
     let defect = side.inverse.defect(&entries);
     of(&Test::new(side.of(family), &side.inverse, (&entries, &defect), Interval::ONE)?)
 }
@@ -257,7 +257,10 @@ fn locate(
     let mut centre = Centre::new(family, guess, row)?;
     let side = match block {
         None => None,
-        Some(block) => Some(Side::new(family, block, guess, None).ok_or(NoBox::Singular)?),
+        Some(block) => {
+            let side = Side::new(family, block, &centre.slope, None);
+            Some(side.ok_or(NoBox::Singular)?)
+        }
     };
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
@@ -287,7 +290,7 @@ fn newton_slope(family: &Family<'_>, centre: &Centre, side: Option<&Side>) -> (f
             let block = side.of(family);
             let mut last = vec![0.0; block.size() + 1];
             last[block.size()] = 1.0;
-            let entries = side.entries(family, &family.equations.slope(&y));
+            let entries = side.entries(family, &centre.slope);
             (block, &side.inverse, side.inverse.solve(&entries, &last))
         }
     };

@@ -130,10 +130,12 @@ impl<'a> Walk<'a> {
         let start = family.start(joints_m, axial_n, 0.0);
         let mut row = vec![0.0; family.size()];
         row[family.size() - 1] = 1.0;
-        let here = Node::new(family, Centre::new(family, &start, row)?)?;
+        let centre = Centre::new(family, &start, row)?;
+        let slope = centre.slope.clone();
+        let here = Node::new(family, centre)?;
         near(&here.place, &start)?;
         family.acts(family.spread(&here.place))?;
-        let side = |block| Side::new(family, block, &here.at, None).ok_or(NoBox::Singular);
+        let side = |block| Side::new(family, block, &slope, None).ok_or(NoBox::Singular);
         let broken = (1..family.blocks.len()).filter(|block| family.blocks[*block].size() > 0);
         let sides = broken.map(side).collect::<Result<_, _>>()?;
         Ok(Self { family, here, sides, tubes: 0 })
@@ -193,7 +195,7 @@ impl<'a> Walk<'a> {
             return Err(NoBox::NotContracting);
         }
         family.acts(family.spread(tube.curve()))?;
-        let side = |side: &Side| Side::new(family, side.block, &centre.at, Some(side));
+        let side = |side: &Side| Side::new(family, side.block, &centre.slope, Some(side));
         let sides = self.sides.iter().map(side).collect::<Option<Vec<_>>>();
         let sides = sides.ok_or(NoBox::Singular)?;
         let first = first(family, &centre, &tube, &sides)?;

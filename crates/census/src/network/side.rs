@@ -7,7 +7,6 @@ use super::equations::Entry;
 use super::family::Family;
 use super::inverse::Inverse;
 use super::symmetry::Block;
-use super::tube::points;
 
 /// $[J_\chi, p; q, 0]$ with $p$ and $q$ near the left and right null vectors.
 #[derive(Debug, Clone)]
@@ -20,15 +19,15 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// Next to a point; borders that suit another one near by may be given.
+    /// Next to a point with this derivative by all unknowns; borders that suit another one near by may be
+    /// given.
     pub(super) fn new(
         family: &Family<'_>,
         block: usize,
-        at: &[f64],
+        slope: &[Entry],
         borders: Option<&Self>,
     ) -> Option<Self> {
-        let jacobian = family.equations.slope(&family.spread(&points(at)));
-        let own = family.blocks[block].restrict(&jacobian);
+        let own = family.blocks[block].restrict(slope);
         let size = family.blocks[block].size();
         let inverse =
             |column: &[f64], row: &[f64]| Inverse::of(size + 1, &bordered(&own, column, row));

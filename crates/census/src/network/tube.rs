@@ -15,6 +15,8 @@
 //! on which $\dot x = M^{-1} (0, \gamma \cdot v)$ and $\ddot x = M^{-1} (-F''[\dot x, \dot x], 0)$.
 //! Where $M$ is regular $J$ is singular if and only if $\dot t = 0$.
 
+use std::cell::OnceCell;
+
 use model::NoBox;
 use numerics::Interval;
 
@@ -43,6 +45,8 @@ pub(super) struct Centre {
     /// $\gamma$.
     pub(super) row: Vec<f64>,
     pub(super) inverse: Inverse,
+    /// The derivative there by all unknowns.
+    pub(super) slope: Vec<Entry>,
 }
 
 pub(super) fn points(at: &[f64]) -> Vec<Interval> {
@@ -60,7 +64,8 @@ impl Centre {
         let jacobian = family.equations.slope(&family.spread(&points(guess)));
         let entries = family.bordered(&jacobian, &row);
         let inverse = Inverse::of(family.size(), &entries).ok_or(NoBox::Singular)?;
-        let mut centre = Self { at: guess.to_vec(), along: inverse.last_column(), row, inverse };
+        let (at, along) = (guess.to_vec(), inverse.last_column());
+        let mut centre = Self { at, along, row, inverse, slope: vec![] };
         centre.settle(family)?;
         Ok(centre)
     }
@@ -97,10 +102,10 @@ impl Centre {
             }
             last = size;
         }
-        let jacobian = family.equations.slope(&family.spread(&points(&self.at)));
+        self.slope = family.equations.slope(&family.spread(&points(&self.at)));
         let mut last = vec![0.0; family.size()];
         last[family.size() - 1] = 1.0;
-        self.along = self.inverse.solve(&family.bordered(&jacobian, &self.row), &last);
+        self.along = self.inverse.solve(&family.bordered(&self.slope, &self.row), &last);
         if self.along.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(NoBox::NotConverged) }
     }
 
@@ -117,7 +122,7 @@ impl Centre {
             |x: &[Interval]| family.bordered(&family.equations.slope(&family.spread(x)), &self.row);
         let line = self.line(over);
         let proved = prove_around(&line, &newton, LEAST * length, &self.inverse, slope)?;
-        Ok(Tube { over, proved })
+        Ok(Tube { over, proved, slope: OnceCell::new() })
     }
 
     /// $p_0 + s v$.
@@ -137,10 +142,9 @@ impl Centre {
             return Ok(off);
         }
         let along = points(&self.along);
-        let jacobian = family.equations.slope(&family.spread(&at));
         let last = family.size() - 1;
         let mut first = vec![Interval::ZERO; family.size()];
-        for (row, column, entry) in family.bordered(&jacobian, &self.row) {
+        for (row, column, entry) in family.bordered(&self.slope, &self.row) {
             if row < last {
                 first[row] = sum(first[row], product(entry, along[column]));
             }
@@ -215,12 +219,18 @@ pub(super) struct Tube {
     /// The values of $s$.
     pub(super) over: Interval,
     proved: Proved,
+    slope: OnceCell<Vec<Entry>>,
 }
 
 impl Tube {
     /// Where the curve is.
     pub(super) fn curve(&self) -> &[Interval] {
         &self.proved.tight
+    }
+
+    /// The derivative there by all unknowns.
+    pub(super) fn slope(&self, family: &Family<'_>) -> &[Entry] {
+        self.slope.get_or_init(|| family.equations.slope(&family.spread(self.curve())))
     }
 }
 

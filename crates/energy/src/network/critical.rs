@@ -101,8 +101,8 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     let stiffest = stiffest.map(|rod| rod.length / rod.flexibility).fold(0.0, f64::max);
     let rounding = rounding_floor(&frame, &shape) * stiffest / frame.force_scale(&shape.force);
     let (index, curvature) = if frame.freedom <= DENSE {
-        let dense = Dense::new(&frame, &shape);
-        (dense.count().0, dense.nearest_to_zero().map(|nearest| nearest / stiff))
+        let count = Dense::new(&frame, &shape).count();
+        (count.index, count.nearest_to_zero.map(|nearest| nearest / stiff))
     } else {
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         (below(&frame, &shape, &mut factor, ZERO, true), None)

@@ -74,7 +74,7 @@ pub(super) fn second_order(
             }
             None => Dense::new(frame, shape),
         };
-        let (index, neutral, condition) = dense.count();
+        let Count { index, neutral, condition, .. } = dense.count();
         SecondOrder {
             index,
             neutral,
@@ -119,7 +119,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
         .collect();
     let flat = Frame { spots, freedom, ..frame.clone() };
     if freedom <= DENSE {
-        return Some(Dense::new(&flat, shape).count().0);
+        return Some(Dense::new(&flat, shape).count().index);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
     Some(below(&flat, shape, &mut factor, ZERO, false))
@@ -225,6 +225,17 @@ pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> Mat<f64>
     rows
 }
 
+/// What the eigenvalues of the second derivative say.
+pub(super) struct Count {
+    /// Negative ones.
+    pub(super) index: usize,
+    /// Those that vanish.
+    pub(super) neutral: usize,
+    /// Ratio of the largest to the smallest that does not vanish, by magnitude.
+    pub(super) condition: f64,
+    pub(super) nearest_to_zero: Option<f64>,
+}
+
 /// Dense matrices at an equilibrium.
 pub(super) struct Dense {
     /// The second derivative on the motions that keep the lengths.
@@ -277,27 +288,22 @@ impl Dense {
         Self { hessian: motions.transpose() * &hessian * &motions, size, stresses, taut, rigidity }
     }
 
-    /// Negative and vanishing eigenvalues, and the ratio of the largest to the smallest other one.
-    pub(super) fn count(&self) -> (usize, usize, f64) {
+    /// What the eigenvalues say.
+    pub(super) fn count(&self) -> Count {
+        let none = Count { index: 0, neutral: 0, condition: 1.0, nearest_to_zero: None };
         if self.hessian.nrows() == 0 {
-            return (0, 0, 1.0);
+            return none;
         }
-        let Ok(values) = self.hessian.self_adjoint_eigenvalues(Side::Lower) else {
-            return (0, 0, 1.0);
-        };
+        let Ok(values) = self.hessian.self_adjoint_eigenvalues(Side::Lower) else { return none };
         let zero = ZERO * largest(&values).max(self.size);
-        let index = values.iter().filter(|value| **value < -zero).count();
-        let neutral = values.iter().filter(|value| value.abs() <= zero).count();
         let others = values.iter().map(|value| value.abs()).filter(|value| *value > zero);
         let smallest = others.fold(f64::INFINITY, f64::min);
-        let condition = if smallest.is_finite() { largest(&values) / smallest } else { 1.0 };
-        (index, neutral, condition)
-    }
-
-    /// The eigenvalue nearest to zero.
-    pub(super) fn nearest_to_zero(&self) -> Option<f64> {
-        let values = self.hessian.self_adjoint_eigenvalues(Side::Lower).ok()?;
-        values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        Count {
+            index: values.iter().filter(|value| **value < -zero).count(),
+            neutral: values.iter().filter(|value| value.abs() <= zero).count(),
+            condition: if smallest.is_finite() { largest(&values) / smallest } else { 1.0 },
+            nearest_to_zero: values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs())),
+        }
     }
 
     /// An orthonormal basis of the self-stresses by members; what the floor bears follows from it.

@@ -4,6 +4,8 @@ mod object;
 mod page;
 mod subject;
 
+use std::sync::Arc;
+
 use ::formats::answer::{Answer, Forces, Joints};
 use model::system::System;
 use validate::foreign::bounds::TOLERANCE;
@@ -62,7 +64,7 @@ impl Default for Judge {
 /// An answer with its judgement; what it serialises to names joints and members.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    system: System,
+    system: Arc<System>,
     judgement: Judgement,
 }
 

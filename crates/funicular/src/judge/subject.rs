@@ -1,5 +1,7 @@
 //! What an answer from elsewhere is an answer to.
 
+use std::sync::Arc;
+
 use formats::answer::{Answer, Forces, Joints};
 use formats::system::{ForceDensityNet, ForeignSystem};
 use model::system::System;
@@ -126,7 +128,7 @@ impl From<System> for Subject {
 
 impl From<&Problem> for Subject {
     fn from(problem: &Problem) -> Self {
-        crate::system_of(problem).into()
+        Arc::unwrap_or_clone(crate::system_of(problem)).into()
     }
 }
 

@@ -4,6 +4,7 @@ mod arguments;
 mod tables;
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
@@ -57,7 +58,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
 /// A folder of rows to be written.
 pub(crate) struct Folder<'a> {
     pub manifest: &'a Manifest,
-    pub system: System,
+    pub system: Arc<System>,
     pub out: &'a Path,
     pub threads: usize,
     pub resume: bool,

@@ -9,6 +9,7 @@ pub use self::start::Start;
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use formats::ForceTable;
 use model::Vector;
@@ -258,7 +259,7 @@ fn joint(system: &System, name: &str) -> Result<usize, SimulateError> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// What moves.
-    pub system: System,
+    pub system: Arc<System>,
     /// In how many parts each step was taken for the sake of elastic members.
     pub parts_of_step: u32,
     /// Everything at the stored times.

@@ -1,6 +1,7 @@
 //! What the solvers found, and how far it is proved.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use model::system::{System, SystemEquilibrium};
 use model::{Rung, SolverName, Vector};
@@ -12,12 +13,12 @@ use crate::csv::{Numbers, quoted};
 /// a system whose joints are named by their numbers, from `0`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolveAnswer {
-    system: System,
+    system: Arc<System>,
     answer: SystemAnswer,
 }
 
 impl SolveAnswer {
-    pub(crate) fn new(system: System, answer: SystemAnswer) -> Self {
+    pub(crate) fn new(system: Arc<System>, answer: SystemAnswer) -> Self {
         Self { system, answer }
     }
 
@@ -35,7 +36,7 @@ impl SolveAnswer {
 
     /// The system and its equilibria, given away: no array is copied.
     #[must_use]
-    pub fn into_parts(self) -> (System, Vec<SystemEquilibrium>) {
+    pub fn into_parts(self) -> (Arc<System>, Vec<SystemEquilibrium>) {
         (self.system, self.answer.equilibria)
     }
 

@@ -131,7 +131,7 @@ impl StudyShape {
             energy_j: first.energy_j,
             of: of
                 .iter()
-                .map(|(text, _)| Observable::parse(text, system).ok()?.of(system, first, &extremes))
+                .map(|(text, _)| Observable::parse(text, system).ok()?.of(system, first))
                 .collect(),
             lowest_joint: system.joints()[extremes.lowest_joint].name.clone(),
             extremes,

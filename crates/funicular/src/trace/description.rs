@@ -4,12 +4,12 @@ use branches::Variation;
 use branches::load::{End, Event, Kind, LoadPath as FollowedPath};
 use lagrange::network::Side;
 use model::system::{System, SystemEquilibrium};
+use rayon::prelude::*;
 
 use super::confirm::confirm;
-use super::enclosed::{enclosed, proved};
+use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept};
 use super::load::{LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPoint};
-use crate::extremes::Extremes;
 use crate::observable::Observable;
 
 /// Most joints and bars together of a system of which all limit and branch points are proved, each in some
@@ -57,8 +57,7 @@ pub(super) fn described(
     let system = variation.base();
     let points = found.points.iter().map(|point| {
         let Kept { values, equilibrium } = &point.record;
-        let extremes = Extremes::of(system, equilibrium);
-        let shown = |one: &Observable| one.of(system, equilibrium, extremes.as_ref()?);
+        let shown = |one: &Observable| one.of(system, equilibrium);
         LoadPoint {
             values: values.clone(),
             index: point.index,
@@ -70,27 +69,9 @@ pub(super) fn described(
         }
     });
     let points = points.collect();
-    let proved = proved(variation, family.ends(), found.points.first().map(|point| &point.record));
     let events = found.events.iter().map(|event| event_described(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
-    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
-    let loss = events.iter().position(LoadEvent::is_loss);
-    let first = events.iter().position(|event| event.kind != LoadEventKind::Kink);
-    for (number, (event, of)) in events.iter_mut().zip(&found.events).enumerate() {
-        let record = &found.points[event.point].record;
-        // What the proof of the path says of its first point is not proved again.
-        event.enclosed = match proved.between {
-            Some(between) if first == Some(number) && proved.is_of(event) => Some(between),
-            _ if small || loss == Some(number) => {
-                enclosed(variation, family.ends(), record, event.kind)
-            }
-            _ => None,
-        };
-        if event.kind == LoadEventKind::LimitPoint {
-            (event.by_length, event.by_place) = family.imperfections(record, of)?;
-        }
-    }
-    let equilibria: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
+    let at: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
         .points
         .iter()
         .map(|point| {
@@ -98,7 +79,18 @@ pub(super) fn described(
             (values.as_slice(), equilibrium, point.index, point.event.is_some())
         })
         .collect();
-    let confirmed = confirm(variation, &equilibria, &events);
+    let ends = family.ends();
+    let ((proved, enclosed), confirmed) = rayon::join(
+        || what_is_proved(variation, ends, found, &events),
+        || confirm(variation, &at, &events),
+    );
+    for ((event, of), enclosed) in events.iter_mut().zip(&found.events).zip(enclosed) {
+        event.enclosed = enclosed;
+        if event.kind == LoadEventKind::LimitPoint {
+            let record = &found.points[event.point].record;
+            (event.by_length, event.by_place) = family.imperfections(record, of)?;
+        }
+    }
     let end = match &found.end {
         End::Range => LoadEnd::Range,
         End::MaxPoints => LoadEnd::MaxPoints,
@@ -119,6 +111,30 @@ pub(super) fn described(
         confirmed,
         proved,
     })
+}
+
+/// What is proved of a path, and between which values each of its events is proved to lie.
+fn what_is_proved(
+    variation: &Variation<System>,
+    ends: [&[f64]; 2],
+    found: &FollowedPath<Family<'_>>,
+    events: &[LoadEvent],
+) -> (PathProved, Vec<Option<[f64; 2]>>) {
+    let system = variation.base();
+    let proved = proved(variation, ends, found.points.first().map(|point| &point.record));
+    let small = system.joints().len() + system.members().len() <= PROVED_ALL;
+    let loss = events.iter().position(LoadEvent::is_loss);
+    let first = events.iter().position(|event| event.kind != LoadEventKind::Kink);
+    let between = |(number, event): (usize, &LoadEvent)| match proved.between {
+        // What the proof of the path says of its first point is not proved again.
+        Some(between) if first == Some(number) && proved.is_of(event) => Some(between),
+        _ if small || loss == Some(number) => {
+            enclosed(variation, ends, &found.points[event.point].record, event.kind)
+        }
+        _ => None,
+    };
+    let enclosed = events.par_iter().enumerate().map(between).collect();
+    (proved, enclosed)
 }
 
 fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {

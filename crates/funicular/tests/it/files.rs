@@ -282,8 +282,8 @@ fn wait_for_bytes(folder: &Path) {
 #[test]
 fn an_interruption_leaves_no_part_behind() {
     let folder = folder("interrupted");
-    // Their joints are some 100 MB.
-    let text = SYSTEM.replace("count = 3", "count = 300_000");
+    // Their joints are some 30 MB.
+    let text = SYSTEM.replace("count = 3", "count = 100_000");
     fs::write(folder.join("chain.toml"), text).unwrap();
     for signal in ["TERM", "INT"] {
         let arguments = ["solve", "chain.toml", "--summary", "--csv", "out.csv"];
@@ -300,7 +300,7 @@ fn an_interruption_leaves_no_part_behind() {
 #[test]
 fn a_hangup_that_is_ignored_is_ignored() {
     let folder = folder("hangup");
-    let text = SYSTEM.replace("count = 3", "count = 300_000");
+    let text = SYSTEM.replace("count = 3", "count = 100_000");
     fs::write(folder.join("chain.toml"), text).unwrap();
     let arguments = ["solve", "chain.toml", "--summary", "--csv", "out.csv"];
     let mut running = started(&folder, "--ignore-signal=HUP", &arguments);

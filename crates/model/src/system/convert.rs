@@ -25,12 +25,7 @@ impl From<&Chain> for System {
         });
         let members = bars.iter().enumerate().map(|(k, bar)| Member::bar(k, k + 1, *bar));
         // What a chain guarantees is all that a system asks for.
-        Self {
-            name: chain.name().to_owned(),
-            gravity_m_s2: chain.gravity_m_s2(),
-            joints: joints.collect(),
-            members: members.collect(),
-            floor_m: None,
-        }
+        let (name, gravity_m_s2) = (chain.name().to_owned(), chain.gravity_m_s2());
+        Self::unchecked(name, gravity_m_s2, joints.collect(), members.collect())
     }
 }

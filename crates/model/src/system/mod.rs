@@ -63,6 +63,9 @@ pub struct System {
     joints: Vec<Joint>,
     members: Vec<Member>,
     floor_m: Option<f64>,
+    total_length_m: f64,
+    total_mass_kg: f64,
+    row: row::Once,
 }
 
 impl System {
@@ -78,7 +81,29 @@ impl System {
         members: Vec<Member>,
     ) -> Result<Self, SystemError> {
         error::check(gravity_m_s2, &joints, &members)?;
-        Ok(Self { name: name.into(), gravity_m_s2, joints, members, floor_m: None })
+        Ok(Self::unchecked(name.into(), gravity_m_s2, joints, members))
+    }
+
+    /// Of numbers that are known to be in range.
+    fn unchecked(
+        name: String,
+        gravity_m_s2: f64,
+        joints: Vec<Joint>,
+        members: Vec<Member>,
+    ) -> Self {
+        let masses = members.iter().map(|member| member.body.mass_kg());
+        let total_mass_kg = crate::sum(joints.iter().map(|joint| joint.mass_kg).chain(masses));
+        let total_length_m = crate::sum(members.iter().map(|member| member.body.length_m()));
+        Self {
+            name,
+            gravity_m_s2,
+            joints,
+            members,
+            floor_m: None,
+            total_length_m,
+            total_mass_kg,
+            row: row::Once::default(),
+        }
     }
 
     /// The same system above a flat floor without friction: no joint gets below the height
@@ -101,7 +126,7 @@ impl System {
     /// ```
     pub fn with_floor(self, floor_m: f64) -> Result<Self, SystemError> {
         error::check_floor(floor_m, &self.joints)?;
-        Ok(Self { floor_m: Some(floor_m), ..self })
+        Ok(Self { floor_m: Some(floor_m), row: row::Once::default(), ..self })
     }
 
     /// Height of the floor below which no joint gets, m; nothing where there is none.
@@ -155,19 +180,13 @@ impl System {
     /// Sum of the lengths of the members, m.
     #[must_use]
     pub fn total_length_m(&self) -> f64 {
-        crate::sum(self.members.iter().map(|member| member.body.length_m()))
+        self.total_length_m
     }
 
     /// Sum of the masses of joints and members, kg.
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
-        crate::sum(self.masses_kg())
-    }
-
-    /// Masses of joints and members, kg.
-    fn masses_kg(&self) -> impl Iterator<Item = f64> {
-        let members = self.members.iter().map(|member| member.body.mass_kg());
-        self.joints.iter().map(|joint| joint.mass_kg).chain(members)
+        self.total_mass_kg
     }
 
     /// The number of the joint of this name.

@@ -237,7 +237,9 @@ impl System {
         if anchors.len().saturating_mul(self.members().len()) > PAIRS {
             return Ok(());
         }
-        for (k, &start) in anchors.iter().enumerate() {
+        // From the last one there is none left to go to.
+        let (_, all_but_last) = anchors.split_last().unwrap_or((&0, &[]));
+        for (k, &start) in all_but_last.iter().enumerate() {
             let ways = graph.distances(start, f64::INFINITY, None);
             for &joint in &anchors[k + 1..] {
                 let Some(reach_m) = ways.get(joint) else { continue };

@@ -1,5 +1,7 @@
 //! Systems that are one row of rigid bars between two anchors: chains, however their file is written.
 
+use std::sync::OnceLock;
+
 use super::{Kind, Support, System, SystemEquilibrium, SystemStability};
 use crate::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Reactions, Stability, Vector};
 
@@ -34,6 +36,24 @@ impl From<&Problem> for Row {
     }
 }
 
+/// The row of a system that does not change, made when it is first asked for.
+#[derive(Debug, Default)]
+pub(super) struct Once(OnceLock<Option<Box<Row>>>);
+
+impl Clone for Once {
+    /// Of the clone it is made again, if anyone asks.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Once {
+    /// It follows from all else.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// Joints in their order, and members in theirs, with whether each runs the other way.
 type Walk = (Vec<usize>, Vec<(usize, bool)>);
 
@@ -44,11 +64,16 @@ impl System {
     /// ```
     /// use model::system::System;
     /// let chain = model::cases::paper();
-    /// let row = System::from(chain.chain()).as_row().expect("a row");
+    /// let system = System::from(chain.chain());
+    /// let row = system.as_row().expect("a row");
     /// assert_eq!(row.problem().chain().bars(), chain.chain().bars());
     /// ```
     #[must_use]
-    pub fn as_row(&self) -> Option<Row> {
+    pub fn as_row(&self) -> Option<&Row> {
+        self.row.0.get_or_init(|| self.made_row().map(Box::new)).as_deref()
+    }
+
+    fn made_row(&self) -> Option<Row> {
         if !self.may_be_row() {
             return None;
         }

@@ -12,8 +12,8 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 /// need about 75.
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
-/// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes: at most
-/// 760 are measured, with a hundred thousand bars.
+/// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes: 870 are measured
+/// of a million.
 pub const BYTES_PER_BAR: u64 = 900;
 
 /// Memory that a byte of a system file needs while it is parsed, bytes: at most 67 are measured, of

@@ -65,7 +65,7 @@ fn a_row_is_refused_where_its_solve_has_no_room() {
     assert!(parse(&row(), "row.toml").is_ok());
     model::system_file::limit_memory(COUNT * BYTES_PER_MEMBER_IN_ROW);
     let refused = parse(&row(), "row.toml").unwrap_err().to_string();
-    assert!(refused.contains("bytes of memory are needed; of 1400000000"), "{refused}");
+    assert!(refused.contains("bytes of memory are needed; of 1000000000"), "{refused}");
     // A cable makes it no row of bars.
     model::system_file::limit_memory(COUNT * (BYTES_PER_MEMBER_IN_ROW + 100));
     let refused = parse(&row().replace("count", "kind = \"cable\", count"), "row.toml");

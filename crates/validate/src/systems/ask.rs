@@ -189,11 +189,11 @@ fn lowest(
     let mut answers = vec![];
     if question.solvers != Solvers::Energy {
         say_lagrange(system, watch);
-        answers.push(by_lagrange(system, row.as_ref(), question));
+        answers.push(by_lagrange(system, row, question));
     }
     if question.solvers != Solvers::Lagrange {
         say_energy(system, watch);
-        answers.push(by_energy(system, row.as_ref(), question));
+        answers.push(by_energy(system, row, question));
     }
     answers
 }

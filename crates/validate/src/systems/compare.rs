@@ -1,10 +1,13 @@
 //! Answers for one system held against each other, and each against Newton's laws.
 
+use std::mem::take;
+
 use model::system::{System, SystemEquilibrium};
 use model::{
     Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, NoCertificate, Optimal,
     Quantity, Reason, Room, SelfStresses, SolverName, Status,
 };
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n};
@@ -13,7 +16,7 @@ use super::forces::{ABSURD, Pair, large};
 use super::free::free_joints;
 use super::proved::proved;
 use super::scale::Scale;
-use super::statics::{SystemStatics, judge};
+use super::statics::{SystemStatics, judge, judge_by};
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
 use crate::verdict::{Verdict, with_sentences};
@@ -63,7 +66,9 @@ impl SystemAgreement {
 struct Judgement<'a> {
     system: &'a System,
     tolerances: &'a Tolerances,
-    /// The sizes at the first answer.
+    /// The sizes at each answer.
+    scales: Vec<Scale>,
+    /// Those that differences are held against.
     scale: Scale,
     free: Vec<bool>,
     /// The self-stresses of the shape of the answer that others are compared with.
@@ -77,6 +82,9 @@ struct Judgement<'a> {
 /// Forces below this part of all that acts are none: a cable that bears as little is at the limit of
 /// its kind.
 const NO_FORCE: f64 = 1e-9;
+
+/// Answers for systems of more members are judged side by side.
+const SMALL: usize = 10_000;
 
 /// Hold answers against each other, every two of them, and each against Newton's laws, and write
 /// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
@@ -209,9 +217,9 @@ fn certify_row(
 
 impl<'a> Judgement<'a> {
     fn new(system: &'a System, answers: &[SystemEquilibrium], tolerances: &'a Tolerances) -> Self {
-        let mut scale = Scale::new(system, &answers[0]);
-        for other in &answers[1..] {
-            let other = Scale::new(system, other);
+        let scales: Vec<Scale> = answers.iter().map(|answer| Scale::new(system, answer)).collect();
+        let mut scale = scales[0].clone();
+        for other in &scales[1..] {
             scale.size_m = worse(scale.size_m, other.size_m);
             (scale.total_n, scale.held_n) =
                 (scale.total_n.min(other.total_n), scale.held_n.min(other.held_n));
@@ -223,6 +231,7 @@ impl<'a> Judgement<'a> {
         Self {
             system,
             tolerances,
+            scales,
             scale,
             free: free_joints(system, answers),
             family: None,
@@ -256,8 +265,14 @@ impl<'a> Judgement<'a> {
                 self.pair(first, second);
             }
         }
-        for answer in answers {
-            let statics = judge(self.system, answer);
+        let by = |(answer, scale)| judge_by(self.system, answer, scale);
+        let sized = answers.iter().zip(take(&mut self.scales));
+        let statics: Vec<SystemStatics> = if self.system.members().len() > SMALL {
+            sized.collect::<Vec<_>>().into_par_iter().map(by).collect()
+        } else {
+            sized.map(by).collect()
+        };
+        for (answer, statics) in answers.iter().zip(statics) {
             let (solver, place) = (answer.solver.clone(), statics.worst);
             let budget = self.tolerances.statics.value;
             self.hold(Quantity::Statics { solver, place }, statics.largest(), budget);

@@ -57,7 +57,12 @@ impl Family {
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
         let members = system.members();
         let named = &answer.evidence.self_stresses;
-        let motions_of = |joint: &Joint| motions(&joint.support).len();
+        let motions_of = |joint: &Joint| match joint.support {
+            Support::Free => 3,
+            Support::Plane { .. } => 2,
+            Support::Line { .. } => 1,
+            Support::Fixed { .. } => 0,
+        };
         let is_large = || system.joints().iter().map(motions_of).sum::<usize>() > 2 * COUNTED;
         if answer.joints_m.len() != system.joints().len() || named.is_none() && is_large() {
             return None;

@@ -35,9 +35,12 @@ pub(super) fn sliding(support: &Support) -> Vec<Vector> {
 /// support can bear only what is normal to the motions that it leaves free, and the floor only what
 /// is straight up.
 pub(super) fn push_n(system: &System, answer: &SystemEquilibrium, joint: usize) -> f64 {
+    if system.floor_m().is_none() {
+        return 0.0;
+    }
     let rising = rising(system, joint);
     let rate = dot(rising, rising);
-    if system.floor_m().is_none() || rate <= LEVEL * LEVEL {
+    if rate <= LEVEL * LEVEL {
         return 0.0;
     }
     dot(answer.reactions_n[joint], rising) / rate

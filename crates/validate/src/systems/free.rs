@@ -88,8 +88,8 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
         .iter()
         .enumerate()
         .map(|(k, joint)| {
-            !sliding(&joint.support).is_empty()
-                && answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
+            answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
+                && !sliding(&joint.support).is_empty()
         })
         .collect();
     if !loose.contains(&true) {

@@ -33,11 +33,14 @@ const LEAST_STRAIN: f64 = model::system::LENGTH_ROUNDING;
 pub(super) const MOST_FORCE: f64 = 1e6;
 
 /// The sizes for one system, at the places of one answer.
+#[derive(Clone)]
 pub(crate) struct Scale {
     /// Of lengths, m.
     pub size_m: f64,
     /// Rounding of coordinates that far from the origin, m.
     pub stored_m: f64,
+    /// All loads together, N.
+    pub load_n: f64,
     /// Of all forces that act together, N; zero where nothing acts.
     pub total_n: f64,
     /// Loads and prestress together, N.
@@ -75,7 +78,7 @@ impl Scale {
         let far_m =
             system.reference_m().iter().fold(size_m, |most, x| worse(most, x.abs() + size_m));
         let stored_m = STORED_ULPS * f64::EPSILON * far_m;
-        Self { size_m, stored_m, total_n, held_n: load_n + prestress_n, joint_n }
+        Self { size_m, stored_m, load_n, total_n, held_n: load_n + prestress_n, joint_n }
     }
 
     /// What differences of forces are relative to where forces of this size meet, N: all that acts, or

@@ -13,10 +13,9 @@
 //! slack.
 
 use model::system::{Kind, Member, Row, Support, System, SystemEquilibrium};
-use model::{Equilibrium, Place, Problem, Vector, sum};
+use model::{Equilibrium, Place, Problem, Sum, Vector, sum};
 use serde::Serialize;
 
-use super::certificate::total_load_n;
 use super::family::Family;
 use super::floor::{push_n, rising};
 use super::free::free_joints;
@@ -89,6 +88,8 @@ struct Units {
     acts_n: Vec<f64>,
     /// Sum of the forces at each joint, N.
     meet_n: Vec<f64>,
+    /// All loads together, N.
+    load_n: f64,
     /// What acts on the whole, N.
     total_n: f64,
     /// Joints on which and on whose members nothing acts: see [`free_joints`].
@@ -136,6 +137,9 @@ impl SystemStatics {
 
     /// Keep the larger of two violations, and where it is.
     fn note(&mut self, field: fn(&mut Self) -> &mut f64, value: f64, place: Place) {
+        if value <= 0.0 {
+            return;
+        }
         let most = self.largest();
         let kept = field(self);
         *kept = worse(*kept, value);
@@ -152,6 +156,11 @@ impl SystemStatics {
 /// tolerance.
 #[must_use]
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
+    judge_by(system, answer, Scale::new(system, answer))
+}
+
+/// The same with the sizes that are known.
+pub(super) fn judge_by(system: &System, answer: &SystemEquilibrium, scale: Scale) -> SystemStatics {
     let mut found = SystemStatics::NOTHING;
     let (joints, members) = (system.joints().len(), system.members().len());
     let fits = [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
@@ -161,7 +170,7 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
         found.note(|s| &mut s.balance, f64::NAN, Place::Whole);
         return found;
     }
-    let units = Units::new(system, answer);
+    let units = Units::new(system, answer, scale);
     let distances_m = distances_m(system, answer, units.rounding_m);
     for (k, (distance_m, over_m)) in distances_m.into_iter().enumerate() {
         member(system, answer, k, distance_m, &units, &mut found);
@@ -202,8 +211,7 @@ pub(super) fn rounding_m(system: &System, answer: &SystemEquilibrium) -> f64 {
 }
 
 impl Units {
-    fn new(system: &System, answer: &SystemEquilibrium) -> Self {
-        let scale = Scale::new(system, answer);
+    fn new(system: &System, answer: &SystemEquilibrium, scale: Scale) -> Self {
         let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
         let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
         let mut meet_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
@@ -219,11 +227,12 @@ impl Units {
             rounding_n: STORED_ULPS * f64::EPSILON * largest_n,
             size_m: scale.size_m,
             largest_n,
+            load_n: scale.load_n,
             total_n: if scale.total_n > 0.0 { scale.total_n } else { f64::INFINITY },
             acts_n: scale.joint_n,
             meet_n,
             // Without loads the prestress of springs acts everywhere.
-            free: if total_load_n(system) > 0.0 {
+            free: if scale.load_n > 0.0 {
                 free_joints(system, std::slice::from_ref(answer))
             } else {
                 vec![]
@@ -310,15 +319,16 @@ fn member(
     let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
     let distance_m = norm(along);
     let (start, end) = (answer.start_forces_n[k], answer.end_forces_n[k]);
-    let loads: Vec<(f64, Vector)> = loads(system, member).collect();
-
-    let left = loads.iter().fold(plus(start, end), |left, (_, p)| plus(left, *p));
-    let forces = [start, end].into_iter().chain(loads.iter().map(|(_, p)| *p));
-    let largest_n = forces.map(norm).fold(0.0, worse);
+    let (mut left, mut carried) = (plus(start, end), end);
+    let mut largest_n = worse(worse(0.0, norm(start)), norm(end));
+    for (part, load) in loads(system, member) {
+        left = plus(left, load);
+        carried = plus(carried, times(part, load));
+        largest_n = worse(largest_n, norm(load));
+    }
     found.note(|s| &mut s.force, local.part(norm(left), largest_n), place);
 
     // What the second joint carries: along the member, or it would turn.
-    let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
     let turn = cross(along, carried);
     let unit_n = local.unit_n(largest_n);
     // A displaced end turns the member: force times displacement. A long row bears what acts on all
@@ -473,24 +483,24 @@ fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut Syst
 fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    // Made anew for each sum: a list would take more memory than the answer.
-    let all = || {
-        let ground = answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force));
-        loads_at(system, &place).chain(ground)
-    };
-    let left = |of: &dyn Fn((Vector, Vector)) -> Vector| -> f64 {
-        norm(std::array::from_fn(|c| sum(all().map(|one| of(one)[c]))))
-    };
-    let unit_n = sum(all().map(|(_, force)| norm(force)));
+    let ground = answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force));
+    let (mut left, mut turn, mut unit) = ([Sum::default(); 3], [Sum::default(); 3], Sum::default());
+    for (at, force) in loads_at(system, &place).chain(ground) {
+        left.iter_mut().zip(force).for_each(|(sum, part)| sum.add(part));
+        turn.iter_mut().zip(cross(at, force)).for_each(|(sum, part)| sum.add(part));
+        unit.add(norm(force));
+    }
+    let [left_n, turn_nm] = [left, turn].map(|all| norm(all.map(Sum::value)));
+    let unit_n = unit.value();
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
     // Without loads the prestress is what the ground's forces are measured by, not these themselves.
     let least_n =
-        if total_load_n(system) > 0.0 || units.total_n.is_infinite() { 0.0 } else { units.total_n };
+        if units.load_n > 0.0 || units.total_n.is_infinite() { 0.0 } else { units.total_n };
     let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n };
     // A displaced joint turns the whole: force times displacement.
-    let turn_n = beyond(left(&|(at, force)| cross(at, force)), unit_n * units.rounding_m);
+    let turn_n = beyond(turn_nm, unit_n * units.rounding_m);
     let turn_n = if turn_n > 0.0 { turn_n / units.size_m } else { turn_n };
-    worse(local.part(left(&|(_, force)| force), unit_n), local.part(turn_n, unit_n))
+    worse(local.part(left_n, unit_n), local.part(turn_n, unit_n))
 }
 
 /// Every load with where it acts.

@@ -56,7 +56,7 @@ fn a_turn_is_taken_back_before_the_rows_are_written() {
 fn listed(problem: &Problem, answers: [Equilibrium; 2]) -> Vec<Row> {
     let system = System::from(problem.chain());
     let bars = system.as_row().unwrap();
-    rows("case", &system, &bars, &answers.map(|answer| bars.equilibrium(answer))).unwrap()
+    rows("case", &system, bars, &answers.map(|answer| bars.equilibrium(answer))).unwrap()
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Answers for chains, judged as those of the systems that they are.
 
-use model::system::{Row, System, SystemEquilibrium};
+use model::system::{System, SystemEquilibrium};
 use model::{Equilibrium, Problem};
 use validate::Tolerances;
 use validate::systems::{self, SystemAgreement};
 
 fn of_system(problem: &Problem, answers: &[Equilibrium]) -> (System, Vec<SystemEquilibrium>) {
     let system = System::from(problem.chain());
-    let row: Row = system.as_row().unwrap();
+    let row = system.as_row().unwrap();
     let found = answers.iter().map(|answer| row.equilibrium(answer.clone())).collect();
     (system, found)
 }

@@ -63,7 +63,7 @@ fn a_shallow_truss_snaps_through_where_it_is_soft() {
         let dense = Dense::new(&frame, &shape);
         // Sideways in its plane two rigid bars leave it nothing, and upwards neither.
         let index = if stiffness.is_infinite() { 1 } else { falls };
-        assert_eq!(dense.count().0, index, "{stiffness}");
+        assert_eq!(dense.count().index, index, "{stiffness}");
         assert_eq!(index_in_plane(&frame, &shape), Some(falls - 1), "{stiffness}");
     }
 }
@@ -158,7 +158,7 @@ fn the_condition_is_that_of_the_stiffnesses() {
         let (frame, shape) = truss(1.0 / stiffness);
         let [along, upwards]: [f64; 2] =
             [2.0 * (0.99 * stiffness - 0.005), 2.0 * (0.01 * stiffness - 0.495)];
-        let (_, neutral, condition) = Dense::new(&frame, &shape).count();
+        let Count { neutral, condition, .. } = Dense::new(&frame, &shape).count();
         assert_eq!(neutral, 0);
         assert!(
             (condition * upwards.abs() / along - 1.0).abs() < 1e-12,

@@ -147,6 +147,9 @@ fn names() -> Names {
         sources(&folder.join("src"), &mut files);
         for file in files {
             let text = std::fs::read_to_string(&file).unwrap();
+            if !text.contains("Serialize") {
+                continue;
+            }
             let parsed = syn::parse_file(&text).unwrap();
             parsed.items.iter().for_each(|item| names.add(&name_of_crate, item));
         }

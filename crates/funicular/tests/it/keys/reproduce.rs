@@ -185,6 +185,7 @@ fn claims(output: &mut Output) {
     let count = listed.lines().filter(|line| line.starts_with("[[claim]]")).count();
     let ids = output.values(&at("id"));
     assert_eq!(ids.len(), count);
+    assert!(count >= 50);
     // What is printed and expected stands in the file, word by word.
     for key in ["id", "says", "where", "printed", "unit", "expected"] {
         for text in output.values(&at(key)).iter().filter_map(Value::as_str) {

@@ -25,7 +25,7 @@ fn the_energy_of_a_spring_is_known_to_the_rounding_of_its_places() {
             reactions_n: vec![[0.0; 3]; 2],
             ..like.clone()
         };
-        energy(&system, &answer, &Units::new(&system, &answer))
+        energy(&system, &answer, &Units::new(&system, &answer, Scale::new(&system, &answer)))
     };
     assert_eq!(derived(0.5, 1.0).to_bits(), f64::to_bits(0.25));
     assert_eq!(derived(0.0, 1.0).to_bits(), 0);
@@ -69,7 +69,11 @@ fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
             reactions_n: vec![[0.0, 0.0, 10.0], [-force_n, 0.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]],
             ..like.clone()
         };
-        joint_balances(&system, &answer, &Units::new(&system, &answer))[4]
+        joint_balances(
+            &system,
+            &answer,
+            &Units::new(&system, &answer, Scale::new(&system, &answer)),
+        )[4]
     };
     assert!(left(4e-14) < 2e-12, "{}", left(4e-14));
     assert!(left(1e-10) > 1e-9, "{}", left(1e-10));
@@ -182,6 +186,7 @@ pub(in crate::systems) fn crooked(
 }
 
 const UNITS: Units = Units {
+    load_n: 0.0,
     rounding_m: 0.25,
     rounding_n: 0.5,
     size_m: 4.0,
@@ -400,7 +405,8 @@ fn units_are_the_largest_numbers_of_an_answer() {
     let ulps = 8.0 * f64::EPSILON;
     let (system, mut answer) = crooked(|_, _| ());
     let units = |answer: &SystemEquilibrium| {
-        let Units { rounding_m, rounding_n, size_m, largest_n, .. } = Units::new(&system, answer);
+        let Units { rounding_m, rounding_n, size_m, largest_n, .. } =
+            Units::new(&system, answer, Scale::new(&system, answer));
         [rounding_m / ulps, rounding_n / ulps, size_m, largest_n]
     };
     let wanted = |found: [f64; 4], wanted: [f64; 4]| {
