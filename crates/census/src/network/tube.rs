@@ -293,7 +293,8 @@ mod tests {
         let entries: Vec<Entry> = (0..3).map(|k| (k, k, Interval::ONE)).collect();
         let inverse = Inverse::of(3, &entries).unwrap();
         let (at, along) = (vec![1.0, 1.0, 2.0], vec![2.0, 3.0, 6.0]);
-        let centre = Centre { at, along, row: vec![5.0, -1.0, 1.0], inverse };
+        let (row, slope) = (vec![5.0, -1.0, 1.0], vec![]);
+        let centre = Centre { at, along, row, inverse, slope };
         let close = |found: f64, wanted: f64| {
             assert!((found - wanted).abs() < 1e-15, "{found}, not {wanted}");
         };
