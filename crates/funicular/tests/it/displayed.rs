@@ -8,6 +8,8 @@ use assert_cmd::Command;
 use funicular::judge::{fit, parse};
 use funicular::prelude::*;
 
+use crate::program::{REPRODUCED, stdout};
+
 /// Without lines that say how long something took.
 fn timeless(text: &str) -> String {
     let timed = |line: &&str| !line.contains(" cells") && !line.contains(" a second, ");
@@ -85,11 +87,10 @@ fn starts_and_motions() {
 
 #[test]
 fn the_paper() {
-    // The last line says how long it took.
+    // At last it says how long it took, and the program where its files are.
     let answer = Reproduce::new().run().unwrap().to_string();
     let but_last = |text: &str| text.trim_end().rsplit_once(" in ").unwrap().0.to_owned();
-    let output = Command::cargo_bin("funicular").unwrap().arg("reproduce").output().unwrap();
-    let printed = String::from_utf8(output.stdout).unwrap();
+    let printed = stdout(&REPRODUCED.0);
     assert!(answer.lines().count() > 50, "{answer}");
     assert_eq!(but_last(&printed), but_last(&answer));
 }

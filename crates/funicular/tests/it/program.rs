@@ -4,6 +4,7 @@
 
 use std::path::PathBuf;
 use std::process::Output;
+use std::sync::LazyLock;
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -48,12 +49,17 @@ fn assert_no_null(value: &Value, allowed: &[&str]) {
     }
 }
 
+/// `reproduce` with its files, run once for all tests.
+pub static REPRODUCED: LazyLock<(Output, PathBuf)> = LazyLock::new(|| {
+    let out = folder("reproduce").join("deep").join("report");
+    (funicular(&["reproduce", "--out", out.to_str().unwrap()]), out)
+});
+
 #[test]
 fn reproduce_finds_what_is_expected_and_writes_it() {
-    let out = folder("reproduce").join("deep").join("report");
-    let output = funicular(&["reproduce", "--out", out.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
-    let text = stdout(&output);
+    let (output, out) = &*REPRODUCED;
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(output));
+    let text = stdout(output);
     for wanted in ["refuted", "E2'", "Every verdict is the expected one", "100.00 %"] {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
     }
