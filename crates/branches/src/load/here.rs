@@ -140,6 +140,7 @@ impl Here {
         let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
         let mut bordered = Bordered::new(equations, &column, across);
         let (y, t) = polished(equations, (y, t), &bordered)?;
+        // Most often both rows are one, and so is the factor.
         if !std::ptr::eq(across, row) {
             bordered = Bordered::new(equations, &column, row);
         }

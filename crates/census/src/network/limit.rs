@@ -31,6 +31,7 @@ use numerics::Interval;
 
 use super::arithmetic::{difference, product, sum};
 use super::family::Family;
+use super::path::SingularKind;
 use super::side::Side;
 use super::tube::{Centre, Test, Tube, last, points};
 
@@ -47,16 +48,21 @@ const REACH: f64 = 1e-3;
 /// Half-lengths of the tube in which the point is proved to be the only one, in units of the least one.
 const LONGER: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
 
-/// Prove that exactly one limit point of the loads, with its shape and mode, lies in a box next to an
-/// answer: an enclosure of the parameter there.
+/// Prove that exactly one limit or branch point of the loads, with its shape and mode, lies in a box next to
+/// an answer: an enclosure of the parameter there.
 ///
 /// `ends` are systems at two values of the parameter, `at` one at the answer: they differ in loads
 /// alone, which are on the straight line between those of the ends. `values` are the parameter at the
 /// ends and at the answer.
 ///
+/// The mode of a branch point breaks a symmetry: a mirror across a vertical plane along X, along Y or between
+/// them, or the half-turn about a vertical, that maps supports, members and loads of both ends onto each other
+/// without any rounding. The box is then one of symmetric shapes; another path crosses there.
+///
 /// # Errors
 ///
-/// [`NoBox`], why there is no such proof.
+/// [`NoBox`], why there is no such proof: of a branch point [`NoBox::Singular`] where there is no such
+/// symmetry, or the mode does not break it.
 ///
 /// # Panics
 ///
@@ -84,59 +90,39 @@ const LONGER: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
 /// let [none, one, near] = [gable(0.0)?, gable(1.0)?, gable(limit_n)?];
 /// let axial_n = [(l - l0) / l0; 2];
 /// let values = [0.0, 1.0, limit_n + 1e-12];
-/// let found = census::network::prove_limit([&none, &one], &near, values, &shape, &axial_n)?;
+/// use census::network::{SingularKind, prove_singular};
+/// let limit = SingularKind::Limit;
+/// let found = prove_singular(limit, [&none, &one], &near, values, &shape, &axial_n)?;
 /// assert!(found.contains(limit_n) && found.width() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn prove_limit(
+pub fn prove_singular(
+    kind: SingularKind,
     ends: [&System; 2],
     at: &System,
     values: [f64; 3],
     joints_m: &[Point],
     axial_n: &[f64],
 ) -> Result<Interval, NoBox> {
-    let family = Family::new(ends, at, (joints_m, axial_n), false, MAX_LIMIT_UNKNOWNS)?;
+    let branch = kind == SingularKind::Branch;
+    let family = Family::new(ends, at, (joints_m, axial_n), branch, MAX_LIMIT_UNKNOWNS)?;
     let start = family.start(joints_m, axial_n, part(values));
-    // The loads do work along the mode.
-    let mut row: Vec<f64> = family.loads().iter().map(|load| load.mid()).collect();
-    row.push(0.0);
-    let found = singular(&family, &start, row, None)?;
-    near(&found.point, &start)?;
-    Ok(value(values, found.t))
-}
-
-/// Prove that exactly one branch point of the loads, with its shape and a mode that breaks a symmetry,
-/// lies in a box next to an answer: an enclosure of the parameter there. What is given and what is not
-/// proved is as in [`prove_limit`].
-///
-/// The symmetry is a mirror across a vertical plane along X, along Y or between them, or the half-turn
-/// about a vertical, that maps supports, members and loads of both ends onto each other without any
-/// rounding. The box is one of symmetric shapes; another path crosses there.
-///
-/// # Errors
-///
-/// [`NoBox`], why there is no such proof: [`NoBox::Singular`] where there is no such symmetry, or
-/// the mode does not break it.
-///
-/// # Panics
-///
-/// When the systems differ in their joints.
-pub fn prove_branch(
-    ends: [&System; 2],
-    at: &System,
-    values: [f64; 3],
-    joints_m: &[Point],
-    axial_n: &[f64],
-) -> Result<Interval, NoBox> {
-    let family = Family::new(ends, at, (joints_m, axial_n), true, MAX_LIMIT_UNKNOWNS)?;
-    let start = family.start(joints_m, axial_n, part(values));
+    let proved = |row: Vec<f64>, block: Option<usize>| {
+        let found = singular(&family, &start, row, block)?;
+        near(&found.point, &start)?;
+        Ok(value(values, found.t))
+    };
+    if !branch {
+        // The loads do work along the mode.
+        let loads = family.loads();
+        return proved(loads.iter().map(|load| load.mid()).chain([0.0]).collect(), None);
+    }
     let mut row = vec![0.0; family.size()];
     row[family.size() - 1] = 1.0;
     let mut failure = NoBox::Singular;
     for block in 1..family.blocks.len() {
-        let found = singular(&family, &start, row.clone(), Some(block));
-        match found.and_then(|found| near(&found.point, &start).map(|()| found)) {
-            Ok(found) => return Ok(value(values, found.t)),
+        match proved(row.clone(), Some(block)) {
+            Ok(found) => return Ok(found),
             Err(error) => failure = error,
         }
     }

@@ -32,8 +32,8 @@
 //!
 //! # Singular points, and the path to the first of them
 //!
-//! [`prove_limit`] encloses a load at which the derivative $J$ of the equations $F$ is singular: $F(y, t) =
-//! 0$, $J \phi = 0$, $c \cdot \phi = 1$; [`prove_branch`] one at which a symmetry breaks (module `limit`).
+//! [`prove_singular`] encloses a load at which the derivative $J$ of the equations $F$ is singular: $F(y, t) =
+//! 0$, $J \phi = 0$, $c \cdot \phi = 1$; in a branch point $\phi$ breaks a symmetry (module `limit`).
 //! [`prove_path`] proves the path of equilibria through a shape by Krawczyk's test with the load as an
 //! interval, box after box, up to its first singular point (modules `tube` and `path`).
 //!
@@ -95,7 +95,7 @@ pub use census::{
     ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
     UndecidedPlaces, bridle_seconds,
 };
-pub use limit::{MAX_LIMIT_UNKNOWNS, prove_branch, prove_limit};
+pub use limit::{MAX_LIMIT_UNKNOWNS, prove_singular};
 pub use path::{MAX_PATH_UNKNOWNS, PathProof, SingularKind, prove_path};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

@@ -65,7 +65,7 @@ pub struct PathProof {
 /// What is proved: through the equilibrium at the start goes one path on which the parameter
 /// grows, and no other equilibrium meets it before the value [`to`](PathProof::to). The [first singular
 /// point](PathProof::first) is a limit point, or the branch point of a mode that breaks a symmetry,
-/// which is exact in double precision ([`prove_branch`](super::prove_branch)). At a branch point without such a
+/// which is exact in double precision ([`prove_singular`](super::prove_singular)). At a branch point without such a
 /// symmetry the proof stops.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 //! start to the first of them.
 
 use branches::Variation;
-use census::network::{PathProof, SingularKind, prove_branch, prove_limit, prove_path};
+use census::network::{PathProof, SingularKind, prove_path, prove_singular};
 use model::NoBox;
 use model::system::{Joint, Member, System};
 use serde::Serialize;
@@ -94,9 +94,9 @@ pub(super) fn enclosed(
     at: &Kept,
     kind: LoadEventKind,
 ) -> Option<[f64; 2]> {
-    let prove = match kind {
-        LoadEventKind::LimitPoint => prove_limit,
-        LoadEventKind::BranchPoint => prove_branch,
+    let kind = match kind {
+        LoadEventKind::LimitPoint => SingularKind::Limit,
+        LoadEventKind::BranchPoint => SingularKind::Branch,
         LoadEventKind::Kink => return None,
     };
     let system = |values: &[f64]| variation.unloaded(values).ok();
@@ -106,7 +106,9 @@ pub(super) fn enclosed(
     }
     let values = [from.last()?, to.last()?, at.values.last()?].map(|value| *value);
     let answer = &at.equilibrium;
-    let found = prove([&first, &last], &here, values, &answer.joints_m, &answer.axial_n).ok()?;
+    let ends = [&first, &last];
+    let found =
+        prove_singular(kind, ends, &here, values, &answer.joints_m, &answer.axial_n).ok()?;
     Some([found.lo(), found.hi()])
 }
 

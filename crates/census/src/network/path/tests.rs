@@ -5,7 +5,7 @@ use model::system::{Joint, Member, Support, System};
 use samples::root;
 
 use super::*;
-use crate::network::{prove_branch, prove_limit};
+use crate::network::prove_singular;
 
 /// Feet on level ground, and an apex at this height which moves as `support` says, on a bar from each.
 fn tent(feet: &[[f64; 2]], height: f64, support: Support, load_n: f64) -> System {
@@ -79,20 +79,19 @@ fn a_steep_gable_branches_first() {
     println!("{} tubes", found.tubes);
     // The same point alone; there is no limit point, and no branch point at the limit.
     let [none, one] = [0.0, 1.0].map(|load_n| tent(&GABLE, 3.0, UPRIGHT, load_n));
-    let near = |l: f64, branch: bool| {
+    let near = |l: f64, kind: SingularKind| {
         let load_n = 2.0 * borne_n(l0, l);
         let shape = at(&GABLE, (l * l - 1.0).sqrt() + 1e-9);
         let here = tent(&GABLE, 3.0, UPRIGHT, load_n);
         let (values, axial_n) = ([0.0, 1.0, load_n], [(l - l0) / l0; 2]);
-        let prove = if branch { prove_branch } else { prove_limit };
-        prove([&none, &one], &here, values, &shape, &axial_n)
+        prove_singular(kind, [&none, &one], &here, values, &shape, &axial_n)
     };
-    let value = near(l, true).unwrap();
+    let value = near(l, SingularKind::Branch).unwrap();
     assert!(!value.disjoint(Interval::around(branch_n, 1e-15)) && value.width() < 1e-13);
-    assert!(near(l, false).is_err());
-    let value = near(l0.cbrt(), false).unwrap();
+    assert!(near(l, SingularKind::Limit).is_err());
+    let value = near(l0.cbrt(), SingularKind::Limit).unwrap();
     assert!(value.contains(2.0 * borne_n(l0, l0.cbrt())) && value.width() < 1e-13, "{value:?}");
-    assert!(near(l0.cbrt(), true).is_err());
+    assert!(near(l0.cbrt(), SingularKind::Branch).is_err());
     // Neither is at the shape below the feet, which is on another path.
     let load_n = 2.0 * borne_n(l0, l0.cbrt());
     let here = tent(&GABLE, 3.0, UPRIGHT, load_n);
@@ -100,7 +99,7 @@ fn a_steep_gable_branches_first() {
     let axial_n = [(l0.cbrt() - l0) / l0; 2];
     let values = [0.0, 1.0, load_n];
     assert_eq!(
-        prove_limit([&none, &one], &here, values, &shape, &axial_n),
+        prove_singular(SingularKind::Limit, [&none, &one], &here, values, &shape, &axial_n),
         Err(NoBox::NotConverged)
     );
     // An imperfection makes a limit point of the branch point, at less.
