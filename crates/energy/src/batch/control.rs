@@ -138,7 +138,7 @@ impl Lane {
             return self.perturb();
         }
         let part = if size > LARGEST_TURN { LARGEST_TURN / size } else { 1.0 };
-        Next::Correct(pull.map(|pull| pull * part))
+        Next::Correct([pull[0] * part, pull[1] * part])
     }
 
     /// After the slopes at an accepted chain: what now.

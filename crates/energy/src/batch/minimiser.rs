@@ -9,7 +9,7 @@ use model::{Ends, Finish, Problem};
 use super::control::{Lane, Next};
 use super::piece::{Piece, Pieces, direction};
 use super::point::{Moves, Place, measure, slopes, turn};
-use super::wide::{WIDTH, same};
+use super::wide::{WIDTH, same, wide};
 use crate::error::Error;
 
 /// What can be chosen.
@@ -127,12 +127,13 @@ impl Batch {
         }
         while lanes.iter().any(|lane| lane.seed != usize::MAX) {
             let sums = measure(pieces, self.pieces.span, places);
-            let mut next: [Next; WIDTH] = std::array::from_fn(|k| {
-                let gap = sums.gap.map(|part| part[k]);
-                let spread = sums.spread.map(|part| part[k]);
-                lanes[k].measured(&self.settings, gap, spread, sums.value[k])
-            });
-            let accepted = next.map(|next| next == Next::Accept);
+            let mut next = [Next::Stalled; WIDTH];
+            for (k, (next, lane)) in next.iter_mut().zip(&mut lanes).enumerate() {
+                let gap = [sums.gap[0][k], sums.gap[1][k]];
+                let spread = [sums.spread[0][k], sums.spread[1][k], sums.spread[2][k]];
+                *next = lane.measured(&self.settings, gap, spread, sums.value[k]);
+            }
+            let accepted = wide(|k| next[k] == Next::Accept);
             if accepted.contains(&true) {
                 let slopes = slopes(pieces, &sums, &accepted, places);
                 for k in (0..WIDTH).filter(|k| accepted[*k]) {

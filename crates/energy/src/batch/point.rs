@@ -112,7 +112,8 @@ pub(crate) fn slopes(
     accepted: &[bool; WIDTH],
     places: &mut [Place],
 ) -> Slopes {
-    let mu = answer(&sums.spread, &sums.weight).map(|part| part.map(|x| -x));
+    let [x, z] = answer(&sums.spread, &sums.weight);
+    let mu = [wide(|k| -x[k]), wide(|k| -z[k])];
     let count = pieces.len() as f64;
     let force = wide(|k| {
         let square = mu[0][k] * mu[0][k] + mu[1][k] * mu[1][k];
@@ -148,7 +149,7 @@ pub(crate) fn slopes(
             }
         }
     }
-    let convex = std::array::from_fn(|k| {
+    let convex = wide(|k| {
         let determinant = matrix[0][k] * matrix[2][k] - matrix[1][k] * matrix[1][k];
         let trace = matrix[0][k] + matrix[2][k];
         let positive = match (determinant > 0.0, trace > 0.0) {

@@ -16,10 +16,12 @@ pub(crate) const fn same(x: f64) -> Wide {
     [x; WIDTH]
 }
 
-/// Seed by seed, from its place.
+/// Seed by seed, from its place. Written out: `std::array::from_fn` goes through a function that
+/// is not inlined across the parts of a build, and a loop stays in memory where little is optimised; either is several times slower.
 #[inline(always)]
-pub(crate) fn wide(entry: impl Fn(usize) -> f64) -> Wide {
-    std::array::from_fn(entry)
+pub(crate) fn wide<T>(entry: impl Fn(usize) -> T) -> [T; WIDTH] {
+    let [a, b, c, d] = [entry(0), entry(1), entry(2), entry(3)];
+    [a, b, c, d, entry(4), entry(5), entry(6), entry(7)]
 }
 
 /// Add to each entry.

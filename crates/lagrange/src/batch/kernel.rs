@@ -4,7 +4,7 @@
     reason = "a pass over the bars is fast only as one loop of vector instructions"
 )]
 
-use super::lanes::{LANES, LARGEST_ANGLE, Lanes};
+use super::lanes::{LANES, LARGEST_ANGLE, Lanes, each};
 use super::numbers::Bar;
 
 /// One bar in all lanes.
@@ -104,7 +104,7 @@ pub(crate) struct Judged {
 /// Limits of one step in the lanes.
 #[inline(always)]
 fn limit(count: &[u32; LANES]) -> Lanes {
-    Lanes(std::array::from_fn(|k| LIMITS[count[k] as usize % LIMITS.len()]))
+    Lanes(each(|k| LIMITS[count[k] as usize % LIMITS.len()]))
 }
 
 /// Judge the point of every lane and step on from it.
@@ -121,7 +121,7 @@ pub(crate) fn step(
     for state in states.iter_mut() {
         (state.sin, state.cos) = state.angle.sin_cos();
     }
-    let estimated: [bool; LANES] = std::array::from_fn(|k| {
+    let estimated: [bool; LANES] = each(|k| {
         common.count[k] == 0 || (common.far[k] && common.count[k].is_multiple_of(PLAIN_EVERY))
     });
     if estimated.contains(&true) {
@@ -203,9 +203,10 @@ fn judge(
     let below = |tolerance: f64| {
         let square = Lanes::all(tolerance * tolerance);
         let (balanced, closed) = (moments.at_most(unit * square), gap.at_most(square));
-        std::array::from_fn(|k| balanced[k] & closed[k])
+        each(|k| balanced[k] & closed[k])
     };
-    common.far = below(FAR).map(|near: bool| !near);
+    let near = below(FAR);
+    common.far = each(|k| !near[k]);
     Judged { converged: below(tolerance) }
 }
 

@@ -20,13 +20,21 @@ pub(crate) const LANES: usize = 8;
 #[repr(align(64))]
 pub(crate) struct Lanes(pub(crate) [f64; LANES]);
 
+/// Lane by lane, from its place. Written out: `std::array::from_fn` goes through a function that
+/// is not inlined across the parts of a build, and a loop stays in memory where little is optimised; either is several times slower.
+#[inline(always)]
+pub(crate) fn each<T>(entry: impl Fn(usize) -> T) -> [T; LANES] {
+    let [a, b, c, d] = [entry(0), entry(1), entry(2), entry(3)];
+    [a, b, c, d, entry(4), entry(5), entry(6), entry(7)]
+}
+
 macro_rules! entrywise {
     ($trait:ident, $method:ident, $op:tt) => {
         impl $trait for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(std::array::from_fn(|k| self.0[k] $op other.0[k]))
+                Self(each(|k| self.0[k] $op other.0[k]))
             }
         }
     };
@@ -54,7 +62,7 @@ impl Lanes {
 
     #[inline(always)]
     pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(std::array::from_fn(|k| f(self.0[k])))
+        Self(each(|k| f(self.0[k])))
     }
 
     #[inline(always)]
@@ -65,19 +73,19 @@ impl Lanes {
     /// The larger of two numbers; the second if one of them is undefined.
     #[inline(always)]
     pub(crate) fn larger(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] }))
+        Self(each(|k| if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] }))
     }
 
     /// `yes` where the condition holds, else `no`.
     #[inline(always)]
     pub(crate) fn select(condition: [bool; LANES], yes: Self, no: Self) -> Self {
-        Self(std::array::from_fn(|k| if condition[k] { yes.0[k] } else { no.0[k] }))
+        Self(each(|k| if condition[k] { yes.0[k] } else { no.0[k] }))
     }
 
     /// Where this is at most the other; nowhere where one is undefined.
     #[inline(always)]
     pub(crate) fn at_most(self, other: Self) -> [bool; LANES] {
-        std::array::from_fn(|k| self.0[k] <= other.0[k])
+        each(|k| self.0[k] <= other.0[k])
     }
 
     /// Sine and cosine, to about one unit in the last place of 1, for arguments up to

@@ -241,7 +241,7 @@ impl Equations {
         let (mut residual, mut jacobian) = ([-span[0], -span[1]], [0.0; 3]);
         for (weight, vector) in vectors {
             let length = size(vector).max(LEAST_FORCE);
-            let u = vector.map(|x| x / length);
+            let u = [vector[0] / length, vector[1] / length];
             let stiff = weight / length;
             residual[0] += weight * u[0];
             residual[1] += weight * u[1];

@@ -7,7 +7,7 @@
 use model::{Ends, Finish, Problem};
 
 use super::kernel::{Common, MOST_STEPS, State, step};
-use super::lanes::{LANES, Lanes};
+use super::lanes::{LANES, Lanes, each};
 use super::numbers::{Bar, Numbers};
 use super::signs::Signs;
 use crate::settings::SettingsError;
@@ -218,9 +218,8 @@ impl Batch {
         while busy > 0 {
             let judged =
                 step(bars, self.numbers.span, self.settings.tolerance, states, &mut common);
-            let ended: [bool; LANES] = std::array::from_fn(|k| {
-                judged.converged[k] || (common.count[k] > self.settings.max_iterations)
-            });
+            let ended: [bool; LANES] =
+                each(|k| judged.converged[k] || (common.count[k] > self.settings.max_iterations));
             if !ended.contains(&true) {
                 continue;
             }

@@ -57,12 +57,11 @@ fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
 
 #[test]
 fn the_alternating_sum_does_not_depend_on_the_loads() {
-    for strands in [
-        [&[0.9, 0.95, 1.0][..], &[1.3, 1.2], &[2.2]],
-        [&[0.9, 0.95, 1.0][..], &[0.8, 0.85, 0.9], &[1.0, 1.05, 0.9]],
-    ] {
-        the_sum_is_the_same(&strands, &[(1.0, 0.5), (0.0, 1.0), (9.0, 0.3)]);
-    }
+    let loads = [(1.0, 0.5), (0.0, 1.0), (9.0, 0.3)];
+    the_sum_is_the_same(&[&[0.9, 0.95, 1.0], &[1.3, 1.2], &[2.2]], &loads);
+    // Twice is enough here: it takes seconds where no strand is a single bar.
+    let strands = [&[0.9, 0.95, 1.0][..], &[0.8, 0.85, 0.9], &[1.0, 1.05, 0.9]];
+    the_sum_is_the_same(&strands, &[loads[0], loads[2]]);
 }
 
 /// Both searches, over places with closed forms and over pulls, list the same equilibria.
