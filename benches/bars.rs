@@ -1,4 +1,4 @@
-//! Are the bars cleared? `cargo run --profile dist -p benches --example bars`
+//! Are the bars cleared? `cargo run --profile dist -p benches --bin bars`
 //!
 //! Equal bars, together 1.5 times as long as the span, anchors (0, 0, 0) and (1, 0, -0.2). Nobody
 //! solves the same chain twice: the solvers of chains that are long get a copy of it that no cache

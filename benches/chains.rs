@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p benches --bench chains` runs all; `-- pull` what has `pull` in its name. Each
 //! size is solved again and again, so a hundred thousand bars stay in the cache and a million do
-//! not. `cargo run --profile dist -p benches --example bars` reads every chain from memory, tells both
+//! not. `cargo run --profile dist -p benches --bin bars` reads every chain from memory, tells both
 //! ratios, and says whether the bars that were set are cleared.
 
 use std::hint::black_box;

@@ -52,6 +52,20 @@ fn the_columns_come_in_any_order_and_with_gaps_in_the_centres() {
     assert_eq!(read_bars(path).unwrap(), wanted);
 }
 
+/// Two bars, by their lengths, masses and centres.
+const WIDTHS: [(f64, f64, f64); 2] = [(3.0, 1.0, 0.5), (4.0, 4_294_967_295.0, 0.75)];
+
+fn numbers(bars: &[Bar]) -> Vec<(f64, f64, f64)> {
+    bars.iter().map(|bar| (bar.length_m(), bar.mass_kg(), bar.centre_m())).collect()
+}
+
+/// A file packed with Zstandard, by pyarrow 26.0.1 (`write_table` with `compression="zstd"` and `store_schema=False`): what
+/// `widths` holds is above, as 64 bits, 32 bits without sign and floats of 32 bits; `roots`, the square roots of 1 to 100 as lengths and
+/// masses, without a dictionary.
+fn by_pyarrow(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/it/pyarrow/{name}.parquet"))
+}
+
 #[test]
 fn the_numbers_are_of_any_width_and_any_compression() {
     // The largest number of 32 bits is -1 to whoever overlooks that it has no sign.
@@ -66,14 +80,12 @@ fn the_numbers_are_of_any_width_and_any_compression() {
         Compression::SNAPPY,
         Compression::LZ4,
         Compression::LZ4_RAW,
-        Compression::ZSTD(parquet::basic::ZstdLevel::default()),
         Compression::GZIP(parquet::basic::GzipLevel::default()),
     ] {
         let bars = read_bars(Folder::new().compressed(&columns, compression)).unwrap();
-        let found: Vec<_> =
-            bars.iter().map(|b| (b.length_m(), b.mass_kg(), b.centre_m())).collect();
-        assert_eq!(found, [(3.0, 1.0, 0.5), (4.0, 4_294_967_295.0, 0.75)], "{compression:?}");
+        assert_eq!(numbers(&bars), WIDTHS, "{compression:?}");
     }
+    assert_eq!(numbers(&read_bars(by_pyarrow("widths")).unwrap()), WIDTHS);
     let small = Some(LogicalType::integer(16, true));
     let long = Some(LogicalType::integer(64, false));
     let whole = [
@@ -226,13 +238,11 @@ fn what_is_no_parquet_file_is_refused() {
 #[test]
 fn damage_is_an_error_and_never_a_panic() {
     let folder = Folder::new();
-    let values: Vec<f64> = (1..=300).map(|k| f64::from(k).sqrt()).collect();
-    let column = |name| doubles(name, values.clone());
-    let level = parquet::basic::ZstdLevel::default();
-    let columns = [column("length_m"), column("mass_kg")];
-    let path = folder.compressed(&columns, Compression::ZSTD(level));
-    let whole = fs::read(&path).unwrap();
-    let good = read_bars(&path).unwrap();
+    let path = folder.path();
+    let whole = fs::read(by_pyarrow("roots")).unwrap();
+    let good: Vec<Bar> = (1..=100)
+        .map(|k| Bar::homogeneous(f64::from(k).sqrt(), f64::from(k).sqrt()).unwrap())
+        .collect();
     for end in (0..whole.len()).step_by(7) {
         fs::write(&path, &whole[..end]).unwrap();
         assert!(read_bars(&path).is_err(), "cut at {end}");

@@ -291,7 +291,7 @@ fn frames(usual: usize) -> usize {
 
 #[test]
 fn legs_to_anchors_share_as_equally_stiff_ones() {
-    let (mut over, frames) = (0, frames(130));
+    let (mut over, frames) = (0, frames(65));
     for (stream, seed) in (0..).take(frames).enumerate() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let drawn = draw(&mut rng, stream % STYLES);
