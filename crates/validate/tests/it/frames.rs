@@ -300,7 +300,7 @@ fn loads_are_shared_as_by_equally_stiff_bars() {
 #[test]
 fn lengths_that_do_not_fit_are_refused_and_fit_within_a_tolerance() {
     for draw in [Draw::Integer, Draw::Random, Draw::Planar] {
-        for seed in 0..frames().min(180) / 12 {
+        for seed in 0..frames().min(360) / 12 {
             let Some((system, _)) = frame(draw, seed) else { continue };
             let changed = |tolerance_m: Option<f64>| {
                 let members = system.members().iter().enumerate().map(|(m, member)| {
