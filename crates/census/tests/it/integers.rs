@@ -31,7 +31,7 @@ fn drawn(random: &mut ChaCha8Rng, bars: usize) -> Problem {
 /// bars: 800 of 800, a minute.
 #[test]
 fn all_chains_of_integers_are_decided() {
-    let most: usize = std::env::var("INTEGERS").map_or(6, |n| n.parse().unwrap());
+    let most: usize = std::env::var("INTEGERS").map_or(5, |n| n.parse().unwrap());
     let mut why: BTreeMap<String, usize> = BTreeMap::new();
     let (mut decided, mut complete, mut all) = (0, 0, 0);
     for bars in 3..=most {
@@ -103,7 +103,7 @@ fn is_fold(problem: &Problem, signs: &[i8]) -> bool {
 /// `INTEGERS=10` takes those of up to ten bars.
 #[test]
 fn chains_of_integers_with_bars_without_mass() {
-    let most: usize = std::env::var("INTEGERS").map_or(6, |n| n.parse().unwrap());
+    let most: usize = std::env::var("INTEGERS").map_or(5, |n| n.parse().unwrap());
     let (mut decided, mut all, mut merged) = (0, 0, 0);
     for bars in 3..=most {
         let mut random = ChaCha8Rng::seed_from_u64(100 + bars as u64);

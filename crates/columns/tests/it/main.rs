@@ -7,5 +7,6 @@ mod atomic;
 mod bars;
 mod files;
 mod memory;
+mod notes;
 mod rows;
 mod tables;

@@ -291,7 +291,7 @@ fn frames(usual: usize) -> usize {
 
 #[test]
 fn legs_to_anchors_share_as_equally_stiff_ones() {
-    let (mut over, frames) = (0, frames(65));
+    let (mut over, frames) = (0, frames(40));
     for (stream, seed) in (0..).take(frames).enumerate() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let drawn = draw(&mut rng, stream % STYLES);
@@ -370,7 +370,7 @@ fn towers_share_as_equally_stiff_ones() {
 /// Lengths that are off by a part of 1e-6 are refused, and solved where they are known to 1e-5 m.
 #[test]
 fn misfits_are_refused_or_within_their_tolerance() {
-    let (mut not_found, frames) = (0, frames(20));
+    let (mut not_found, frames) = (0, frames(10));
     for (stream, seed) in (0..).take(frames).enumerate() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let drawn = draw(&mut rng, stream % STYLES);

@@ -345,13 +345,13 @@ fn a_limit_of_memory_is_kept() {
         command.env("RAYON_NUM_THREADS", "2").current_dir(&folder).output().unwrap()
     };
     let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
-    fs::write(folder.join("chain.toml"), chain(500_000)).unwrap();
-    let output = limited("450MB", PROGRAM + 450_000, "chain.toml");
+    fs::write(folder.join("chain.toml"), chain(200_000)).unwrap();
+    let output = limited("180MB", PROGRAM + 180_000, "chain.toml");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    fs::write(folder.join("longer.toml"), chain(500_001)).unwrap();
-    let output = limited("450MB", PROGRAM, "longer.toml");
+    fs::write(folder.join("longer.toml"), chain(200_001)).unwrap();
+    let output = limited("180MB", PROGRAM, "longer.toml");
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("500000"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("200000"), "{}", stderr(&output));
     fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();
     assert_eq!(limited("1GB", PROGRAM, "most.toml").status.code(), Some(2));
     // Lines of nothing, empty arrays, comments.

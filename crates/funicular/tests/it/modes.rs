@@ -303,7 +303,7 @@ fn of_two_stable_rests_each_release_is_given_its_own() {
 fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let release = ["simulate", "--case", "two-bars", "--seeds", "4000", "--damping", "3"];
-    let more = ["--time", "25", "--step", "0.02", "--out"];
+    let more = ["--time", "10", "--step", "0.02", "--out"];
     let whole = [&release[..], &more[..], &["whole"]].concat();
     assert_eq!(run(folder.path(), 2, &whole).status.code(), Some(0));
     let part = [&release[..], &more[..], &["part", "--threads", "1"]].concat();

@@ -70,7 +70,7 @@ fn the_claims_rest_on_the_census() {
 /// In the reproduction E1 and its mirror image alone stand on the highest rung.
 #[test]
 fn only_e1_is_optimal_in_the_reproduction() {
-    let r = paper::reproduction::reproduce_with(20, |_| ()).unwrap();
+    let r = crate::reproduction::reproduction();
     let rungs: Vec<_> = r.equilibria.iter().map(|p| (p.name, p.rung().unwrap())).collect();
     let expected = [
         ("E1", Rung::Optimal),

@@ -11,7 +11,7 @@ use validate::systems::judge_chain;
 use crate::judged::compare;
 
 fn bars() -> usize {
-    std::env::var("BARS").map_or(200_000, |n| n.parse().expect("a number"))
+    std::env::var("BARS").map_or(100_000, |n| n.parse().expect("a number"))
 }
 
 /// Closure in total lengths, force balance in weights: the accuracy asked for at any number of
