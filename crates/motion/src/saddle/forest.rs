@@ -367,3 +367,21 @@ fn invert(t: &mut [f64], m: usize) -> Result<f64, f64> {
     }
     Ok(least)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::invert;
+
+    /// What a refusal says of a joint without inertia and of one whose rows depend on each other; the
+    /// inverse of a matrix by hand.
+    #[test]
+    fn pivots_that_vanish_are_zero() {
+        assert_eq!(invert(&mut [0.0; 4], 2), Err(0.0));
+        assert_eq!(invert(&mut [4.0, 2.0, 2.0, 1.0], 2), Err(0.0));
+        let mut matrix = [4.0, 2.0, 2.0, 2.0];
+        assert_eq!(invert(&mut matrix, 2), Ok(0.5));
+        for (found, wanted) in matrix.into_iter().zip([0.5, -0.5, -0.5, 1.0_f64]) {
+            assert_eq!(found.to_bits(), wanted.to_bits(), "{matrix:?}");
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! Positions that meet the constraints.
 
+use model::Bar;
+use model::system::{Joint, Member, Support, System};
 use motion::{Settings, Simulation, random_position};
 
 use crate::common::paper;
@@ -23,8 +25,27 @@ fn random_positions_close_and_differ_and_are_the_same_for_the_same_seed() {
 #[test]
 fn random_positions_of_loops_and_long_chains() {
     let chain = model::cases::get("ten-equal-bars").unwrap().problem();
-    let chain = model::system::System::from(chain.chain());
+    let chain = System::from(chain.chain());
     for seed in 0..20 {
         random_position(&chain, seed).unwrap();
     }
+}
+
+/// A ring begins anywhere along its line, not where the file names a point of it.
+#[test]
+fn rings_begin_along_their_lines() {
+    let (at_m, direction) = ([1.0, 2.0, 3.0], [0.6, 0.8, 0.0]);
+    let support = Support::Line { at_m, direction };
+    let ring = Joint { support, ..Joint::free("R").with_mass(1.0) };
+    let rod = Member::bar(0, 1, Bar::homogeneous(0.5, 0.1).unwrap());
+    let joints = vec![ring, Joint::free("P").with_mass(1.0)];
+    let system = System::new("ring", 9.81, joints, vec![rod]).unwrap();
+    let places = (0..20).map(|seed| {
+        let at = random_position(&system, seed).unwrap()[0];
+        let along: f64 = (0..3).map(|k| (at[k] - at_m[k]) * direction[k]).sum();
+        assert!((0..3).all(|k| (at[k] - at_m[k] - along * direction[k]).abs() < 1e-12), "{at:?}");
+        along
+    });
+    let (least, most) = places.fold((0.0_f64, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    assert!(least < -0.3 && most > 0.3, "{least} {most}");
 }

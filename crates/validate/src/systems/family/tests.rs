@@ -272,3 +272,19 @@ fn what_no_shape_removes_is_shared_by_length() {
     let parts = family.part_of(&[1.0, 0.0]);
     assert!(parts.iter().all(|part| (part - 0.5).abs() < 1e-14), "{parts:?}");
 }
+
+/// A cable whose length is known to a millimetre takes part in self-stresses that far off where it
+/// bears, and at its length alone where it does not.
+#[test]
+fn cables_that_bear_are_off_by_their_tolerance() {
+    let count = |axial_n: f64| {
+        let (system, mut answer) = legs(Support::Free, [5.0; 4]);
+        let mut members = system.members().to_vec();
+        let rope = Member::cable(0, 4, Bar::homogeneous(5.0 + 1e-4, 0.0).unwrap());
+        members[0] = rope.with_length_tolerance(1e-3);
+        answer.axial_n = vec![axial_n, 1.0, 1.0, 1.0];
+        let roped = System::new("legs", 10.0, system.joints().to_vec(), members).unwrap();
+        Family::of(&roped, &answer).unwrap().dimension()
+    };
+    assert_eq!((count(1.0), count(0.0)), (Some(1), Some(0)));
+}
