@@ -239,3 +239,48 @@ fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool)
 pub(crate) fn left(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     residual(&path.plane(y[y.len() - 1]), y).amax()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At a position, with nothing else that counts here.
+    fn point(position: f64, happens: Option<EventKind>) -> ArcPoint {
+        let seen = Observables {
+            pull_n: [0.0; 2],
+            energy_j: 0.0,
+            axial_n: vec![],
+            along: vec![],
+            index_in_plane: 0,
+            index_out_of_plane: 0,
+            plane_test: 1.0,
+            space_test: 1.0,
+            singular: 1.0,
+            bent: 1.0,
+        };
+        ArcPoint { y: DVector::from_element(1, position), seen, happens }
+    }
+
+    /// Beyond the ends of an arc nothing is left but what happens there.
+    #[test]
+    fn points_that_rounding_has_beyond_a_turn_go() {
+        let event = || Some(EventKind::Straight);
+        let mut points = vec![
+            point(0.0, None),
+            point(-1e-15, None),
+            point(-1e-16, event()),
+            point(0.0, None),
+            point(0.5, None),
+            point(1.0 + 1e-15, None),
+            point(1.0, None),
+        ];
+        drop_roundings(&mut points);
+        let places: Vec<(f64, bool)> =
+            points.iter().map(|point| (point.y[0], point.happens.is_some())).collect();
+        let wanted = [(0.0, false), (-1e-16, true), (0.0, false), (0.5, false), (1.0, false)];
+        assert_eq!(places, wanted);
+        let mut none = vec![];
+        drop_roundings(&mut none);
+        assert!(none.is_empty());
+    }
+}
