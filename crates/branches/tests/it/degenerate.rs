@@ -24,7 +24,7 @@ fn run(vary: &[&str]) -> Continuation {
 /// Two curves touch there, each with a fold: one event, whatever the grid.
 #[test]
 fn two_curves_that_touch_are_one_event_at_a_round_number() {
-    for grid in ["-2.5..-1.5:11", "-2.45..-1.6:9"] {
+    for grid in ["-2.5..-1.5:11", "-2.5..-1.4:12", "-2.3..-1.7:7", "-2.45..-1.6:9"] {
         let trace = run(&["anchors.end_m.x=1", &format!("anchors.end_m.z={grid}")]);
         assert!(trace.checks.agree(), "{grid}: {:?}", trace.checks);
         let in_plane =

@@ -97,7 +97,7 @@ fn counts(variation: &Variation, trace: &Continuation, range: [f64; 2], values: 
 #[test]
 fn random_chains_have_the_branches_of_their_censuses() {
     let mut random = Random(20);
-    for _ in 0..6 {
+    for _ in 0..12 {
         let drawn = draw(&mut random);
         let total: f64 = drawn.lengths.iter().sum();
         let range = [0.1, (0.97 * total * 1e3).round() / 1e3];

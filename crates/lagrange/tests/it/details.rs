@@ -68,7 +68,7 @@ fn indices_do_not_depend_on_the_azimuth() {
 #[test]
 fn steps_that_run_out_return_nothing() {
     for method in [StepMethod::Reduced, StepMethod::Dense] {
-        for k in 0..3 {
+        for k in 0..6 {
             let mut random = stream(91, k);
             let problem = problem(&mut random, 3, false);
             let seed = planar_seed(&mut random, 3);

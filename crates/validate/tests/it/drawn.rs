@@ -267,16 +267,20 @@ fn the_dome_stands_under_part_of_its_load_and_tends_to_its_linear_analysis() {
 /// the load in the dome, ridge cables that are all but slack in the cable dome.
 #[test]
 fn elastic_structures_are_those_of_an_independent_newton_under_large_loads() {
-    for (name, part) in [("lattice-tower", 1000.0), ("star-dome", 2.2), ("geiger-dome", 2.6)] {
-        let system = loaded(&drawn(name), part);
-        let (places, forces) = newton(&system).unwrap();
-        let largest_n = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-        let answer = ask(&system, Solvers::Both, &|_| {});
-        assert!(answer.agrees(), "{name}: {:?} {:?}", answer.agreement, answer.failures);
-        for e in &answer.equilibria {
-            close(&e.axial_n, &forces, 1e-9 * largest_n);
-            close(e.joints_m.as_flattened(), places.as_flattened(), 1e-10);
-            assert_eq!(e.stability.index_in_space, 0);
+    for (name, parts) in
+        [("lattice-tower", [30.0, 1000.0]), ("star-dome", [1.0, 2.2]), ("geiger-dome", [1.0, 2.6])]
+    {
+        for part in parts {
+            let system = loaded(&drawn(name), part);
+            let (places, forces) = newton(&system).unwrap();
+            let largest_n = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+            let answer = ask(&system, Solvers::Both, &|_| {});
+            assert!(answer.agrees(), "{name} {part}: {:?} {:?}", answer.agreement, answer.failures);
+            for e in &answer.equilibria {
+                close(&e.axial_n, &forces, 1e-9 * largest_n);
+                close(e.joints_m.as_flattened(), places.as_flattened(), 1e-10);
+                assert_eq!(e.stability.index_in_space, 0);
+            }
         }
     }
 }

@@ -4,8 +4,7 @@
 use serde_json::{Value, json};
 
 use super::evidence::NOTHING;
-use super::output::Output;
-use crate::program::REPRODUCED;
+use super::output::{Output, good};
 
 /// Angles of E1 from the descending vertical, degrees.
 const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
@@ -45,8 +44,8 @@ fn slope(theta: f64, alpha: f64) -> f64 {
 
 #[test]
 fn the_paper_judged() {
-    // What `--json` prints, too.
-    let text = std::fs::read_to_string(REPRODUCED.1.join("results.json")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["reproduce", "--json"]);
     let mut output = Output::json("reproduce", "the_paper_judged", &text);
     output.is("schema_version", 3);
     output.says("paper", &["Equilibrium of a System of Bars Using a Multibody Type Method"]);
@@ -480,8 +479,7 @@ fn figures(output: &mut Output) {
 
 fn environment(output: &mut Output) {
     let at = |key: &str| format!("environment.{key}");
-    let command = format!("funicular reproduce --out {}", REPRODUCED.1.display());
-    output.is(&at("command"), command);
+    output.is(&at("command"), "funicular reproduce --json");
     output.is(&at("version"), env!("CARGO_PKG_VERSION"));
     output.says(&at("compiler"), &["rustc 1."]);
     let packages = output.values(&at("packages[]"));

@@ -89,7 +89,7 @@ fn the_alternating_sum_does_not_depend_on_the_loads() {
         [&[1.5, 1.4][..], &[1.3, 1.2], &[1.6, 1.1]],
         [&[1.5, 1.5][..], &[1.5, 1.5], &[1.5, 1.5]],
     ] {
-        the_sum_is_the_same(&strands, &[(1.0, 0.5), (0.0, 1.0), (9.0, 0.1)]);
+        the_sum_is_the_same(&strands, &[(1.0, 0.5), (0.0, 1.0), (0.3, 2.0), (9.0, 0.1)]);
     }
 }
 
@@ -297,14 +297,14 @@ fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
     const STARTS: usize = 300;
     let mut random = ChaCha8Rng::seed_from_u64(3);
     let (mut found, mut listed, mut complete) = (0, 0, 0);
-    for seed in 0..5 {
+    for seed in 0..10 {
         let system = drawn(&mut random);
         let Ok(census) = SystemCensus::take(&system, &Settings::default()) else { continue };
         complete += usize::from(census.complete);
         listed += census.equilibria.len();
         found += found_of(&system, &census, STARTS, seed);
     }
-    assert!(complete >= 4 && 10 * found > 9 * listed, "{complete}, {found} of {listed}");
+    assert!(complete >= 8 && 10 * found > 9 * listed, "{complete}, {found} of {listed}");
 }
 
 /// Rings of so many joints, each held by an anchor: as many bars as coordinates in a plane, one
