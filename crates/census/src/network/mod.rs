@@ -86,8 +86,6 @@ mod prove;
 mod proven;
 mod side;
 mod symmetry;
-#[cfg(test)]
-mod tests;
 mod tube;
 mod turns;
 

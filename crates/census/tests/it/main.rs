@@ -1,5 +1,9 @@
 //! The census from outside, in one program.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
+
+mod boxes;
+mod bridles;
 mod compact;
 mod completeness;
 mod degenerate;
@@ -8,9 +12,11 @@ mod figure;
 mod integers;
 mod multiplicity;
 mod mutations;
+mod nets;
 mod paper;
 mod random;
 mod singular_families;
 mod support;
+mod systems;
 mod unloaded;
 mod work;

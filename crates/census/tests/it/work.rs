@@ -4,7 +4,6 @@
 //! test prints the table that then belongs here.
 
 #![expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
 
 use census::network::{SystemCensus, prove};
 use census::{Census, Interval, ProvenEquilibrium, Settings};

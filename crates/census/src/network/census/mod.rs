@@ -16,8 +16,6 @@ mod net;
 mod parts;
 mod position;
 mod slack;
-#[cfg(test)]
-mod tests;
 mod tree;
 mod truss;
 mod weights;

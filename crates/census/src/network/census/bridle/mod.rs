@@ -26,8 +26,6 @@ mod newton;
 mod pulls;
 mod search;
 mod strand;
-#[cfg(test)]
-mod tests;
 
 use model::NoCensus;
 use numerics::Interval;

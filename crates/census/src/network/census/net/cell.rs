@@ -19,7 +19,8 @@ use crate::network::arithmetic::{self, Vector, difference, plus, squared, sum, t
 /// Which way each swinging joint lies: a bit is set where σ = −1.
 pub(super) type Pattern = u32;
 
-/// A box of places of the knots with all that it makes of the forces.
+/// A box of places of the knots with all that it makes of the forces. Of the N coordinates those beyond
+/// [`Layout::coordinates`] are in no equation.
 pub(super) struct Cell<'a, const N: usize> {
     pub(super) layout: &'a Layout,
     pub(super) at: [Interval; N],
@@ -53,6 +54,12 @@ impl<'a, const N: usize> Cell<'a, N> {
     /// Whether everything can be differentiated in the whole box.
     pub(super) fn smooth(&self) -> bool {
         self.swung.iter().all(|swung| swung.smooth.is_some())
+    }
+
+    /// The places among the unknowns.
+    pub(super) fn places(&self, unknowns: &[Interval]) -> [Interval; N] {
+        let coordinates = self.layout.coordinates();
+        from_fn(|k| if k < coordinates { unknowns[k] } else { self.at[k] })
     }
 
     /// The rows of an end, if it is a knot.
@@ -99,12 +106,13 @@ impl<'a, const N: usize> Cell<'a, N> {
 
     /// Their derivative by places and densities; all swings must be smooth.
     pub(super) fn derivative(&self, pattern: Pattern, densities: &[Interval]) -> Dense<Interval> {
-        let size = N + densities.len();
+        let places = self.layout.coordinates();
+        let size = places + densities.len();
         let mut slope = Dense::filled(size, size, Interval::ZERO);
         for (s, (swing, swung)) in self.layout.swings.iter().zip(&self.swung).enumerate() {
             let Some([base, taken]) = &swung.smooth else { continue };
             let turn = sign(pattern, s);
-            for column in 0..N {
+            for column in 0..places {
                 let part = |jets: &Jets<N>, k: usize| jets[k].slope[column];
                 let pull: Vector = from_fn(|k| sum(part(base, k), -signed(turn, part(taken, k))));
                 for (end, pull) in [(1, pull), (0, pull.map(|part| -part))] {
@@ -116,7 +124,7 @@ impl<'a, const N: usize> Cell<'a, N> {
         }
         let bars = self.layout.bars.iter().zip(&self.spans).zip(densities);
         for (number, ((bar, span), density)) in bars.enumerate() {
-            let (extra, [a, b]) = (N + number, bar.ends);
+            let (extra, [a, b]) = (places + number, bar.ends);
             for (here, there, span) in [(a, b, *span), (b, a, span.map(|part| -part))] {
                 let Some(row) = self.rows(here) else { continue };
                 for (k, part) in span[..self.layout.dim].iter().enumerate() {

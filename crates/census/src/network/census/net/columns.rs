@@ -70,7 +70,7 @@ impl Columns {
         let swings =
             swings.filter(|(_, unbounded)| **unbounded).map(|((swing, s), _)| (swing.ends, s.span));
         let columns: Vec<_> = bars.chain(swings).collect();
-        let mut matrix = Dense::filled(N, columns.len(), Interval::ZERO);
+        let mut matrix = Dense::filled(cell.layout.coordinates(), columns.len(), Interval::ZERO);
         for (column, (ends, span)) in columns.into_iter().enumerate() {
             let both: [(usize, Vector); 2] = [(0, span), (1, span.map(|part| -part))];
             for (end, pull) in both {

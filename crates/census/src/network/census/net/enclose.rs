@@ -72,7 +72,7 @@ pub(super) fn enclosed<const N: usize>(
 }
 
 fn tight_array<const N: usize>(knots: &[Interval]) -> [Interval; N] {
-    std::array::from_fn(|k| knots[k])
+    std::array::from_fn(|k| knots.get(k).copied().unwrap_or(Interval::ZERO))
 }
 
 /// The equations of the net alone, with what its joints bear.

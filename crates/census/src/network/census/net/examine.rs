@@ -84,11 +84,11 @@ impl<'a, const N: usize> Examined<'a, N> {
             None => Verdict::Within(self.cell.at),
             Some(Newton { left: None, .. }) => Verdict::Empty,
             Some(Newton { left: Some(left), single: true }) => {
-                let left = std::array::from_fn(|k| left[k]);
+                let left = self.cell.places(&left);
                 self.one(pattern, &densities).map_or(Verdict::Within(left), Verdict::One)
             }
             Some(Newton { left: Some(left), single: false }) => {
-                Verdict::Within(std::array::from_fn(|k| left[k]))
+                Verdict::Within(self.cell.places(&left))
             }
         }
     }
@@ -194,7 +194,8 @@ fn newton<const N: usize>(
 ) -> Option<Newton> {
     let middles: Vec<Interval> = densities.iter().map(|w| Interval::point(w.mid())).collect();
     let slope = cell.derivative(pattern, densities);
-    let whole: Vec<Interval> = cell.at.iter().chain(densities).copied().collect();
+    let places = &cell.at[..cell.layout.coordinates()];
+    let whole: Vec<Interval> = places.iter().chain(densities).copied().collect();
     step(&whole, &slope, &middle.residual(pattern, &middles))
 }
 
@@ -211,7 +212,8 @@ fn zero<const N: usize>(
         let inverse = cell.derivative(pattern, &points).middle().inverse()?;
         let step = inverse.times(&cell.residual(pattern, &points));
         let mut size = 0.0_f64;
-        for (x, step) in at.iter_mut().chain(&mut densities).zip(step) {
+        let places = &mut at[..layout.coordinates()];
+        for (x, step) in places.iter_mut().chain(&mut densities).zip(step) {
             *x -= step.mid();
             size = size.max(step.mid().abs() / x.abs().max(1.0));
         }

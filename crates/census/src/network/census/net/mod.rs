@@ -43,8 +43,6 @@ pub(super) mod newton;
 mod reach;
 mod search;
 mod swing;
-#[cfg(test)]
-pub(super) mod tests;
 
 use model::NoCensus;
 use numerics::Interval;
@@ -161,18 +159,14 @@ pub(super) fn taken(
         return Err(NoCensus::Closures { closures });
     }
     match layout.coordinates() {
-        2 => Ok(searched::<2>(core, &layout, settings, watch)),
-        4 => Ok(searched::<4>(core, &layout, settings, watch)),
-        8 => Ok(searched::<8>(core, &layout, settings, watch)),
-        10 => Ok(searched::<10>(core, &layout, settings, watch)),
-        3 => Ok(searched::<3>(core, &layout, settings, watch)),
-        6 => Ok(searched::<6>(core, &layout, settings, watch)),
-        9 => Ok(searched::<9>(core, &layout, settings, watch)),
-        12 => Ok(searched::<12>(core, &layout, settings, watch)),
+        1..=3 => Ok(searched::<3>(core, &layout, settings, watch)),
+        4..=6 => Ok(searched::<6>(core, &layout, settings, watch)),
+        7..=12 => Ok(searched::<12>(core, &layout, settings, watch)),
         _ => Err(NoCensus::Closures { closures }),
     }
 }
 
+/// With room for N coordinates.
 fn searched<const N: usize>(
     core: &Core,
     layout: &Layout,
@@ -233,7 +227,7 @@ fn places<const N: usize>(
     at: &[Interval; N],
     patterns: usize,
 ) -> UndecidedPlaces {
-    let knots = at.chunks_exact(layout.dim).map(|parts| {
+    let knots = at[..layout.coordinates()].chunks_exact(layout.dim).map(|parts| {
         let mut place = core.anchor_m().map_or(NOWHERE, |at_m| core.frame.place(at_m));
         for (axis, part) in layout.axes.iter().zip(parts) {
             place[*axis] = *part;

@@ -25,7 +25,9 @@ pub(super) fn whole<const N: usize>(layout: &Layout) -> Option<[Interval; N]> {
         }
     }
     let held = held?;
-    let mut at = std::array::from_fn(|k| held[k % layout.dim] + Interval::around(0.0, reach.hi()));
+    let around = |k: usize| held[k % layout.dim] + Interval::around(0.0, reach.hi());
+    let coordinates = layout.coordinates();
+    let mut at = std::array::from_fn(|k| if k < coordinates { around(k) } else { Interval::ZERO });
     for _ in 0..FIRST_ROUNDS {
         narrow(layout, &mut at)?;
     }

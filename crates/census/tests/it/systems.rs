@@ -4,11 +4,8 @@ use model::system::{Joint, Kind, Member, PointLoad, System};
 use model::{Bar, NoCensus};
 use numerics::Interval;
 
-use super::SystemCensus;
-use crate::census::Census;
-use crate::equilibrium::ProvenEquilibrium;
-use crate::network::prove;
-use crate::settings::Settings;
+use census::network::{SystemCensus, prove};
+use census::{Census, ProvenEquilibrium, Settings};
 
 const G: f64 = 10.0;
 

@@ -9,8 +9,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::assert_frozen;
 
-use crate::network::{SystemCensus, prove};
-use crate::settings::Settings;
+use census::Settings;
+use census::network::{Open, SystemCensus, prove};
 
 const G: f64 = 10.0;
 
@@ -19,7 +19,7 @@ fn light(length_m: f64) -> Bar {
 }
 
 /// A census whose every equilibrium is proved by the test that knows nothing of the search.
-pub(in crate::network::census) fn taken(system: &System) -> SystemCensus {
+pub(crate) fn taken(system: &System) -> SystemCensus {
     let census = SystemCensus::take(system, &Settings::default()).unwrap();
     for equilibrium in census.to_model(system) {
         let proof = prove(system, &equilibrium.joints_m, &equilibrium.axial_n).unwrap();
@@ -30,12 +30,7 @@ pub(in crate::network::census) fn taken(system: &System) -> SystemCensus {
 
 /// Strands of bars of these lengths from anchors to one knot; weights at all joints, growing from
 /// strand to strand.
-pub(in crate::network::census) fn bridle(
-    anchors: &[Vector],
-    strands: &[&[f64]],
-    knot_kg: f64,
-    kg: f64,
-) -> System {
+pub(crate) fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> System {
     let mut joints = vec![Joint::free("knot").with_mass(knot_kg)];
     let mut members = vec![];
     let mut mass_kg = kg;
@@ -65,10 +60,7 @@ fn alternating(census: &SystemCensus) -> i64 {
 /// By Morse theory the alternating sum of the indices is the Euler characteristic of the
 /// configurations, whatever the loads: of the knot and of the other joints, kg.
 #[track_caller]
-pub(in crate::network::census) fn the_sum_is_the_same(
-    strands: &[&[f64]; 3],
-    loads_kg: &[(f64, f64)],
-) {
+pub(crate) fn the_sum_is_the_same(strands: &[&[f64]; 3], loads_kg: &[(f64, f64)]) {
     let sum = |(knot_kg, kg): &(f64, f64)| {
         let census = taken(&bridle(&CORNERS, strands, *knot_kg, *kg));
         assert!(census.complete, "{:?}", census.nets().next().unwrap().undecided);
@@ -256,12 +248,7 @@ impl<'a> Newton<'a> {
 }
 
 /// How many of a list Newton's method finds; it must find nothing else.
-pub(in crate::network::census) fn found_of(
-    system: &System,
-    census: &SystemCensus,
-    starts: usize,
-    seed: u64,
-) -> usize {
+pub(crate) fn found_of(system: &System, census: &SystemCensus, starts: usize, seed: u64) -> usize {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut seen = vec![false; census.equilibria.len()];
     for at in (0..starts).filter_map(|_| Newton::new(system, &mut random).run()) {
@@ -332,7 +319,7 @@ fn rings_of_every_number_of_knots_are_searched() {
         let settings = Settings { max_motions, max_tests_per_pattern: 1, ..Settings::default() };
         SystemCensus::take(&ring(knots, y), &settings).map(|census| {
             let net = census.nets().next().unwrap();
-            assert!(net.undecided.iter().all(|open| open.reason == super::Open::Budget));
+            assert!(net.undecided.iter().all(|open| open.reason == Open::Budget));
             assert_eq!((net.knots.len(), net.swings.len(), net.closures), (knots, 0, knots));
             net.in_plane
         })
@@ -357,7 +344,7 @@ fn rings_of_every_number_of_knots_are_searched() {
 
 /// Positions, undecided boxes, the sum of all indices; cells and tests; the sums of the binary
 /// orders of the widths of places, in metres, and of forces, in newtons.
-pub(in crate::network::census) fn work(census: &SystemCensus) -> [i64; 7] {
+pub(crate) fn work(census: &SystemCensus) -> [i64; 7] {
     #[expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
     let order = |width: f64| if width > 0.0 { width.log2().floor() as i64 } else { 0 };
     let whole = |number: u64| i64::try_from(number).unwrap();

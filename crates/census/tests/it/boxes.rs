@@ -3,7 +3,7 @@
 use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, NoBox, Vector};
 
-use super::{SystemBox, prove};
+use census::network::{MAX_UNKNOWNS, SystemBox, prove};
 
 const G: f64 = 10.0;
 
@@ -290,10 +290,7 @@ fn large_systems_are_refused_by_their_number_of_unknowns() {
     let long = system(joints.collect(), members.collect());
     let at: Vec<Vector> = (0..=200).map(|k| [f64::from(k), 0.0, 0.0]).collect();
     let refused = prove(&long, &at, &[1.0; 200]);
-    assert_eq!(
-        refused,
-        Err(NoBox::TooLarge { unknowns: 199 * 3 + 200, limit: super::MAX_UNKNOWNS })
-    );
+    assert_eq!(refused, Err(NoBox::TooLarge { unknowns: 199 * 3 + 200, limit: MAX_UNKNOWNS }));
 }
 
 /// The hanger below a strut that is too short to push, and one that says so by less than the answer

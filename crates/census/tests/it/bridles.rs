@@ -6,9 +6,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::assert_frozen;
 
-use crate::network::SystemCensus;
-use crate::network::census::net::tests::{bridle, found_of, taken, the_sum_is_the_same, work};
-use crate::settings::Settings;
+use census::Settings;
+use census::network::SystemCensus;
+
+use crate::nets::{bridle, found_of, taken, the_sum_is_the_same, work};
 
 /// Three strands of so many bars, about as long as the bridle asks for, drawn at random.
 fn drawn(random: &mut ChaCha8Rng, bars: [usize; 3]) -> System {
