@@ -87,6 +87,7 @@ mod extremes;
 #[cfg(feature = "sweep")]
 mod followed;
 pub mod judge;
+mod losses;
 mod mode_pages;
 mod modes;
 mod moving_page;
@@ -113,6 +114,7 @@ pub mod text;
 mod threads;
 #[cfg(feature = "branches")]
 mod trace;
+mod weakest;
 
 pub mod guide;
 pub mod prelude;
@@ -135,6 +137,7 @@ pub use self::derivatives::{
 };
 #[cfg(feature = "sweep")]
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
+pub use self::losses::{Left, Loss, Losses, LossesAnswer, NothingLeft};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]
@@ -173,3 +176,4 @@ pub use sag::Sag;
 pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;
+pub use weakest::Weakest;

@@ -7,10 +7,15 @@ use branches::ParameterError;
 
 use crate::sag::Sag;
 
-const HELP: &str = "`joints.NAME` (or one coordinate of it, `joints.NAME.z`), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `height` or `height=DATUM`";
+const HELP: &str = "`joints.NAME` (or one coordinate of it, `joints.NAME.z`), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `bars.NUMBER.utilisation` or `utilisation` of the weakest bar, `height` or `height=DATUM`";
 
 /// Axial forces of a member, as the JSON of `solve` calls them: in the middle, at both ends, where it is largest.
 const AXIAL: [&str; 4] = ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"];
+
+/// The part of its strength that a member uses.
+const UTILISATION: &str = "utilisation";
+
+const STRENGTH: &str = "give it `strength_n`, `compression_n` or `bending_n_m2`";
 
 /// A number of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +26,8 @@ pub(crate) enum Observable {
     Sag([usize; 2]),
     /// An axial force of a member, N, by its place in [`AXIAL`].
     Axial(usize, usize),
+    /// The part of its strength that a member uses, or the one that is nearest to breaking.
+    Used(Option<usize>),
     /// The height of the lowest joint over a datum, m.
     Height(f64),
 }
@@ -60,11 +67,26 @@ impl Observable {
         }
         if let Some(rest) = text.strip_prefix("bars.") {
             let (bar, key) = rest.split_once('.').ok_or_else(unknown)?;
-            let key = AXIAL.iter().position(|axial| *axial == key).ok_or_else(unknown)?;
+            let axial = AXIAL.iter().position(|axial| *axial == key);
             let members = system.members().len();
             let number = bar.parse::<usize>().ok().filter(|bar| (1..=members).contains(bar));
             let none = || wrong(format!("there is no bar `{bar}`"), format!("1 to {members}"));
-            return Ok(Self::Axial(number.ok_or_else(none)? - 1, key));
+            let is_used = key == UTILISATION;
+            let member = if is_used || axial.is_some() { number.ok_or_else(none)? } else { 1 } - 1;
+            return match axial {
+                Some(key) => Ok(Self::Axial(member, key)),
+                None if is_used && system.members()[member].strength.is_some() => {
+                    Ok(Self::Used(Some(member)))
+                }
+                None if is_used => {
+                    Err(wrong(format!("bar {bar} has no strength"), STRENGTH.to_owned()))
+                }
+                None => Err(unknown()),
+            };
+        }
+        if text == UTILISATION {
+            let none = || wrong("no bar has a strength".to_owned(), STRENGTH.to_owned());
+            return system.has_strengths().then_some(Self::Used(None)).ok_or_else(none);
         }
         let datum = match text.split_once('=') {
             Some(("height", datum)) => datum.parse().ok(),
@@ -93,6 +115,7 @@ impl Observable {
     pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Axial(..) => "N",
+            Self::Used(_) => "1",
             Self::Place(..) | Self::Sag(_) | Self::Height(_) => "m",
         }
     }
@@ -107,6 +130,8 @@ impl Observable {
                 let middle_n = found.axial_n[member];
                 Some([middle_n, along.from_n, along.to_n, along.largest_n()][key])
             }
+            Self::Used(Some(member)) => found.utilisation(system, member),
+            Self::Used(None) => found.weakest(system).map(|(_, used)| used),
             Self::Height(datum_m) => {
                 let lowest_m = found.joints_m.iter().map(|at_m| at_m[2]).min_by(f64::total_cmp)?;
                 Some(lowest_m - datum_m)

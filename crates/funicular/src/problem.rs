@@ -131,6 +131,12 @@ impl Problem {
         }
     }
 
+    /// Whether a member has a strength that its force can be held against.
+    #[must_use]
+    pub fn has_strengths(&self) -> bool {
+        self.as_system().is_some_and(System::has_strengths)
+    }
+
     /// Refuse what would need more memory than readers may ask for, at so many bytes for each member.
     pub(crate) fn fits(&self, each: u64) -> Result<(), Error> {
         let members = match &self.0 {

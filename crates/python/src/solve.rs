@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use funicular::prelude::{Solve, SolveAnswer, Vector};
-use funicular::{Error, Extremes, Lists, picture};
+use funicular::{Error, Extremes, Lists, Losses, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict as _, PyDict, PyList};
 
 use crate::arrays::{column, numbers, rows, vectors};
 use crate::printable::printable;
@@ -27,6 +27,8 @@ pub struct Arrays {
     end_forces_n: Vec<Vector>,
     reactions_n: Vec<Vector>,
     extremes: Option<Extremes>,
+    utilisation: Option<Vec<f64>>,
+    weakest: Option<Weakest>,
 }
 
 impl Arrays {
@@ -40,6 +42,8 @@ impl Arrays {
             multipliers_n: is_chain.then(multipliers),
             along: found.axial_forces(system),
             extremes: Extremes::of(system, &found),
+            utilisation: system.has_strengths().then(|| utilisation(system, &found)),
+            weakest: Weakest::of(system, &found),
             joints_m: found.joints_m,
             axial_n: found.axial_n,
             start_forces_n: found.start_forces_n,
@@ -63,6 +67,19 @@ impl Arrays {
         dict.set_item("start_forces_n", rows(py, self.start_forces_n)?)?;
         dict.set_item("end_forces_n", rows(py, self.end_forces_n)?)?;
         dict.set_item("reactions_n", rows(py, self.reactions_n)?)?;
+        dict.set_item("utilisation", self.utilisation.map(|used| column(py, used)))?;
+        let weakest =
+            self.weakest.map(|Weakest { bar, utilisation, safety, safety_wanted, .. }| {
+                let numbers = [
+                    ("utilisation", utilisation),
+                    ("safety", safety),
+                    ("safety_wanted", safety_wanted),
+                ];
+                let dict = numbers.into_py_dict(py)?;
+                dict.set_item("number", bar)?;
+                Ok::<_, PyErr>(dict)
+            });
+        dict.set_item("weakest", weakest.transpose()?)?;
         let extremes = self.extremes.as_ref();
         dict.set_item("sag_m", extremes.and_then(|all| all.sag_m))?;
         let size =
@@ -71,6 +88,12 @@ impl Arrays {
         dict.set_item("largest_compression_n", size(|all| all.compression_n))?;
         Ok(dict)
     }
+}
+
+/// The part of its strength that each member uses, NaN without one.
+fn utilisation(system: &System, found: &SystemEquilibrium) -> Vec<f64> {
+    let members = 0..system.members().len();
+    members.map(|member| found.utilisation(system, member).unwrap_or(f64::NAN)).collect()
 }
 
 /// A text of JSON, and the arrays of all equilibria.
@@ -126,6 +149,26 @@ pub fn solve_text(
     let of = Arc::clone(&problem.of);
     let found = work::run(py, 0, None, move |_| Ok(solve.run(&of)?.to_string()))?;
     found.map(|text| printable(&text)).map_err(|error: Error| raise(&error))
+}
+
+/// The loss of each member in turn: as JSON, as text, and whether the system survives it.
+#[pyfunction]
+pub fn losses<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    solver: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, String, bool)> {
+    let losses = Losses::new().solvers(words::solvers(solver)?);
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        watch.tell("losses", 0, 0);
+        let found = losses.run(&of)?;
+        let (text, said) = (serde_json::to_string(&found), found.to_string());
+        Ok::<_, Error>(text.map(|text| (text, printable(&said), found.survives())))
+    })?;
+    found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
 }
 
 /// What is asked, by its words.

@@ -53,6 +53,47 @@ def test_axial_forces_at_the_ends():
     assert np.allclose(b.table["largest_tension_n"], 0.5 * level + 10 * up)
 
 
+def test_strengths_and_the_weakest_member():
+    # The triangle 3, 4, 5: 20 N on two threads that rise 4 in 5 are 12.5 N in each.
+    threads = [{"from": end, "to": "lamp", "length_m": 5, "mass_kg": 0} for end in "AB"]
+    system = {
+        "gravity_m_s2": 10,
+        "safety": 2,
+        "joints": {"A": {"at_m": [-3, 0, 0]}, "B": {"at_m": [3, 0, 0]}, "lamp": {"mass_kg": 2}},
+        "bars": [{**threads[0], "strength_n": 50}, {**threads[1], "strength_n": 20}],
+    }
+    a = fn.System.from_dict(system).solve()
+    assert np.allclose(a.utilisation, [0.25, 0.625]) and np.allclose(a.bars["utilisation"], a.utilisation)
+    assert a.weakest.number == 1 and a.weakest.safety_wanted == 2
+    assert a.weakest.utilisation == pytest.approx(0.625) and a.weakest.safety == pytest.approx(1.6)
+    assert a.to_dict()["equilibria"][0]["weakest"]["number"] == 1
+    one = fn.System.from_dict({**system, "bars": [{**threads[0], "strength_n": 50}, threads[1]]}).solve()
+    assert np.array_equal(one.utilisation, [one.utilisation[0], np.nan], equal_nan=True)
+    with pytest.raises(fn.InputError, match="strength_n"):
+        fn.System.from_dict({**system, "bars": threads}).solve()
+    assert fn.System.case("lamp").solve().weakest is None and fn.System.case("lamp").solve().utilisation is None
+
+
+def test_the_loss_of_each_member():
+    # The triangle 3, 4, 5: without one thread the lamp hangs 5 m below the other anchor, from 4 m below the middle.
+    text = """
+        gravity_m_s2 = 10
+        joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 2 } }
+        bars = [{ from = "A", to = "lamp", length_m = 5, mass_kg = 0, strength_n = 50 },
+                { from = "B", to = "lamp", length_m = 5, mass_kg = 0, strength_n = 16 }]
+    """
+    found = fn.System.from_toml(text).losses()
+    first, second = found.losses
+    assert first.bar == 1 and first.weakest.bar == 2 and first.weakest.utilisation == pytest.approx(1.25)
+    assert second.bar == 2 and second.weakest.bar == 1 and second.weakest.utilisation == pytest.approx(0.4)
+    assert first.moves == "lamp" and first.moves_m == pytest.approx(np.sqrt(10)) and first.agrees
+    assert not found.survives and "is at 125 %." in str(found) and found.to_dict()["losses"][0]["bar"] == 1
+    hanger = fn.losses(
+        {"joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}}, "bars": [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]}
+    )
+    assert hanger.losses[0].falls and not hanger.survives
+
+
 def gable():
     # Feet 6 m apart, two bars of 5 m and EA = 1000 N, 10 kg between them.
     return fn.System.from_arrays(

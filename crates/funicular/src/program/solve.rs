@@ -4,13 +4,14 @@ mod batch;
 mod lines;
 mod object;
 mod several;
+mod without;
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
 use funicular::picture;
-use funicular::{Error, Lists, SolveAnswer, text};
+use funicular::{Error, Lists, Problem, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::case_name::CaseName;
@@ -25,6 +26,7 @@ use crate::view::View;
 use crate::which::Which;
 
 /// `funicular solve`.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 #[derive(Debug, Args)]
 pub struct Solve {
     /// The system file (TOML or JSON, - for standard input), or several, which are answered in
@@ -84,9 +86,19 @@ pub struct Solve {
     /// Columns: `solver`; `bar`, its number from 1; `from`, `to`, its joints; `axial_n`, its axial
     /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
     /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
-    /// is largest; `start_x_n` to `end_z_n`, the forces on it at both.
+    /// is largest; `start_x_n` to `end_z_n`, the forces on it at both; `utilisation`, the part of its strength
+    /// that it uses, where bars have strengths.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
+    /// End with exit code 1 where a bar is weaker than wanted: its largest force times its `safety` more
+    /// than its `strength_n` or `compression_n`
+    #[arg(long, conflicts_with = "batch")]
+    pub check: bool,
+    /// Lose each bar in turn: what hangs then, with which forces, and which loss brings a part down
+    ///
+    /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
+    #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "near"])]
+    pub without: Option<String>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -149,6 +161,22 @@ impl Solve {
         self.shape.read()
     }
 
+    /// Refuse to check what has no strength.
+    fn checkable(&self, problem: &Problem) -> Result<(), Failure> {
+        if self.check && !problem.has_strengths() {
+            return Err(Failure::bad_input(
+                "--check: no bar of this system has a strength_n, compression_n or bending_n_m2",
+            ));
+        }
+        Ok(())
+    }
+
+    /// How the answer to one system ends.
+    fn exit(&self, answer: &SolveAnswer) -> Exit {
+        let is_weak = self.check && answer.is_strong() == Some(false);
+        verdict(answer).worse(if is_weak { Exit::CheckFailed } else { Exit::Done })
+    }
+
     /// An option that names a file for the answer to one system.
     fn file_for_one(&self) -> Option<&'static str> {
         let files = [("--csv", &self.csv), ("--bars-csv", &self.bars_csv), ("--svg", &self.svg)];
@@ -173,9 +201,15 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     progress.say("reading");
     let shape = arguments.shape()?;
     let Input { mut problem, mut files } = input::problem(file, arguments.case.as_deref())?;
+    if arguments.without.is_none() {
+        arguments.checkable(&problem)?;
+    }
     if let Some(shape) = shape {
         problem = next_to(&problem, &shape)?;
         files.extend(arguments.shape.near.clone());
+    }
+    if arguments.without.is_some() {
+        return without::run(arguments, &problem, progress);
     }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
@@ -189,7 +223,7 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     } else {
         output::print(&text::answer(&answer, arguments.summary, arguments.evidence))?;
     }
-    Ok(verdict(&answer))
+    Ok(arguments.exit(&answer))
 }
 
 /// The files that are asked for besides what is printed.

@@ -62,6 +62,7 @@ and loads that all of them have together, are more or fewer by
   --of sag.A-B            how deep the row of members from A to B hangs below the line between them
   --of bars.3.axial_max_n the axial force of a bar where it is largest, tension positive
                           (axial_from_n and axial_to_n: at its ends)
+  --of utilisation        which part of its strength the weakest bar uses (bars.3.utilisation: one)
   --of height=-2.5        the height of the lowest joint over z = -2.5 m; `height` alone: over the floor
 
 Examples:
@@ -84,7 +85,7 @@ pub struct Arguments {
     pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
-    /// Show a number of each shape: `joints.rider`, `sag.A-B`, `bars.3.axial_max_n`, `height=-2.5`
+    /// Show a number of each shape: `joints.rider`, `sag.A-B`, `bars.3.axial_max_n`, `utilisation`, `height=-2.5`
     /// (repeatable)
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,

@@ -8,6 +8,7 @@ use model::{Rung, SolverName, Vector};
 use validate::systems::{Near, SystemAgreement, SystemAnswer, SystemFailure};
 
 use crate::csv::{Numbers, quoted};
+use crate::weakest::Weakest;
 
 /// What the solvers found for a [`Problem`](crate::Problem), and how far it is proved. A chain is here
 /// a system whose joints are named by their numbers, from `0`.
@@ -18,7 +19,10 @@ pub struct SolveAnswer {
 }
 
 impl SolveAnswer {
-    pub(crate) fn new(system: Arc<System>, answer: SystemAnswer) -> Self {
+    pub(crate) fn new(system: Arc<System>, mut answer: SystemAnswer) -> Self {
+        if system.has_strengths() {
+            share_ranges(&mut answer.equilibria);
+        }
         Self { system, answer }
     }
 
@@ -100,6 +104,14 @@ impl SolveAnswer {
         self.equilibria().iter().filter_map(|equilibrium| equilibrium.evidence.rung()).max()
     }
 
+    /// Whether all members are as strong as wanted in every equilibrium found; no value where none has
+    /// a strength.
+    #[must_use]
+    pub fn is_strong(&self) -> Option<bool> {
+        let weakest = self.equilibria().iter().filter_map(|e| Weakest::of(&self.system, e));
+        weakest.map(|weakest| weakest.suffices()).reduce(|a, b| a && b)
+    }
+
     /// Joints as CSV, a line per solver and joint: its place, and the force of the ground on it.
     /// What is zero but for rounding is written as 0.
     ///
@@ -123,14 +135,17 @@ impl SolveAnswer {
 
     /// Members as CSV, a line per solver and member: its joints, axial force (with the weight at the
     /// joints, at both ends, and where it is largest), and the forces on it at both joints. What is zero but for rounding is written as 0.
+    /// Where a member has a strength, the part of it that is used stands last.
     ///
     /// # Errors
     ///
     /// When `to` cannot be written.
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
+        let strong = self.system.has_strengths();
+        let last = if strong { ",utilisation" } else { "" };
         writeln!(
             to,
-            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
+            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n{last}"
         )?;
         for e in self.equilibria() {
             let ends = e.start_forces_n.as_flattened().iter().chain(e.end_forces_n.as_flattened());
@@ -144,9 +159,26 @@ impl SolveAnswer {
                     .join(",");
                 let (start_n, end_n) =
                     (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));
-                writeln!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
+                write!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
+                match e.utilisation(&self.system, k) {
+                    Some(utilisation) => writeln!(to, ",{utilisation:?}")?,
+                    None if strong => writeln!(to, ",")?,
+                    None => writeln!(to)?,
+                }
             }
         }
         Ok(())
+    }
+}
+
+/// What one solver knows of the forces that balance leaves open holds for the answer of the other:
+/// where they have the same family, strengths are held against the same ranges.
+fn share_ranges(equilibria: &mut [SystemEquilibrium]) {
+    let mut families = equilibria.iter().filter_map(|e| e.evidence.self_stresses.as_ref());
+    let known = families.find_map(|all| Some((all.dimension, all.ranges.clone()?)));
+    let Some((dimension, ranges)) = known else { return };
+    let families = equilibria.iter_mut().filter_map(|e| e.evidence.self_stresses.as_mut());
+    for family in families.filter(|all| all.ranges.is_none() && all.dimension == dimension) {
+        family.ranges = Some(ranges.clone());
     }
 }

@@ -11,6 +11,7 @@ use validate::systems::{Near, SystemAgreement, SystemFailure};
 
 use super::SolveAnswer;
 use crate::modes::Summary;
+use crate::weakest::Weakest;
 
 /// Version of the JSON objects; raised when a key that others rely on changes its meaning.
 pub const SCHEMA_VERSION: u32 = 3;
@@ -82,6 +83,8 @@ impl Serialize for Named<'_> {
             columns: Option<Columns<'a>>,
             #[serde(skip_serializing_if = "Option::is_none")]
             reactions_n: Option<BTreeMap<&'a str, Vector>>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            weakest: Option<Weakest>,
             stability: SystemStability,
             evidence: &'a Evidence,
         }
@@ -94,6 +97,7 @@ impl Serialize for Named<'_> {
             bars: objects.then_some(Bars(system, e)),
             columns: (self.lists == Lists::Columns).then(|| Columns::of(system, e)),
             reactions_n: (self.lists != Lists::None).then(|| reactions(system, e)),
+            weakest: Weakest::of(system, e),
             stability: e.stability,
             evidence: &e.evidence,
         }
@@ -121,12 +125,17 @@ struct Columns<'a> {
     axial_max_n: Vec<f64>,
     start_forces_n: &'a [Vector],
     end_forces_n: &'a [Vector],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    utilisation: Option<Vec<Option<f64>>>,
 }
 
 impl<'a> Columns<'a> {
     fn of(system: &System, e: &'a SystemEquilibrium) -> Self {
         let axial = e.axial_forces(system);
+        let used = (0..axial.len()).map(|member| e.utilisation(system, member));
+        let used: Vec<_> = used.collect();
         Self {
+            utilisation: used.iter().any(Option::is_some).then_some(used),
             joints_m: &e.joints_m,
             axial_n: &e.axial_n,
             axial_from_n: axial.iter().map(|along| along.from_n).collect(),
@@ -172,6 +181,8 @@ impl Serialize for Bars<'_> {
             axial_max_n: f64,
             force_at_start_n: Vector,
             force_at_end_n: Vector,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            utilisation: Option<f64>,
         }
         let Self(system, e) = self;
         let mut list = serializer.serialize_seq(Some(e.axial_n.len()))?;
@@ -186,6 +197,7 @@ impl Serialize for Bars<'_> {
                 axial_max_n: along.largest_n(),
                 force_at_start_n: e.start_forces_n[k],
                 force_at_end_n: e.end_forces_n[k],
+                utilisation: e.utilisation(system, k),
             })?;
         }
         list.end()

@@ -74,7 +74,8 @@ impl Study {
     }
 
     /// Shows one more number of each shape: a place `joints.NAME` (or one coordinate, `joints.NAME.z`), the `sag.NAME-NAME` of the row of
-    /// members between two joints, an axial force of a member, `bars.NUMBER.axial_max_n` (or `axial_n`, `axial_from_n`, `axial_to_n`), or the
+    /// members between two joints, an axial force of a member, `bars.NUMBER.axial_max_n` (or `axial_n`, `axial_from_n`, `axial_to_n`), the part of its
+    /// strength that a member uses, `bars.NUMBER.utilisation`, or `utilisation` of the weakest, or the
     /// `height` of the lowest joint over the floor, Z = 0 where there is none, or over `height=DATUM`.
     ///
     /// ```

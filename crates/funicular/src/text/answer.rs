@@ -11,6 +11,7 @@ use super::shape::Shape;
 use super::tables::{counted, duration, long, numbers_from, rung, short, table, word, wrapped};
 use crate::extremes::Extremes;
 use crate::solve::SolveAnswer;
+use crate::weakest::Weakest;
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 15;
@@ -226,6 +227,8 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         extremes: Extremes::of(system, e),
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         idle: &|bar| idle(&system.members()[bar], &e.joints_m),
+        used: &|bar| e.utilisation(system, bar),
+        weakest: Weakest::of(system, e),
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
         solver: &e.solver,
     };

@@ -11,6 +11,7 @@ pub mod derivatives;
 mod judged;
 #[cfg(feature = "branches")]
 pub mod load;
+mod losses;
 mod modes;
 pub mod motion;
 pub mod printable;

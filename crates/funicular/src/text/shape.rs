@@ -8,6 +8,7 @@ use super::printed::{numbers, quantity};
 use super::tables::{Table, numbers_from, short, table, wrapped};
 use crate::extremes::Extremes;
 use crate::sag::Sag;
+use crate::weakest::Weakest;
 
 /// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
 /// `--bars-csv` and `--json` have all).
@@ -52,6 +53,10 @@ pub struct Shape<'a> {
     pub reactions_n: Vec<(usize, Vector)>,
     /// A word for a bar without force.
     pub idle: &'a dyn Fn(usize) -> &'static str,
+    /// The part of its strength that a bar uses.
+    pub used: &'a dyn Fn(usize) -> Option<f64>,
+    /// The bar that is nearest to breaking.
+    pub weakest: Option<Weakest>,
     /// What is open of the forces of the bars, where they are a family.
     pub ranges: Option<&'a [ForceRange]>,
     /// Who found it.
@@ -99,6 +104,7 @@ impl Shape<'_> {
     /// The table of some bars; how steeply they rise is left out where there is no room for it.
     fn bars_table(&self, bars: &[usize], rises: bool) -> Table {
         let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", ""];
+        head.extend(self.weakest.map(|_| "used"));
         head.extend(rises.then_some("rises / deg"));
         head.extend(self.ranges.map(|_| "may be / N"));
         let mut table = table(head);
@@ -119,6 +125,7 @@ impl Shape<'_> {
                 axial.short(along.to_n),
                 what.to_owned(),
             ];
+            row.extend(self.weakest.map(|_| (self.used)(bar).map_or_else(String::new, percent)));
             row.extend(rises.then(|| self.rise([from, to])));
             row.extend(self.ranges.map(|ranges| open(ranges[bar], &axial)));
             table.add_row(row);
@@ -212,7 +219,38 @@ impl Shape<'_> {
             let size = quantity(force_n, "N");
             let _ = writeln!(text, "Largest {what}: {size}, in the member from {from} to {to}.");
         }
+        if let Some(weakest) = self.weakest {
+            let [from, to] = (self.ends)(weakest.bar).map(|joint| (self.name)(joint));
+            let Weakest { utilisation, safety, safety_wanted, .. } = weakest;
+            let wanted = if weakest.suffices() {
+                format!("{} wanted", short(safety_wanted))
+            } else {
+                format!("below {}", short(safety_wanted))
+            };
+            let said = format!(
+                "Weakest: member from {from} to {to}, at {} of its strength: safety {}, {wanted}.",
+                percent(utilisation),
+                three_digits(safety),
+            );
+            text += &wrapped(&said, 0);
+            text.push('\n');
+        }
         text
+    }
+}
+
+/// A safety in three digits, rounded down: 1.9999 is below 2.
+fn three_digits(safety: f64) -> String {
+    let step = 10.0_f64.powf(safety.log10().floor() - 2.0);
+    if step.is_normal() { short((safety / step).floor() * step) } else { short(safety) }
+}
+
+/// A part in percent, in three digits; what nothing bounds, in words.
+pub fn percent(part: f64) -> String {
+    if part.is_finite() {
+        format!("{} %", short((1e3 * part).round() / 10.0))
+    } else {
+        "any".to_owned()
     }
 }
 

@@ -32,6 +32,7 @@ mod replaced;
 mod slurm;
 mod small_files;
 mod starts;
+mod strength;
 mod study;
 mod study_rows;
 mod sweep;

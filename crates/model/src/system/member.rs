@@ -1,6 +1,6 @@
 //! Members between joints.
 
-use super::Prestress;
+use super::{Prestress, Strength};
 use crate::{Bar, Vector};
 
 /// A straight member between two joints.
@@ -26,6 +26,8 @@ pub struct Member {
     /// How far the length of an inextensible member may be off, m. `None` is rounding: see
     /// [`within_m`](Self::within_m).
     pub length_tolerance_m: Option<f64>,
+    /// What it bears before it breaks; nothing that a solver looks at.
+    pub strength: Option<Box<Strength>>,
     /// Constant forces at points of the member, besides its weight.
     pub loads: Vec<PointLoad>,
 }
@@ -88,6 +90,7 @@ impl Member {
             stiffness_n: None,
             prestress: None,
             length_tolerance_m: None,
+            strength: None,
             loads: Vec::new(),
         }
     }
@@ -108,6 +111,12 @@ impl Member {
     #[must_use]
     pub fn with_length_tolerance(self, length_tolerance_m: f64) -> Self {
         Self { length_tolerance_m: Some(length_tolerance_m), ..self }
+    }
+
+    /// The same member with what it bears before it breaks.
+    #[must_use]
+    pub fn with_strength(self, strength: Strength) -> Self {
+        Self { strength: Some(Box::new(strength)), ..self }
     }
 
     /// How far the length may be off where lengths overdetermine a shape, m: the tolerance given, or

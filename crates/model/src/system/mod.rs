@@ -24,6 +24,7 @@ mod member;
 mod prestress;
 mod refusal;
 mod row;
+mod strength;
 mod symmetry;
 
 pub use answer::{SystemEquilibrium, SystemStability};
@@ -35,6 +36,7 @@ pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
 pub use row::Row;
+pub use strength::{Strength, StrengthError};
 pub use symmetry::Part;
 
 use crate::Vector;
@@ -127,6 +129,50 @@ impl System {
     pub fn with_floor(self, floor_m: f64) -> Result<Self, SystemError> {
         error::check_floor(floor_m, &self.joints)?;
         Ok(Self { floor_m: Some(floor_m), row: row::Once::default(), ..self })
+    }
+
+    /// The same system after the loss of a member, from 0, and the numbers that its joints had before: an
+    /// anchor or a joint without load that no member meets any more is gone too.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such member.
+    ///
+    /// ```
+    /// use model::system::{Joint, Member, System};
+    /// use model::Bar;
+    /// let joints = vec![
+    ///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+    ///     Joint::anchor("B", [1.0, 0.0, 0.0]),
+    ///     Joint::free("lamp").with_mass(5.0),
+    /// ];
+    /// let bar = Bar::homogeneous(1.0, 1.0)?;
+    /// let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+    /// let system = System::new("a lamp", 9.80665, joints, members)?;
+    /// let (left, joints) = system.without(0);
+    /// assert_eq!((left.members().len(), joints), (1, vec![1, 2]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn without(&self, member: usize) -> (Self, Vec<usize>) {
+        let mut members = self.members.clone();
+        let lost = members.remove(member);
+        let met = |joint: usize| members.iter().any(|m| m.from == joint || m.to == joint);
+        let of_use = |k: usize| {
+            let joint = &self.joints[k];
+            let loaded = joint.mass_kg > 0.0 || joint.force_n.iter().any(|n| n.abs() > 0.0);
+            (loaded && !joint.support.is_fixed()) || met(k)
+        };
+        let is_left = |k: &usize| (*k != lost.from && *k != lost.to) || of_use(*k);
+        let kept: Vec<usize> = (0..self.joints.len()).filter(is_left).collect();
+        // Those that stay keep their order.
+        let number = |joint: usize| kept.partition_point(|k| *k < joint);
+        for member in &mut members {
+            (member.from, member.to) = (number(member.from), number(member.to));
+        }
+        let joints = kept.iter().map(|k| self.joints[*k].clone()).collect();
+        let left = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);
+        (Self { floor_m: self.floor_m, ..left }, kept)
     }
 
     /// Height of the floor below which no joint gets, m; nothing where there is none.

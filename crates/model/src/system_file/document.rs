@@ -17,6 +17,7 @@ use super::material;
 use super::named;
 use super::network;
 use super::source::Source;
+use super::strength;
 use super::table::Table;
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
@@ -25,6 +26,7 @@ const ROOT_KEYS: &[&str] = &[
     "gravity_m_s2",
     "floor_m",
     "plane",
+    "safety",
     "anchors",
     "bars",
     "bars_file",
@@ -44,6 +46,10 @@ const BAR_KEYS: &[&str] = &[
     "centre_m",
     "inertia_kg_m2",
     "count",
+    "strength_n",
+    "compression_n",
+    "bending_n_m2",
+    "safety",
 ];
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
@@ -95,7 +101,8 @@ impl Source<'_> {
             return Err(root.error(kind, "plane"));
         }
         let (chain, places) = self.chain_of(&root)?;
-        if root.get("loads").is_none() && root.get("floor_m").is_none() {
+        let bare = root.get("loads").is_none() && root.get("floor_m").is_none();
+        if bare && strength::given(&root)?.is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
         }
@@ -108,7 +115,8 @@ impl Source<'_> {
         match loaded.refusal() {
             Ok(()) => Ok(Described::System(loaded)),
             Err(refusal) => {
-                let key = if root.get("loads").is_some() { "loads" } else { "floor_m" };
+                let key = ["loads", "floor_m"].into_iter().find(|key| root.get(key).is_some());
+                let key = key.unwrap_or("bars");
                 Err(root.error(Kind::SystemRefused(refusal), key))
             }
         }
@@ -163,6 +171,9 @@ impl Source<'_> {
             if root.get(key).is_some() {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }
+        }
+        if let Some(key) = strength::given(&root)? {
+            return Err(root.error(Kind::NotAChain { key }, "bars"));
         }
         self.chain_of(&root)
     }

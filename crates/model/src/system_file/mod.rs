@@ -95,6 +95,7 @@ mod row_table;
 mod rows;
 mod sheet;
 mod source;
+mod strength;
 mod suggest;
 mod table;
 mod write;

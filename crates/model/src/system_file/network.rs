@@ -14,6 +14,7 @@ use super::material;
 use super::network_rows::{self, FREE, member_kind};
 use super::row_table::{Known, Row};
 use super::sheet::SheetFile;
+use super::strength;
 use super::suggest::nearest;
 use super::table::{Table, Value};
 use crate::STANDARD_GRAVITY_M_S2;
@@ -22,8 +23,17 @@ use crate::system::{
     Joint, Member, PointLoad, Support, System, SystemError, SystemRefusal, UNIT_TOLERANCE,
 };
 
-const ROOT_KEYS: &[&str] =
-    &["name", "gravity_m_s2", "floor_m", "plane", "joints", "joints_file", "bars", "bars_file"];
+const ROOT_KEYS: &[&str] = &[
+    "name",
+    "gravity_m_s2",
+    "floor_m",
+    "plane",
+    "safety",
+    "joints",
+    "joints_file",
+    "bars",
+    "bars_file",
+];
 const JOINT_KEYS: &[&str] = &["at_m", "near_m", "free", "along", "normal", "mass_kg", "force_n"];
 const MEMBER_KEYS: &[&str] = &[
     "from",
@@ -44,6 +54,10 @@ const MEMBER_KEYS: &[&str] = &[
     "force_n_per_m",
     "prestress_n",
     "length_tolerance_m",
+    "strength_n",
+    "compression_n",
+    "bending_n_m2",
+    "safety",
     "forces",
 ];
 const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
@@ -72,6 +86,8 @@ struct Reading<'a> {
     /// Whether a place is drawn for any joint.
     drawn: bool,
     members: Vec<Member>,
+    /// The safety that is wanted of all bars that say nothing else.
+    safety: f64,
     /// Where each `[[bars]]` table stands, with the number of its first member, from 1.
     tables: Vec<(usize, Range<usize>)>,
     /// The file of the joints behind those of `[joints]`, and how many it has.
@@ -98,6 +114,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
         runs: HashMap::new(),
         drawn: false,
         members: Vec::new(),
+        safety: strength::safety(root)?,
         tables: Vec::new(),
         joints_file: None,
         bars_file: None,
@@ -161,7 +178,7 @@ impl Reading<'_> {
         let budget = &self.root.source().budget;
         let mut take = |row: &Row<'_>| {
             budget.take_members(1).map_err(|error| (None, Kind::Memory(error)))?;
-            members.push(network_rows::member(row, &number, &drawn)?);
+            members.push(network_rows::member(row, &number, &drawn, self.safety)?);
             Ok(())
         };
         let known = if is_drawn { DRAWN_BARS } else { BARS };
@@ -199,7 +216,7 @@ impl Reading<'_> {
             let length = ends.as_ref().map_or(Ok(None), length);
             length.map_err(|kind| table.error(kind, "length_m"))
         };
-        let model = member(table, &drawn)?;
+        let model = member(table, &drawn, self.safety)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
         let asked = budget.take_members(count);
@@ -331,6 +348,7 @@ impl Reading<'_> {
                 }
                 _ => root.error(Kind::System(error), "bars"),
             })?;
+        strength::check(root, &system)?;
         let key = if root.get("bars").is_some() { "bars" } else { "bars_file" };
         let room = root.source().budget.fits_solve(&system);
         room.map_err(|error| root.error(Kind::Memory(error), key))?;
@@ -441,6 +459,7 @@ fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError>
 fn member(
     table: &Table<'_>,
     drawn: &dyn Fn() -> Result<Option<f64>, SystemFileError>,
+    safety: f64,
 ) -> Result<Member, SystemFileError> {
     const WANTED: &str = "a length in metres, or places near_m of the joints";
     let length_m = match table.number("length_m")? {
@@ -465,7 +484,9 @@ fn member(
     loads.extend(material::spread(table, length_m, body.length_m())?);
     let stiffness_n = material::stiffness_n(table)?;
     let length_tolerance_m = table.number("length_tolerance_m")?;
-    let member = Member { kind, stiffness_n, length_tolerance_m, loads, ..Member::bar(0, 0, body) };
+    let strength = strength::of(table, &body, safety)?.map(Box::new);
+    let bar = Member::bar(0, 0, body);
+    let member = Member { kind, stiffness_n, length_tolerance_m, strength, loads, ..bar };
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -2,8 +2,11 @@
 
 use super::kind::SystemFileErrorKind as Kind;
 use super::row_table::{Known, Row, Wrong};
+use super::strength;
 use super::suggest::nearest;
-use crate::system::{Joint, Kind as MemberKind, Member, PointLoad, PrestressError, Support};
+use crate::system::{
+    Joint, Kind as MemberKind, Member, PointLoad, PrestressError, Strength, Support,
+};
 use crate::{Bar, BarError, Vector};
 
 const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -42,6 +45,9 @@ pub(super) const BARS: Known = Known {
         "stiffness_n",
         "prestress_n",
         "length_tolerance_m",
+        "strength_n",
+        "compression_n",
+        "safety",
         "force_x_n",
         "force_y_n",
         "force_z_n",
@@ -153,11 +159,12 @@ pub(super) fn sliding(word: &str, at_m: Vector) -> Option<Support> {
 }
 
 /// The member of a row, between joints whose numbers `number` knows, and their distance where they
-/// are drawn `drawn`.
+/// are drawn `drawn`; `safety` is wanted where the row says nothing else.
 pub(super) fn member(
     row: &Row<'_>,
     number: &dyn Fn(&str) -> Result<usize, Kind>,
     drawn: &dyn Fn(usize, usize) -> Result<Option<f64>, Kind>,
+    safety: f64,
 ) -> Result<Member, Wrong> {
     let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
     let (from, to) = (joint("from")?, joint("to")?);
@@ -182,7 +189,8 @@ pub(super) fn member(
     let stiffness_n = row.number("stiffness_n")?;
     let (length_tolerance_m, loads) = (row.number("length_tolerance_m")?, load(row, length_m)?);
     let bar = Member::bar(from, to, body);
-    let member = Member { kind, stiffness_n, length_tolerance_m, loads, ..bar };
+    let strength = strength_of(row, safety)?;
+    let member = Member { kind, stiffness_n, length_tolerance_m, strength, loads, ..bar };
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 
@@ -201,6 +209,19 @@ pub(super) fn prestressed(
         };
         (key, Kind::Prestress(error))
     })
+}
+
+/// What the bar of a row bears.
+fn strength_of(row: &Row<'_>, safety: f64) -> Result<Option<Box<Strength>>, Wrong> {
+    let numbers = [row.number("strength_n")?, row.number("compression_n")?];
+    let own = row.number("safety")?;
+    if numbers == [None; 2] {
+        return if own.is_some() { Err((Some("strength_n"), Kind::EmptyCell)) } else { Ok(None) };
+    }
+    let strength = Strength::new(numbers[0], numbers[1], own.unwrap_or(safety));
+    let strength = strength.map_err(strength::wrong);
+    let strength = strength.map_err(|(column, kind)| (Some(column), kind))?;
+    Ok(Some(Box::new(strength)))
 }
 
 /// The force on a bar, in the middle if no place is given.

@@ -81,6 +81,16 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if let Some(tolerance_m) = member.length_tolerance_m {
         let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
     }
+    if let Some(strength) = member.strength.as_deref() {
+        let given =
+            [("strength_n", strength.tension_n()), ("compression_n", strength.compression_n())];
+        let safety = Some(strength.safety()).filter(|safety| differ(&[*safety], &[1.0]));
+        for (key, number) in given.into_iter().chain([("safety", safety)]) {
+            if let Some(number) = number {
+                let _ = writeln!(text, "{key} = {number:?}");
+            }
+        }
+    }
     let loads = member.given_loads();
     if !loads.is_empty() {
         let forces = loads.iter();

@@ -17,6 +17,7 @@ mod network_columns;
 mod parts;
 mod refused;
 mod round_trip;
+mod strength;
 mod support;
 mod system_numbers;
 mod systems;

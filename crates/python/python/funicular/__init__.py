@@ -14,6 +14,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | many chains at a time; one structure with many numbers | :func:`solve_many`; :meth:`System.solve_many` |
 | every equilibrium, with proof | :meth:`System.census` |
 | the equilibrium over a parameter | :meth:`System.study` |
+| the loss of each member | :func:`losses` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
@@ -41,7 +42,7 @@ from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
-from .study import Gradient, Study, anchor_stiffness, change, gradient, study
+from .study import Gradient, Losses, Study, anchor_stiffness, change, gradient, losses, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -70,6 +71,7 @@ __all__ = [
     "Evidence",
     "Gradient",
     "Judgement",
+    "Losses",
     "Modes",
     "ModesOf",
     "Motion",
@@ -94,6 +96,7 @@ __all__ = [
     "gradients",
     "judge",
     "limit_work",
+    "losses",
     "modes",
     "reproduce",
     "set_threads",

@@ -23,6 +23,7 @@ __all__ = [
     "get_threads",
     "judge",
     "limit_work",
+    "losses",
     "modes",
     "pullback",
     "reproduce",
@@ -159,6 +160,7 @@ def study(
     threads: int,
     progress: _Progress,
 ) -> tuple[str, str, list[str], bool, bool, str]: ...
+def losses(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool]: ...
 def derivatives(
     problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress
 ) -> str: ...

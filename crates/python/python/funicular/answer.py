@@ -32,6 +32,7 @@ ARRAYS = (
     "end_forces_n",
     "reactions_n",
     "multipliers_n",
+    "utilisation",
 )
 """What an equilibrium has for its joints and members."""
 
@@ -58,6 +59,12 @@ class Equilibrium(Result):
     ``multipliers_n``
         (n + 1, 3) for chains: entry 0 the force of the ground on bar 1, entry k that of bar k+1 on bar k, the last that
         of the ground on bar n, N; ``None`` for other systems.
+    ``utilisation``
+        (members,) the part of its strength that each member uses (``strength_n``, ``compression_n`` or ``bending_n_m2`` in
+        its file), NaN without one, infinite where nothing bounds its force; ``None`` where no member has a strength.
+    ``weakest``
+        the member that is nearest to breaking, against the safety wanted: its ``number`` (from 0), ``utilisation``, ``safety``
+        (strength over force) and ``safety_wanted``; ``None`` where no member has a strength.
     ``sag_m``
         how deep a joint hangs below the line that its row of members spans, the largest, m; ``None`` where no row spans
         anything and no joint is below the supports.
@@ -74,6 +81,8 @@ class Equilibrium(Result):
     end_forces_n: Array
     reactions_n: Array
     multipliers_n: Array | None
+    utilisation: Array | None
+    weakest: Record | None
     sag_m: float | None
     largest_tension_n: float | None
     largest_compression_n: float | None
@@ -83,9 +92,12 @@ class Equilibrium(Result):
         self.data = data
         for name in ARRAYS + EXTREMES:
             setattr(self, name, arrays[name])
+        weakest = arrays["weakest"]
+        self.weakest = None if weakest is None else Record(weakest)
 
     def _content(self) -> dict[str, Any]:
-        return {**self.data, **{name: getattr(self, name) for name in ARRAYS + EXTREMES}}
+        found = {name: getattr(self, name) for name in (*ARRAYS, *EXTREMES, "weakest")}
+        return {**self.data, **found}
 
     @property
     def solver(self) -> str:
@@ -133,6 +145,7 @@ class Equilibrium(Result):
         """A row for each member: joints, axial force, forces on it at both ends."""
         names = self.system.joint_names
         ends = self.system.member_joints
+        used = {} if self.utilisation is None else {"utilisation": self.utilisation}
         return Table(
             {
                 "member": np.arange(1, len(ends) + 1),
@@ -144,6 +157,7 @@ class Equilibrium(Result):
                 "axial_max_n": self.axial_max_n,
                 **vectors("start_", "_n", self.start_forces_n),
                 **vectors("end_", "_n", self.end_forces_n),
+                **used,
             }
         )
 
@@ -389,6 +403,16 @@ class Answer(Result):
     def largest_compression_n(self) -> float | None:
         """The largest compression anywhere along a member, N."""
         return self.equilibria[0].largest_compression_n
+
+    @property
+    def utilisation(self) -> Array | None:
+        """(members,) The part of its strength that each member uses; see :class:`Equilibrium`."""
+        return self.equilibria[0].utilisation
+
+    @property
+    def weakest(self) -> Record | None:
+        """The member that is nearest to breaking; see :class:`Equilibrium`."""
+        return self.equilibria[0].weakest
 
     def svg(self, view: str = "best") -> str:
         """The picture to scale; see :meth:`Equilibrium.svg`."""

@@ -115,6 +115,42 @@ def study(
     return Study(system, *found)
 
 
+class Losses(Result):
+    """What becomes of a system that loses a member, each in turn.
+
+    ``losses``
+        a :class:`Record` for each: ``bar``, the member that is lost, from 1; where something hangs then ``lowest_joint``, ``sag_m``,
+        ``moves``, ``moves_m`` (the joint that moves farthest), ``tension_n``, ``compression_n`` (bar, from 1, and force), ``weakest``,
+        ``rung``, ``agrees``; else ``falls``, ``leaves`` (its drawing) and ``reason``.
+    ``survives``
+        whether all of it still hangs after any one loss, and is as strong as wanted.
+    """
+
+    def __init__(self, system: System, text: str, said: str, survives: bool) -> None:
+        self.system = system
+        self.data = json.loads(text)
+        self.losses = [Record(loss) for loss in self.data["losses"]]
+        self.survives = survives
+        self._said = said
+
+    def __repr__(self) -> str:
+        return f"<Losses of {printable(self.system.name)!r}: {'survived' if self.survives else 'not survived'}>"
+
+
+def losses(system: Described, *, solver: str = "both", threads: int = 0, progress: Progress = None) -> Losses:
+    """The loss of each member in turn: what hangs then, with which forces, and which loss lets a part fall.
+
+    >>> import funicular as fn
+    >>> found = fn.losses(fn.System.case("lamp"))       # on two cables of 3 and 4 m: each bears all of it alone
+    >>> found.survives, [loss.moves for loss in found.losses]
+    (True, ['lamp', 'lamp'])
+    """
+    system = described(system)
+    with shown(progress) as callback:
+        found = _native.losses(system._problem, str(solver), whole("threads", threads), callback)
+    return Losses(system, *found)
+
+
 class Gradient(Record):
     """The derivatives of one number of an equilibrium: ``of``, ``value`` (m or N), ``derivatives``; ``gradient["bars.1.length_m"]``
     is the derivative by that parameter, ``table`` has all with their units."""

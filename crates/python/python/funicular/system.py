@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .census import Census
     from .motion import Modes, Motion
     from .rows import SystemBatch
-    from .study import Study
+    from .study import Losses, Study
     from .sweep import Sweep
     from .trace import Trace
 
@@ -481,6 +481,12 @@ class System:
         from .study import study
 
         return study(self, *vary, **settings)
+
+    def losses(self, **settings: Any) -> Losses:
+        """The loss of each member in turn. See :func:`funicular.losses`."""
+        from .study import losses
+
+        return losses(self, **settings)
 
     def derivatives(self, *, of: str | None = None, by: str | None = None, **settings: Any) -> Any:
         """The derivatives ``of`` one number of the equilibrium by all parameters (:func:`funicular.gradient`), ``by`` one

@@ -26,6 +26,9 @@ struct Said {
 
 /// Run the command for several files.
 pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
+    if arguments.without.is_some() {
+        return Err(Failure::bad_input("--without takes one system at a time"));
+    }
     if let Some(option) = arguments.file_for_one() {
         return Err(Failure::bad_input(format!("{option} writes one file, for one system")));
     }
@@ -70,6 +73,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     let read = input::problem(Some(path), None);
     let solved = read.and_then(|input| {
         let problem = input.problem;
+        arguments.checkable(&problem)?;
         let problem = shape.map_or(Ok(problem.clone()), |shape| next_to(&problem, shape))?;
         Ok(solve.run_here(&problem)?)
     });
@@ -87,7 +91,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
 }
 
 fn said(arguments: &super::Solve, origin: Origin<'_>, answer: &SolveAnswer) -> Said {
-    let exit = super::verdict(answer);
+    let exit = arguments.exit(answer);
     if arguments.printed.is_json() {
         return match object::answer(origin, answer, arguments.lists(), true) {
             Ok(text) => Said { text, failure: None, exit },

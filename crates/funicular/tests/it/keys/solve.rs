@@ -76,7 +76,8 @@ fn level_v() {
 #[test]
 fn columns_of_level_v() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let text = LEVEL_V.replace("count = 2", "count = 2, strength_n = 20");
+    std::fs::write(folder.path().join("v.toml"), text).unwrap();
     let text = good(folder.path(), &["solve", "v.toml", "--json", "--columns"]);
     let mut output = Output::json("solve", "columns_of_level_v", &text);
     let at_m = json!([0.0, 0.0, 0.0, 0.5, 0.0, -DEPTH, 1.0, 0.0, 0.0]);
@@ -88,6 +89,73 @@ fn columns_of_level_v() {
     output.each("equilibria[].axial_from_n[]", json!([anchor, middle]));
     output.each("equilibria[].axial_to_n[]", json!([middle, anchor]));
     output.each("equilibria[].axial_max_n[]", anchor);
+    output.each("equilibria[].utilisation[]", anchor / 20.0);
+    output.done();
+}
+
+/// Bars that bear 20 and 10 N in tension, twice as much as they are to.
+#[test]
+fn strength_of_level_v() {
+    let folder = tempfile::tempdir().unwrap();
+    let strong = "bars = [{ length_m = 1, mass_kg = 1, strength_n = 20 }, \
+                  { length_m = 1, mass_kg = 1, strength_n = 10, safety = 2 }]";
+    let text = LEVEL_V.replace("bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", strong);
+    std::fs::write(folder.path().join("v.toml"), text).unwrap();
+    // The force at the anchors, over each strength.
+    let largest = 0.5 * H + 10.0 * DEPTH;
+    let used = json!([largest / 20.0, largest / 10.0]);
+    let arguments = ["solve", "v.toml", "--json", "--bars-csv", "v.csv"];
+    let mut output = Output::json("solve", "strength_of_level_v", &good(folder.path(), &arguments));
+    output.each("equilibria[].bars[].utilisation", used.clone());
+    output.each("equilibria[].weakest.bar", 2);
+    output.each("equilibria[].weakest.utilisation", largest / 10.0);
+    output.each("equilibria[].weakest.safety", 10.0 / largest);
+    output.each("equilibria[].weakest.safety_wanted", 2.0);
+    output.done();
+    let columns = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
+    let mut output = Output::csv("solve --bars-csv", "strength_of_level_v", &columns);
+    output.each("utilisation", used);
+    output.done();
+}
+
+/// 300 N on two ropes of 5 m from anchors 6 m apart, 187.5 N in each, by a hanger of 1 m. Without one of
+/// the ropes all hangs on the other; without the hanger the load falls.
+#[test]
+fn losses_of_two_ropes_and_a_hanger() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
+                B = { at_m = [3, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\nbars = [\
+                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 600 }, \
+                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 1200 }, \
+                { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0 }]";
+    std::fs::write(folder.path().join("ropes.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "ropes.toml", "--without", "each", "--json"]);
+    let mut output = Output::json("losses", "losses_of_two_ropes_and_a_hanger", &text);
+    output.is("system.name", "ropes");
+    output.is("system.joints", 4);
+    output.is("system.bars", 3);
+    output.is("system.total_length_m", 11.0);
+    output.is("system.total_mass_kg", 30.0);
+    output.is("system.gravity_m_s2", 10.0);
+    output.is("losses[].bar", json!([1, 2, 3]));
+    output.is("losses[].lowest_m[]", json!([3.0, 0.0, -6.0, -3.0, 0.0, -6.0]));
+    output.is("losses[].lowest_joint", json!(["Q", "Q"]));
+    // Below the anchor that is left.
+    output.is("losses[].sag_m", json!([6.0, 6.0]));
+    // From 4 m below the middle to 5 m below an anchor.
+    output.is("losses[].moves", json!(["P", "P"]));
+    output.is("losses[].moves_m", json!([10.0_f64.sqrt(), 10.0_f64.sqrt()]));
+    output.is("losses[].tension_n[]", json!([2, 300.0, 1, 300.0]));
+    output.is("losses[].compression_n", json!([null, null]));
+    output.is("losses[].weakest.bar", json!([2, 1]));
+    output.is("losses[].weakest.utilisation", json!([0.25, 0.5]));
+    output.is("losses[].weakest.safety", json!([4.0, 2.0]));
+    output.is("losses[].weakest.safety_wanted", json!([1.0, 1.0]));
+    output.is("losses[].rung", json!(["optimal", "optimal"]));
+    output.is("losses[].agrees", json!([true, true]));
+    output.is("losses[].falls", json!([true]));
+    output.is("losses[].leaves", json!([false]));
+    output.says("losses[].reason", &["no member meets joint \"Q\""]);
     output.done();
 }
 

@@ -1,0 +1,120 @@
+//! What the loss of each member does, for people.
+
+use std::fmt;
+
+use super::printable::Printable;
+use super::shape::{PRINTED, percent};
+use super::tables::{Table, counted, numbers_from, short, table, wrapped};
+use crate::losses::{Left, Loss, LossesAnswer, NothingLeft};
+
+const FALLS: &str = "falls";
+const LEAVES: &str = "leaves";
+const UNKNOWN: &str = "no answer";
+
+/// As `funicular solve --without each` prints it.
+impl fmt::Display for LossesAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (system, all) = (self.system(), self.losses());
+        let members = counted(all.len(), "member");
+        let title = format!("{}: the loss of each of {members} in turn", Printable(system.name()));
+        // Of many the worst.
+        let mut shown: Vec<&Loss> = all.iter().collect();
+        if all.len() > PRINTED {
+            shown.sort_by(|a, b| severity(b).total_cmp(&severity(a)));
+            shown.truncate(PRINTED);
+        }
+        writeln!(f, "{}\n{}", wrapped(&title, 0), self.rows(&shown))?;
+        if all.len() > PRINTED {
+            writeln!(f, "(the worst {PRINTED} of {}; --json has all)", all.len())?;
+        }
+        let after = |word: &str| all.iter().filter(|loss| outcome(loss) == Some(word)).count();
+        let mut said = vec![format!("a part falls after {}", after(FALLS))];
+        if system.has_strengths() {
+            let weak =
+                |loss: &&Loss| loss.left.as_ref().is_ok_and(|l| l.is_strong() == Some(false));
+            said.push(format!("a member is too weak after {}", all.iter().filter(weak).count()));
+        }
+        for (word, what) in
+            [(LEAVES, "the rest leaves its drawing"), (UNKNOWN, "there is no answer")]
+        {
+            said.extend(Some(after(word)).filter(|n| *n > 0).map(|n| format!("{what} after {n}")));
+        }
+        let said = format!("Of {members} lost one at a time: {}.", said.join(", "));
+        writeln!(f, "\n{}", wrapped(&said, 0))?;
+        for loss in shown.iter().filter(|loss| outcome(loss) == Some(UNKNOWN)) {
+            let Err(reason) = &loss.left else { continue };
+            let line = format!("Without {}: {}", loss.bar + 1, Printable(&reason.reason));
+            writeln!(f, "{}", wrapped(&line, 2))?;
+        }
+        let weakest = all.iter().filter_map(|loss| Some((loss, loss.left.as_ref().ok()?.weakest?)));
+        let worst = weakest.max_by(|(a, _), (b, _)| severity(a).total_cmp(&severity(b)));
+        let Some((loss, weakest)) = worst else { return Ok(()) };
+        let [[a, b], [from, to]] = [loss.bar, weakest.bar].map(|bar| self.ends(bar));
+        let used = percent(weakest.utilisation);
+        let line =
+            format!("Worst: without {a} to {b} the member from {from} to {to} is at {used}.");
+        writeln!(f, "{}", wrapped(&line, 0))
+    }
+}
+
+impl LossesAnswer {
+    /// The names of the joints of a member.
+    fn ends(&self, bar: usize) -> [String; 2] {
+        let member = &self.system().members()[bar];
+        let name = |joint: usize| Printable(&self.system().joints()[joint].name).to_string();
+        [name(member.from), name(member.to)]
+    }
+
+    fn rows(&self, shown: &[&Loss]) -> Table {
+        let strong = self.system().has_strengths();
+        let mut head = vec!["lost", "from", "to", "moves / m", "tension / N", "bar"];
+        head.extend(strong.then_some(["used", "bar"]).into_iter().flatten());
+        head.push("evidence");
+        let columns = head.len();
+        let mut rows = table(head);
+        for loss in shown {
+            let [from, to] = self.ends(loss.bar);
+            let mut row = vec![(loss.bar + 1).to_string(), from, to];
+            if let Ok(left) = &loss.left {
+                row.extend(cells(left, strong));
+            }
+            row.resize(columns - 1, String::new());
+            row.push(match (outcome(loss), &loss.left) {
+                (Some(word), _) => word.to_owned(),
+                (None, Ok(Left { agrees: true, rung: Some(rung), .. })) => rung.to_string(),
+                (None, _) => "no agreement".to_owned(),
+            });
+            rows.add_row(row);
+        }
+        numbers_from(&mut rows, 3);
+        rows
+    }
+}
+
+/// What stands beside a loss that something survives.
+fn cells(left: &Left, strong: bool) -> Vec<String> {
+    let mut cells = vec![short((1e6 * left.moves_m).round() / 1e6)];
+    let tension = left.extremes.tension_n;
+    cells.push(tension.map_or_else(String::new, |(_, force_n)| short(force_n)));
+    cells.push(tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()));
+    if let Some(weakest) = left.weakest.filter(|_| strong) {
+        cells.extend([percent(weakest.utilisation), (weakest.bar + 1).to_string()]);
+    }
+    cells
+}
+
+/// What becomes of a system of which nothing more is said.
+fn outcome(loss: &Loss) -> Option<&'static str> {
+    Some(match loss.left.as_ref().err()? {
+        NothingLeft { falls: true, .. } => FALLS,
+        NothingLeft { leaves: true, .. } => LEAVES,
+        NothingLeft { .. } => UNKNOWN,
+    })
+}
+
+/// How bad a loss is: what falls or is unknown, then what is nearest to breaking, or pulls most.
+fn severity(loss: &Loss) -> f64 {
+    let Ok(left) = &loss.left else { return f64::INFINITY };
+    let tension_n = left.extremes.tension_n.map_or(0.0, |(_, force_n)| force_n);
+    left.weakest.map_or(tension_n, |weakest| weakest.utilisation * weakest.safety_wanted)
+}

@@ -1,0 +1,227 @@
+//! What bars bear, and how much of it they use: against closed forms.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use funicular::{Loss, Losses, Weakest, prelude::*};
+
+/// What the program prints and says, and how it ends.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut program = Command::cargo_bin("funicular").unwrap();
+    let output = program.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// 300 N hang on two threads of 5 m between anchors 8 m apart, 3 m below them: each pulls with 250 N.
+fn bridle(root: &str, first: &str, second: &str) -> String {
+    format!(
+        "name = \"bridle\"\ngravity_m_s2 = 10\n{root}\n\
+         joints = {{ A = {{ at_m = [-4, 0, 0] }}, B = {{ at_m = [4, 0, 0] }}, P = {{ mass_kg = 30 }} }}\n\
+         [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 5\nmass_kg = 0\n{first}\n\
+         [[bars]]\nfrom = \"B\"\nto = \"P\"\nlength_m = 5\nmass_kg = 0\n{second}\n"
+    )
+}
+
+fn weakest(text: &str) -> Weakest {
+    let problem =
+        Problem::parse(text, "system.toml").unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let answer = Solve::new().run(&problem).unwrap();
+    let all = answer.equilibria().iter().map(|e| Weakest::of(answer.system(), e).unwrap());
+    let all: Vec<_> = all.collect();
+    // What nothing bounds is infinite, by both solvers.
+    let differ = |one: &Weakest| (one.safety - all[0].safety).abs();
+    assert!(all.iter().all(|one| differ(one) < 1e-9 && one.bar == all[0].bar), "{all:?}");
+    all[0]
+}
+
+/// The safety that is wanted decides which bar is weakest, not the part of the strength alone.
+#[test]
+fn the_weakest_bar_is_the_one_that_is_nearest_to_the_safety_wanted() {
+    for (root, first, second, wanted) in [
+        ("", "strength_n = 1000", "strength_n = 500", (1, 0.5, 1.0)),
+        ("", "strength_n = 1000\nsafety = 3", "strength_n = 500", (0, 0.25, 3.0)),
+        ("safety = 3", "strength_n = 1000", "strength_n = 500", (1, 0.5, 3.0)),
+        ("safety = 3", "strength_n = 1000\nsafety = 7", "strength_n = 500", (0, 0.25, 7.0)),
+        // What has no strength is not judged; a strength in compression says nothing of a tension.
+        ("", "", "strength_n = 100", (1, 2.5, 1.0)),
+        ("", "compression_n = 1", "strength_n = 1000", (1, 0.25, 1.0)),
+    ] {
+        let found = weakest(&bridle(root, first, second));
+        assert_eq!((found.bar, found.safety_wanted), (wanted.0, wanted.2), "{first} {second}");
+        assert!((found.utilisation - wanted.1).abs() < 1e-12, "{found:?}");
+        assert!((found.safety - wanted.1.recip()).abs() < 1e-11, "{found:?}");
+    }
+}
+
+/// The same bars stand on the anchors and push: they break by their compression, or buckle by Euler's
+/// formula, which knows of 5 m and EI.
+#[test]
+fn bars_that_push_break_or_buckle() {
+    let standing = |first: &str, second: &str| {
+        bridle("", first, second)
+            .replace("P = { mass_kg = 30", "P = { near_m = [0, 0, 3], mass_kg = 30")
+    };
+    let found = weakest(&standing("compression_n = 500\nstrength_n = 1", "compression_n = 2000"));
+    assert_eq!(found.bar, 0);
+    assert!((found.utilisation - 0.5).abs() < 1e-12, "{found:?}");
+    let found = weakest(&standing("bending_n_m2 = 1000", "compression_n = 2000"));
+    let euler_n = (std::f64::consts::PI / 5.0).powi(2) * 1000.0;
+    assert!((found.utilisation - 250.0 / euler_n).abs() < 1e-12, "{found:?}");
+}
+
+/// The weight of a rope that hangs down is part of its force where it is largest: at its upper end.
+#[test]
+fn the_own_weight_counts() {
+    let found = weakest(
+        "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2 } }\n\
+         bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1, strength_n = 60 }]",
+    );
+    assert!((found.utilisation - 0.5).abs() < 1e-12, "{found:?}");
+}
+
+/// Three rigid members hold a joint in one plane: with s and m the forces of the outer ones and of the one in
+/// the middle balance says 2 · 4/5 s + m = 300 N, and nothing else. Cables never push: m is 300 N at most. Of bars
+/// nothing bounds the force, and what nothing bounds is not safe, whatever the solvers show.
+#[test]
+fn forces_that_balance_leaves_open_are_counted_at_their_worst() {
+    let three = |kind: &str| {
+        let bar = |from: &str, length_m: f64| {
+            format!(
+                "{{ from = \"{from}\", to = \"P\", kind = \"{kind}\", length_m = {length_m}, mass_kg = 0, \
+                 strength_n = 400 }}"
+            )
+        };
+        format!(
+            "gravity_m_s2 = 10\nplane = \"xz\"\n\
+             joints = {{ A = {{ at_m = [-3, 0, 0] }}, M = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, \
+             P = {{ mass_kg = 30 }} }}\nbars = [{}, {}, {}]",
+            bar("A", 5.0),
+            bar("M", 4.0),
+            bar("B", 5.0)
+        )
+    };
+    let found = weakest(&three("cable"));
+    assert_eq!(found.bar, 1);
+    assert!((found.utilisation - 0.75).abs() < 1e-9, "{found:?}");
+    let found = weakest(&three("bar"));
+    assert!(found.utilisation.is_infinite() && !found.suffices(), "{found:?}");
+}
+
+/// A chain with strengths is solved like one without.
+#[test]
+fn a_chain_with_strengths_is_the_same_chain() {
+    let chain = |keys: &str| {
+        let text = format!(
+            "name = \"chain\"\nanchors = {{ start_m = [0, 0, 0], end_m = [2, 0, 0] }}\n\
+             bars = [{{ length_m = 1.5, mass_kg = 1{keys} }}, {{ length_m = 0.5, mass_kg = 2, count = 3 }}]"
+        );
+        let answer = Solve::new().run(&Problem::parse(&text, "chain.toml").unwrap()).unwrap();
+        let all = answer.equilibria().iter();
+        let all: Vec<_> = all.map(|e| (e.joints_m.clone(), e.axial_n.clone())).collect();
+        (all, answer.rung(), answer.is_strong())
+    };
+    let [bare, strong] = ["", ", strength_n = 100"].map(chain);
+    assert_eq!((bare.0, bare.1), (strong.0, strong.1));
+    assert_eq!((bare.2, strong.2), (None, Some(true)));
+}
+
+/// A bar fewer and a truss folds, a rope fewer and a bridle hangs elsewhere: which of its bars are meant
+/// stays as it was, and joints that nothing holds any more are gone with it.
+#[test]
+fn losses_are_survived_or_not() {
+    let losses =
+        |text: &str| Losses::new().run(&Problem::parse(text, "system.toml").unwrap()).unwrap();
+    let found = losses(&bridle("safety = 2", "strength_n = 1000", "strength_n = 500"));
+    // All 300 N hang on the other rope.
+    let outcome = |loss: &Loss| {
+        let left = loss.left.as_ref().unwrap();
+        let weakest = left.weakest.unwrap();
+        (loss.bar, weakest.bar, (1e9 * weakest.utilisation).round() / 1e9, left.is_strong())
+    };
+    let all: Vec<_> = found.losses().iter().map(outcome).collect();
+    assert_eq!(all, [(0, 1, 0.6, Some(false)), (1, 0, 0.3, Some(true))]);
+    assert!(!found.survives() && found.is_decided() && !found.check_failed());
+    let strong = losses(&bridle("safety = 2", "strength_n = 1000", "strength_n = 600"));
+    assert!(strong.survives());
+    // What has no strength survives where all of it hangs.
+    assert!(losses(&bridle("", "", "")).survives());
+    let truss = "plane = \"xz\"\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0], free = \"x\" }, \
+                 C = { near_m = [1, 0, 1], mass_kg = 100 } }\n\
+                 bars = [{ from = \"A\", to = \"B\", mass_kg = 0 }, { from = \"A\", to = \"C\", mass_kg = 0 }, \
+                 { from = \"B\", to = \"C\", mass_kg = 0 }]";
+    let found = losses(truss);
+    assert!(
+        found
+            .losses()
+            .iter()
+            .all(|loss| loss.left.as_ref().is_err_and(|why| why.leaves || why.falls))
+    );
+    assert!(!found.survives() && found.is_decided(), "{found}");
+}
+
+/// The words for what becomes of each, and the exit codes.
+#[test]
+fn the_program_loses_each_bar_in_turn() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let file = |name: &str, text: String| std::fs::write(folder.join(name), text).unwrap();
+    file("weak.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 500"));
+    let (code, text, _) = run(folder, &["solve", "weak.toml", "--without", "each"]);
+    assert_eq!(code, Some(0));
+    let said = "Of 2 members lost one at a time: a part falls after 0, a member is too weak\nafter 1.\n\
+                Worst: without A to P the member from B to P is at 60 %.\n";
+    assert!(text.ends_with(said), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert_eq!(run(folder, &["solve", "weak.toml", "--without", "each", "--check"]).0, Some(1));
+    for more in [&["--svg", "a.svg"][..], &["weak.toml"], &["--csv", "a.csv"]] {
+        let (code, _, said) =
+            run(folder, &[&["solve", "weak.toml", "--without", "each"], more].concat());
+        assert_eq!(code, Some(2));
+        assert!(said.contains("--without"), "{said}");
+    }
+    assert!(!folder.join("a.svg").exists());
+}
+
+/// Exit code 1 with `--check` alone, and where there is nothing to check a word about it.
+#[test]
+fn the_program_says_which_bar_is_weakest() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let file = |name: &str, text: String| std::fs::write(folder.join(name), text).unwrap();
+    file("weak.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 300"));
+    file("strong.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 600"));
+    file("bare.toml", bridle("", "", ""));
+    let (code, text, _) = run(folder, &["solve", "weak.toml"]);
+    assert_eq!(code, Some(0));
+    let line = "Weakest: member from B to P, at 83.3 % of its strength: safety 1.2, below 2.\n";
+    assert!(text.contains(line), "{text}");
+    assert_eq!(run(folder, &["solve", "weak.toml", "--check"]).0, Some(1));
+    let (code, text, _) = run(folder, &["solve", "strong.toml", "--check"]);
+    assert_eq!(code, Some(0));
+    assert!(text.contains("at 41.7 % of its strength: safety 2.4, 2 wanted.\n"), "{text}");
+    assert_eq!(run(folder, &["solve", "strong.toml", "weak.toml", "--check"]).0, Some(1));
+    for files in [&["bare.toml"][..], &["strong.toml", "bare.toml"]] {
+        let (code, _, said) = run(folder, &[&["solve", "--check"], files].concat());
+        assert_eq!(code, Some(2));
+        assert!(said.contains("--check: no bar of this system has a strength_n"), "{said}");
+    }
+    // 30, 36 and 40 kg: 250, 300 and 333 N.
+    let study =
+        ["study", "weak.toml", "--vary", "joints.P.mass_kg=30,36,40", "--of", "utilisation"];
+    let (code, text, _) = run(folder, &[&study[..], &["--csv", "/dev/stdout"]].concat());
+    assert_eq!(code, Some(0));
+    let used: Vec<f64> = text
+        .lines()
+        .filter_map(|line| line.split(',').rev().find_map(|x| x.parse().ok()))
+        .collect();
+    assert!(text.contains("utilisation") && !used.is_empty(), "{text}");
+    let (code, _, said) = run(
+        folder,
+        &["study", "bare.toml", "--vary", "gravity_m_s2=9,10", "--of", "bars.2.utilisation"],
+    );
+    assert_eq!(code, Some(2));
+    assert!(said.contains("bar 2 has no strength"), "{said}");
+}

@@ -1,0 +1,104 @@
+//! What bars bear: `strength_n`, `compression_n` or `bending_n_m2`, and the `safety` that is wanted.
+
+use super::error::SystemFileError;
+use super::kind::SystemFileErrorKind as Kind;
+use super::table::Table;
+use crate::Bar;
+use crate::system::{Strength, StrengthError, System};
+
+/// The keys of a bar.
+const KEYS: [&str; 4] = ["strength_n", "compression_n", "bending_n_m2", "safety"];
+const POSITIVE: &str = "positive and finite";
+const WANTED: &str =
+    "the tension that breaks a bar, N, or compression_n: a safety is of a strength";
+
+/// What is wrong with a number, and its key or column.
+pub(super) fn wrong(error: StrengthError) -> (&'static str, Kind) {
+    (error.what, Kind::OutOfRange { found: error.found.to_string(), wanted: POSITIVE })
+}
+
+/// The safety that is wanted of all bars that say nothing else; 1 where the file has none.
+pub(super) fn safety(root: &Table<'_>) -> Result<f64, SystemFileError> {
+    let safety = root.number("safety")?.unwrap_or(1.0);
+    let checked = Strength::new(None, None, safety).map_err(|error| {
+        let (key, kind) = wrong(error);
+        root.error(kind, key)
+    });
+    checked.map(|strength| strength.safety())
+}
+
+/// What the bar of a table bears.
+pub(super) fn of(
+    table: &Table<'_>,
+    body: &Bar,
+    safety: f64,
+) -> Result<Option<Strength>, SystemFileError> {
+    let tension_n = table.number("strength_n")?;
+    let mut compression_n = table.number("compression_n")?;
+    if let Some(bending_n_m2) = table.number("bending_n_m2")? {
+        if compression_n.is_some() {
+            let kind = Kind::Conflict { key: "bending_n_m2", other: "compression_n" };
+            return Err(table.error(kind, "bending_n_m2"));
+        }
+        if !(bending_n_m2.is_finite() && bending_n_m2 > 0.0) {
+            let kind = Kind::OutOfRange { found: bending_n_m2.to_string(), wanted: POSITIVE };
+            return Err(table.error(kind, "bending_n_m2"));
+        }
+        compression_n = Some(Strength::euler_n(bending_n_m2, body.length_m()));
+    }
+    let own = table.number("safety")?;
+    if tension_n.is_none() && compression_n.is_none() {
+        return if own.is_some() { Err(of_nothing(table)) } else { Ok(None) };
+    }
+    let strength = Strength::new(tension_n, compression_n, own.unwrap_or(safety));
+    strength.map(Some).map_err(|error| {
+        let (key, kind) = wrong(error);
+        table.error(kind, key)
+    })
+}
+
+/// Refuse a safety for all bars where none has a strength.
+pub(super) fn check(root: &Table<'_>, system: &System) -> Result<(), SystemFileError> {
+    let of_none = system.members().iter().all(|member| member.strength.is_none());
+    if root.get("safety").is_some() && of_none { Err(of_nothing(root)) } else { Ok(()) }
+}
+
+fn of_nothing(table: &Table<'_>) -> SystemFileError {
+    table.error(Kind::MissingKey { key: "strength_n", wanted: WANTED }, "safety")
+}
+
+/// The first key about strengths that the file of a chain has.
+pub(super) fn given(root: &Table<'_>) -> Result<Option<&'static str>, SystemFileError> {
+    if root.get("safety").is_some() {
+        return Ok(Some("safety"));
+    }
+    let all = tables(root)?;
+    Ok(KEYS.into_iter().find(|key| all.iter().any(|table| table.get(key).is_some())))
+}
+
+/// The bars of a chain, as a system, with what they bear.
+pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+    if given(root)?.is_none() {
+        return Ok(system);
+    }
+    let safety = safety(root)?;
+    let mut members = system.members().to_vec();
+    let mut left = members.iter_mut();
+    for table in tables(root)? {
+        for member in left.by_ref().take(table.count("count")?) {
+            member.strength = of(&table, &member.body, safety)?.map(Box::new);
+        }
+    }
+    let (name, gravity_m_s2) = (system.name(), system.gravity_m_s2());
+    let system = System::new(name, gravity_m_s2, system.joints().to_vec(), members);
+    let system = system.map_err(|error| root.error(Kind::System(error), "bars"))?;
+    check(root, &system)?;
+    Ok(system)
+}
+
+/// The `[[bars]]` of a chain; none where they are in a file of their own.
+fn tables<'a>(root: &'a Table<'a>) -> Result<Vec<Table<'a>>, SystemFileError> {
+    let tables = root.get("bars").and_then(|value| value.get_ref().as_array());
+    let tables = tables.into_iter().flat_map(|tables| tables.iter().enumerate());
+    tables.map(|(k, value)| root.table(&format!("bars[{}]", k + 1), value)).collect()
+}
