@@ -131,6 +131,7 @@ fn losses_of_two_ropes_and_a_hanger() {
     std::fs::write(folder.path().join("ropes.toml"), text).unwrap();
     let text = good(folder.path(), &["solve", "ropes.toml", "--without", "each", "--json"]);
     let mut output = Output::json("losses", "losses_of_two_ropes_and_a_hanger", &text);
+    output.is("schema_version", 3);
     output.is("system.name", "ropes");
     output.is("system.joints", 4);
     output.is("system.bars", 3);
