@@ -29,7 +29,11 @@ fn main() -> Result<(), StructureError> {
         ([1, 4], diagonal),
         ([4, 2], -diagonal),
     ];
-    let members = forces.map(|(joints, axial_n)| Member { joints, axial_n: Some(axial_n) });
+    let members = forces.map(|(joints, axial_n)| Member {
+        joints,
+        axial_n: Some(axial_n),
+        ..Member::default()
+    });
     let note = "weights left out";
     let truss = Structure {
         title: "a truss",

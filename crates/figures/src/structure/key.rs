@@ -3,7 +3,7 @@
 use crate::look::{Colour, Look};
 use crate::structure::forces::{LOAD, REACTION, drawn};
 use crate::structure::labels::short;
-use crate::structure::members::{GRAIN, Load, largest, load, stroke};
+use crate::structure::members::{GRAIN, Load, largest, load, stroke, warn};
 use crate::structure::scene::{LONGEST_ARROW, SIDE, Scene, length};
 use crate::structure::supports::support_at;
 use crate::structure::{Member, Structure, Support};
@@ -74,6 +74,9 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
         if there {
             row.entry(svg, name, |svg, ends| stroke(svg, load, scene.detail, &[ends]));
         }
+    }
+    if structure.members.iter().any(|member| member.weak) {
+        row.entry(svg, "too weak", |svg, ends| warn(svg, scene.detail, &[ends]));
     }
     if structure.joints.iter().any(|joint| joint.support == Some(Support::Fixed)) {
         let middle = [row.x + 0.5 * SWATCH, row.y - 6.0];

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::look::{Colour, Look};
-use crate::palette::{BLUE, ORANGE, VERMILION};
+use crate::palette::{BLUE, ORANGE, VERMILION, YELLOW};
 use crate::structure::labels::{Crossing, Labels, half_extent, short};
 use crate::structure::scene::{Scene, length};
 use crate::structure::{Member, Structure};
@@ -87,7 +87,17 @@ pub(crate) fn stroke(svg: &mut Svg, load: Load, detail: f64, lines: &[[[f64; 2];
     }
 }
 
+/// What stands behind members that are too weak.
+pub(crate) fn warn(svg: &mut Svg, detail: f64, lines: &[[[f64; 2]; 2]]) {
+    svg.lines(Look::stroke(YELLOW, (14.0 * detail).max(3.0)).class("weak"), lines.iter().copied());
+}
+
 pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
+    let weak = structure.members.iter().filter(|member| member.weak);
+    let weak: Vec<_> = weak.map(|member| scene.ends(member.joints)).collect();
+    if !weak.is_empty() {
+        warn(svg, scene.detail, &weak);
+    }
     let largest = largest(structure);
     let mut seen = BTreeSet::new();
     for wanted in loads() {
@@ -122,10 +132,10 @@ pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, la
     if scene.detail < 1.0 {
         return;
     }
-    let mut known: Vec<(f64, [usize; 2])> =
-        structure.members.iter().filter_map(|m| Some((m.axial_n?, m.joints))).collect();
+    let mut known: Vec<(f64, &Member)> =
+        structure.members.iter().filter_map(|m| Some((m.axial_n?, m))).collect();
     known.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
-    for (force, joints) in known {
+    for (force, &Member { joints, used, .. }) in known {
         if labels.full() {
             return;
         }
@@ -137,7 +147,9 @@ pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, la
         }
         let middle = [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])];
         let across = [along[1] / size, -along[0] / size];
-        let text = format!("{} N", short(force));
+        let used = used.filter(|used| used.is_finite());
+        let used = used.map_or_else(String::new, |used| format!(", {} %", short(100.0 * used)));
+        let text = format!("{} N{used}", short(force));
         // So far off that no corner of the label meets the member.
         let [half_width, half_height] = half_extent(&text);
         let off = BESIDE + half_width * across[0].abs() + half_height * across[1].abs();

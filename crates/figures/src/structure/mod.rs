@@ -59,12 +59,16 @@ impl<'a> Joint<'a> {
 }
 
 /// A member of a [`Structure`]: a straight line between two joints.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Member {
     /// Its joints, by their places in the list.
     pub joints: [usize; 2],
     /// Its axial force, N, tension positive; none where it is not known.
     pub axial_n: Option<f64>,
+    /// The part of its strength that it uses; none where that is not known.
+    pub used: Option<f64>,
+    /// Whether it is weaker than wanted.
+    pub weak: bool,
 }
 
 /// What is drawn: plain data, in SI units.
@@ -77,10 +81,11 @@ pub struct Member {
 ///     Joint { load_n: [0.0, 0.0, -8.0], ..Joint::free("P", [3.0, 0.0, -4.0]) },
 ///     Joint { support: held, reaction_n: [3.0, 0.0, 4.0], ..Joint::free("B", [6.0, 0.0, 0.0]) },
 /// ];
-/// let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(5.0) });
+/// let of = |joints| Member { joints, axial_n: Some(5.0), used: Some(0.25), weak: false };
+/// let members = [[0, 1], [1, 2]].map(of);
 /// let (title, seen) = ("two bars", figures::Seen::Best);
 /// let structure = Structure { title, note: "", joints: &joints, members: &members, floor_m: None, seen };
-/// assert!(structure.svg()?.contains("5 N"));
+/// assert!(structure.svg()?.contains("5 N, 25 %"));
 /// # Ok::<(), figures::StructureError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -25,6 +25,7 @@ const NOTE: &str =
 ///         joints_m: &joints_m,
 ///         axial_n: &[20.0],
 ///         reactions_n: &reactions_n,
+///         used: &[],
 ///         seen: figures::Seen::Best,
 ///     };
 /// assert!(shape.svg()?.contains("20 N"));
@@ -40,6 +41,8 @@ pub struct SystemShape<'a> {
     pub axial_n: &'a [f64],
     /// Forces of the ground on its joints, N.
     pub reactions_n: &'a [Vector],
+    /// The part of its strength that each of its members uses; empty where none has a strength.
+    pub used: &'a [Option<f64>],
     /// From where it is looked at.
     pub seen: Seen,
 }
@@ -89,9 +92,12 @@ impl SystemShape<'_> {
             .members()
             .iter()
             .zip(self.axial_n)
-            .map(|(member, axial)| Member {
-                joints: [member.from, member.to],
-                axial_n: Some(*axial),
+            .enumerate()
+            .map(|(k, (member, axial))| {
+                let used = self.used.get(k).copied().flatten();
+                let strength = member.strength.as_deref();
+                let weak = used.zip(strength).is_some_and(|(used, all)| !all.suffices(used));
+                Member { joints: [member.from, member.to], axial_n: Some(*axial), used, weak }
             })
             .collect();
         let title = self.system.name();

@@ -16,7 +16,8 @@ fn tripod() -> (Vec<Joint<'static>>, Vec<Member>) {
         foot("C", -0.5, -root),
         Joint { load_n: [0.0, 0.0, -9.0], ..Joint::free("top", [0.0, 0.0, 3.0]) },
     ];
-    let leg = |foot| Member { joints: [foot, 3], axial_n: Some(-10.0_f64.sqrt()) };
+    let leg =
+        |foot| Member { joints: [foot, 3], axial_n: Some(-10.0_f64.sqrt()), ..Member::default() };
     (joints, (0..3).map(leg).collect())
 }
 
@@ -28,7 +29,11 @@ fn chain(bars: usize, sign: f64) -> (Vec<Joint<'static>>, Vec<Member>) {
         let support = (k == 0 || k == bars).then_some(Support::Fixed);
         Joint { support, ..Joint::free("", [x, 0.0, x * x]) }
     });
-    let member = |k| Member { joints: [k, k + 1], axial_n: Some(sign * (1.0 + k as f64)) };
+    let member = |k| Member {
+        joints: [k, k + 1],
+        axial_n: Some(sign * (1.0 + k as f64)),
+        ..Member::default()
+    };
     (joints.collect(), (0..bars).map(member).collect())
 }
 
@@ -73,8 +78,11 @@ fn a_planar_structure_is_to_scale_with_all_its_marks() {
             ..Joint::free("B", [5.0, 6.0, 1.0])
         },
     ];
-    let members = [([0, 1], 5.0), ([1, 2], 5.0), ([0, 2], -3.0)]
-        .map(|(joints, axial_n)| Member { joints, axial_n: Some(axial_n) });
+    let members = [([0, 1], 5.0), ([1, 2], 5.0), ([0, 2], -3.0)].map(|(joints, axial_n)| Member {
+        joints,
+        axial_n: Some(axial_n),
+        ..Member::default()
+    });
     let svg = draw(&joints, &members);
     assert!(svg.contains("a &amp; b") && svg.contains("in their plane"));
     assert!(svg.contains("largest tension 5 N, largest compression 3 N"));
@@ -140,7 +148,7 @@ fn what_cannot_be_drawn_is_refused() {
     assert_eq!(refused(&joints, &members), StructureError::NotFinite { joint: 1 });
     // All in one place, and a force that is no number: drawn, without nonsense.
     let joints = [Joint { load_n: [f64::NAN; 3], ..Joint::free("", [1.0; 3]) }; 2];
-    let member = Member { joints: [0, 1], axial_n: Some(f64::NAN) };
+    let member = Member { joints: [0, 1], axial_n: Some(f64::NAN), ..Member::default() };
     assert!(!draw(&joints, &[member]).contains("NaN"));
 }
 
@@ -153,7 +161,8 @@ fn the_picture_has_room_for_the_sizes_of_forces() {
         ..Joint::free(name, [x, 0.0, 0.0])
     };
     let joints = [end("A", -5.0), Joint::free("P", [0.0, 0.0, -0.1]), end("B", 5.0)];
-    let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(123.4) });
+    let members =
+        [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(123.4), ..Member::default() });
     let svg = draw(&joints, &members);
     let number = |text: &str, key: &str| -> f64 {
         let after = text.split(&format!("{key}=\"")).nth(1).unwrap();
@@ -180,7 +189,7 @@ fn a_structure_is_seen_from_where_one_asks() {
     let front = draw(Seen::Front);
     assert_eq!(front.matches("class=\"axis\"").count(), 2);
     // A member without force that is seen end on has no entry of the key.
-    let idle = Member { joints: [1, 2], axial_n: Some(0.0) };
+    let idle = Member { joints: [1, 2], axial_n: Some(0.0), ..Member::default() };
     let members = [&members[..], &[idle]].concat();
     let key = |seen| {
         let (joints, members) = (&joints[..], &members[..]);
@@ -208,7 +217,8 @@ fn the_key_names_what_is_drawn() {
     };
     let load = Joint { load_n: [0.0, 0.0, -1.0], ..Joint::free("P", [0.0, 0.0, -0.1]) };
     let joints = [end("A", -5.0), load, end("B", 5.0)];
-    let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(30.0) });
+    let members =
+        [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(30.0), ..Member::default() });
     let svg = draw(&joints, &members);
     assert!(!svg.contains(">load<") && svg.contains(">reaction<"));
     assert!(svg.contains("N (arrows; none below 3 N)"), "{svg}");
@@ -230,7 +240,8 @@ fn labels_are_apart_from_each_other_and_from_arrows() {
             )
         }
     });
-    let members = (0..8).map(|k| Member { joints: [k, k + 1], axial_n: Some(40.0) });
+    let members =
+        (0..8).map(|k| Member { joints: [k, k + 1], axial_n: Some(40.0), ..Member::default() });
     let svg = draw(&joints.collect::<Vec<_>>(), &members.collect::<Vec<_>>());
     let number = |line: &str, key: &str| -> f64 {
         line.split(&format!(" {key}=\""))

@@ -97,7 +97,7 @@ pub struct Solve {
     /// Lose each bar in turn: what hangs then, with which forces, and which loss brings a part down
     ///
     /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
-    #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "near"])]
+    #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "equations", "near"])]
     pub without: Option<String>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]

@@ -199,6 +199,19 @@ fn the_program_says_which_bar_is_weakest() {
     let line = "Weakest: member from B to P, at 83.3 % of its strength: safety 1.2, below 2.\n";
     assert!(text.contains(line), "{text}");
     assert_eq!(run(folder, &["solve", "weak.toml", "--check"]).0, Some(1));
+    // In a picture the one that is too weak is marked, and each has its part beside its force.
+    for (name, marked) in [("weak", true), ("strong", false), ("bare", false)] {
+        let (system, picture) = (format!("{name}.toml"), format!("{name}.svg"));
+        assert_eq!(run(folder, &["solve", &system, "--svg", &picture]).0, Some(0));
+        let drawn = std::fs::read_to_string(folder.join(picture)).unwrap();
+        assert_eq!(
+            [drawn.contains("class=\"weak\""), drawn.contains("too weak")],
+            [marked; 2],
+            "{name}"
+        );
+        let labels = ["250 N, 25 %", "250 N, 83.33 %"].map(|label| drawn.contains(label));
+        assert_eq!(labels, [name != "bare", marked], "{name}");
+    }
     let (code, text, _) = run(folder, &["solve", "strong.toml", "--check"]);
     assert_eq!(code, Some(0));
     assert!(text.contains("at 41.7 % of its strength: safety 2.4, 2 wanted.\n"), "{text}");

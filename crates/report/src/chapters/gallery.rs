@@ -92,6 +92,7 @@ fn sheet<'a>(piece: &Piece) -> Result<Block<'a>, StructureError> {
     let axial = e.axial_forces(&piece.system);
     let axial_n: Vec<f64> = axial.iter().map(model::AxialForce::largest_n).collect();
     let shape = SystemShape {
+        used: &[],
         system: &piece.system,
         joints_m: &e.joints_m,
         axial_n: &axial_n,
