@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-9;
 /// accidental limit state. Each is solved by both solvers and judged as [`Solve`] does, without a census.
 ///
 /// ```
-/// use funicular::{Losses, prelude::*};
+/// use funicular::{Losses, Outcome, prelude::*};
 /// // 300 N on three ropes of 5 m: two of them bear it alone, each with 250 N instead of 125 N.
 /// let text = "gravity_m_s2 = 10\nsafety = 1\n\
 ///             joints = { A = { at_m = [-4, 0, 0] }, B = { at_m = [4, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\n\
@@ -39,7 +39,7 @@ const ROUNDING: f64 = 1e-9;
 ///     assert!(left.agrees && (left.weakest.unwrap().utilisation - 1.0).abs() < 1e-9);
 ///     assert_ne!(left.weakest.unwrap().bar, loss.bar);
 /// }
-/// assert!(hanger.left.as_ref().is_err_and(|reason| reason.falls));
+/// assert!(hanger.left.as_ref().is_err_and(|reason| reason.outcome == Outcome::Falls));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -87,12 +87,24 @@ pub struct Left {
 /// Why nothing more is said of what is left.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct NothingLeft {
-    /// Whether a part of the system has nothing that holds it.
-    pub falls: bool,
-    /// Whether what is left does not rest near its drawing: it folds, or snaps through.
-    pub leaves: bool,
+    /// What becomes of it.
+    pub outcome: Outcome,
     /// Why, in words.
     pub reason: String,
+}
+
+/// What becomes of a system that does not hang as before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Nothing holds a part of it.
+    Falls,
+    /// It does not rest near its drawing: it folds, or snaps through.
+    Leaves,
+    /// Nothing is left that moves or weighs.
+    NoLoad,
+    /// No solver has an answer.
+    Unknown,
 }
 
 /// What the loss of each member does.
@@ -180,21 +192,23 @@ fn left(
 ) -> Result<Left, NothingLeft> {
     let (rest, joints) = system.without(bar);
     let before_m: Vec<Vector> = joints.iter().filter_map(|k| before_m.get(*k).copied()).collect();
-    let unheld = |refusal: &SystemRefusal| {
-        matches!(refusal, SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. })
-    };
     let refused = |refusal: SystemRefusal| NothingLeft {
-        falls: unheld(&refusal),
-        leaves: false,
+        outcome: match refusal {
+            SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. } => Outcome::Falls,
+            SystemRefusal::NothingMoves | SystemRefusal::NoLoad | SystemRefusal::LoadOnAnchors => {
+                Outcome::NoLoad
+            }
+            _ => Outcome::Unknown,
+        },
         reason: refusal.to_string(),
     };
     rest.refusal().map_err(refused)?;
-    let unknown = |reason: String| NothingLeft { falls: false, leaves: false, reason };
+    let unknown = |reason: String| NothingLeft { outcome: Outcome::Unknown, reason };
     let answer = solve.run_here(&rest.into()).map_err(|error| unknown(error.to_string()))?;
     if let Some(near) = answer.near().filter(|near| !near.is_neighbour) {
         let (joint, moved_m) = (&near.joint, near.moved_m);
         let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");
-        return Err(NothingLeft { falls: false, leaves: true, reason });
+        return Err(NothingLeft { outcome: Outcome::Leaves, reason });
     }
     Left::of(&answer, bar, &before_m).ok_or_else(|| unknown("no equilibrium".to_owned()))
 }
@@ -262,7 +276,7 @@ impl LossesAnswer {
     pub fn is_decided(&self) -> bool {
         self.losses.iter().all(|loss| match &loss.left {
             Ok(left) => left.is_decided,
-            Err(reason) => reason.falls || reason.leaves,
+            Err(reason) => reason.outcome != Outcome::Unknown,
         })
     }
 
@@ -270,9 +284,10 @@ impl LossesAnswer {
     /// strength is as strong as wanted.
     #[must_use]
     pub fn survives(&self) -> bool {
-        self.losses
-            .iter()
-            .all(|loss| loss.left.as_ref().is_ok_and(|left| left.is_strong().unwrap_or(true)))
+        self.losses.iter().all(|loss| match &loss.left {
+            Ok(left) => left.is_strong().unwrap_or(true),
+            Err(reason) => reason.outcome == Outcome::NoLoad,
+        })
     }
 
     fn left(&self) -> impl Iterator<Item = &Left> {

@@ -91,7 +91,7 @@ def test_the_loss_of_each_member():
     hanger = fn.losses(
         {"joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}}, "bars": [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]}
     )
-    assert hanger.losses[0].falls and not hanger.survives
+    assert hanger.losses[0].outcome == "falls" and not hanger.survives
 
 
 def gable():

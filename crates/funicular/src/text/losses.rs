@@ -5,11 +5,7 @@ use std::fmt;
 use super::printable::Printable;
 use super::shape::{PRINTED, percent};
 use super::tables::{Table, counted, numbers_from, short, table, wrapped};
-use crate::losses::{Left, Loss, LossesAnswer, NothingLeft};
-
-const FALLS: &str = "falls";
-const LEAVES: &str = "leaves";
-const UNKNOWN: &str = "no answer";
+use crate::losses::{Left, Loss, LossesAnswer, Outcome};
 
 /// As `funicular solve --without each` prints it.
 impl fmt::Display for LossesAnswer {
@@ -27,21 +23,24 @@ impl fmt::Display for LossesAnswer {
         if all.len() > PRINTED {
             writeln!(f, "(the worst {PRINTED} of {}; --json has all)", all.len())?;
         }
-        let after = |word: &str| all.iter().filter(|loss| outcome(loss) == Some(word)).count();
-        let mut said = vec![format!("a part falls after {}", after(FALLS))];
+        let after = |what| all.iter().filter(|loss| outcome(loss) == Some(what)).count();
+        let mut said = vec![format!("a part falls after {}", after(Outcome::Falls))];
         if system.has_strengths() {
             let weak =
                 |loss: &&Loss| loss.left.as_ref().is_ok_and(|l| l.is_strong() == Some(false));
             said.push(format!("a member is too weak after {}", all.iter().filter(weak).count()));
         }
-        for (word, what) in
-            [(LEAVES, "the rest leaves its drawing"), (UNKNOWN, "there is no answer")]
-        {
-            said.extend(Some(after(word)).filter(|n| *n > 0).map(|n| format!("{what} after {n}")));
+        for (outcome, what) in [
+            (Outcome::Leaves, "the rest leaves its drawing"),
+            (Outcome::NoLoad, "nothing bears a load"),
+            (Outcome::Unknown, "there is no answer"),
+        ] {
+            let count = Some(after(outcome)).filter(|count| *count > 0);
+            said.extend(count.map(|count| format!("{what} after {count}")));
         }
         let said = format!("Of {members} lost one at a time: {}.", said.join(", "));
         writeln!(f, "\n{}", wrapped(&said, 0))?;
-        for loss in shown.iter().filter(|loss| outcome(loss) == Some(UNKNOWN)) {
+        for loss in shown.iter().filter(|loss| outcome(loss) == Some(Outcome::Unknown)) {
             let Err(reason) = &loss.left else { continue };
             let line = format!("Without {}: {}", loss.bar + 1, Printable(&reason.reason));
             writeln!(f, "{}", wrapped(&line, 2))?;
@@ -50,9 +49,12 @@ impl fmt::Display for LossesAnswer {
         let worst = weakest.max_by(|(a, _), (b, _)| severity(a).total_cmp(&severity(b)));
         let Some((loss, weakest)) = worst else { return Ok(()) };
         let [[a, b], [from, to]] = [loss.bar, weakest.bar].map(|bar| self.ends(bar));
-        let used = percent(weakest.utilisation);
-        let line =
-            format!("Worst: without {a} to {b} the member from {from} to {to} is at {used}.");
+        let used = if weakest.utilisation.is_finite() {
+            format!("is at {}", percent(weakest.utilisation))
+        } else {
+            "has no bound to its force".to_owned()
+        };
+        let line = format!("Worst: without {a} to {b} the member from {from} to {to} {used}.");
         writeln!(f, "{}", wrapped(&line, 0))
     }
 }
@@ -80,7 +82,7 @@ impl LossesAnswer {
             }
             row.resize(columns - 1, String::new());
             row.push(match (outcome(loss), &loss.left) {
-                (Some(word), _) => word.to_owned(),
+                (Some(outcome), _) => word(outcome).to_owned(),
                 (None, Ok(Left { agrees: true, rung: Some(rung), .. })) => rung.to_string(),
                 (None, _) => "no agreement".to_owned(),
             });
@@ -104,12 +106,18 @@ fn cells(left: &Left, strong: bool) -> Vec<String> {
 }
 
 /// What becomes of a system of which nothing more is said.
-fn outcome(loss: &Loss) -> Option<&'static str> {
-    Some(match loss.left.as_ref().err()? {
-        NothingLeft { falls: true, .. } => FALLS,
-        NothingLeft { leaves: true, .. } => LEAVES,
-        NothingLeft { .. } => UNKNOWN,
-    })
+fn outcome(loss: &Loss) -> Option<Outcome> {
+    Some(loss.left.as_ref().err()?.outcome)
+}
+
+/// The same in a word.
+fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Falls => "falls",
+        Outcome::Leaves => "leaves",
+        Outcome::NoLoad => "no load",
+        Outcome::Unknown => "no answer",
+    }
 }
 
 /// How bad a loss is: what falls or is unknown, then what is nearest to breaking, or pulls most.

@@ -250,7 +250,7 @@ pub fn percent(part: f64) -> String {
     if part.is_finite() {
         format!("{} %", short((1e3 * part).round() / 10.0))
     } else {
-        "any".to_owned()
+        "no bound".to_owned()
     }
 }
 

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use assert_cmd::Command;
-use funicular::{Loss, Losses, Weakest, prelude::*};
+use funicular::{Loss, Losses, Outcome, Weakest, prelude::*};
 
 /// What the program prints and says, and how it ends.
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -153,13 +153,35 @@ fn losses_are_survived_or_not() {
                  bars = [{ from = \"A\", to = \"B\", mass_kg = 0 }, { from = \"A\", to = \"C\", mass_kg = 0 }, \
                  { from = \"B\", to = \"C\", mass_kg = 0 }]";
     let found = losses(truss);
-    assert!(
-        found
+    assert!(found.losses().iter().all(|loss| {
+        loss.left
+            .as_ref()
+            .is_err_and(|why| [Outcome::Leaves, Outcome::Falls].contains(&why.outcome))
+    }));
+    assert!(!found.survives() && found.is_decided(), "{found}");
+}
+
+/// What weighs may be lost itself: then nothing is left to fall.
+#[test]
+fn what_weighs_may_be_lost() {
+    let bars = "bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 1 }, \
+                { from = 'B', to = 'P', length_m = 1, mass_kg = 0 }]";
+    let two = format!(
+        "joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [1, 0, 0] }}, P = {{}} }}\n{bars}"
+    );
+    let one = "joints = { A = { at_m = [0, 0, 0] }, P = {} }\n\
+               bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 1 }]";
+    for text in [&two, one] {
+        let found = Losses::new().run(&Problem::parse(text, "system.toml").unwrap()).unwrap();
+        let outcomes: Vec<_> = found
             .losses()
             .iter()
-            .all(|loss| loss.left.as_ref().is_err_and(|why| why.leaves || why.falls))
-    );
-    assert!(!found.survives() && found.is_decided(), "{found}");
+            .map(|loss| loss.left.as_ref().err().map(|why| why.outcome))
+            .collect();
+        assert_eq!(outcomes[0], Some(Outcome::NoLoad));
+        assert!(outcomes[1..].iter().all(Option::is_none));
+        assert!(found.survives() && found.is_decided());
+    }
 }
 
 /// The words for what becomes of each, and the exit codes.

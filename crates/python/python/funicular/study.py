@@ -121,7 +121,7 @@ class Losses(Result):
     ``losses``
         a :class:`Record` for each: ``bar``, the member that is lost, from 1; where something hangs then ``lowest_joint``, ``sag_m``,
         ``moves``, ``moves_m`` (the joint that moves farthest), ``tension_n``, ``compression_n`` (bar, from 1, and force), ``weakest``,
-        ``rung``, ``agrees``; else ``falls``, ``leaves`` (its drawing) and ``reason``.
+        ``rung``, ``agrees``; else ``outcome`` (``falls``, ``leaves`` its drawing, ``no-load``, ``unknown``) and ``reason``.
     ``survives``
         whether all of it still hangs after any one loss, and is as strong as wanted.
     """

@@ -154,10 +154,28 @@ fn losses_of_two_ropes_and_a_hanger() {
     output.is("losses[].weakest.safety_wanted", json!([1.0, 1.0]));
     output.is("losses[].rung", json!(["optimal", "optimal"]));
     output.is("losses[].agrees", json!([true, true]));
-    output.is("losses[].falls", json!([true]));
-    output.is("losses[].leaves", json!([false]));
+    output.says("losses[].outcome", &["falls"]);
     output.says("losses[].reason", &["no member meets joint \"Q\""]);
     output.done();
+}
+
+/// A triangle on a roller folds without any of its bars; a bar that weighs leaves nothing behind.
+#[test]
+fn losses_after_which_nothing_hangs() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "plane = \"xz\"\njoints = { A = { at_m = [0, 0, 0] }, \
+                    B = { at_m = [2, 0, 0], free = \"x\" }, C = { near_m = [1, 0, 1], mass_kg = 100 } }\n\
+                    bars = [{ from = \"A\", to = \"B\", mass_kg = 0 }, { from = \"A\", to = \"C\", mass_kg = 0 }, \
+                    { from = \"B\", to = \"C\", mass_kg = 0 }]";
+    let alone = "joints = { A = { at_m = [0, 0, 0] }, P = {} }\n\
+                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1 }]";
+    for (text, outcome) in [(triangle, "leaves"), (alone, "no-load")] {
+        std::fs::write(folder.path().join("system.toml"), text).unwrap();
+        let text = good(folder.path(), &["solve", "system.toml", "--without", "each", "--json"]);
+        let mut output = Output::json("losses", "losses_after_which_nothing_hangs", &text);
+        output.says("losses[].outcome", &[outcome]);
+        output.done();
+    }
 }
 
 /// The paper's chain in its own numbering, from 40 digits; it may turn about the line between its
