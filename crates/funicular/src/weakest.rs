@@ -36,8 +36,9 @@ pub struct Weakest {
     pub safety_wanted: f64,
 }
 
+/// The number of a bar as JSON has it.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn from_one<S: Serializer>(bar: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn from_one<S: Serializer>(bar: &usize, serializer: S) -> Result<S::Ok, S::Error> {
     (bar + 1).serialize(serializer)
 }
 

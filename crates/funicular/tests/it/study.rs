@@ -288,7 +288,8 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 /// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
 /// drawn decides which equilibrium is meant.
 /// What people know of a bar is made into other keys where the file is read.
-const NO_PARAMETERS: [&str; 14] = [
+/// Strengths change nothing.
+const NO_PARAMETERS: [&str; 19] = [
     "bars.mass_kg_per_m",
     "bars.diameter_m",
     "bars.density_kg_m3",
@@ -303,6 +304,11 @@ const NO_PARAMETERS: [&str; 14] = [
     "joints.NAME.normal",
     "bars.forces.force_n",
     "bars.forces.at_m",
+    "bars.strength_n",
+    "bars.compression_n",
+    "bars.bending_n_m2",
+    "bars.safety",
+    "safety",
 ];
 
 /// A parameter is the number of the file: every key that holds one is varied, to the value that it
