@@ -88,9 +88,8 @@ def test_the_loss_of_each_member():
     assert second.bar == 2 and second.weakest.bar == 1 and second.weakest.utilisation == pytest.approx(0.4)
     assert first.moves == "lamp" and first.moves_m == pytest.approx(np.sqrt(10)) and first.agrees
     assert not found.survives and "is at 125 %." in str(found) and found.to_dict()["losses"][0]["bar"] == 1
-    hanger = fn.losses(
-        {"joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}}, "bars": [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]}
-    )
+    bars = [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]
+    hanger = fn.System.from_dict({"joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}}, "bars": bars}).losses()
     assert hanger.losses[0].outcome == "falls" and not hanger.survives
 
 
