@@ -137,7 +137,7 @@ pub use self::derivatives::{
 };
 #[cfg(feature = "sweep")]
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
-pub use self::losses::{Left, Loss, Losses, LossesAnswer, NothingLeft, Outcome};
+pub use self::losses::{Left, Loss, LossesAnswer, NothingLeft, Outcome};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]

@@ -6,7 +6,7 @@ use model::system::{System, SystemRefusal};
 use model::{Rung, Vector};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
-use validate::{Solvers, UseCensus};
+use validate::UseCensus;
 
 use crate::equilibria::system_of;
 use crate::error::Error;
@@ -14,38 +14,10 @@ use crate::extremes::Extremes;
 use crate::modes::Summary;
 use crate::problem::Problem;
 use crate::solve::{SCHEMA_VERSION, Solve, SolveAnswer};
-use crate::threads;
 use crate::weakest::{Weakest, from_one};
 
 /// Distances that differ by less than this part of them are the same but for rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// Takes each member away in turn and finds where what is left comes to rest, with which forces: the
-/// accidental limit state. Each is solved by both solvers and judged as [`Solve`] does, without a census.
-///
-/// ```
-/// use funicular::{Losses, Outcome, prelude::*};
-/// // 300 N hang on two ropes by a hanger, and each rope bears 300 N.
-/// let text = "gravity_m_s2 = 10\n\
-///             joints = { A = { at_m = [-4, 0, 0] }, B = { at_m = [4, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\n\
-///             bars = [{ from = 'A', to = 'P', length_m = 5, mass_kg = 0, strength_n = 300 },\n\
-///                     { from = 'B', to = 'P', length_m = 5, mass_kg = 0, strength_n = 300 },\n\
-///                     { from = 'P', to = 'Q', length_m = 1, mass_kg = 0 }]";
-/// let found = Losses::new().run(&Problem::parse(text, "net.toml")?)?;
-/// let [left, right, hanger] = found.losses() else { panic!("three members") };
-/// // Without one of them all hangs on the other.
-/// for (loss, bar) in [(left, 1), (right, 0)] {
-///     let weakest = loss.left.as_ref().expect("the other").weakest.expect("a strength");
-///     assert!(weakest.bar == bar && (weakest.utilisation - 1.0).abs() < 1e-9);
-/// }
-/// assert!(hanger.left.as_ref().is_err_and(|reason| reason.outcome == Outcome::Falls));
-/// # Ok::<(), Error>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Losses {
-    solvers: Solvers,
-    threads: usize,
-}
 
 /// The loss of one member.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -123,47 +95,49 @@ fn either<S: Serializer>(
     }
 }
 
-impl Losses {
-    /// By both solvers, on all processors.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Which solvers to ask; one alone gets no comparison.
-    #[must_use]
-    pub fn solvers(self, solvers: Solvers) -> Self {
-        Self { solvers, ..self }
-    }
-
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from. No answer depends on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
-    }
-
-    /// Lose each member in turn.
+impl Solve {
+    /// Take each member away in turn and find where what is left comes to rest, with which forces: the
+    /// accidental limit state. Each by both solvers and the judge, without a census.
+    ///
+    /// ```
+    /// use funicular::{Outcome, prelude::*};
+    /// // 300 N hang on two ropes by a hanger, and each rope bears 300 N.
+    /// let text = "gravity_m_s2 = 10\n\
+    ///             joints = { A = { at_m = [-4, 0, 0] }, B = { at_m = [4, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\n\
+    ///             bars = [{ from = 'A', to = 'P', length_m = 5, mass_kg = 0, strength_n = 300 },\n\
+    ///                     { from = 'B', to = 'P', length_m = 5, mass_kg = 0, strength_n = 300 },\n\
+    ///                     { from = 'P', to = 'Q', length_m = 1, mass_kg = 0 }]";
+    /// let found = Solve::new().without_each(&Problem::parse(text, "net.toml")?)?;
+    /// let [left, right, hanger] = found.losses() else { panic!("three members") };
+    /// // Without one of them all hangs on the other.
+    /// for (loss, bar) in [(left, 1), (right, 0)] {
+    ///     let weakest = loss.left.as_ref().expect("the other").weakest.expect("a strength");
+    ///     assert!(weakest.bar == bar && (weakest.utilisation - 1.0).abs() < 1e-9);
+    /// }
+    /// assert!(hanger.left.as_ref().is_err_and(|reason| reason.outcome == Outcome::Falls));
+    /// # Ok::<(), Error>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// As [`Solve::run`] for the whole system. What has no answer after a loss is no error: it says why.
-    pub fn run(&self, problem: &Problem) -> Result<LossesAnswer, Error> {
-        self.run_watched(problem, &|| {})
+    /// As [`run`](Self::run) for the whole system. What has no answer after a loss is no error: it says
+    /// why.
+    pub fn without_each(&self, problem: &Problem) -> Result<LossesAnswer, Error> {
+        self.without_each_watched(problem, &|| {})
     }
 
     /// The same, with `watch` told of each loss that is done.
     ///
     /// # Errors
     ///
-    /// As [`run`](Self::run).
-    pub fn run_watched(
+    /// As [`without_each`](Self::without_each).
+    pub fn without_each_watched(
         &self,
         problem: &Problem,
         watch: &(dyn Fn() + Sync),
     ) -> Result<LossesAnswer, Error> {
         let system = system_of(problem);
-        let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
+        let solve = self.census(UseCensus::Never);
         let before = solve.run(problem)?;
         let places = before.equilibria().first().map_or(&[][..], |e| &e.joints_m);
         let loss = |bar: usize| {
@@ -172,7 +146,7 @@ impl Losses {
             Loss { bar, left }
         };
         let all = 0..system.members().len();
-        let losses = threads::on(self.threads, || all.into_par_iter().map(loss).collect())?;
+        let losses = solve.on_threads(|| all.into_par_iter().map(loss).collect())?;
         Ok(LossesAnswer { system, losses })
     }
 }

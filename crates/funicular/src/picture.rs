@@ -26,13 +26,15 @@ pub fn of_system(
 ) -> Result<String, StructureError> {
     let SystemEquilibrium { joints_m, reactions_n, .. } = answer;
     let axial_n = &largest_n(&answer.axial_forces(system));
-    SystemShape { system, joints_m, axial_n, reactions_n, used: &used(system, answer), seen }.svg()
-}
-
-/// The part of its strength that each member uses; empty where none has one.
-fn used(system: &System, answer: &SystemEquilibrium) -> Vec<Option<f64>> {
-    let members = 0..if system.has_strengths() { system.members().len() } else { 0 };
-    members.map(|member| answer.utilisation(system, member)).collect()
+    SystemShape {
+        system,
+        joints_m,
+        axial_n,
+        reactions_n,
+        used: &answer.utilisations(system).unwrap_or_default(),
+        seen,
+    }
+    .svg()
 }
 
 /// What a picture shows of a member: its axial force where it is largest.

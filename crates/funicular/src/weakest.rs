@@ -51,9 +51,15 @@ impl Weakest {
         Some(Self { bar, utilisation, safety: utilisation.recip(), safety_wanted })
     }
 
+    /// The safety wanted over the one that is there: above 1 it is too weak.
+    #[must_use]
+    pub fn demand(&self) -> f64 {
+        self.utilisation * self.safety_wanted
+    }
+
     /// Whether it is as safe as wanted; then all members are.
     #[must_use]
     pub fn suffices(&self) -> bool {
-        self.utilisation * self.safety_wanted <= 1.0
+        self.demand() <= 1.0
     }
 }

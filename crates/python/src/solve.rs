@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use funicular::prelude::{Solve, SolveAnswer, Vector};
-use funicular::{Error, Extremes, Lists, Losses, Weakest, picture};
+use funicular::{Error, Extremes, Lists, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
@@ -27,6 +27,7 @@ pub struct Arrays {
     end_forces_n: Vec<Vector>,
     reactions_n: Vec<Vector>,
     extremes: Option<Extremes>,
+    /// NaN for members without strength.
     utilisation: Option<Vec<f64>>,
     weakest: Option<Weakest>,
 }
@@ -42,7 +43,9 @@ impl Arrays {
             multipliers_n: is_chain.then(multipliers),
             along: found.axial_forces(system),
             extremes: Extremes::of(system, &found),
-            utilisation: system.has_strengths().then(|| utilisation(system, &found)),
+            utilisation: found
+                .utilisations(system)
+                .map(|used| used.into_iter().map(|part| part.unwrap_or(f64::NAN)).collect()),
             weakest: Weakest::of(system, &found),
             joints_m: found.joints_m,
             axial_n: found.axial_n,
@@ -88,12 +91,6 @@ impl Arrays {
         dict.set_item("largest_compression_n", size(|all| all.compression_n))?;
         Ok(dict)
     }
-}
-
-/// The part of its strength that each member uses, NaN without one.
-fn utilisation(system: &System, found: &SystemEquilibrium) -> Vec<f64> {
-    let members = 0..system.members().len();
-    members.map(|member| found.utilisation(system, member).unwrap_or(f64::NAN)).collect()
 }
 
 /// A text of JSON, and the arrays of all equilibria.
@@ -160,11 +157,11 @@ pub fn losses<'py>(
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(String, String, bool)> {
-    let losses = Losses::new().solvers(words::solvers(solver)?);
+    let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         watch.tell("losses", 0, 0);
-        let found = losses.run(&of)?;
+        let found = solve.without_each(&of)?;
         let (text, said) = (serde_json::to_string(&found), found.to_string());
         Ok::<_, Error>(text.map(|text| (text, printable(&said), found.survives())))
     })?;

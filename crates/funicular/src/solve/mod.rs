@@ -139,6 +139,11 @@ impl Solve {
         })?
     }
 
+    /// Do what is shared out on the threads that are wanted.
+    pub(crate) fn on_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
+        threads::on(self.threads, work)
+    }
+
     /// Solve for the equilibrium next to a shape, a place for every joint, m, by both solvers: see
     /// [`Problem::near`]. [`SolveAnswer::near`] says how the answer lies to the shape.
     ///

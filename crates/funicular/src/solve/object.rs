@@ -132,10 +132,8 @@ struct Columns<'a> {
 impl<'a> Columns<'a> {
     fn of(system: &System, e: &'a SystemEquilibrium) -> Self {
         let axial = e.axial_forces(system);
-        let used = (0..axial.len()).map(|member| e.utilisation(system, member));
-        let used: Vec<_> = used.collect();
         Self {
-            utilisation: used.iter().any(Option::is_some).then_some(used),
+            utilisation: e.utilisations(system),
             joints_m: &e.joints_m,
             axial_n: &e.axial_n,
             axial_from_n: axial.iter().map(|along| along.from_n).collect(),

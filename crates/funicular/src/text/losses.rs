@@ -124,5 +124,5 @@ fn word(outcome: Outcome) -> &'static str {
 fn severity(loss: &Loss) -> f64 {
     let Ok(left) = &loss.left else { return f64::INFINITY };
     let tension_n = left.extremes.tension_n.map_or(0.0, |(_, force_n)| force_n);
-    left.weakest.map_or(tension_n, |weakest| weakest.utilisation * weakest.safety_wanted)
+    left.weakest.map_or(tension_n, |weakest| weakest.demand())
 }

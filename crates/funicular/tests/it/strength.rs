@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use assert_cmd::Command;
-use funicular::{Loss, Losses, Outcome, Weakest, prelude::*};
+use funicular::{Loss, Outcome, Weakest, prelude::*};
 
 /// What the program prints and says, and how it ends.
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -132,8 +132,9 @@ fn a_chain_with_strengths_is_the_same_chain() {
 /// stays as it was, and joints that nothing holds any more are gone with it.
 #[test]
 fn losses_are_survived_or_not() {
-    let losses =
-        |text: &str| Losses::new().run(&Problem::parse(text, "system.toml").unwrap()).unwrap();
+    let losses = |text: &str| {
+        Solve::new().without_each(&Problem::parse(text, "system.toml").unwrap()).unwrap()
+    };
     let found = losses(&bridle("safety = 2", "strength_n = 1000", "strength_n = 500"));
     // All 300 N hang on the other rope.
     let outcome = |loss: &Loss| {
@@ -172,7 +173,8 @@ fn what_weighs_may_be_lost() {
     let one = "joints = { A = { at_m = [0, 0, 0] }, P = {} }\n\
                bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 1 }]";
     for text in [&two, one] {
-        let found = Losses::new().run(&Problem::parse(text, "system.toml").unwrap()).unwrap();
+        let found =
+            Solve::new().without_each(&Problem::parse(text, "system.toml").unwrap()).unwrap();
         let outcomes: Vec<_> = found
             .losses()
             .iter()

@@ -142,6 +142,13 @@ impl SystemEquilibrium {
         Some(strength.utilisation(along.least_n - below_n, along.most_n + above_n))
     }
 
+    /// The same of all members; nothing where none has a strength.
+    #[must_use]
+    pub fn utilisations(&self, system: &System) -> Option<Vec<Option<f64>>> {
+        let all = || (0..system.members().len()).map(|member| self.utilisation(system, member));
+        system.has_strengths().then(|| all().collect())
+    }
+
     /// The member, from 0, that is nearest to the safety wanted, or furthest below it, with its
     /// utilisation; nothing where no member has a strength.
     #[must_use]

@@ -102,7 +102,7 @@ impl Source<'_> {
         }
         let (chain, places) = self.chain_of(&root)?;
         let bare = root.get("loads").is_none() && root.get("floor_m").is_none();
-        if bare && strength::given(&root)?.is_none() {
+        if bare && strength::given(&root).is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
         }
@@ -172,7 +172,7 @@ impl Source<'_> {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }
         }
-        if let Some(key) = strength::given(&root)? {
+        if let Some(key) = strength::given(&root) {
             return Err(root.error(Kind::NotAChain { key }, "bars"));
         }
         self.chain_of(&root)

@@ -1,5 +1,7 @@
 //! What bars bear: `strength_n`, `compression_n` or `bending_n_m2`, and the `safety` that is wanted.
 
+use toml::de::DeTable;
+
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::table::Table;
@@ -68,17 +70,17 @@ fn of_nothing(table: &Table<'_>) -> SystemFileError {
 }
 
 /// The first key about strengths that the file of a chain has.
-pub(super) fn given(root: &Table<'_>) -> Result<Option<&'static str>, SystemFileError> {
-    if root.get("safety").is_some() {
-        return Ok(Some("safety"));
-    }
-    let all = tables(root)?;
-    Ok(KEYS.into_iter().find(|key| all.iter().any(|table| table.get(key).is_some())))
+pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
+    let bars = root.get("bars").and_then(|value| value.get_ref().as_array());
+    let mut bars = bars.into_iter().flatten().filter_map(|bar| bar.get_ref().as_table());
+    let of_bars = |table: &DeTable<'_>| KEYS.into_iter().find(|key| table.contains_key(*key));
+    let of_all = root.get("safety").map(|_| "safety");
+    of_all.or_else(|| bars.find_map(of_bars))
 }
 
 /// The bars of a chain, as a system, with what they bear.
 pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
-    if given(root)?.is_none() {
+    if given(root).is_none() {
         return Ok(system);
     }
     let safety = safety(root)?;

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use funicular::{Losses, Problem};
+use funicular::Problem;
+use validate::UseCensus;
 
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -16,8 +17,8 @@ pub fn run(
 ) -> Result<Exit, Failure> {
     let members = funicular::system_of(problem).members().len();
     let done = AtomicUsize::new(0);
-    let losses = Losses::new().solvers(arguments.solver.into());
-    let found = losses.run_watched(problem, &|| {
+    let solve = arguments.question(UseCensus::Never);
+    let found = solve.without_each_watched(problem, &|| {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.say(&format!("{done} of {members} losses"));
     })?;
