@@ -35,6 +35,11 @@ pub enum Error {
         /// The name that is nearest, if one is near.
         suggestion: Option<&'static str>,
     },
+    /// Occurs when load cases are asked for, and the file of the system has none.
+    #[error(
+        "this system has no load cases: tables [[cases]] with a name, and factors of its [[loads]]"
+    )]
+    NoCases,
     /// Occurs when what was asked for is possible for chains between two anchors alone, and the
     /// problem is another system.
     #[error("{what} is for chains between two anchors")]

@@ -87,6 +87,7 @@ mod extremes;
 #[cfg(feature = "sweep")]
 mod followed;
 pub mod judge;
+mod load_cases;
 mod losses;
 mod mode_pages;
 mod modes;
@@ -101,6 +102,7 @@ mod problem;
 mod reproduce;
 mod resting;
 mod sag;
+mod settled;
 mod simulate;
 mod solve;
 #[cfg(feature = "sweep")]
@@ -137,7 +139,8 @@ pub use self::derivatives::{
 };
 #[cfg(feature = "sweep")]
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
-pub use self::losses::{Left, Loss, LossesAnswer, NothingLeft, Outcome};
+pub use self::load_cases::{BarEnvelope, CaseAnswer, Governing, LoadCasesAnswer, SupportEnvelope};
+pub use self::losses::{Loss, LossesAnswer};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]
@@ -173,6 +176,7 @@ pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
 pub use problem::{Problem, case, case_text};
 pub use sag::Sag;
+pub use settled::{Outcome, Settled, Unsettled};
 pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;

@@ -2,22 +2,19 @@
 
 use std::sync::Arc;
 
-use model::system::{System, SystemRefusal};
-use model::{Rung, Vector};
+use model::Vector;
+use model::system::System;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use validate::UseCensus;
 
 use crate::equilibria::system_of;
 use crate::error::Error;
-use crate::extremes::Extremes;
 use crate::modes::Summary;
 use crate::problem::Problem;
-use crate::solve::{SCHEMA_VERSION, Solve, SolveAnswer};
-use crate::weakest::{Weakest, from_one};
-
-/// Distances that differ by less than this part of them are the same but for rounding.
-const ROUNDING: f64 = 1e-9;
+use crate::settled::{Outcome, Settled, Unsettled, either, settle};
+use crate::solve::{SCHEMA_VERSION, Solve};
+use crate::weakest::from_one;
 
 /// The loss of one member.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,57 +22,9 @@ pub struct Loss {
     /// The member that is lost, from 0; in JSON from 1.
     #[serde(serialize_with = "from_one")]
     pub bar: usize,
-    /// What hangs then, or why nothing does.
+    /// What hangs then, or why nothing does. Members keep the numbers that they had before.
     #[serde(flatten, serialize_with = "either")]
-    pub left: Result<Left, NothingLeft>,
-}
-
-/// What hangs after a loss. Members keep the numbers that they had before it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Left {
-    /// Sag, lowest joint, largest forces.
-    #[serde(flatten)]
-    pub extremes: Extremes,
-    /// The lowest joint by name.
-    pub lowest_joint: String,
-    /// The joint that moves farthest from where it was.
-    pub moves: String,
-    /// How far, m.
-    pub moves_m: f64,
-    /// The member that is nearest to breaking then, where members have strengths.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub weakest: Option<Weakest>,
-    /// The highest rung of evidence.
-    pub rung: Option<Rung>,
-    /// Whether both solvers answered and agree, and the judge finds both in balance.
-    pub agrees: bool,
-    #[serde(skip)]
-    check_failed: bool,
-    #[serde(skip)]
-    is_decided: bool,
-}
-
-/// Why nothing more is said of what is left.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct NothingLeft {
-    /// What becomes of it.
-    pub outcome: Outcome,
-    /// Why, in words.
-    pub reason: String,
-}
-
-/// What becomes of a system that does not hang as before.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Outcome {
-    /// Nothing holds a part of it.
-    Falls,
-    /// It does not rest near its drawing: it folds, or snaps through.
-    Leaves,
-    /// Nothing is left that moves or weighs.
-    NoLoad,
-    /// No solver has an answer.
-    Unknown,
+    pub left: Result<Settled, Unsettled>,
 }
 
 /// What the loss of each member does.
@@ -83,16 +32,6 @@ pub enum Outcome {
 pub struct LossesAnswer {
     system: Arc<System>,
     losses: Vec<Loss>,
-}
-
-fn either<S: Serializer>(
-    left: &Result<Left, NothingLeft>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    match left {
-        Ok(left) => left.serialize(serializer),
-        Err(reason) => reason.serialize(serializer),
-    }
 }
 
 impl Solve {
@@ -157,67 +96,11 @@ fn left(
     system: &System,
     bar: usize,
     before_m: &[Vector],
-) -> Result<Left, NothingLeft> {
+) -> Result<Settled, Unsettled> {
     let (rest, joints) = system.without(bar);
     let before_m: Vec<Vector> = joints.iter().filter_map(|k| before_m.get(*k).copied()).collect();
-    let refused = |refusal: SystemRefusal| NothingLeft {
-        outcome: match refusal {
-            SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. } => Outcome::Falls,
-            SystemRefusal::NothingMoves | SystemRefusal::NoLoad | SystemRefusal::LoadOnAnchors => {
-                Outcome::NoLoad
-            }
-            _ => Outcome::Unknown,
-        },
-        reason: refusal.to_string(),
-    };
-    rest.refusal().map_err(refused)?;
-    let unknown = |reason: String| NothingLeft { outcome: Outcome::Unknown, reason };
-    let answer = solve.run_here(&rest.into()).map_err(|error| unknown(error.to_string()))?;
-    if let Some(near) = answer.near().filter(|near| !near.is_neighbour) {
-        let (joint, moved_m) = (&near.joint, near.moved_m);
-        let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");
-        return Err(NothingLeft { outcome: Outcome::Leaves, reason });
-    }
-    Left::of(&answer, bar, &before_m).ok_or_else(|| unknown("no equilibrium".to_owned()))
-}
-
-impl Left {
-    fn of(answer: &SolveAnswer, lost: usize, before_m: &[Vector]) -> Option<Self> {
-        let (system, first) = (answer.system(), answer.equilibria().first()?);
-        let before = |bar: usize| if bar >= lost { bar + 1 } else { bar };
-        let mut extremes = Extremes::of(system, first)?;
-        for largest in [&mut extremes.tension_n, &mut extremes.compression_n].into_iter().flatten()
-        {
-            largest.0 = before(largest.0);
-        }
-        let weakest = Weakest::of(system, first);
-        let moved = first.joints_m.iter().zip(before_m).map(|(a, b)| {
-            let [x, y, z] = [0, 1, 2].map(|k| a[k] - b[k]);
-            x.hypot(y).hypot(z)
-        });
-        // Of joints that move as far, but for rounding, the first.
-        let (moves, moves_m) = moved
-            .enumerate()
-            .reduce(|most, next| if next.1 > (1.0 + ROUNDING) * most.1 { next } else { most })?;
-        let name = |joint: usize| system.joints()[joint].name.clone();
-        Some(Self {
-            lowest_joint: name(extremes.lowest_joint),
-            extremes,
-            moves: name(moves),
-            moves_m,
-            weakest: weakest.map(|weakest| Weakest { bar: before(weakest.bar), ..weakest }),
-            rung: answer.rung(),
-            agrees: answer.agrees(),
-            check_failed: answer.check_failed(),
-            is_decided: answer.is_decided(),
-        })
-    }
-
-    /// Whether what is left is as strong as wanted; no value without strengths.
-    #[must_use]
-    pub fn is_strong(&self) -> Option<bool> {
-        self.weakest.map(|weakest| weakest.suffices())
-    }
+    let (left, _) = settle(solve, rest, &before_m)?;
+    Ok(left.numbered(|k| if k >= bar { k + 1 } else { k }))
 }
 
 impl LossesAnswer {
@@ -258,7 +141,7 @@ impl LossesAnswer {
         })
     }
 
-    fn left(&self) -> impl Iterator<Item = &Left> {
+    fn left(&self) -> impl Iterator<Item = &Settled> {
         self.losses.iter().filter_map(|loss| loss.left.as_ref().ok())
     }
 }

@@ -194,6 +194,11 @@ impl Problem {
         drawn.map(Self::new).map_err(|error| raise(&error))
     }
 
+    /// The same in one of its load cases.
+    fn in_case(&self, name: &str) -> PyResult<Self> {
+        self.of.in_case(name).map(Self::new).map_err(|error| raise(&error))
+    }
+
     /// The numbers under the name of an array of [`with_numbers`](Self::with_numbers), NaN where there
     /// are none.
     fn numbers<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {

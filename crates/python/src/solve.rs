@@ -1,5 +1,6 @@
 //! The hanging equilibrium.
 
+use std::fmt::Display;
 use std::sync::Arc;
 
 use funicular::prelude::{Solve, SolveAnswer, Vector};
@@ -9,6 +10,7 @@ use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict as _, PyDict, PyList};
+use serde::Serialize;
 
 use crate::arrays::{column, numbers, rows, vectors};
 use crate::printable::printable;
@@ -159,11 +161,44 @@ pub fn losses<'py>(
 ) -> PyResult<(String, String, bool)> {
     let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        watch.tell("losses", 0, 0);
+    run_told(py, threads, progress, "losses", move || {
         let found = solve.without_each(&of)?;
+        let survives = found.survives();
+        Ok((found, survives))
+    })
+}
+
+/// Each load case: as JSON, as text, and whether the system is as strong as wanted in all.
+#[pyfunction]
+pub fn load_cases<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    solver: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, String, Option<bool>)> {
+    let solve = Solve::new().solvers(words::solvers(solver)?);
+    let of = Arc::clone(&problem.of);
+    run_told(py, threads, progress, "load cases", move || {
+        let found = solve.load_cases(&of)?;
+        let is_strong = found.is_strong();
+        Ok((found, is_strong))
+    })
+}
+
+/// An answer as JSON and as text, and what else is said of it.
+fn run_told<'py, T: Serialize + Display, V: Send + 'static>(
+    py: Python<'py>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+    what: &'static str,
+    run: impl FnOnce() -> Result<(T, V), Error> + Send + 'static,
+) -> PyResult<(String, String, V)> {
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        watch.tell(what, 0, 0);
+        let (found, verdict) = run()?;
         let (text, said) = (serde_json::to_string(&found), found.to_string());
-        Ok::<_, Error>(text.map(|text| (text, printable(&said), found.survives())))
+        Ok::<_, Error>(text.map(|text| (text, printable(&said), verdict)))
     })?;
     found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
 }

@@ -93,6 +93,33 @@ def test_the_loss_of_each_member():
     assert hanger.losses[0].outcome == "falls" and not hanger.survives
 
 
+def test_load_cases_and_their_envelope():
+    # 3-4-5: each thread takes 62.5 N of the weight, and 25 N of a wind of 30 N along them, or is relieved of it.
+    text = """
+        gravity_m_s2 = 10
+        joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 10 } }
+        bars = [{ from = "A", to = "lamp", length_m = 5, mass_kg = 0, strength_n = 175 },
+                { from = "B", to = "lamp", length_m = 5, mass_kg = 0 }]
+        loads = [{ name = "wind", joint = "lamp", force_n = [30, 0, 0] }]
+        cases = [{ name = "east", factors = { wind = 1 } }, { name = "west", factors = { wind = -1 } }]
+    """
+    system = fn.System.from_toml(text)
+    found = system.load_cases()
+    assert [case.name for case in found.cases] == ["east", "west"] and found.is_strong
+    first, second = found.bars
+    assert first.ends == ["A", "lamp"] and first.most_n.case == "east" and first.most_n.value == pytest.approx(87.5)
+    assert first.least_n.case == "west" and first.least_n.value == pytest.approx(37.5)
+    assert first.utilisation.value == pytest.approx(0.5) and not hasattr(second, "utilisation")
+    assert [support.most_n.case for support in found.supports] == ["east", "west"]
+    assert "Worst: in east" in str(found) and found.to_dict()["bars"][0]["bar"] == 1
+    assert system.in_case("west").solve().axial_n == pytest.approx([37.5, 87.5])
+    assert fn.System.from_toml(system.to_toml()).load_cases().to_dict() == found.to_dict()
+    with pytest.raises(fn.SystemError, match="no load case"):
+        system.in_case("north")
+    with pytest.raises(fn.Error, match="no load cases"):
+        fn.System.case("lamp").load_cases()
+
+
 def gable():
     # Feet 6 m apart, two bars of 5 m and EA = 1000 N, 10 kg between them.
     return fn.System.from_arrays(

@@ -22,12 +22,16 @@ pub struct Source {
     /// A named case instead of a file
     #[arg(long, value_name = "NAME", value_parser = CaseName, hide_possible_values = true, conflicts_with = "file")]
     pub case: Option<String>,
+    /// Under the loads of this load case, of the [[cases]] of the file
+    #[arg(long, value_name = "NAME")]
+    pub load_case: Option<String>,
 }
 
 impl Source {
     /// The system, and the files that were read.
     pub fn read(&self) -> Result<Input, Failure> {
-        problem(self.file.as_deref(), self.case.as_deref())
+        let input = problem(self.file.as_deref(), self.case.as_deref())?;
+        Ok(Input { problem: in_case(input.problem, self.load_case.as_deref())?, ..input })
     }
 }
 
@@ -129,6 +133,14 @@ pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure
         (None, None) => return Err(Failure::bad_input("name a system file or a case")),
     };
     Ok(Input { problem, files })
+}
+
+/// The problem in the load case that is asked for.
+pub fn in_case(problem: Problem, name: Option<&str>) -> Result<Problem, Error> {
+    match name {
+        Some(name) => problem.in_case(name),
+        None => Ok(problem),
+    }
 }
 
 /// A file that does not exist and has the name of a case was meant as that.

@@ -1,10 +1,10 @@
 //! `funicular solve`: a system or many, both solvers, a verdict on each.
 
 mod batch;
+mod each;
 mod lines;
 mod object;
 mod several;
-mod without;
 
 use std::path::{Path, PathBuf};
 
@@ -99,6 +99,12 @@ pub struct Solve {
     /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
     #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "equations", "near"])]
     pub without: Option<String>,
+    /// Under the loads of this load case, of the [[cases]] of the file; `each` shows all cases, with the
+    /// envelope of the forces over them
+    ///
+    /// With --check the exit code is 1 where a bar is weaker than wanted in any of them.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["batch", "without"])]
+    pub load_case: Option<String>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -171,6 +177,27 @@ impl Solve {
         Ok(())
     }
 
+    /// Whether all load cases are asked for.
+    fn each_case(&self) -> bool {
+        self.load_case.as_deref() == Some("each")
+    }
+
+    /// A system in the load case that is asked for.
+    fn in_case(&self, problem: Problem) -> Result<Problem, Error> {
+        input::in_case(problem, self.load_case.as_deref().filter(|_| !self.each_case()))
+    }
+
+    /// An option that has no place where several systems are answered, of one or of many files.
+    fn of_one_answer(&self) -> Option<&'static str> {
+        let given = [
+            ("--columns", self.columns),
+            ("--summary", self.summary),
+            ("--evidence", self.evidence),
+        ];
+        let given = given.into_iter().find(|(_, is_given)| *is_given).map(|(option, _)| option);
+        self.file_for_one().or(given)
+    }
+
     /// How the answer to one system ends.
     fn exit(&self, answer: &SolveAnswer) -> Exit {
         let is_weak = self.check && answer.is_strong() == Some(false);
@@ -200,7 +227,8 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
     let shape = arguments.shape()?;
-    let Input { mut problem, mut files } = input::problem(file, arguments.case.as_deref())?;
+    let Input { problem, mut files } = input::problem(file, arguments.case.as_deref())?;
+    let mut problem = arguments.in_case(problem)?;
     if arguments.without.is_none() {
         arguments.checkable(&problem)?;
     }
@@ -209,7 +237,13 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
         files.extend(arguments.shape.near.clone());
     }
     if arguments.without.is_some() {
-        return without::run(arguments, &problem, progress);
+        return each::loss(arguments, &problem, progress);
+    }
+    if arguments.each_case() {
+        return match arguments.of_one_answer() {
+            Some(option) => Err(Failure::bad_input(format!("{option} is for one load case"))),
+            None => each::load_case(arguments, &problem, progress),
+        };
     }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
@@ -259,13 +293,7 @@ fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
 
 /// A failed check is worse than an answer that is missing or has not converged.
 fn verdict(answer: &SolveAnswer) -> Exit {
-    if answer.check_failed() {
-        Exit::CheckFailed
-    } else if answer.is_decided() {
-        Exit::Done
-    } else {
-        Exit::Undecided
-    }
+    each::exit(answer.check_failed(), answer.is_decided())
 }
 
 impl From<Of> for Equations {

@@ -3,9 +3,11 @@
 use std::fmt;
 
 use super::printable::Printable;
-use super::shape::{PRINTED, percent};
-use super::tables::{Table, counted, numbers_from, short, table, wrapped};
-use crate::losses::{Left, Loss, LossesAnswer, Outcome};
+use super::settled::{cells, severe, used};
+use super::shape::PRINTED;
+use super::tables::{Table, counted, numbers_from, table, wrapped};
+use crate::losses::{Loss, LossesAnswer};
+use crate::settled::Outcome;
 
 /// As `funicular solve --without each` prints it.
 impl fmt::Display for LossesAnswer {
@@ -49,11 +51,7 @@ impl fmt::Display for LossesAnswer {
         let worst = weakest.max_by(|(a, _), (b, _)| severity(a).total_cmp(&severity(b)));
         let Some((loss, weakest)) = worst else { return Ok(()) };
         let [[a, b], [from, to]] = [loss.bar, weakest.bar].map(|bar| self.ends(bar));
-        let used = if weakest.utilisation.is_finite() {
-            format!("is at {}", percent(weakest.utilisation))
-        } else {
-            "has no bound to its force".to_owned()
-        };
+        let used = used(&weakest);
         let line = format!("Worst: without {a} to {b} the member from {from} to {to} {used}.");
         writeln!(f, "{}", wrapped(&line, 0))
     }
@@ -72,20 +70,11 @@ impl LossesAnswer {
         let mut head = vec!["lost", "from", "to", "moves / m", "tension / N", "bar"];
         head.extend(strong.then_some(["used", "bar"]).into_iter().flatten());
         head.push("evidence");
-        let columns = head.len();
         let mut rows = table(head);
         for loss in shown {
             let [from, to] = self.ends(loss.bar);
             let mut row = vec![(loss.bar + 1).to_string(), from, to];
-            if let Ok(left) = &loss.left {
-                row.extend(cells(left, strong));
-            }
-            row.resize(columns - 1, String::new());
-            row.push(match (outcome(loss), &loss.left) {
-                (Some(outcome), _) => word(outcome).to_owned(),
-                (None, Ok(Left { agrees: true, rung: Some(rung), .. })) => rung.to_string(),
-                (None, _) => "no agreement".to_owned(),
-            });
+            row.extend(cells(&loss.left, strong));
             rows.add_row(row);
         }
         numbers_from(&mut rows, 3);
@@ -93,36 +82,12 @@ impl LossesAnswer {
     }
 }
 
-/// What stands beside a loss that something survives.
-fn cells(left: &Left, strong: bool) -> Vec<String> {
-    let mut cells = vec![short((1e6 * left.moves_m).round() / 1e6)];
-    let tension = left.extremes.tension_n;
-    cells.push(tension.map_or_else(String::new, |(_, force_n)| short(force_n)));
-    cells.push(tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()));
-    if let Some(weakest) = left.weakest.filter(|_| strong) {
-        cells.extend([percent(weakest.utilisation), (weakest.bar + 1).to_string()]);
-    }
-    cells
-}
-
 /// What becomes of a system of which nothing more is said.
 fn outcome(loss: &Loss) -> Option<Outcome> {
     Some(loss.left.as_ref().err()?.outcome)
 }
 
-/// The same in a word.
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Falls => "falls",
-        Outcome::Leaves => "leaves",
-        Outcome::NoLoad => "no load",
-        Outcome::Unknown => "no answer",
-    }
-}
-
 /// How bad a loss is: what falls or is unknown, then what is nearest to breaking, or pulls most.
 fn severity(loss: &Loss) -> f64 {
-    let Ok(left) = &loss.left else { return f64::INFINITY };
-    let tension_n = left.extremes.tension_n.map_or(0.0, |(_, force_n)| force_n);
-    left.weakest.map_or(tension_n, |weakest| weakest.demand())
+    loss.left.as_ref().map_or(f64::INFINITY, severe)
 }

@@ -11,6 +11,7 @@ pub mod derivatives;
 mod judged;
 #[cfg(feature = "branches")]
 pub mod load;
+mod load_cases;
 mod losses;
 mod modes;
 pub mod motion;
@@ -18,6 +19,7 @@ pub mod printable;
 pub mod printed;
 #[cfg(feature = "paper")]
 mod reproduction;
+mod settled;
 mod shape;
 #[cfg(feature = "branches")]
 mod study;

@@ -19,6 +19,7 @@ mod guide;
 mod judge;
 mod keys;
 mod library;
+mod load_cases;
 mod load_paths;
 mod material;
 mod modes;

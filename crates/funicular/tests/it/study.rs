@@ -289,7 +289,7 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 /// drawn decides which equilibrium is meant.
 /// What people know of a bar is made into other keys where the file is read.
 /// Strengths change nothing.
-const NO_PARAMETERS: [&str; 19] = [
+const NO_PARAMETERS: [&str; 20] = [
     "bars.mass_kg_per_m",
     "bars.diameter_m",
     "bars.density_kg_m3",
@@ -300,6 +300,7 @@ const NO_PARAMETERS: [&str; 19] = [
     "joints.NAME.near_m",
     "loads.mass_kg",
     "loads.force_n",
+    "loads.force_n_per_m",
     "joints.NAME.along",
     "joints.NAME.normal",
     "bars.forces.force_n",

@@ -206,6 +206,50 @@ pub enum SystemError {
         /// Height of the floor.
         floor_m: f64,
     },
+    /// Occurs when a load acts at a joint, or on a member, that is not there.
+    #[error("a load acts on {what} number {number} (from 0), which is not there")]
+    NoSuchLoaded {
+        /// `joint` or `member`.
+        what: &'static str,
+        /// Its number, from 0.
+        number: usize,
+    },
+    /// Occurs when two load cases have the same name.
+    #[error("two load cases are called {case:?}")]
+    DuplicateCase {
+        /// The name.
+        case: String,
+    },
+    /// Occurs when a system has no load case of a name.
+    #[error("there is no load case {case:?}; {}", if known.is_empty() { "the system has none".to_owned() } else { format!("there are {}", quoted(known)) })]
+    UnknownCase {
+        /// The name.
+        case: String,
+        /// The names of those that there are.
+        known: Vec<String>,
+    },
+    /// Occurs when a load case has a factor for a load that is not there.
+    #[error(
+        "no load is called {load:?}; a load case has factors for names of loads, and for \"permanent\", those without a name"
+    )]
+    UnknownLoad {
+        /// Name of the case.
+        case: String,
+        /// The name.
+        load: String,
+    },
+    /// Occurs when the factor of a load is not finite, or that of the permanent ones is negative.
+    #[error(
+        "the factor of {load:?} in the load case {case:?} must be finite, and of masses not negative, got {factor}"
+    )]
+    Factor {
+        /// Name of the case.
+        case: String,
+        /// Name of the load.
+        load: String,
+        /// The factor as given.
+        factor: f64,
+    },
     /// Occurs when every number is finite and a total is not: lengths, loads, or their product.
     #[error("the {quantity} of this system is larger than a double can hold")]
     Overflow {
@@ -235,6 +279,10 @@ pub enum SystemError {
         /// The heaviest mass.
         heaviest_kg: f64,
     },
+}
+
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")
 }
 
 /// How far from 1 the length of a direction may be: the rounding of its three components.

@@ -20,6 +20,7 @@ mod drawing;
 mod error;
 mod graph;
 mod joint;
+mod load_case;
 mod member;
 mod prestress;
 mod refusal;
@@ -32,6 +33,7 @@ pub use builder::SystemBuilder;
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
+pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
 pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
@@ -68,6 +70,8 @@ pub struct System {
     total_length_m: f64,
     total_mass_kg: f64,
     row: row::Once,
+    /// Loads by name and the cases in which they act; no solver looks at them.
+    load_cases: Option<Box<load_case::LoadCases>>,
 }
 
 impl System {
@@ -105,6 +109,7 @@ impl System {
             total_length_m,
             total_mass_kg,
             row: row::Once::default(),
+            load_cases: None,
         }
     }
 

@@ -31,9 +31,14 @@ const ROOT_KEYS: &[&str] = &[
     "bars",
     "bars_file",
     "loads",
+    "cases",
     "joints",
     "joints_file",
 ];
+/// What makes a file one of a system by name.
+const NO_CHAIN: &[&str] = &["joints", "joints_file", "plane"];
+/// What a chain may have in a file and a [`Chain`] has not.
+const BEYOND_CHAINS: &[&str] = &["loads", "cases", "floor_m"];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = &[
     "length_m",
@@ -101,12 +106,12 @@ impl Source<'_> {
             return Err(root.error(kind, "plane"));
         }
         let (chain, places) = self.chain_of(&root)?;
-        let bare = root.get("loads").is_none() && root.get("floor_m").is_none();
+        let bare = BEYOND_CHAINS.iter().all(|key| root.get(key).is_none());
         if bare && strength::given(&root).is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
         }
-        let loaded = loads::put(&root, &chain)?;
+        let loaded = loads::of_chain(&root, &chain)?;
         match Problem::new(chain) {
             // The loads may be all that weighs; the system's own check says so if nothing does.
             Ok(_) | Err(Refusal::NoMass | Refusal::WeightOnAnchors) => {}
@@ -167,7 +172,7 @@ impl Source<'_> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
-        for key in ["joints", "joints_file", "loads", "floor_m", "plane"] {
+        for key in NO_CHAIN.iter().chain(BEYOND_CHAINS) {
             if root.get(key).is_some() {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }

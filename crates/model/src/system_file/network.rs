@@ -10,6 +10,7 @@ use super::document::bar;
 use super::drawing;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::loads;
 use super::material;
 use super::network_rows::{self, FREE, member_kind};
 use super::row_table::{Known, Row};
@@ -33,6 +34,8 @@ const ROOT_KEYS: &[&str] = &[
     "joints_file",
     "bars",
     "bars_file",
+    "loads",
+    "cases",
 ];
 const JOINT_KEYS: &[&str] = &["at_m", "near_m", "free", "along", "normal", "mass_kg", "force_n"];
 const MEMBER_KEYS: &[&str] = &[
@@ -278,11 +281,7 @@ impl Reading<'_> {
     fn number(&self, name: &str) -> Result<usize, Kind> {
         let named = self.numbers.get(name).copied();
         let named = named.filter(|joint| self.joints.get(*joint).is_some_and(|j| j.name == name));
-        named.ok_or_else(|| {
-            let names = self.joints.iter().take(MOST_NAMES).map(|joint| joint.name.as_str());
-            let suggestion = nearest(name, &names.collect::<Vec<_>>()).map(str::to_owned);
-            Kind::UnknownJoint { joint: name.to_owned(), suggestion }
-        })
+        named.ok_or_else(|| unknown_joint(name, &self.joints))
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
@@ -348,6 +347,7 @@ impl Reading<'_> {
                 }
                 _ => root.error(Kind::System(error), "bars"),
             })?;
+        let system = loads::by_name(root, system)?;
         strength::check(root, &system)?;
         let key = if root.get("bars").is_some() { "bars" } else { "bars_file" };
         let room = root.source().budget.fits_solve(&system);
@@ -373,12 +373,19 @@ impl Reading<'_> {
     }
 }
 
+/// A joint that is not there, with the one that was meant.
+pub(super) fn unknown_joint(name: &str, joints: &[Joint]) -> Kind {
+    let names = joints.iter().take(MOST_NAMES).map(|joint| joint.name.as_str());
+    let suggestion = nearest(name, &names.collect::<Vec<_>>()).map(str::to_owned);
+    Kind::UnknownJoint { joint: name.to_owned(), suggestion }
+}
+
 fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
     table.only(JOINT_KEYS)?;
     let vector = |key: &str| table.get(key).map(|value| table.vector(key, value)).transpose();
     let mass = table.number("mass_kg")?;
     let force_n = vector("force_n")?;
-    table.check_load(mass, force_n)?;
+    table.check_load(mass, force_n, "force_n")?;
     let support = support(table, vector("at_m")?)?;
     if support.is_fixed()
         && let Some(key) = ["mass_kg", "force_n"].into_iter().find(|key| table.get(key).is_some())
@@ -496,7 +503,7 @@ fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad, SystemFileError>
     table.only(FORCE_KEYS)?;
     let value: &Value<'_> = table.require("force_n", "a force in newtons, [x, y, z]")?;
     let force_n = table.vector("force_n", value)?;
-    table.check_load(None, Some(force_n))?;
+    table.check_load(None, Some(force_n), "force_n")?;
     let at_m = table.number("at_m")?.unwrap_or(0.5 * length_m);
     if !(0.0..=length_m).contains(&at_m) {
         let span = table.get("at_m").map_or(0..0, Spanned::span);

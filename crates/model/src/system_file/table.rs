@@ -196,13 +196,14 @@ impl<'a> Table<'a> {
         &self,
         mass_kg: Option<f64>,
         force_n: Option<Vector>,
+        force_key: &str,
     ) -> Result<(), SystemFileError> {
         if mass_kg.is_some_and(|mass| !(mass.is_finite() && mass >= 0.0)) {
             return Err(self.error(Kind::Mass { mass_kg: mass_kg.unwrap_or(f64::NAN) }, "mass_kg"));
         }
         if let Some(bad) = force_n.and_then(|force| force.into_iter().find(|x| !x.is_finite())) {
             let kind = Kind::Force { component_n: bad };
-            return Err(self.component_error(kind, "force_n", f64::is_finite));
+            return Err(self.component_error(kind, force_key, f64::is_finite));
         }
         Ok(())
     }

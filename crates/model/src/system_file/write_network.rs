@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::write::{differ, vector, write_given};
-use crate::system::{Joint, Kind, Member, Support, System};
+use crate::system::{Joint, Kind, LoadOn, Member, NamedLoad, Support, System};
 
 /// The system file of a system of bars, every joint with its name and every member on its own.
 ///
@@ -15,6 +15,42 @@ use crate::system::{Joint, Kind, Member, Support, System};
 /// ```
 #[must_use]
 pub fn write_network(system: &System) -> String {
+    let permanent = (!system.named_loads().is_empty()).then(|| system.without_named_loads());
+    let mut text = write_permanent(permanent.as_ref().unwrap_or(system));
+    for load in system.named_loads() {
+        write_load(&mut text, system, load);
+    }
+    for case in system.load_cases() {
+        let factor = |(load, by): &(String, f64)| format!("{} = {by:?}", text_of(load));
+        let factors: Vec<_> = case.factors.iter().map(factor).collect();
+        let (name, factors) = (text_of(&case.name), factors.join(", "));
+        let _ = write!(text, "\n[[cases]]\nname = {name}\nfactors = {{ {factors} }}\n");
+    }
+    text
+}
+
+fn text_of(text: &str) -> toml::Value {
+    text.into()
+}
+
+fn write_load(text: &mut String, system: &System, load: &NamedLoad) {
+    let _ = write!(text, "\n[[loads]]\nname = {}\n", text_of(&load.name));
+    let _ = match &load.on {
+        LoadOn::Joints { joints, mass_kg, force_n } => {
+            let names = joints.iter().map(|k| text_of(&system.joints()[*k].name).to_string());
+            let (names, force_n) = (names.collect::<Vec<_>>().join(", "), vector(*force_n));
+            writeln!(text, "joint = [{names}]\nmass_kg = {mass_kg:?}\nforce_n = {force_n}")
+        }
+        LoadOn::Members { members, force_n_per_m } => {
+            let numbers = members.iter().map(|k| (k + 1).to_string());
+            let (numbers, force) = (numbers.collect::<Vec<_>>().join(", "), vector(*force_n_per_m));
+            writeln!(text, "bar = [{numbers}]\nforce_n_per_m = {force}")
+        }
+    };
+}
+
+/// The same without loads by name.
+fn write_permanent(system: &System) -> String {
     let mut text = format!(
         "name = {}\ngravity_m_s2 = {:?}\n",
         toml::Value::from(system.name()),

@@ -11,6 +11,7 @@ mod evidence_words;
 mod files;
 mod format_page;
 mod json;
+mod load_cases;
 mod memory;
 mod mutations;
 mod network_columns;

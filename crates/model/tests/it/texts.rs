@@ -366,7 +366,7 @@ fn help_says_what_is_allowed() {
     );
     assert_eq!(
         help(&barred("colour = \"red\"")),
-        "allowed here: name, gravity_m_s2, floor_m, plane, safety, anchors, bars, bars_file, loads, joints, joints_file"
+        "allowed here: name, gravity_m_s2, floor_m, plane, safety, anchors, bars, bars_file, loads, cases, joints, joints_file"
     );
     assert_eq!(help(&barred("")), "anchors must be a table with start_m and end_m");
     assert_eq!(

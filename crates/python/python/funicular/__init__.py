@@ -15,6 +15,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | every equilibrium, with proof | :meth:`System.census` |
 | the equilibrium over a parameter | :meth:`System.study` |
 | the loss of each member | :func:`losses` |
+| load cases and their envelope | :func:`load_cases` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
@@ -42,7 +43,7 @@ from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
-from .study import Gradient, Losses, Study, anchor_stiffness, change, gradient, losses, study
+from .study import Gradient, LoadCases, Losses, Study, anchor_stiffness, change, gradient, load_cases, losses, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -71,6 +72,7 @@ __all__ = [
     "Evidence",
     "Gradient",
     "Judgement",
+    "LoadCases",
     "Losses",
     "Modes",
     "ModesOf",
@@ -96,6 +98,7 @@ __all__ = [
     "gradients",
     "judge",
     "limit_work",
+    "load_cases",
     "losses",
     "modes",
     "reproduce",

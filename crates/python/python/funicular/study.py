@@ -151,6 +151,57 @@ def losses(system: Described, *, solver: str = "both", threads: int = 0, progres
     return Losses(system, *found)
 
 
+class LoadCases(Result):
+    """A system in each of its load cases, and the envelope over them.
+
+    ``cases``
+        a :class:`Record` for each: ``name``, and what :class:`Losses` has of what hangs, or ``outcome`` and ``reason``; joints move
+        from where they are in the first case.
+    ``bars``
+        a :class:`Record` for each: ``bar``, from 1, ``ends``, ``least_n`` and ``most_n``, each with ``value`` and ``case``; with
+        a strength ``utilisation``.
+    ``supports``
+        a :class:`Record` for each: ``joint`` and ``most_n``, the largest size of the force of the ground.
+    ``is_strong``
+        whether all is as strong as wanted in every case; ``None`` without strengths.
+    """
+
+    def __init__(self, system: System, text: str, said: str, is_strong: bool | None) -> None:
+        self.system = system
+        self.data = json.loads(text)
+        self.cases, self.bars, self.supports = (
+            [Record(one) for one in self.data[key]] for key in ("cases", "bars", "supports")
+        )
+        self.is_strong = is_strong
+        self._said = said
+
+    def __repr__(self) -> str:
+        return f"<LoadCases of {printable(self.system.name)!r}: {', '.join(printable(case.name) for case in self.cases)}>"
+
+
+def load_cases(
+    system: Described, *, solver: str = "both", threads: int = 0, progress: Progress = None
+) -> LoadCases:
+    """Where a system comes to rest in each of the load cases of its file, and the least and largest forces over them.
+
+    >>> import funicular as fn
+    >>> pole = fn.System.from_toml('''
+    ... joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }
+    ... bars = [{ from = "A", to = "P", length_m = 1, mass_kg = 0 }]
+    ... loads = [{ name = "snow", joint = "P", mass_kg = 4 }]
+    ... cases = [{ name = "summer", factors = {} }, { name = "winter", factors = { snow = 1.5 } }]''')
+    >>> found = fn.load_cases(pole)
+    >>> found.bars[0].most_n.case, round(found.bars[0].most_n.value / found.bars[0].least_n.value)
+    ('winter', 7)
+    >>> pole.in_case("winter").name
+    'unnamed, winter'
+    """
+    system = described(system)
+    with shown(progress) as callback:
+        found = _native.load_cases(system._problem, str(solver), whole("threads", threads), callback)
+    return LoadCases(system, *found)
+
+
 class Gradient(Record):
     """The derivatives of one number of an equilibrium: ``of``, ``value`` (m or N), ``derivatives``; ``gradient["bars.1.length_m"]``
     is the derivative by that parameter, ``table`` has all with their units."""

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .census import Census
     from .motion import Modes, Motion
     from .rows import SystemBatch
-    from .study import Losses, Study
+    from .study import LoadCases, Losses, Study
     from .sweep import Sweep
     from .trace import Trace
 
@@ -481,6 +481,19 @@ class System:
         from .study import study
 
         return study(self, *vary, **settings)
+
+    def in_case(self, name: str) -> System:
+        """The system under the loads of one of its load cases (``[[cases]]``), by their factors.
+
+        Raises SystemError.
+        """
+        return System._of(self._problem.in_case(_text("name", name)))
+
+    def load_cases(self, **settings: Any) -> LoadCases:
+        """Each load case of the file and the envelope over them. See :func:`funicular.load_cases`."""
+        from .study import load_cases
+
+        return load_cases(self, **settings)
 
     def losses(self, **settings: Any) -> Losses:
         """The loss of each member in turn. See :func:`funicular.losses`."""

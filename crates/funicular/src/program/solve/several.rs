@@ -29,6 +29,9 @@ pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
     if arguments.without.is_some() {
         return Err(Failure::bad_input("--without takes one system at a time"));
     }
+    if arguments.each_case() {
+        return Err(Failure::bad_input("--load-case each takes one system at a time"));
+    }
     if let Some(option) = arguments.file_for_one() {
         return Err(Failure::bad_input(format!("{option} writes one file, for one system")));
     }
@@ -72,7 +75,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     let solve = arguments.question(UseCensus::Auto);
     let read = input::problem(Some(path), None);
     let solved = read.and_then(|input| {
-        let problem = input.problem;
+        let problem = arguments.in_case(input.problem)?;
         arguments.checkable(&problem)?;
         let problem = shape.map_or(Ok(problem.clone()), |shape| next_to(&problem, shape))?;
         Ok(solve.run_here(&problem)?)

@@ -159,6 +159,63 @@ fn losses_of_two_ropes_and_a_hanger() {
     output.done();
 }
 
+/// 100 N between two ropes of 5 m from anchors 6 m apart, 3-4-5, and 30 N of wind along them: each rope takes
+/// 62.5 N of the weight and 25 N of the wind, or is relieved of it. A gust from the side as well, 75 N, tilts them as 3-4-5 and
+/// makes 125 N of the weight.
+#[test]
+fn load_cases_of_two_ropes() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
+                B = { at_m = [3, 0, 0] }, P = { mass_kg = 10 } }\nbars = [\
+                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 175 }, \
+                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 350 }]\n\
+                [[loads]]\nname = \"wind\"\njoint = \"P\"\nforce_n = [30, 0, 0]\n\
+                [[loads]]\nname = \"gust\"\njoint = \"P\"\nforce_n = [0, 75, 0]\n\
+                [[cases]]\nname = \"east\"\nfactors = { wind = 1 }\n\
+                [[cases]]\nname = \"west\"\nfactors = { wind = -1, gust = 1 }\n";
+    let nothing = "[[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
+    std::fs::write(folder.path().join("ropes.toml"), format!("{text}{nothing}")).unwrap();
+    let arguments = ["solve", "ropes.toml", "--load-case", "each", "--json"];
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(3));
+    let mut output = Output::json("load cases", "load_cases_of_two_ropes", &text);
+    output.is("schema_version", 3);
+    output.is("system.name", "ropes");
+    output.is("system.joints", 3);
+    output.is("system.bars", 2);
+    output.is("system.total_length_m", 10.0);
+    output.is("system.total_mass_kg", 10.0);
+    output.is("system.gravity_m_s2", 10.0);
+    output.is("cases[].name", json!(["east", "west", "nothing"]));
+    output.is("cases[].lowest_m[]", json!([0.0, 0.0, -4.0, 0.0, 2.4, -3.2]));
+    output.is("cases[].lowest_joint", json!(["P", "P"]));
+    output.is("cases[].sag_m", json!([4.0, 3.2]));
+    output.is("cases[].moves_m", json!([0.0, 2.4_f64.hypot(0.8)]));
+    output.is("cases[].moves", json!(["A", "P"]));
+    output.is("cases[].tension_n[]", json!([1, 87.5, 2, 103.125]));
+    output.is("cases[].compression_n", json!([null, null]));
+    output.is("cases[].weakest.bar", json!([1, 1]));
+    output.is("cases[].weakest.utilisation", json!([0.5, 53.125 / 175.0]));
+    output.is("cases[].weakest.safety", json!([2.0, 175.0 / 53.125]));
+    output.is("cases[].weakest.safety_wanted", json!([1.0, 1.0]));
+    output.is("cases[].rung", json!(["optimal", "optimal"]));
+    output.is("cases[].agrees", json!([true, true]));
+    output.says("cases[].outcome", &["no-load"]);
+    output.says("cases[].reason", &["no mass and no force"]);
+    output.is("bars[].bar", json!([1, 2]));
+    output.is("bars[].ends[]", json!(["A", "P", "B", "P"]));
+    output.is("bars[].least_n.value", json!([53.125, 37.5]));
+    output.is("bars[].least_n.case", json!(["west", "east"]));
+    output.is("bars[].most_n.value", json!([87.5, 103.125]));
+    output.is("bars[].most_n.case", json!(["east", "west"]));
+    output.is("bars[].utilisation.value", json!([0.5, 103.125 / 350.0]));
+    output.is("bars[].utilisation.case", json!(["east", "west"]));
+    output.is("supports[].joint", json!(["A", "B"]));
+    output.is("supports[].most_n.value", json!([87.5, 103.125]));
+    output.is("supports[].most_n.case", json!(["east", "west"]));
+    output.done();
+}
+
 /// A triangle on a roller folds without any of its bars; a bar that weighs leaves nothing behind.
 #[test]
 fn losses_after_which_nothing_hangs() {

@@ -1,0 +1,289 @@
+//! A system in each of its load cases.
+
+use std::sync::Arc;
+
+use model::system::{Joint, System, SystemEquilibrium};
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+use validate::UseCensus;
+
+use crate::equilibria::system_of;
+use crate::error::Error;
+use crate::modes::Summary;
+use crate::problem::Problem;
+use crate::settled::{Outcome, Settled, Unsettled, either, settle};
+use crate::solve::{SCHEMA_VERSION, Solve};
+use crate::weakest::from_one;
+
+/// What a system does in one of its load cases.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CaseAnswer {
+    /// The name of the case.
+    pub name: String,
+    /// What it comes to rest in, or why it does not. How far joints move is from the first case of the file.
+    #[serde(flatten, serialize_with = "either")]
+    pub settled: Result<Settled, Unsettled>,
+}
+
+/// A number with the case that it comes from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Governing {
+    /// The number.
+    pub value: f64,
+    /// The name of the case.
+    pub case: String,
+}
+
+/// What a member bears over all cases.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BarEnvelope {
+    /// The member, from 0; in JSON from 1.
+    #[serde(serialize_with = "from_one")]
+    pub bar: usize,
+    /// Names of its joints.
+    pub ends: [String; 2],
+    /// Its smallest axial force anywhere along it, tension positive, N.
+    pub least_n: Governing,
+    /// Its largest.
+    pub most_n: Governing,
+    /// The largest part of its strength that it uses, if it has one; infinite (in JSON `null`) where balance
+    /// leaves its force without a bound.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub utilisation: Option<Governing>,
+}
+
+/// What the ground bears at a support over all cases.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SupportEnvelope {
+    /// Name of the joint.
+    pub joint: String,
+    /// The largest size of the force of the ground on it, N.
+    pub most_n: Governing,
+}
+
+/// What a system does in each of its load cases, and the envelope over them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadCasesAnswer {
+    system: Arc<System>,
+    cases: Vec<CaseAnswer>,
+    bars: Vec<BarEnvelope>,
+    supports: Vec<SupportEnvelope>,
+}
+
+impl Problem {
+    /// The problem in the load case of this name, of the `[[cases]]` of its file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::System`] when there is no such case, or its factors bring a number out of range;
+    /// [`Error::SystemRefused`] when what acts then has no equilibrium.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// let text = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+    ///             bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 }]\n\
+    ///             loads = [{ name = 'snow', joint = 'P', mass_kg = 4 }]\n\
+    ///             cases = [{ name = 'summer', factors = {} }, { name = 'winter', factors = { snow = 1.5 } }]";
+    /// let pole = Problem::parse(text, "pole.toml")?;
+    /// let pull = |problem: &Problem| Solve::new().run(problem).map(|found| found.equilibria()[0].axial_n[0]);
+    /// let [all, summer, winter] = [pull(&pole)?, pull(&pole.in_case("summer")?)?, pull(&pole.in_case("winter")?)?];
+    /// assert!((all / summer - 5.0).abs() < 1e-9 && (winter / summer - 7.0).abs() < 1e-9);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn in_case(&self, name: &str) -> Result<Self, Error> {
+        let system = system_of(self).in_case(name)?;
+        system.refusal()?;
+        Ok(system.into())
+    }
+
+    /// The names of the load cases, in the order of the file.
+    #[must_use]
+    pub fn load_cases(&self) -> Vec<&str> {
+        let cases = self.as_system().map_or(&[][..], System::load_cases);
+        cases.iter().map(|case| case.name.as_str()).collect()
+    }
+}
+
+impl Solve {
+    /// Where a system comes to rest in each of its load cases, and over all of them the least and the largest
+    /// force of each member and support. Each by both solvers and the judge, without a census.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // A lamp of 100 N between two ropes of 5 m, 3-4-5, and 40 N of wind along them.
+    /// let text = "gravity_m_s2 = 10\n\
+    ///             joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 10 } }\n\
+    ///             bars = [{ from = 'A', to = 'lamp', length_m = 5, mass_kg = 0 },\n\
+    ///                     { from = 'B', to = 'lamp', length_m = 5, mass_kg = 0 }]\n\
+    ///             loads = [{ name = 'wind', joint = 'lamp', force_n = [30, 0, 0] }]\n\
+    ///             cases = [{ name = 'east', factors = { wind = 1 } }, { name = 'west', factors = { wind = -1 } }]";
+    /// let found = Solve::new().load_cases(&Problem::parse(text, "lamp.toml")?)?;
+    /// // Each rope takes 62.5 N of the weight and 25 N of the wind, or is relieved of them.
+    /// let rope = &found.bars()[0];
+    /// assert!((rope.most_n.value - 87.5).abs() < 1e-9 && rope.most_n.case == "east");
+    /// assert!((rope.least_n.value - 37.5).abs() < 1e-9 && rope.least_n.case == "west");
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoCases`] when the problem has none. What has no answer in a case is no error: it says why.
+    pub fn load_cases(&self, problem: &Problem) -> Result<LoadCasesAnswer, Error> {
+        self.load_cases_watched(problem, &|| {})
+    }
+
+    /// The same, with `watch` called after each case.
+    ///
+    /// # Errors
+    ///
+    /// As [`load_cases`](Self::load_cases).
+    pub fn load_cases_watched(
+        &self,
+        problem: &Problem,
+        watch: &(dyn Fn() + Sync),
+    ) -> Result<LoadCasesAnswer, Error> {
+        let system = system_of(problem);
+        let (first, others) = system.load_cases().split_first().ok_or(Error::NoCases)?;
+        let solve = self.census(UseCensus::Never);
+        let answer = |name: &str, before_m: &[_]| {
+            let changed = system.in_case(name).map_err(|error| Unsettled {
+                outcome: Outcome::Unknown,
+                reason: error.to_string(),
+            });
+            let settled = changed.and_then(|changed| settle(&solve, changed, before_m));
+            watch();
+            settled
+        };
+        let one = answer(&first.name, &[]);
+        let places = one.as_ref().map_or_else(|_| vec![], |(_, found)| found.joints_m.clone());
+        let rest = || others.par_iter().map(|case| answer(&case.name, &places)).collect::<Vec<_>>();
+        let rest = solve.on_threads(rest)?;
+        let all: Vec<_> = std::iter::once(one).chain(rest).collect();
+        Ok(LoadCasesAnswer::new(&system, &all))
+    }
+}
+
+/// The cases that have an answer, by their names.
+struct Answered<'a> {
+    system: &'a System,
+    cases: Vec<(&'a str, &'a SystemEquilibrium)>,
+}
+
+impl Answered<'_> {
+    fn largest(&self, number: impl Fn(&SystemEquilibrium) -> Option<f64>) -> Option<Governing> {
+        let numbers = self.cases.iter().filter_map(|(case, found)| Some((number(found)?, case)));
+        // Of equal ones the first.
+        let (value, case) =
+            numbers.reduce(|most, next| if next.0 > most.0 { next } else { most })?;
+        Some(Governing { value, case: (*case).to_owned() })
+    }
+
+    fn bar(&self, bar: usize) -> Option<BarEnvelope> {
+        let along = |found: &SystemEquilibrium| found.axial_force(self.system, bar);
+        let least = self.largest(|found| Some(-along(found).least_n))?;
+        let member = &self.system.members()[bar];
+        Some(BarEnvelope {
+            bar,
+            ends: [member.from, member.to].map(|end| self.system.joints()[end].name.clone()),
+            least_n: Governing { value: -least.value, ..least },
+            most_n: self.largest(|found| Some(along(found).most_n))?,
+            utilisation: self.largest(|found| found.utilisation(self.system, bar)),
+        })
+    }
+
+    fn support(&self, joint: usize) -> Option<SupportEnvelope> {
+        let Joint { name, support, .. } = &self.system.joints()[joint];
+        support.at_m()?;
+        let most_n = self.largest(|found| {
+            let [x, y, z] = found.reactions_n[joint];
+            Some(x.hypot(y).hypot(z))
+        })?;
+        Some(SupportEnvelope { joint: name.clone(), most_n })
+    }
+}
+
+impl LoadCasesAnswer {
+    fn new(
+        system: &Arc<System>,
+        found: &[Result<(Settled, SystemEquilibrium), Unsettled>],
+    ) -> Self {
+        let all = || system.load_cases().iter().map(|case| case.name.as_str()).zip(found);
+        let cases = all().filter_map(|(name, one)| Some((name, &one.as_ref().ok()?.1))).collect();
+        let answered = Answered { system, cases };
+        let case = |(name, one): (&str, &Result<(Settled, _), Unsettled>)| CaseAnswer {
+            name: name.to_owned(),
+            settled: one.as_ref().map(|(settled, _)| settled.clone()).map_err(Clone::clone),
+        };
+        Self {
+            bars: (0..system.members().len()).filter_map(|bar| answered.bar(bar)).collect(),
+            supports: (0..system.joints().len()).filter_map(|k| answered.support(k)).collect(),
+            cases: all().map(case).collect(),
+            system: Arc::clone(system),
+        }
+    }
+
+    /// The system, all its loads acting.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The cases, in the order of the file.
+    #[must_use]
+    pub fn cases(&self) -> &[CaseAnswer] {
+        &self.cases
+    }
+
+    /// The members over all cases that have an answer.
+    #[must_use]
+    pub fn bars(&self) -> &[BarEnvelope] {
+        &self.bars
+    }
+
+    /// The supports over all cases that have an answer.
+    #[must_use]
+    pub fn supports(&self) -> &[SupportEnvelope] {
+        &self.supports
+    }
+
+    /// Whether a check of a solver's answer has failed.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.settled().any(|settled| settled.check_failed)
+    }
+
+    /// Whether each case has an answer that converged.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.settled().filter(|settled| settled.is_decided).count() == self.cases.len()
+    }
+
+    /// Whether the system hangs in each case as strong as is wanted; no value where no member has a strength.
+    #[must_use]
+    pub fn is_strong(&self) -> Option<bool> {
+        let strong = self.settled().filter(|settled| settled.is_strong() == Some(true));
+        self.system.has_strengths().then(|| strong.count() == self.cases.len())
+    }
+
+    fn settled(&self) -> impl Iterator<Item = &Settled> {
+        self.cases.iter().filter_map(|case| case.settled.as_ref().ok())
+    }
+}
+
+/// As `funicular solve --load-case each --json` prints it.
+impl Serialize for LoadCasesAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Object<'a> {
+            schema_version: u32,
+            system: Summary,
+            cases: &'a [CaseAnswer],
+            bars: &'a [BarEnvelope],
+            supports: &'a [SupportEnvelope],
+        }
+        let system = Summary::new(&self.system);
+        let Self { cases, bars, supports, .. } = self;
+        Object { schema_version: SCHEMA_VERSION, system, cases, bars, supports }
+            .serialize(serializer)
+    }
+}

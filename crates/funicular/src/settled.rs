@@ -1,0 +1,147 @@
+//! What a system that has been changed comes to rest in.
+
+use model::system::{System, SystemEquilibrium, SystemRefusal};
+use model::{Rung, Vector};
+use serde::{Serialize, Serializer};
+
+use crate::extremes::Extremes;
+use crate::solve::{Solve, SolveAnswer};
+use crate::weakest::Weakest;
+
+/// Distances that differ by less than this part of them are the same but for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What a system that has been changed comes to rest in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Settled {
+    /// Sag, lowest joint, largest forces.
+    #[serde(flatten)]
+    pub extremes: Extremes,
+    /// The lowest joint by name.
+    pub lowest_joint: String,
+    /// The joint that moves farthest from where it was.
+    pub moves: String,
+    /// How far, m.
+    pub moves_m: f64,
+    /// The member that is nearest to breaking, where members have strengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weakest: Option<Weakest>,
+    /// The highest rung of evidence.
+    pub rung: Option<Rung>,
+    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    pub agrees: bool,
+    #[serde(skip)]
+    pub(crate) check_failed: bool,
+    #[serde(skip)]
+    pub(crate) is_decided: bool,
+}
+
+/// Why nothing more is said of a system that has been changed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Unsettled {
+    /// What becomes of it.
+    pub outcome: Outcome,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// What becomes of a system that does not hang as before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Nothing holds a part of it.
+    Falls,
+    /// It does not rest near its drawing: it folds, or snaps through.
+    Leaves,
+    /// Nothing is left that moves or weighs.
+    NoLoad,
+    /// No solver has an answer.
+    Unknown,
+}
+
+/// Either, as its keys.
+pub(crate) fn either<S: Serializer>(
+    found: &Result<Settled, Unsettled>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match found {
+        Ok(settled) => settled.serialize(serializer),
+        Err(reason) => reason.serialize(serializer),
+    }
+}
+
+/// Where a system comes to rest whose joints were at `before_m`, m, if that is known, and its first equilibrium.
+pub(crate) fn settle(
+    solve: &Solve,
+    system: System,
+    before_m: &[Vector],
+) -> Result<(Settled, SystemEquilibrium), Unsettled> {
+    let refused = |refusal: SystemRefusal| Unsettled {
+        outcome: match refusal {
+            SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. } => Outcome::Falls,
+            SystemRefusal::NothingMoves | SystemRefusal::NoLoad | SystemRefusal::LoadOnAnchors => {
+                Outcome::NoLoad
+            }
+            _ => Outcome::Unknown,
+        },
+        reason: refusal.to_string(),
+    };
+    system.refusal().map_err(refused)?;
+    let unknown = |reason: String| Unsettled { outcome: Outcome::Unknown, reason };
+    let answer = solve.run_here(&system.into()).map_err(|error| unknown(error.to_string()))?;
+    if let Some(near) = answer.near().filter(|near| !near.is_neighbour) {
+        let (joint, moved_m) = (&near.joint, near.moved_m);
+        let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");
+        return Err(Unsettled { outcome: Outcome::Leaves, reason });
+    }
+    let settled = Settled::of(&answer, before_m);
+    let first = answer.into_parts().1.into_iter().next();
+    settled.zip(first).ok_or_else(|| unknown("no equilibrium".to_owned()))
+}
+
+impl Settled {
+    fn of(answer: &SolveAnswer, before_m: &[Vector]) -> Option<Self> {
+        let (system, first) = (answer.system(), answer.equilibria().first()?);
+        let extremes = Extremes::of(system, first)?;
+        let before_m = if before_m.is_empty() { &first.joints_m } else { before_m };
+        let moved = first.joints_m.iter().zip(before_m).map(|(a, b)| {
+            let [x, y, z] = [0, 1, 2].map(|k| a[k] - b[k]);
+            x.hypot(y).hypot(z)
+        });
+        // Of joints that move as far, but for rounding, the first.
+        let (moves, moves_m) = moved
+            .enumerate()
+            .reduce(|most, next| if next.1 > (1.0 + ROUNDING) * most.1 { next } else { most })?;
+        let name = |joint: usize| system.joints()[joint].name.clone();
+        Some(Self {
+            lowest_joint: name(extremes.lowest_joint),
+            extremes,
+            moves: name(moves),
+            moves_m,
+            weakest: Weakest::of(system, first),
+            rung: answer.rung(),
+            agrees: answer.agrees(),
+            check_failed: answer.check_failed(),
+            is_decided: answer.is_decided(),
+        })
+    }
+
+    /// The same with other numbers of the members.
+    pub(crate) fn numbered(mut self, number: impl Fn(usize) -> usize) -> Self {
+        let Extremes { tension_n, compression_n, .. } = &mut self.extremes;
+        for (bar, _) in [tension_n, compression_n].into_iter().flatten() {
+            *bar = number(*bar);
+        }
+        if let Some(weakest) = &mut self.weakest {
+            weakest.bar = number(weakest.bar);
+        }
+        self
+    }
+
+    /// Whether it is as strong as wanted; no value without strengths.
+    #[must_use]
+    pub fn is_strong(&self) -> Option<bool> {
+        self.weakest.map(|weakest| weakest.suffices())
+    }
+}

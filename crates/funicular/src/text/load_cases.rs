@@ -1,0 +1,104 @@
+//! A system in each of its load cases, for people.
+
+use std::fmt;
+
+use super::printable::Printable;
+use super::settled::{cells, severe, used};
+use super::shape::{PRINTED, percent};
+use super::tables::{counted, numbers_from, short, table, wrapped};
+use crate::load_cases::{BarEnvelope, Governing, LoadCasesAnswer};
+
+/// As `funicular solve --load-case each` prints it.
+impl fmt::Display for LoadCasesAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (system, cases) = (self.system(), self.cases());
+        let strong = system.has_strengths();
+        let counted = counted(cases.len(), "load case");
+        writeln!(f, "{}", wrapped(&format!("{}: {counted}", Printable(system.name())), 0))?;
+        let mut head = vec!["case", "moves / m", "tension / N", "bar"];
+        head.extend(strong.then_some(["used", "bar"]).into_iter().flatten());
+        head.push("evidence");
+        let mut rows = table(head);
+        for case in cases {
+            let mut row = vec![Printable(&case.name).to_string()];
+            row.extend(cells(&case.settled, strong));
+            rows.add_row(row);
+        }
+        numbers_from(&mut rows, 1);
+        writeln!(f, "{rows}\n")?;
+        self.envelope(f)?;
+        for case in cases {
+            if let Err(reason) = &case.settled {
+                let line = format!("{}: {}", Printable(&case.name), Printable(&reason.reason));
+                writeln!(f, "{}", wrapped(&line, 2))?;
+            }
+        }
+        let all = cases.iter().filter_map(|case| Some((case, case.settled.as_ref().ok()?)));
+        let worst = all.max_by(|(_, a), (_, b)| severe(a).total_cmp(&severe(b)));
+        let Some((case, weakest)) = worst.and_then(|(case, s)| Some((case, s.weakest?))) else {
+            return Ok(());
+        };
+        let member = &system.members()[weakest.bar];
+        let name = |joint: usize| Printable(&system.joints()[joint].name);
+        let (from, to, used) = (name(member.from), name(member.to), used(&weakest));
+        let case = Printable(&case.name);
+        let line = format!("Worst: in {case} the member from {from} to {to} {used}.");
+        writeln!(f, "{}", wrapped(&line, 0))
+    }
+}
+
+impl LoadCasesAnswer {
+    /// Members and supports over all cases: of many those that are nearest to breaking, or bear most.
+    fn envelope(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let strong = self.system().has_strengths();
+        let mut head = vec!["bar", "from", "to", "least / N", "case", "most / N", "case"];
+        head.extend(strong.then_some(["used", "case"]).into_iter().flatten());
+        let mut rows = table(head);
+        let case = |of: &Governing| Printable(&of.case).to_string();
+        let shown = most(self.bars(), severity);
+        for bar in &shown {
+            let mut row = vec![(bar.bar + 1).to_string()];
+            row.extend(bar.ends.iter().map(|end| Printable(end).to_string()));
+            for of in [&bar.least_n, &bar.most_n] {
+                row.extend([short(of.value), case(of)]);
+            }
+            let used = bar.utilisation.as_ref();
+            row.extend(used.into_iter().flat_map(|of| [percent(of.value), case(of)]));
+            row.resize(if strong { 9 } else { 7 }, String::new());
+            rows.add_row(row);
+        }
+        numbers_from(&mut rows, 3);
+        writeln!(f, "Bars over all cases: axial force, tension positive\n{rows}")?;
+        left_out(f, shown.len(), self.bars().len())?;
+        let mut rows = table(["support", "most / N", "case"]);
+        let shown = most(self.supports(), |support| support.most_n.value);
+        for support in &shown {
+            let of = &support.most_n;
+            rows.add_row([Printable(&support.joint).to_string(), short(of.value), case(of)]);
+        }
+        numbers_from(&mut rows, 1);
+        writeln!(f, "\nForces of the ground over all cases, their size\n{rows}")?;
+        left_out(f, shown.len(), self.supports().len())?;
+        writeln!(f)
+    }
+}
+
+/// All, or of many those with the largest numbers.
+fn most<T>(all: &[T], number: impl Fn(&T) -> f64) -> Vec<&T> {
+    let mut shown: Vec<&T> = all.iter().collect();
+    if all.len() > PRINTED {
+        shown.sort_by(|a, b| number(b).total_cmp(&number(a)));
+        shown.truncate(PRINTED);
+    }
+    shown
+}
+
+fn left_out(f: &mut fmt::Formatter<'_>, shown: usize, all: usize) -> fmt::Result {
+    if shown < all { writeln!(f, "(the largest {shown} of {all}; --json has all)") } else { Ok(()) }
+}
+
+/// What a member uses of its strength, or its largest force.
+fn severity(bar: &BarEnvelope) -> f64 {
+    let size = bar.most_n.value.max(-bar.least_n.value);
+    bar.utilisation.as_ref().map_or(size, |used| used.value)
+}

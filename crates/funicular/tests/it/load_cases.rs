@@ -1,0 +1,109 @@
+//! Load cases: each by both solvers, and the envelope over them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use funicular::prelude::*;
+
+/// A pole of 2 m with 10 kg on its end that hangs from a ball joint, with gravity 10: under a side force F it
+/// leans by F / 100, and pulls by the size of both.
+const POLE: &str = "name = \"pole\"\ngravity_m_s2 = 10\nsafety = 2\n\
+    joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 10 } }\n\
+    bars = [{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 0, strength_n = 300 }]\n\
+    [[loads]]\nname = \"wind\"\njoint = \"P\"\nforce_n = [0, 75, 0]\n\
+    [[cases]]\nname = \"still\"\nfactors = { permanent = 1.2 }\n\
+    [[cases]]\nname = \"storm\"\nfactors = { wind = 1 }\n\
+    [[cases]]\nname = \"gale\"\nfactors = { wind = 2, permanent = 2 }\n";
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn near(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0)
+}
+
+#[test]
+fn a_pole_in_still_air_storm_and_gale() {
+    let problem = Problem::parse(POLE, "pole.toml").unwrap();
+    assert_eq!(problem.load_cases(), ["still", "storm", "gale"]);
+    let found = Solve::new().load_cases(&problem).unwrap();
+    let bar = &found.bars()[0];
+    assert!(near(bar.least_n.value, 120.0) && bar.least_n.case == "still");
+    assert!(near(bar.most_n.value, 250.0) && bar.most_n.case == "gale");
+    let used = bar.utilisation.as_ref().unwrap();
+    assert!(near(used.value, 250.0 / 300.0) && used.case == "gale");
+    let support = &found.supports()[0];
+    assert!(support.joint == "A" && near(support.most_n.value, 250.0));
+    // 3-4-5: from 2 m below the anchor to 1.2 m beside it and 1.6 m below.
+    let moves: Vec<f64> =
+        found.cases().iter().map(|c| c.settled.as_ref().unwrap().moves_m).collect();
+    let leans = 1.2_f64.hypot(0.4);
+    assert!(near(moves[0], 0.0) && near(moves[1], leans) && near(moves[2], leans), "{moves:?}");
+    assert_eq!(found.is_strong(), Some(false));
+    assert!(found.is_decided() && !found.check_failed());
+    let unfit = problem.in_case("calm").unwrap_err().to_string();
+    assert!(unfit.contains("\"still\", \"storm\", \"gale\""), "{unfit}");
+}
+
+/// What has no equilibrium in a case has one in the others.
+#[test]
+fn a_case_without_an_answer_leaves_the_others() {
+    let text = POLE.replace("permanent = 1.2", "permanent = 0");
+    let found = Solve::new().load_cases(&Problem::parse(&text, "pole.toml").unwrap()).unwrap();
+    let reason = found.cases()[0].settled.as_ref().unwrap_err();
+    assert_eq!(reason.outcome, funicular::Outcome::NoLoad);
+    assert!(near(found.bars()[0].least_n.value, 125.0) && found.bars()[0].least_n.case == "storm");
+    assert!(!found.is_decided() && found.is_strong() == Some(false));
+}
+
+#[test]
+fn every_command_takes_a_load_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("pole.toml"), POLE).unwrap();
+    let bare = POLE.split("[[loads]]").next().unwrap();
+    std::fs::write(folder.join("bare.toml"), bare).unwrap();
+    let (code, text, _) = run(folder, &["solve", "pole.toml", "--load-case", "each"]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.ends_with("Worst: in gale the member from A to P is at 83.3 %.\n"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let checked = |case| run(folder, &["solve", "pole.toml", "--load-case", case, "--check"]).0;
+    assert_eq!([checked("each"), checked("storm"), checked("gale")], [Some(1), Some(0), Some(1)]);
+    // The pendulum by 125 N on 10 kg and 2 m: omega^2 = 6.25 1/s^2, in both directions.
+    let (_, text, _) = run(folder, &["modes", "pole.toml", "--load-case", "storm"]);
+    assert!(text.contains("pole, storm") && text.matches(" 6.25 ").count() == 2, "{text}");
+    for (command, more) in [
+        ("census", &[][..]),
+        ("study", &["--vary", "gravity_m_s2=10"]),
+        ("derivatives", &["--of", "bars.1.axial_n"]),
+    ] {
+        let (code, text, said) =
+            run(folder, &[&[command, "pole.toml", "--load-case", "gale"], more].concat());
+        assert_eq!(code, Some(0), "{command}: {text}{said}");
+        assert!(text.contains("250"), "{command}: {text}");
+    }
+    for arguments in [
+        &["solve", "pole.toml", "--load-case", "calm"][..],
+        &["modes", "pole.toml", "--load-case", "each"],
+        &["solve", "bare.toml", "--load-case", "each"],
+        &["solve", "bare.toml", "--load-case", "storm"],
+        &["solve", "pole.toml", "--load-case", "each", "--svg", "a.svg"],
+        &["solve", "pole.toml", "--load-case", "each", "--summary"],
+        &["solve", "pole.toml", "--load-case", "each", "--without", "each"],
+        &["solve", "pole.toml", "pole.toml", "--load-case", "each"],
+    ] {
+        let (code, text, said) = run(folder, arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {text}{said}");
+        assert!(said.contains("load") && said.contains("case"), "{arguments:?}: {said}");
+    }
+    assert!(!folder.join("a.svg").exists());
+    // Several files, each in the case.
+    let (code, text, _) = run(folder, &["solve", "pole.toml", "pole.toml", "--load-case", "storm"]);
+    assert_eq!((code, text.matches("pole, storm").count()), (Some(0), 2), "{text}");
+}
