@@ -103,7 +103,7 @@ impl Animation {
     /// The HTML of the page.
     #[must_use]
     pub fn page(&self) -> String {
-        moving_page::filled(PAGE, &self.system, &self.data())
+        moving_page::filled(PAGE, self.system.name(), "", &self.data())
     }
 
     /// Everything that is drawn, as JSON of numbers and of the numbers of equilibria.

@@ -35,6 +35,10 @@ pub enum Error {
         /// The name that is nearest, if one is near.
         suggestion: Option<&'static str>,
     },
+    /// Occurs when a page is to show load paths, and a parameter has values instead of a range.
+    #[cfg(feature = "branches")]
+    #[error("a page follows a load path over a range alone, such as loads=0..1.2")]
+    PageRange,
     /// Occurs when load cases are asked for, and the file of the system has none.
     #[error(
         "this system has no load cases: tables [[cases]] with a name, and factors of its [[loads]]"

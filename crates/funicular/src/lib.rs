@@ -95,6 +95,8 @@ mod moving_page;
 #[cfg(feature = "branches")]
 mod observable;
 #[cfg(feature = "branches")]
+mod page;
+#[cfg(feature = "branches")]
 mod parameters;
 pub mod picture;
 mod problem;
@@ -103,6 +105,7 @@ mod reproduce;
 mod resting;
 mod sag;
 mod settled;
+mod shown;
 mod simulate;
 mod solve;
 #[cfg(feature = "sweep")]
@@ -141,6 +144,8 @@ pub use self::derivatives::{
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
 pub use self::load_cases::{BarEnvelope, CaseAnswer, Governing, LoadCasesAnswer, SupportEnvelope};
 pub use self::losses::{Loss, LossesAnswer};
+#[cfg(feature = "branches")]
+pub use self::page::{Page, PageAnswer};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]

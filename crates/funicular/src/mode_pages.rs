@@ -1,17 +1,14 @@
 //! Modes to look at: drawn side by side, and moving on a page.
 
-use std::fmt::Write as _;
-
 use figures::{ModeShape, ModeShapes, Seen, StructureError};
 use model::system::System;
 
 use crate::modes::{Mode, ModesAnswer, WithModes};
-use crate::moving_page::{self, comma, eye, list, places, structure};
+use crate::moving_page::eye;
+use crate::shown::{Shape, Shown};
 
 /// Most modes in one drawing: those on a large sheet.
 const MOST_DRAWN: usize = 24;
-
-const PAGE: &str = include_str!("modes.html");
 
 /// The lowest modes of an equilibrium as an SVG file, up to 24 of them: at rest, and displaced to
 /// both sides, seen from where it is asked for. Displacements are to first order, and exaggerated.
@@ -52,7 +49,7 @@ pub fn drawn_modes(
 }
 
 /// Number and frequency of a mode.
-fn heading(k: usize, mode: &Mode) -> String {
+pub(crate) fn heading(k: usize, mode: &Mode) -> String {
     let number = k + 1;
     match (mode.frequency_hz, mode.rate_1_s) {
         (Some(hz), _) => format!("{number}: {} Hz", eye(hz)),
@@ -74,29 +71,10 @@ fn heading(k: usize, mode: &Mode) -> String {
 /// ```
 #[must_use]
 pub fn animated_modes(system: &System, answer: &ModesAnswer) -> String {
-    moving_page::filled(PAGE, system, &data(system, answer))
-}
-
-/// Everything that is drawn, as JSON of numbers and of words of our own.
-fn data(system: &System, answer: &ModesAnswer) -> String {
-    let mut out = String::from("{");
-    structure(&mut out, system);
-    out.push_str("\"equilibria\":[");
-    for (k, found) in answer.equilibria.iter().enumerate() {
-        let _ = write!(out, "{}{{\"label\":\"{}\",\"x\":", comma(k), found.label);
-        places(&mut out, system, found.joints.iter().map(|joint| joint.at_m));
-        out.push_str(",\"modes\":[");
-        for (k, mode) in found.modes.iter().enumerate() {
-            let (name, what) = (heading(k, mode), &mode.what);
-            let _ =
-                write!(out, "{}{{\"name\":\"{name}\",\"what\":\"{what}\",\"omega2\":", comma(k));
-            list(&mut out, [mode.omega2_s2].into_iter());
-            out.push_str(",\"shape\":");
-            list(&mut out, mode.shape.iter().flatten().copied());
-            out.push('}');
-        }
-        out.push_str("]}");
-    }
-    out.push_str("]}");
-    out
+    let shapes = answer.equilibria.iter().map(|found| {
+        let places = found.joints.iter().map(|joint| joint.at_m);
+        Shape::bare(system, "Equilibria", &found.label, places).with_modes(&found.modes)
+    });
+    Shown { heading: "modes", play: true, shapes: shapes.collect(), ..Shown::default() }
+        .html(system, "")
 }

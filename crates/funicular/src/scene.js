@@ -1,5 +1,5 @@
 "use strict";
-// What the pages of motions and of modes share: a scene that is turned by dragging, played and paused.
+// What the pages of motions, modes, load paths and systems share: a scene that is turned by dragging, played and paused.
 // A page adds `draw()` and `advance(seconds)`, and calls `begin()` at its end.
 const get = id => document.getElementById(id);
 const data = JSON.parse(get("data").textContent);
@@ -107,7 +107,7 @@ function scale(g, share, w, h, ink) {
 }
 
 function tick(stamp) {
-  if (playing && before !== null) {
+  if (playing && !play.hidden && before !== null) {
     advance((stamp - before) / 1000);
     draw();
   }
@@ -135,6 +135,14 @@ function begin() {
     tilt = Math.max(-1.5, Math.min(1.5, tilt + event.movementY * 0.01));
     draw();
   };
+  scene.addEventListener("keydown", event => {
+    const [across, up] = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] || [];
+    if (across === undefined) return;
+    event.preventDefault();
+    turn += 0.1 * across;
+    tilt = Math.max(-1.5, Math.min(1.5, tilt + 0.1 * up));
+    draw();
+  });
   // Quarters of a turn about the vertical, and of a tilt.
   document.querySelectorAll("[data-view]").forEach(button => button.onclick = () => {
     [turn, tilt] = button.dataset.view.split(",").map(quarters => quarters * Math.PI / 2);

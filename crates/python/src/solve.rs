@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use funicular::prelude::{Solve, SolveAnswer, Vector};
-use funicular::{Error, Extremes, Lists, Weakest, picture};
+use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
@@ -184,6 +184,24 @@ pub fn load_cases<'py>(
         let is_strong = found.is_strong();
         Ok((found, is_strong))
     })
+}
+
+/// A page to look at a system; `vary` says over what load paths are followed.
+#[pyfunction]
+pub fn page<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    vary: Vec<String>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<String> {
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        watch.tell("equilibria, modes and load paths", 0, 0);
+        let page = vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;
+        Ok::<_, Error>(page.run(&of)?.html().to_owned())
+    })?;
+    found.map_err(|error| raise(&error))
 }
 
 /// An answer as JSON and as text, and what else is said of it.

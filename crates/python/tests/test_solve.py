@@ -120,6 +120,14 @@ def test_load_cases_and_their_envelope():
         fn.System.case("lamp").load_cases()
 
 
+def test_a_page_to_look_at():
+    system = fn.System.case("lamp")
+    text = system.page("loads=0.5..2")
+    assert text.startswith("<!DOCTYPE html>") and text.count("Load paths") == 1 and system.page() != text
+    with pytest.raises(fn.Error, match="range alone"):
+        fn.System.case("two-bars").page("anchors.end_m.x=0.4..1.6:5")
+
+
 def gable():
     # Feet 6 m apart, two bars of 5 m and EA = 1000 N, 10 kg between them.
     return fn.System.from_arrays(

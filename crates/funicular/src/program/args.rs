@@ -113,6 +113,10 @@ pub enum Command {
     Derivatives(crate::derivatives::Arguments),
     /// Follow all equilibria over a parameter: branches, folds, exchanges of stability
     Trace(crate::trace::Arguments),
+    /// Write a page to look at a system: turn it, choose an equilibrium, a load case, a mode, and move
+    /// along a load path
+    #[command(after_help = ALL_OR_NOTHING)]
+    Page(crate::page::Arguments),
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
     /// Find the frequencies and shapes of small oscillations, and how fast unstable equilibria are

@@ -13,7 +13,7 @@ use crate::guide;
 
 /// The commands, by what they are for.
 const GROUPS: [(&str, &[&str]); 6] = [
-    ("Equilibria", &["solve", "census", "study", "derivatives", "trace"]),
+    ("Equilibria", &["solve", "census", "study", "derivatives", "trace", "page"]),
     ("Motion", &["modes", "simulate"]),
     ("Answers of others", &["judge"]),
     ("Many starts", &["sweep", "basins", "merge"]),
@@ -39,7 +39,7 @@ const MEANT: [(&str, &str); 8] = [
     ("system", "`funicular new` prints a system file, `funicular solve FILE` solves it"),
     ("plot", "`funicular solve FILE --svg picture.svg` draws"),
     ("draw", "`funicular solve FILE --svg picture.svg` draws"),
-    ("view", "`funicular solve FILE --svg picture.svg` draws"),
+    ("view", "`funicular page FILE --out page.html` shows it from all sides"),
     (
         "animate",
         "`funicular simulate FILE --html motion.html` and `funicular modes FILE --html modes.html` move",

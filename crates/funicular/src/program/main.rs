@@ -26,6 +26,7 @@ mod merge;
 mod modes;
 mod new;
 mod output;
+mod page;
 mod printed;
 mod progress;
 mod reproduce;
@@ -65,6 +66,7 @@ fn main() -> std::process::ExitCode {
         Command::Study(arguments) => study::run(&arguments),
         Command::Derivatives(arguments) => derivatives::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
+        Command::Page(arguments) => page::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

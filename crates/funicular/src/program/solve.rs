@@ -292,7 +292,7 @@ fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
 }
 
 /// A failed check is worse than an answer that is missing or has not converged.
-fn verdict(answer: &SolveAnswer) -> Exit {
+pub fn verdict(answer: &SolveAnswer) -> Exit {
     each::exit(answer.check_failed(), answer.is_decided())
 }
 

@@ -40,7 +40,7 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     );
     let equilibria = solution.equilibria();
     if let Some(first) = equilibria.first() {
-        text += &shape(system, first, summary);
+        text += &shape(system, first, Some(summary));
         text += &energy(first);
     }
     text += &question(solution);
@@ -89,6 +89,12 @@ fn energy(found: &SystemEquilibrium) -> String {
         index => format!(", the energy falls in {index} directions"),
     };
     format!("Energy: {energy}, {}{index}.\n", word(&found.stability.in_space))
+}
+
+/// What stands out in an equilibrium, and its energy.
+#[cfg(feature = "branches")]
+pub fn facts(system: &System, found: &SystemEquilibrium) -> String {
+    shape(system, found, None) + &energy(found)
 }
 
 /// Which question is answered where no shape was given.
@@ -213,7 +219,8 @@ fn overview(equilibria: &[SystemEquilibrium]) -> String {
     format!("{table}\n(in brackets: the number of directions in which the energy falls)\n\n")
 }
 
-fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
+/// An equilibrium in tables, those of joints left out in a summary, and what stands out; or that alone.
+fn shape(system: &System, e: &SystemEquilibrium, tables: Option<bool>) -> String {
     let held = system.joints().iter().zip(&e.reactions_n).enumerate();
     let lies = |force: &[f64; 3]| force.iter().any(|n| n.abs() > 0.0);
     // What a plane keeps in it, as that of a planar drawing, is shown where it bears something.
@@ -232,7 +239,7 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
         solver: &e.solver,
     };
-    shape.text(summary)
+    tables.map_or_else(|| shape.summary(), |summary| shape.text(summary))
 }
 
 /// What a member without force does: a cable or a strut may be away from its length, or have it and

@@ -30,3 +30,5 @@ pub mod tables;
 mod trace;
 
 pub use answer::answer;
+#[cfg(feature = "branches")]
+pub(crate) use answer::facts;

@@ -195,7 +195,7 @@ impl Shape<'_> {
     }
 
     /// Sag, lowest joint, largest forces and where.
-    fn summary(&self) -> String {
+    pub fn summary(&self) -> String {
         let Some(extremes) = &self.extremes else { return String::new() };
         let places = Rounded::of(self.joints_m.as_flattened());
         let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", short);

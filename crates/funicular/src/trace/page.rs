@@ -1,75 +1,73 @@
 //! Load paths as one HTML file: the shape at every point, and the load over what is shown.
 
-use std::fmt::Write as _;
+use std::collections::BTreeMap;
 
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::json;
 
 use super::load::{LoadPath, LoadPaths};
-use crate::moving_page::{self, comma, list, places, structure};
+use crate::moving_page::{flat, plain, six};
+use crate::shown::Shown;
 use crate::text::load::happens;
 
-const PAGE: &str = include_str!("../load_path.html");
+/// The shapes along a path.
+#[derive(Debug, Serialize)]
+struct Path {
+    group: &'static str,
+    label: String,
+    load: Vec<f64>,
+    of: Vec<Option<f64>>,
+    stable: Vec<bool>,
+    /// What happens, by the numbers of the points.
+    events: BTreeMap<usize, String>,
+    x: Vec<Vec<f64>>,
+    axial: Vec<Vec<f64>>,
+}
+
+impl Shown {
+    /// The same with load paths beside it.
+    pub(crate) fn with_paths(self, found: &LoadPaths) -> Self {
+        let named = |name: &str, unit: &str| match unit {
+            "1" => plain(name),
+            _ => plain(&format!("{name} / {unit}")),
+        };
+        let last = found.parameters.len().saturating_sub(1);
+        let of =
+            found.of.first().map_or_else(|| "point".to_owned(), |(name, unit)| named(name, unit));
+        let paths =
+            found.paths.iter().enumerate().map(|(k, path)| json!(one(found, k, path, last)));
+        let load = named(&found.parameters[last], found.units[last]);
+        Self { load, of, paths: paths.collect(), ..self }
+    }
+}
 
 /// The HTML of the page.
 pub(super) fn page(found: &LoadPaths) -> String {
-    moving_page::filled(PAGE, &found.system, &data(found))
+    let shown = Shown { heading: "load path", play: true, ..Shown::default() };
+    shown.with_paths(found).html(&found.system, "")
 }
 
-/// A text as JSON, in which nothing looks like the end of a script.
-fn quoted(text: &str) -> String {
-    Value::from(text.replace(model::steers, " ")).to_string().replace('<', "\\u003c")
-}
-
-fn data(found: &LoadPaths) -> String {
-    let named = |name: &str, unit: &str| match unit {
-        "1" => quoted(name),
-        _ => quoted(&format!("{name} / {unit}")),
-    };
-    let last = found.parameters.len().saturating_sub(1);
-    let load = named(&found.parameters[last], found.units[last]);
-    let of = found.of.first().map_or_else(|| quoted("point"), |(name, unit)| named(name, unit));
-    let mut out = format!("{{\"load\":{load},\"of\":{of},");
-    structure(&mut out, &found.system);
-    out.push_str("\"paths\":[");
-    for (k, path) in found.paths.iter().enumerate() {
-        out.push_str(comma(k));
-        one(&mut out, found, path, last);
+fn one(found: &LoadPaths, number: usize, path: &LoadPath, last: usize) -> Path {
+    let from = path.branches_from.as_ref();
+    let from = from.map_or_else(String::new, |from| format!(", from path {}", from.path + 1));
+    let points = path.points.iter().enumerate();
+    let events = path.events.iter().map(|event| (event.point, plain(&happens(event))));
+    Path {
+        group: "Load paths",
+        label: format!("path {}{from}", number + 1),
+        load: path.points.iter().map(|point| six(point.values[last])).collect(),
+        of: points.map(|(k, point)| point.of.first().map_or(Some(k as f64), |of| *of)).collect(),
+        stable: path.points.iter().map(|point| point.index == 0).collect(),
+        events: events.collect(),
+        x: path
+            .points
+            .iter()
+            .map(|point| flat(&found.system, point.joints_m.iter().copied()))
+            .collect(),
+        axial: path
+            .points
+            .iter()
+            .map(|point| point.axial_n.iter().copied().map(six).collect())
+            .collect(),
     }
-    out.push_str("]}");
-    out
-}
-
-fn one(out: &mut String, found: &LoadPaths, path: &LoadPath, last: usize) {
-    let from = path
-        .branches_from
-        .map_or_else(String::new, |from| format!(", from path {}", from.path + 1));
-    let _ = write!(out, "{{\"from\":{},\"load\":", quoted(&from));
-    list(out, path.points.iter().map(|point| point.values[last]));
-    out.push_str(",\"of\":[");
-    for (k, point) in path.points.iter().enumerate() {
-        let shown = match point.of.first() {
-            Some(shown) => *shown,
-            None => Some(k as f64),
-        };
-        let _ = write!(out, "{}{}", comma(k), shown.map_or(Value::Null, Value::from));
-    }
-    out.push_str("],\"stable\":[");
-    for (k, point) in path.points.iter().enumerate() {
-        let _ = write!(out, "{}{}", comma(k), u8::from(point.index == 0));
-    }
-    out.push_str("],\"events\":{");
-    for (k, event) in path.events.iter().enumerate() {
-        let _ = write!(out, "{}\"{}\":{}", comma(k), event.point, quoted(&happens(event)));
-    }
-    out.push_str("},\"x\":[");
-    for (k, point) in path.points.iter().enumerate() {
-        out.push_str(comma(k));
-        places(out, &found.system, point.joints_m.iter().copied());
-    }
-    out.push_str("],\"axial\":[");
-    for (k, point) in path.points.iter().enumerate() {
-        out.push_str(comma(k));
-        list(out, point.axial_n.iter().copied());
-    }
-    out.push_str("]}");
 }

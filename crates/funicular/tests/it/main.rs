@@ -24,6 +24,7 @@ mod load_paths;
 mod material;
 mod modes;
 mod motion;
+mod page;
 mod pages;
 mod printing;
 mod program;

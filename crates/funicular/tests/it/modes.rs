@@ -196,7 +196,7 @@ fn modes_are_drawn_and_moved_on_a_page() {
     assert!(page.contains("double &lt;&amp;&gt; pendulum") && !page.contains("http"), "{page}");
     let data = page.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: Value = serde_json::from_str(data).unwrap();
-    let modes = data["equilibria"][0]["modes"].as_array().unwrap();
+    let modes = data["shapes"][0]["modes"].as_array().unwrap();
     assert_eq!((modes.len(), modes[0]["shape"].as_array().unwrap().len()), (4, 9));
     let omega2 = modes[3]["omega2"][0].as_f64().unwrap();
     assert!((omega2 - 34.142).abs() < 1e-3, "{omega2}");

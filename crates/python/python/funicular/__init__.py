@@ -16,6 +16,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the equilibrium over a parameter | :meth:`System.study` |
 | the loss of each member | :func:`losses` |
 | load cases and their envelope | :func:`load_cases` |
+| a page to look at it | :func:`page` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
@@ -43,7 +44,7 @@ from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
-from .study import Gradient, LoadCases, Losses, Study, anchor_stiffness, change, gradient, load_cases, losses, study
+from .study import Gradient, LoadCases, Losses, Study, anchor_stiffness, change, gradient, load_cases, losses, page, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -101,6 +102,7 @@ __all__ = [
     "load_cases",
     "losses",
     "modes",
+    "page",
     "reproduce",
     "set_threads",
     "simulate",

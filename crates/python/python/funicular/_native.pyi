@@ -26,6 +26,7 @@ __all__ = [
     "load_cases",
     "losses",
     "modes",
+    "page",
     "pullback",
     "reproduce",
     "set_threads",
@@ -163,6 +164,7 @@ def study(
     progress: _Progress,
 ) -> tuple[str, str, list[str], bool, bool, str]: ...
 def load_cases(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool | None]: ...
+def page(problem: Problem, vary: list[str], threads: int, progress: _Progress) -> str: ...
 def losses(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool]: ...
 def derivatives(
     problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress

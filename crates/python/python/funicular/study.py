@@ -202,6 +202,21 @@ def load_cases(
     return LoadCases(system, *found)
 
 
+def page(system: Described, *vary: str, threads: int = 0, progress: Progress = None) -> str:
+    """A page to look at a system: the text of an HTML file that needs nothing else.
+
+    It shows the answer of both solvers, all equilibria where a census is complete, the load cases and the lowest modes; over a
+    range, ``"loads=0.5..2"``, also the load path, with a slider.
+
+    >>> import funicular as fn
+    >>> text = fn.page(fn.System.case("lamp"), "loads=0.5..2")
+    >>> text.startswith("<!DOCTYPE html>"), "Load paths" in text
+    (True, True)
+    """
+    with shown(progress) as callback:
+        return _native.page(described(system)._problem, list(map(str, vary)), whole("threads", threads), callback)
+
+
 class Gradient(Record):
     """The derivatives of one number of an equilibrium: ``of``, ``value`` (m or N), ``derivatives``; ``gradient["bars.1.length_m"]``
     is the derivative by that parameter, ``table`` has all with their units."""

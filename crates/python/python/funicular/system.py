@@ -495,6 +495,12 @@ class System:
 
         return load_cases(self, **settings)
 
+    def page(self, *vary: str, **settings: Any) -> str:
+        """The text of an HTML file on which the system is looked at. See :func:`funicular.page`."""
+        from .study import page
+
+        return page(self, *vary, **settings)
+
     def losses(self, **settings: Any) -> Losses:
         """The loss of each member in turn. See :func:`funicular.losses`."""
         from .study import losses

@@ -1,0 +1,133 @@
+//! `funicular page`: what a page shows is what the solvers say.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use funicular::{Page, prelude::*};
+use serde_json::Value;
+
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn data(page: &str) -> Value {
+    let data = page.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
+    serde_json::from_str(data).unwrap()
+}
+
+fn near(found: &Value, wanted: f64) -> bool {
+    (found.as_f64().unwrap() - wanted).abs() < 1e-4 * wanted.abs().max(1.0)
+}
+
+/// A lamp of 100 N on two ropes, 3-4-5: 62.5 N in each. Its side wind of 75 N makes 125 N of it.
+const LAMP: &str = "name = \"lamp </script><b>&\"\ngravity_m_s2 = 10\n\
+    joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, \"</script>\" = { mass_kg = 10 } }\n\
+    bars = [{ from = \"A\", to = \"</script>\", length_m = 5, mass_kg = 0, strength_n = 250 },\n\
+            { from = \"B\", to = \"</script>\", length_m = 5, mass_kg = 0 }]\n\
+    [[loads]]\nname = \"wind\"\njoint = \"</script>\"\nforce_n = [0, 75, 0]\n\
+    [[cases]]\nname = \"still\"\nfactors = {}\n[[cases]]\nname = \"storm\"\nfactors = { wind = 1 }\n\
+    [[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
+
+#[test]
+fn equilibria_load_cases_modes_and_a_path_of_a_lamp() {
+    let problem = Problem::parse(LAMP, "lamp.toml").unwrap();
+    let page = Page::new().vary("loads=0.5..2").unwrap().run(&problem).unwrap();
+    assert!(page.answer().agrees());
+    let html = page.html();
+    assert!(html.contains("<title>lamp &lt;/script&gt;&lt;b&gt;&amp;</title>"));
+    assert!(!html.contains("http") && html.matches("</script>").count() == 2);
+    let data = data(html);
+    assert_eq!(data["names"], serde_json::json!(["A", "B", "</script>"]));
+    assert_eq!((&data["bars"][1], &data["held"][2]), (&serde_json::json!([1, 2]), &0.into()));
+    let shapes = data["shapes"].as_array().unwrap();
+    let of = |group: &str, label: &str| {
+        let of = |shape: &&Value| {
+            shape["group"] == group && shape["label"].as_str().unwrap().starts_with(label)
+        };
+        shapes.iter().find(of).unwrap_or_else(|| panic!("{group}, {label}"))
+    };
+    let answer = of("Equilibria", "the answer");
+    assert!(near(&answer["axial"][0], 78.125) && near(&answer["used"][0], 0.3125));
+    assert!(answer["used"][1].is_null());
+    let [y, z] = [7, 8].map(|k| answer["x"][k].clone());
+    assert!(near(&y, 2.4) && near(&z, -3.2), "{y} {z}");
+    assert!(answer["facts"].as_str().unwrap().contains("Largest tension: 78.125 N"));
+    assert!(near(&answer["ground"][0][1][2], 50.0));
+    let rung = |name: &str| {
+        let rungs = answer["rungs"].as_array().unwrap();
+        rungs.iter().find(|rung| rung[1] == name).unwrap()[0].as_bool().unwrap()
+    };
+    assert!(rung("agreed") && rung("optimal"));
+    assert!(near(&of("Load cases", "still")["axial"][0], 62.5));
+    assert!(near(&of("Load cases", "storm")["axial"][0], 78.125));
+    assert_eq!(shapes.iter().filter(|shape| shape["group"] == "Load cases").count(), 2);
+    // A pendulum of 4 m under 12.5 m/s^2 swings across.
+    let modes = shapes.iter().find_map(|shape| shape["modes"].as_array()).unwrap();
+    assert!(modes.iter().any(|mode| near(&mode["omega2"][0], 12.5 / 4.0)), "{modes:?}");
+    let path = &data["paths"][0];
+    let last = path["load"].as_array().unwrap().len() - 1;
+    assert!(near(&path["load"][0], 0.5) && near(&path["load"][last], 2.0));
+    assert!(near(&path["axial"][last][0], 2.0 * 78.125) && path["stable"][last] == true);
+    assert_eq!(data["load"], "loads");
+}
+
+/// A case of the paper has a census: its four equilibria stand beside the answer.
+#[test]
+fn all_equilibria_of_the_paper() {
+    let page = Page::new().run(&Problem::case("three-equal-bars").unwrap()).unwrap();
+    let data = data(page.html());
+    let census = Census::new().run(&Problem::case("three-equal-bars").unwrap()).unwrap();
+    let labels: Vec<&str> = data["shapes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|shape| shape["label"].as_str().unwrap())
+        .collect();
+    assert_eq!(labels.len(), 1 + 4, "{labels:?}\n{census}");
+    assert_eq!(labels.iter().filter(|label| label.contains("unstable")).count(), 2, "{labels:?}");
+}
+
+#[test]
+fn the_program_writes_a_page_or_says_why_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("lamp.toml"), LAMP).unwrap();
+    let (code, text, said) = run(folder, &["page", "lamp.toml", "--out", "page.html"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert_eq!(text, "page.html: 1 equilibrium with modes, 2 load cases, 0 load paths; agreed\n");
+    let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
+    let again = Page::new().run(&Problem::parse(LAMP, "lamp.toml").unwrap()).unwrap();
+    assert!(page == again.html());
+    let (code, text, _) =
+        run(folder, &["page", "lamp.toml", "--load-case", "storm", "--out", "storm.html"]);
+    assert_eq!((code, text.contains("0 load cases")), (Some(0), true), "{text}");
+    for (arguments, words) in [
+        (&["--out", "a.html", "--vary", "joints.Q.mass_kg=1..2"][..], "Q"),
+        (&["--out", "lamp.toml"], "lamp.toml"),
+        (&[], "--out"),
+        (&["--out", "a.html", "--load-case", "calm"], "no load case"),
+    ] {
+        let (code, _, said) = run(folder, &[&["page", "lamp.toml"], arguments].concat());
+        assert_eq!(code, Some(2), "{arguments:?}: {said}");
+        assert!(said.contains(words), "{said}");
+    }
+    let values = ["--case", "two-bars", "--vary", "anchors.end_m.x=1,1.5", "--out", "a.html"];
+    let (code, _, said) = run(folder, &[&["page"], &values[..]].concat());
+    assert!(code == Some(2) && said.contains("range alone"), "{said}");
+    assert!(!folder.join("a.html").exists());
+    assert_eq!(std::fs::read_to_string(folder.join("lamp.toml")).unwrap(), LAMP);
+}
+
+/// A net of 112 bars with a load path stays below a megabyte.
+#[test]
+fn a_page_of_a_hundred_members_is_small() {
+    let problem = Problem::case("net").unwrap();
+    let page = Page::new().vary("loads=0.5..2").unwrap().run(&problem).unwrap();
+    let members = funicular::system_of(&problem).members().len();
+    assert!(page.html().len() < 10_000 * members.max(100), "{} for {members}", page.html().len());
+}
