@@ -6,18 +6,19 @@ use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::strength;
 use super::table::Table;
+use super::tolerance;
 use crate::Chain;
 use crate::system::System;
 
 const LOAD_KEYS: &[&str] = &["joint", "mass_kg", "force_n"];
 const WANTED: &str = "one or more tables [[loads]] with joint, and mass_kg or force_n";
 
-/// The chain as a system with the loads of the file at its joints and the strengths of its bars, above
-/// its floor.
+/// The chain as a system with the loads of the file at its joints, the strengths of its bars and the
+/// tolerances of its numbers, above its floor.
 pub(super) fn put(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
     let system =
         if root.get("loads").is_some() { loaded(root, chain)? } else { System::from(chain) };
-    let system = strength::put(root, system)?;
+    let system = tolerance::put(root, strength::put(root, system)?)?;
     match root.number("floor_m")? {
         None => Ok(system),
         Some(floor_m) => {
