@@ -22,3 +22,4 @@ mod support;
 mod system_numbers;
 mod systems;
 mod texts;
+mod tolerances;
