@@ -4,6 +4,7 @@ mod batch;
 mod lines;
 mod object;
 mod several;
+mod tolerances;
 mod without;
 
 use std::path::{Path, PathBuf};
@@ -99,6 +100,19 @@ pub struct Solve {
     /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
     #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "equations", "near"])]
     pub without: Option<String>,
+    /// Bound all places and forces over the tolerances of the file (`length_tolerance_m` and the like):
+    /// guaranteed ranges, in interval arithmetic
+    ///
+    /// The exit code is 3 where there is no proof for all values, with --check 1 where a bar may be weaker
+    /// than wanted. The guide has an example, `funicular guide systems`.
+    #[arg(long, conflicts_with_all = ["batch", "without", "csv", "bars_csv", "svg", "columns", "summary", "evidence"])]
+    pub tolerances: bool,
+    /// Solve so many random values within the tolerances too, for standard deviations
+    #[arg(long, value_name = "N", requires = "tolerances", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub monte_carlo: Option<u32>,
+    /// From which number the random values follow
+    #[arg(long, value_name = "SEED", requires = "monte_carlo", default_value_t = 1)]
+    pub seed: u64,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -210,6 +224,9 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     }
     if arguments.without.is_some() {
         return without::run(arguments, &problem, progress);
+    }
+    if arguments.tolerances {
+        return tolerances::run(arguments, &problem, progress);
     }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;

@@ -24,6 +24,7 @@ mod study;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod tables;
+mod tolerances;
 #[cfg(feature = "branches")]
 mod trace;
 
