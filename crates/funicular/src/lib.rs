@@ -117,6 +117,7 @@ mod sweep;
 #[doc(hidden)]
 pub mod text;
 mod threads;
+mod tolerances;
 #[cfg(feature = "branches")]
 mod trace;
 mod weakest;
@@ -160,6 +161,7 @@ pub use self::trace::load::{
 };
 #[cfg(feature = "branches")]
 pub use self::trace::{Confirmed, PathProved, Trace, TraceAnswer};
+pub use ::census::network::{NoRanges, Range, ToleranceRanges};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]
@@ -185,4 +187,5 @@ pub use settled::{Outcome, Settled, Unsettled};
 pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;
+pub use tolerances::{Drawn, Draws, TolerancesAnswer};
 pub use weakest::Weakest;

@@ -34,11 +34,11 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             }
         }
         Joint {
-            name: joint.name.clone(),
             support,
             mass_kg: joint.mass_kg * mass,
             force_n: times(joint.force_n, force),
             near_m: joint.near_m.map(|at_m| times(at_m, length)),
+            ..Joint::free(joint.name.clone())
         }
     });
     let members = system.members().iter().map(|member| {
@@ -56,6 +56,7 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             stiffness_n: given.stiffness_n.map(|stiffness_n| stiffness_n * force),
             length_tolerance_m: given.length_tolerance_m.map(|within_m| within_m * length),
             loads: given.loads.iter().map(load).collect(),
+            tolerances: None,
             ..given
         };
         match member.prestress_n() {

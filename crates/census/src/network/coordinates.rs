@@ -11,7 +11,7 @@ use super::frame::Frame;
 pub(super) struct Coordinates {
     /// Number of the first of its unknowns.
     pub(super) first: usize,
-    origin: Vector,
+    pub(super) origin: Vector,
     /// The directions; what holds the joint is exactly normal to them.
     pub(super) axes: Vec<Vector>,
 }
@@ -46,10 +46,13 @@ impl Coordinates {
 
     /// The place at these unknowns.
     pub(super) fn place(&self, unknowns: &[Interval]) -> Vector {
-        self.axes
-            .iter()
-            .zip(&unknowns[self.first..])
-            .fold(self.origin, |place, (axis, t)| plus(place, times(*t, *axis)))
+        plus(self.origin, self.step(unknowns))
+    }
+
+    /// A step along the directions.
+    pub(super) fn step(&self, by: &[Interval]) -> Vector {
+        let steps = self.axes.iter().zip(&by[self.first..]);
+        steps.fold(NOWHERE, |all, (axis, t)| plus(all, times(*t, *axis)))
     }
 
     /// The coordinates next to a place.

@@ -19,7 +19,7 @@ pub(super) struct Acting {
     /// Its number in the system.
     pub(super) member: usize,
     pub(super) ends: [usize; 2],
-    length: Interval,
+    pub(super) length: Interval,
     /// 0 for an inextensible one.
     pub(super) compliance: Interval,
     /// Number of its force density among the unknowns, and of its equation.
@@ -33,7 +33,7 @@ pub(super) struct Hold {
     pub(super) centre: usize,
     pub(super) across: Vector,
     /// Number of the unknown force and of the equation.
-    number: usize,
+    pub(super) number: usize,
 }
 
 /// As many equations as unknowns: coordinates of joints, force densities, forces that hold free
@@ -44,7 +44,9 @@ pub(super) struct Equations {
     pub(super) joints: Vec<Coordinates>,
     pub(super) acting: Vec<Acting>,
     pub(super) holds: Vec<Hold>,
-    loads: Vec<Vector>,
+    pub(super) loads: Vec<Vector>,
+    /// Lengths of all members.
+    pub(super) lengths: Vec<Interval>,
     /// Number of unknowns.
     pub(super) size: usize,
 }
@@ -70,10 +72,13 @@ impl Equations {
             size += coordinates.axes.len();
             joints.push(coordinates);
         }
+        let lengths = system.members().iter();
+        let lengths: Vec<Interval> =
+            lengths.map(|member| frame.length(Interval::point(member.body.length_m()))).collect();
         let mut acting = vec![];
         for (k, member) in system.members().iter().enumerate() {
             if activities[k] == Activity::Acts {
-                let length = frame.length(Interval::point(member.body.length_m()));
+                let length = lengths[k];
                 let compliance = frame.compliance(member);
                 let ends = [member.from, member.to];
                 acting.push(Acting { member: k, ends, length, compliance, density: size });
@@ -87,7 +92,8 @@ impl Equations {
             holds.push(Hold { arm: turn.arm, centre: turn.centre, across, number: size });
             size += 1;
         }
-        Self { frame, joints, acting, holds, loads: frame.loads(system), size }
+        let loads = frame.loads(system);
+        Self { frame, joints, acting, holds, loads, lengths, size }
     }
 
     /// The same under other loads of the joints, in units.
@@ -187,7 +193,7 @@ impl Equations {
         entries
     }
 
-    fn slope_of_holds(&self, entries: &mut Vec<Entry>) {
+    pub(super) fn slope_of_holds(&self, entries: &mut Vec<Entry>) {
         for hold in &self.holds {
             let (arm, centre) = (&self.joints[hold.arm], &self.joints[hold.centre]);
             for (k, axis) in arm.axes.iter().enumerate() {
@@ -223,7 +229,7 @@ impl Acting {
     }
 
     /// Derivative of the misfit by the span.
-    fn gradient(&self, span: Vector, density: Interval) -> Vector {
+    pub(super) fn gradient(&self, span: Vector, density: Interval) -> Vector {
         if self.is_rigid() {
             span
         } else {
@@ -234,7 +240,7 @@ impl Acting {
     }
 
     /// Derivative of the misfit by the force density.
-    fn give(&self, span: Vector) -> Interval {
+    pub(super) fn give(&self, span: Vector) -> Interval {
         if self.is_rigid() { Interval::ZERO } else { -(self.compliance * norm(span)) }
     }
 }

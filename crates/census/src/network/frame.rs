@@ -4,7 +4,7 @@ use model::system::{Member, System};
 use model::{Bar, Vector as Point};
 use numerics::{Interval, lever};
 
-use super::arithmetic::{NOWHERE, Vector, plus, points, sum, times};
+use super::arithmetic::{Vector, plus, points, product, sum, times};
 
 /// Powers of two, so that scaling rounds nothing.
 #[derive(Debug, Clone, Copy)]
@@ -78,12 +78,8 @@ impl Frame {
             .joints()
             .iter()
             .map(|joint| {
-                let own = if joint.mass_kg > 0.0 {
-                    weight(system, Interval::point(joint.mass_kg))
-                } else {
-                    NOWHERE
-                };
-                plus(own, points(joint.force_n)).map(|part| self.force(part))
+                let own = self.weight(system, Interval::point(joint.mass_kg));
+                plus(own, points(joint.force_n).map(|part| self.force(part)))
             })
             .collect();
         for member in system.members() {
@@ -98,16 +94,32 @@ impl Frame {
     pub(super) fn share(&self, system: &System, member: &Member, is_start: bool) -> Vector {
         let body = &member.body;
         let end = if is_start { End::Start } else { End::End };
-        let part = end.share(body, body.centre_m());
-        let mut share = if body.mass_kg() > 0.0 && part != Interval::ZERO {
-            weight(system, Interval::point(body.mass_kg()) * part)
-        } else {
-            NOWHERE
-        };
+        let mut share =
+            self.weight_share(system, member, Interval::point(body.mass_kg()), is_start);
         for load in &member.loads {
-            share = plus(share, times(end.share(body, load.at_m), points(load.force_n)));
+            let force = times(end.share(body, load.at_m), points(load.force_n));
+            share = plus(share, force.map(|part| self.force(part)));
         }
-        share.map(|part| self.force(part))
+        share
+    }
+
+    /// What it leaves it of the weight of a mass of the member, in units.
+    pub(super) fn weight_share(
+        &self,
+        system: &System,
+        member: &Member,
+        mass_kg: Interval,
+        is_start: bool,
+    ) -> Vector {
+        let end = if is_start { End::Start } else { End::End };
+        let part = end.share(&member.body, member.body.centre_m());
+        self.weight(system, product(mass_kg, part))
+    }
+
+    /// The weight of a mass, in units.
+    pub(super) fn weight(&self, system: &System, mass_kg: Interval) -> Vector {
+        let g = Interval::point(system.gravity_m_s2());
+        [Interval::ZERO, Interval::ZERO, -self.force(product(mass_kg, g))]
     }
 
     /// `l/EA` of a member in units; exactly 0 for an inextensible one.
@@ -117,12 +129,6 @@ impl Frame {
                 / self.force(Interval::point(stiffness_n))
         })
     }
-}
-
-/// The weight of a mass, N.
-fn weight(system: &System, mass_kg: Interval) -> Vector {
-    let g = Interval::point(system.gravity_m_s2());
-    [Interval::ZERO, Interval::ZERO, -(mass_kg * g)]
 }
 
 /// An end of a member.

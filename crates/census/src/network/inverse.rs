@@ -63,11 +63,15 @@ impl Inverse {
 
     /// $R r$.
     pub(super) fn apply(&self, right: &[Interval]) -> Vec<Interval> {
-        let row = |row: &[f64]| {
+        self.of_rows(|row: &[f64]| {
             let parts = row.iter().zip(right).filter(|(_, part)| **part != Interval::ZERO);
             parts.map(|(x, part)| part.times(*x)).sum()
-        };
-        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(row).collect()
+        })
+    }
+
+    /// Something of each row of $R$.
+    pub(super) fn of_rows<T: Send>(&self, of: impl Fn(&[f64]) -> T + Sync + Send) -> Vec<T> {
+        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(of).collect()
     }
 
     /// $M^{-1} r$ for the middle of a matrix near to the inverted one, in double precision. No proof.
@@ -111,6 +115,15 @@ impl Inverse {
 
     /// Bounds of $|I - R M|$ over a matrix.
     pub(super) fn defect(&self, entries: &[Entry]) -> Defect {
+        self.defect_by(|row, rest| {
+            for (through, column, entry) in entries {
+                rest[*column] = rest[*column] - entry.times(row[*through]);
+            }
+        })
+    }
+
+    /// The same where `subtract` takes a row of $R M$ off, given the row of $R$.
+    pub(super) fn defect_by(&self, subtract: impl Fn(&[f64], &mut [Interval]) + Sync) -> Defect {
         let size = self.size;
         let mut bounds = vec![0.0; self.rows.len()];
         let each = bounds.par_chunks_exact_mut(size.max(1));
@@ -118,9 +131,7 @@ impl Inverse {
         each.enumerate().for_each(|(k, (bounds, row))| {
             let mut rest = vec![Interval::ZERO; size];
             rest[k] = Interval::ONE;
-            for (through, column, entry) in entries {
-                rest[*column] = rest[*column] - entry.times(row[*through]);
-            }
+            subtract(row, &mut rest);
             bounds.iter_mut().zip(rest).for_each(|(bound, rest)| *bound = rest.mag());
         });
         Defect { size, rows: bounds }
@@ -148,7 +159,7 @@ impl Defect {
     }
 
     /// All $M^{-1} r$, of which $z = R r$ is given; nothing where the matrix is not proved to be regular.
-    fn enclose(&self, middle: &[Interval]) -> Option<Vec<Interval>> {
+    pub(super) fn enclose(&self, middle: &[Interval]) -> Option<Vec<Interval>> {
         let guess: Vec<f64> = middle.iter().map(|z| 2.0 * z.mag() + f64::MIN_POSITIVE).collect();
         let [_, mut through] = self.bound(middle, &guess)?;
         let around = |through: &[f64]| -> Vec<Interval> {

@@ -86,6 +86,7 @@ mod prove;
 mod proven;
 mod side;
 mod symmetry;
+mod tolerances;
 mod tube;
 mod turns;
 
@@ -97,3 +98,4 @@ pub use limit::{MAX_LIMIT_UNKNOWNS, prove_singular};
 pub use path::{MAX_PATH_UNKNOWNS, PathProof, SingularKind, prove_path};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;
+pub use tolerances::{NoRanges, Range, ToleranceRanges, prove_ranges};

@@ -28,6 +28,19 @@ pub(super) struct Refined {
 /// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead
 /// away.
 pub(super) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, NoBox> {
+    refine_within(REACH, equations, start)
+}
+
+/// Refine a guess that may be so far from the zero.
+///
+/// # Errors
+///
+/// As [`refine`].
+pub(super) fn refine_within(
+    reach: f64,
+    equations: &Equations,
+    start: &[f64],
+) -> Result<Refined, NoBox> {
     let mut at = start.to_vec();
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
@@ -40,7 +53,7 @@ pub(super) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, No
         let size = step.iter().map(|step| step.abs()).fold(0.0, f64::max);
         let away = next.iter().zip(start).any(|(x, from)| {
             let distance = (x - from).abs();
-            distance.is_nan() || distance > REACH * (1.0 + from.abs())
+            distance.is_nan() || distance > reach * (1.0 + from.abs())
         });
         if away {
             return Err(NoBox::NotConverged);

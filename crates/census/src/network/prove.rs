@@ -82,7 +82,7 @@ pub(super) fn prove_without_floor(
 pub(super) struct Posed {
     pub(super) equations: Equations,
     pub(super) activities: Vec<Activity>,
-    loose: Vec<bool>,
+    pub(super) loose: Vec<bool>,
 }
 
 impl Posed {
@@ -169,7 +169,7 @@ pub(super) fn complementarity(
         }
     }
     for (k, member) in system.members().iter().enumerate() {
-        let length = equations.frame.length(Interval::point(member.body.length_m()));
+        let length = equations.lengths[k];
         let distance = squared(minus(places[member.to], places[member.from]));
         let slack = match member.kind {
             Kind::Bar => false,

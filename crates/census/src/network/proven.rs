@@ -85,15 +85,27 @@ impl SystemBox {
 /// The force of an elastic member between two anchors by its law alone, N; a rigid one there is
 /// slack.
 pub(super) fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
-    let distance = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
-    let stretch = distance / Interval::point(member.body.length_m()) - Interval::ONE;
-    let [least, most] = match member.kind {
+    let distance_m = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
+    let length_m = Interval::point(member.body.length_m());
+    let spring =
+        |stiffness_n| spring_n(member.kind, Interval::point(stiffness_n), distance_m, length_m);
+    member.stiffness_n.map_or(Interval::ZERO, spring)
+}
+
+/// The force of an elastic member of a distance, N.
+pub(super) fn spring_n(
+    kind: Kind,
+    stiffness_n: Interval,
+    distance_m: Interval,
+    length_m: Interval,
+) -> Interval {
+    let stretch = distance_m / length_m - Interval::ONE;
+    let [least, most] = match kind {
         Kind::Bar => [f64::NEG_INFINITY, f64::INFINITY],
         Kind::Cable => [0.0, f64::INFINITY],
         Kind::Strut => [f64::NEG_INFINITY, 0.0],
     };
-    let stretch = Interval::new(stretch.lo().clamp(least, most), stretch.hi().clamp(least, most));
-    member.stiffness_n.map_or(Interval::ZERO, |stiffness_n| Interval::point(stiffness_n) * stretch)
+    stiffness_n * Interval::new(stretch.lo().clamp(least, most), stretch.hi().clamp(least, most))
 }
 
 fn beyond(enclosure: Interval, x: f64) -> f64 {

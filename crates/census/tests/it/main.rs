@@ -18,5 +18,6 @@ mod random;
 mod singular_families;
 mod support;
 mod systems;
+mod tolerances;
 mod unloaded;
 mod work;

@@ -5,6 +5,7 @@ mod each;
 mod lines;
 mod object;
 mod several;
+mod tolerances;
 
 use std::path::{Path, PathBuf};
 
@@ -105,6 +106,19 @@ pub struct Solve {
     /// With --check the exit code is 1 where a bar is weaker than wanted in any of them.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["batch", "without"])]
     pub load_case: Option<String>,
+    /// Bound all places and forces over the tolerances of the file (`length_tolerance_m` and the like):
+    /// guaranteed ranges, in interval arithmetic
+    ///
+    /// The exit code is 3 where there is no proof for all values, with --check 1 where a bar may be weaker
+    /// than wanted. The guide has an example, `funicular guide systems`.
+    #[arg(long, conflicts_with_all = ["batch", "without", "csv", "bars_csv", "svg", "columns", "summary", "evidence"])]
+    pub tolerances: bool,
+    /// Solve so many random values within the tolerances too, for standard deviations
+    #[arg(long, value_name = "N", requires = "tolerances", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub monte_carlo: Option<u32>,
+    /// From which number the random values follow
+    #[arg(long, value_name = "SEED", requires = "monte_carlo", default_value_t = 1)]
+    pub seed: u64,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -193,6 +207,7 @@ impl Solve {
             ("--columns", self.columns),
             ("--summary", self.summary),
             ("--evidence", self.evidence),
+            ("--tolerances", self.tolerances),
         ];
         let given = given.into_iter().find(|(_, is_given)| *is_given).map(|(option, _)| option);
         self.file_for_one().or(given)
@@ -244,6 +259,9 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
             Some(option) => Err(Failure::bad_input(format!("{option} is for one load case"))),
             None => each::load_case(arguments, &problem, progress),
         };
+    }
+    if arguments.tolerances {
+        return tolerances::run(arguments, &problem, progress);
     }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;

@@ -26,6 +26,7 @@ mod study;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod tables;
+mod tolerances;
 #[cfg(feature = "branches")]
 mod trace;
 

@@ -288,8 +288,8 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 /// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
 /// drawn decides which equilibrium is meant.
 /// What people know of a bar is made into other keys where the file is read.
-/// Strengths change nothing.
-const NO_PARAMETERS: [&str; 20] = [
+/// Strengths and tolerances change nothing.
+const NO_PARAMETERS: [&str; 31] = [
     "bars.mass_kg_per_m",
     "bars.diameter_m",
     "bars.density_kg_m3",
@@ -310,6 +310,17 @@ const NO_PARAMETERS: [&str; 20] = [
     "bars.bending_n_m2",
     "bars.safety",
     "safety",
+    "bars.stiffness_tolerance",
+    "bars.mass_tolerance_kg",
+    "joints.NAME.mass_tolerance_kg",
+    "joints.NAME.at_tolerance_m",
+    "joints.NAME.force_tolerance_n",
+    "tolerances",
+    "tolerances.length_tolerance_m",
+    "tolerances.stiffness_tolerance",
+    "tolerances.mass_tolerance_kg",
+    "tolerances.at_tolerance_m",
+    "tolerances.force_tolerance_n",
 ];
 
 /// A parameter is the number of the file: every key that holds one is varied, to the value that it

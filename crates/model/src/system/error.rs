@@ -133,14 +133,6 @@ pub enum SystemError {
         /// The tolerance as given.
         tolerance_m: f64,
     },
-    /// Occurs when a tolerance of its length is given for a member that stretches.
-    #[error(
-        "a member with a stiffness has the length that its force gives it: a tolerance says nothing of it"
-    )]
-    ElasticTolerance {
-        /// Number of the member, from 1.
-        member: usize,
-    },
     /// Occurs when a force acts at a point that is not on its member, or is not finite.
     #[error(
         "a force on a member must be finite and act between 0 and its length {} m, got {component_n} N \
@@ -366,9 +358,6 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
     }
     let length_m = member.body.length_m();
     if let Some(tolerance_m) = member.length_tolerance_m {
-        if member.stiffness_n.is_some() {
-            return Err(SystemError::ElasticTolerance { member: number });
-        }
         if !(tolerance_m > 0.0 && tolerance_m < length_m) {
             return Err(SystemError::LengthTolerance { member: number, length_m, tolerance_m });
         }

@@ -1,5 +1,6 @@
 //! Joints and their supports.
 
+use super::JointTolerances;
 use crate::Vector;
 
 /// A spherical joint without friction.
@@ -16,6 +17,8 @@ pub struct Joint {
     /// Where the structure is drawn with it, m: the equilibrium that is wanted is next to the
     /// drawing. `None` for a joint that is held, or where nothing is drawn.
     pub near_m: Option<Vector>,
+    /// How far its numbers may be off: see [`with_tolerances`](Self::with_tolerances).
+    pub tolerances: Option<Box<JointTolerances>>,
 }
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
@@ -49,6 +52,14 @@ impl Support {
     #[must_use]
     pub fn at_m(&self) -> Option<Vector> {
         match *self {
+            Self::Free => None,
+            Self::Fixed { at_m } | Self::Line { at_m, .. } | Self::Plane { at_m, .. } => Some(at_m),
+        }
+    }
+
+    /// The same to change; of unit vectors nothing changes.
+    pub(super) fn at_m_mut(&mut self) -> Option<&mut Vector> {
+        match self {
             Self::Free => None,
             Self::Fixed { at_m } | Self::Line { at_m, .. } | Self::Plane { at_m, .. } => Some(at_m),
         }
@@ -114,7 +125,8 @@ impl Joint {
     #[must_use]
     pub fn free(name: impl Into<String>) -> Self {
         let support = Support::Free;
-        Self { name: name.into(), support, mass_kg: 0.0, force_n: [0.0; 3], near_m: None }
+        let (mass_kg, force_n) = (0.0, [0.0; 3]);
+        Self { name: name.into(), support, mass_kg, force_n, near_m: None, tolerances: None }
     }
 
     /// A joint that cannot move.

@@ -208,6 +208,11 @@ impl System {
         Ok(())
     }
 
+    /// The same with the named loads and cases of another that bears the same.
+    pub(crate) fn with_cases_of(self, other: Self) -> Self {
+        Self { load_cases: other.load_cases, ..self }
+    }
+
     /// The loads by name.
     #[must_use]
     pub fn named_loads(&self) -> &[NamedLoad] {

@@ -1,6 +1,6 @@
 //! Members between joints.
 
-use super::{Prestress, Strength};
+use super::{MemberTolerances, Prestress, Strength};
 use crate::{Bar, Vector};
 
 /// A straight member between two joints.
@@ -23,11 +23,12 @@ pub struct Member {
     /// What was given in the place of the unstretched length: see
     /// [`with_prestress`](Self::with_prestress), which sets it together with the body.
     pub prestress: Option<Box<Prestress>>,
-    /// How far the length of an inextensible member may be off, m. `None` is rounding: see
-    /// [`within_m`](Self::within_m).
+    /// How far the length may be off, m. `None` is rounding: see [`within_m`](Self::within_m).
     pub length_tolerance_m: Option<f64>,
     /// What it bears before it breaks; nothing that a solver looks at.
     pub strength: Option<Box<Strength>>,
+    /// How far its other numbers may be off: see [`with_tolerances`](Self::with_tolerances).
+    pub tolerances: Option<Box<MemberTolerances>>,
     /// Constant forces at points of the member, besides its weight.
     pub loads: Vec<PointLoad>,
 }
@@ -91,6 +92,7 @@ impl Member {
             prestress: None,
             length_tolerance_m: None,
             strength: None,
+            tolerances: None,
             loads: Vec::new(),
         }
     }
@@ -119,7 +121,7 @@ impl Member {
         Self { strength: Some(Box::new(strength)), ..self }
     }
 
-    /// How far the length may be off where lengths overdetermine a shape, m: the tolerance given, or
+    /// How far the length may be off where lengths of inextensible members overdetermine a shape, m: the tolerance given, or
     /// [`LENGTH_ROUNDING`] of the length.
     ///
     /// ```

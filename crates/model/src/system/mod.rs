@@ -27,6 +27,7 @@ mod refusal;
 mod row;
 mod strength;
 mod symmetry;
+mod tolerance;
 
 pub use answer::{SystemEquilibrium, SystemStability};
 pub use builder::SystemBuilder;
@@ -40,6 +41,9 @@ pub use refusal::SystemRefusal;
 pub use row::Row;
 pub use strength::{Strength, StrengthError};
 pub use symmetry::Part;
+pub use tolerance::{
+    JointTolerances, MemberTolerances, ToleranceError, Uncertain, UncertainNumber,
+};
 
 use crate::Vector;
 

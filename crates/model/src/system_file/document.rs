@@ -19,6 +19,7 @@ use super::network;
 use super::source::Source;
 use super::strength;
 use super::table::Table;
+use super::tolerance;
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
 const ROOT_KEYS: &[&str] = &[
@@ -27,6 +28,7 @@ const ROOT_KEYS: &[&str] = &[
     "floor_m",
     "plane",
     "safety",
+    "tolerances",
     "anchors",
     "bars",
     "bars_file",
@@ -55,6 +57,8 @@ const BAR_KEYS: &[&str] = &[
     "compression_n",
     "bending_n_m2",
     "safety",
+    "length_tolerance_m",
+    "mass_tolerance_kg",
 ];
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
@@ -107,7 +111,8 @@ impl Source<'_> {
         }
         let (chain, places) = self.chain_of(&root)?;
         let bare = BEYOND_CHAINS.iter().all(|key| root.get(key).is_none());
-        if bare && strength::given(&root).is_none() {
+        let given = || strength::given(&root).or_else(|| tolerance::given(&root));
+        if bare && given().is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
         }
@@ -177,7 +182,7 @@ impl Source<'_> {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }
         }
-        if let Some(key) = strength::given(&root) {
+        if let Some(key) = strength::given(&root).or_else(|| tolerance::given(&root)) {
             return Err(root.error(Kind::NotAChain { key }, "bars"));
         }
         self.chain_of(&root)

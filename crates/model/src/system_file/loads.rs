@@ -9,6 +9,7 @@ use super::kind::SystemFileErrorKind as Kind;
 use super::network::unknown_joint;
 use super::strength;
 use super::table::{Table, Value};
+use super::tolerance;
 use crate::Chain;
 use crate::system::{LoadCase, LoadOn, NamedLoad, PERMANENT, System, SystemError};
 
@@ -24,12 +25,13 @@ const ALL: &str = "each";
 /// The joint that a value of a load names.
 type JointOf<'a> = &'a dyn Fn(&Table<'_>, &Value<'_>) -> Result<usize, SystemFileError>;
 
-/// The chain as a system with the loads of the file at its joints and the strengths of its bars, above
-/// its floor.
+/// The chain as a system with the loads of the file at its joints, the strengths of its bars and the
+/// tolerances of its numbers, above its floor.
 pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
     let system = strength::put(root, System::from(chain))?;
     let last = system.joints().len() - 1;
     let system = put(root, system, &|table, value| numbered(table, value, last))?;
+    let system = tolerance::put(root, system)?;
     match root.number("floor_m")? {
         None => Ok(system),
         Some(floor_m) => {

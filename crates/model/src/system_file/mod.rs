@@ -98,6 +98,7 @@ mod source;
 mod strength;
 mod suggest;
 mod table;
+mod tolerance;
 mod write;
 mod write_network;
 

@@ -18,6 +18,7 @@ use super::sheet::SheetFile;
 use super::strength;
 use super::suggest::nearest;
 use super::table::{Table, Value};
+use super::tolerance::{self, Tolerances};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
@@ -30,6 +31,7 @@ const ROOT_KEYS: &[&str] = &[
     "floor_m",
     "plane",
     "safety",
+    "tolerances",
     "joints",
     "joints_file",
     "bars",
@@ -37,7 +39,18 @@ const ROOT_KEYS: &[&str] = &[
     "loads",
     "cases",
 ];
-const JOINT_KEYS: &[&str] = &["at_m", "near_m", "free", "along", "normal", "mass_kg", "force_n"];
+const JOINT_KEYS: &[&str] = &[
+    "at_m",
+    "near_m",
+    "free",
+    "along",
+    "normal",
+    "mass_kg",
+    "force_n",
+    "mass_tolerance_kg",
+    "at_tolerance_m",
+    "force_tolerance_n",
+];
 const MEMBER_KEYS: &[&str] = &[
     "from",
     "to",
@@ -57,6 +70,8 @@ const MEMBER_KEYS: &[&str] = &[
     "force_n_per_m",
     "prestress_n",
     "length_tolerance_m",
+    "stiffness_tolerance",
+    "mass_tolerance_kg",
     "strength_n",
     "compression_n",
     "bending_n_m2",
@@ -91,6 +106,8 @@ struct Reading<'a> {
     members: Vec<Member>,
     /// The safety that is wanted of all bars that say nothing else.
     safety: f64,
+    /// How far numbers of bars and joints may be off that say nothing else.
+    tolerances: Tolerances,
     /// Where each `[[bars]]` table stands, with the number of its first member, from 1.
     tables: Vec<(usize, Range<usize>)>,
     /// The file of the joints behind those of `[joints]`, and how many it has.
@@ -118,6 +135,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
         drawn: false,
         members: Vec::new(),
         safety: strength::safety(root)?,
+        tolerances: tolerance::all(root)?,
         tables: Vec::new(),
         joints_file: None,
         bars_file: None,
@@ -137,7 +155,8 @@ impl Reading<'_> {
         let value = self.root.require("joints", WANTED_JOINTS)?;
         let table = self.root.table("joints", value)?;
         for (name, value) in table.in_order() {
-            let joint = joint(name, &table.table(name, value)?)?;
+            let own = table.table(name, value)?;
+            let joint = self.tolerances.joint(joint(name, &own)?, &own)?;
             self.numbers.insert(name.to_owned(), self.joints.len());
             self.joints.push(joint);
             self.joint_spans.push(value.span());
@@ -147,10 +166,10 @@ impl Reading<'_> {
 
     /// The joints of a file, behind those of the table.
     fn joints_of_file(&mut self) -> Result<(), SystemFileError> {
-        let Self { root, joints, numbers, .. } = self;
+        let Self { root, joints, numbers, tolerances, .. } = self;
         let before = joints.len();
         let mut take = |row: &Row<'_>| {
-            let joint = network_rows::joint(row)?;
+            let joint = tolerances.joint(network_rows::joint(row)?, row)?;
             // A joint of a file need have no member.
             let bytes = size_of::<Joint>() + joint.name.len();
             let asked = root.source().budget.take_names(1, bytes);
@@ -181,7 +200,8 @@ impl Reading<'_> {
         let budget = &self.root.source().budget;
         let mut take = |row: &Row<'_>| {
             budget.take_members(1).map_err(|error| (None, Kind::Memory(error)))?;
-            members.push(network_rows::member(row, &number, &drawn, self.safety)?);
+            let member = network_rows::member(row, &number, &drawn, self.safety)?;
+            members.push(self.tolerances.member(member, row)?);
             Ok(())
         };
         let known = if is_drawn { DRAWN_BARS } else { BARS };
@@ -219,7 +239,7 @@ impl Reading<'_> {
             let length = ends.as_ref().map_or(Ok(None), length);
             length.map_err(|kind| table.error(kind, "length_m"))
         };
-        let model = member(table, &drawn, self.safety)?;
+        let model = self.tolerances.member(member(table, &drawn, self.safety)?, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
         let asked = budget.take_members(count);
@@ -340,7 +360,6 @@ impl Reading<'_> {
                 | SystemError::NoSuchJoint { member, .. }
                 | SystemError::Stiffness { member, .. }
                 | SystemError::LengthTolerance { member, .. }
-                | SystemError::ElasticTolerance { member }
                 | SystemError::PointLoad { member, .. } => {
                     let member = *member;
                     at_member(Kind::System(error), member)
@@ -397,7 +416,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
         return Err(table.error(Kind::Conflict { key: "near_m", other: "at_m" }, "near_m"));
     }
     let (force_n, mass_kg) = (force_n.unwrap_or_default(), mass.unwrap_or(0.0));
-    Ok(Joint { name: name.to_owned(), support, mass_kg, force_n, near_m })
+    Ok(Joint { support, mass_kg, force_n, near_m, ..Joint::free(name) })
 }
 
 fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
@@ -490,10 +509,9 @@ fn member(
     }
     loads.extend(material::spread(table, length_m, body.length_m())?);
     let stiffness_n = material::stiffness_n(table)?;
-    let length_tolerance_m = table.number("length_tolerance_m")?;
     let strength = strength::of(table, &body, safety)?.map(Box::new);
     let bar = Member::bar(0, 0, body);
-    let member = Member { kind, stiffness_n, length_tolerance_m, strength, loads, ..bar };
+    let member = Member { kind, stiffness_n, strength, loads, ..bar };
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -29,6 +29,9 @@ pub(super) const JOINTS: Known = Known {
         "near_x_m",
         "near_y_m",
         "near_z_m",
+        "mass_tolerance_kg",
+        "at_tolerance_m",
+        "force_tolerance_n",
     ],
     needed: &[],
 };
@@ -45,6 +48,8 @@ pub(super) const BARS: Known = Known {
         "stiffness_n",
         "prestress_n",
         "length_tolerance_m",
+        "stiffness_tolerance",
+        "mass_tolerance_kg",
         "strength_n",
         "compression_n",
         "safety",
@@ -112,7 +117,7 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
     if support.is_fixed() && near_m.is_some() {
         return Err((Some(NEAR[0]), Kind::Conflict { key: NEAR[0], other: PLACE[0] }));
     }
-    Ok(Joint { name, support, mass_kg, force_n, near_m })
+    Ok(Joint { support, mass_kg, force_n, near_m, ..Joint::free(name) })
 }
 
 /// A joint with a place is held there, unless `fixed` says that the place is only where it was
@@ -187,10 +192,10 @@ pub(super) fn member(
     let kind = row.word("kind")?;
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     let stiffness_n = row.number("stiffness_n")?;
-    let (length_tolerance_m, loads) = (row.number("length_tolerance_m")?, load(row, length_m)?);
+    let loads = load(row, length_m)?;
     let bar = Member::bar(from, to, body);
     let strength = strength_of(row, safety)?;
-    let member = Member { kind, stiffness_n, length_tolerance_m, strength, loads, ..bar };
+    let member = Member { kind, stiffness_n, strength, loads, ..bar };
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 

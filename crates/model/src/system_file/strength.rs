@@ -71,11 +71,14 @@ fn of_nothing(table: &Table<'_>) -> SystemFileError {
 
 /// The first key about strengths that the file of a chain has.
 pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
+    root.get("safety").map(|_| "safety").or_else(|| first_of(root, &KEYS))
+}
+
+/// The first of these keys that a bar of a file has.
+pub(super) fn first_of(root: &Table<'_>, keys: &[&'static str]) -> Option<&'static str> {
     let bars = root.get("bars").and_then(|value| value.get_ref().as_array());
     let mut bars = bars.into_iter().flatten().filter_map(|bar| bar.get_ref().as_table());
-    let of_bars = |table: &DeTable<'_>| KEYS.into_iter().find(|key| table.contains_key(*key));
-    let of_all = root.get("safety").map(|_| "safety");
-    of_all.or_else(|| bars.find_map(of_bars))
+    bars.find_map(|table: &DeTable<'_>| keys.iter().copied().find(|key| table.contains_key(*key)))
 }
 
 /// The bars of a chain, as a system, with what they bear.
@@ -99,7 +102,7 @@ pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFile
 }
 
 /// The `[[bars]]` of a chain; none where they are in a file of their own.
-fn tables<'a>(root: &'a Table<'a>) -> Result<Vec<Table<'a>>, SystemFileError> {
+pub(super) fn tables<'a>(root: &'a Table<'a>) -> Result<Vec<Table<'a>>, SystemFileError> {
     let tables = root.get("bars").and_then(|value| value.get_ref().as_array());
     let tables = tables.into_iter().flat_map(|tables| tables.iter().enumerate());
     tables.map(|(k, value)| root.table(&format!("bars[{}]", k + 1), value)).collect()

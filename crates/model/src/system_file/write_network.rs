@@ -89,6 +89,15 @@ fn entry(joint: &Joint) -> String {
     if differ(&joint.force_n, &[0.0; 3]) {
         keys.push(format!("force_n = {}", vector(joint.force_n)));
     }
+    if let Some(within) = joint.tolerances.as_deref() {
+        let given = [
+            ("mass_tolerance_kg", within.mass_kg()),
+            ("at_tolerance_m", within.at_m()),
+            ("force_tolerance_n", within.force_n()),
+        ];
+        let given = given.into_iter().filter(|(_, within)| *within > 0.0);
+        keys.extend(given.map(|(key, within)| format!("{key} = {within:?}")));
+    }
     format!("{{ {} }}", keys.join(", "))
 }
 
@@ -116,6 +125,14 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     }
     if let Some(tolerance_m) = member.length_tolerance_m {
         let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
+    }
+    let within = member.tolerances.as_deref().copied().unwrap_or_default();
+    for (key, within) in
+        [("stiffness_tolerance", within.stiffness()), ("mass_tolerance_kg", within.mass_kg())]
+    {
+        if within > 0.0 {
+            let _ = writeln!(text, "{key} = {within:?}");
+        }
     }
     if let Some(strength) = member.strength.as_deref() {
         let given =

@@ -23,3 +23,4 @@ mod support;
 mod system_numbers;
 mod systems;
 mod texts;
+mod tolerances;

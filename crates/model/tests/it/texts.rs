@@ -362,11 +362,12 @@ fn help_says_what_is_allowed() {
     assert_eq!(
         help(&anchored("[[bars]]\nlenth_m = 1\n")),
         "did you mean `length_m`? allowed here: length_m, mass_kg, mass_kg_per_m, diameter_m, density_kg_m3, temperature_k, \
-         expansion_per_k, centre_m, inertia_kg_m2, count, strength_n, compression_n, bending_n_m2, safety"
+         expansion_per_k, centre_m, inertia_kg_m2, count, strength_n, compression_n, bending_n_m2, safety, \
+         length_tolerance_m, mass_tolerance_kg"
     );
     assert_eq!(
         help(&barred("colour = \"red\"")),
-        "allowed here: name, gravity_m_s2, floor_m, plane, safety, anchors, bars, bars_file, loads, cases, joints, joints_file"
+        "allowed here: name, gravity_m_s2, floor_m, plane, safety, tolerances, anchors, bars, bars_file, loads, cases, joints, joints_file"
     );
     assert_eq!(help(&barred("")), "anchors must be a table with start_m and end_m");
     assert_eq!(

@@ -26,8 +26,10 @@ struct Said {
 
 /// Run the command for several files.
 pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
-    if arguments.without.is_some() {
-        return Err(Failure::bad_input("--without takes one system at a time"));
+    let alone =
+        [("--without", arguments.without.is_some()), ("--tolerances", arguments.tolerances)];
+    if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given) {
+        return Err(Failure::bad_input(format!("{option} takes one system at a time")));
     }
     if arguments.each_case() {
         return Err(Failure::bad_input("--load-case each takes one system at a time"));

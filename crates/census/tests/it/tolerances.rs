@@ -1,0 +1,271 @@
+//! Ranges over tolerances: against closed forms, corners and draws.
+
+use census::network::{NoRanges, Range, prove, prove_ranges};
+use model::system::{Joint, Member, System};
+use model::{Bar, Vector};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+
+/// What is found may be so much wider than a closed form: the rounding of some hundred operations.
+const ROUNDING: f64 = 1e-12;
+
+fn length(a: Vector, b: Vector) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|k| b[k] - a[k]);
+    x.hypot(y).hypot(z)
+}
+
+/// 120 N on two bars to anchors 6 m apart, each 5 m ± 2 mm; closed form of place and forces.
+fn hanger(tolerance_m: f64, force_n: Option<f64>) -> System {
+    let load = Joint::free("P").with_force([0.0, 0.0, -120.0]);
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        load.with_tolerances(None, None, force_n).unwrap(),
+    ];
+    let bar = |from, to| {
+        let bar = Member::bar(from, to, Bar::homogeneous(5.0, 0.0).unwrap());
+        bar.with_length_tolerance(tolerance_m)
+    };
+    System::new("hanger", 10.0, joints, vec![bar(0, 2), bar(1, 2)]).unwrap()
+}
+
+const HANGS: [Vector; 3] = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
+
+/// Where P is and what both bars bear: x = (a² - b²)/12, z² = a² - (x + 3)², and the balance of two pulls.
+fn closed(a: f64, b: f64) -> [f64; 4] {
+    let x = (a * a - b * b) / 12.0;
+    let z = -(a * a - (x + 3.0).powi(2)).sqrt();
+    // Horizontally the pulls balance: w (x + 3) = v (3 - x), and (w + v) |z| = 120.
+    let sum = 120.0 / -z;
+    let (w, v) = (sum * (3.0 - x) / 6.0, sum * (3.0 + x) / 6.0);
+    [x, z, w * a, v * b]
+}
+
+fn is(range: Range, least: f64, most: f64, size: f64) {
+    let near = |found: f64, wanted: f64| (found - wanted).abs() <= ROUNDING * size;
+    let [from, to] = range.guaranteed;
+    assert!(
+        range.is_hull && from <= least + ROUNDING * size && near(from, least),
+        "{range:?} {least}"
+    );
+    assert!(near(to, most) && range.excess() < ROUNDING * size, "{range:?} {most}");
+}
+
+#[test]
+fn a_hanger_of_two_bars_has_the_ranges_of_its_closed_form() {
+    let by_m = 2e-3;
+    let found = prove_ranges(&hanger(by_m, None), &HANGS, &[75.0; 2]).unwrap();
+    assert_eq!((found.boxes, found.numbers.len()), (1, 2));
+    let ends = [5.0 - by_m, 5.0 + by_m];
+    let corners = ends.map(|a| ends.map(|b| closed(a, b)));
+    let all: Vec<[f64; 4]> = corners.into_iter().flatten().collect();
+    let hull = |k: usize| {
+        let values = || all.iter().map(|corner| corner[k]);
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let [x, z, first, second] = [0, 1, 2, 3].map(hull);
+    is(found.joints_m[2][0], x.0, x.1, 5.0);
+    is(found.joints_m[2][2], z.0, z.1, 5.0);
+    is(found.axial_n[0], first.0, first.1, 120.0);
+    is(found.axial_n[1], second.0, second.1, 120.0);
+    // Anchors do not move, and bear as much of the load as their bar.
+    is(found.joints_m[0][0], -3.0, -3.0, 5.0);
+    let up = found.reactions_n[0].unwrap()[2];
+    let part = |[x, _, _, _]: [f64; 4]| 120.0 * (3.0 - x) / 6.0;
+    let parts = || all.iter().copied().map(part);
+    is(up, parts().fold(f64::INFINITY, f64::min), parts().fold(0.0, f64::max), 120.0);
+    assert!(found.reactions_n[2].is_none());
+    // The other bar's length moves the force of each most or its own: both are named with what they do.
+    let (number, by_n) = found.axial_n[0].most_by.unwrap();
+    let changed = |a: f64, b: f64| closed(5.0 + a, 5.0 + b)[2] - 75.0;
+    let change = if number == 0 { changed(by_m, 0.0) } else { changed(0.0, by_m) };
+    assert!((by_n - change).abs() < 1e-2 * change.abs(), "{by_n} {change}");
+}
+
+/// A horizontal force turns the plane of the hanger: across it the place is as far as the force leans.
+#[test]
+fn a_side_force_is_a_range_too() {
+    let found = prove_ranges(&hanger(1e-9, Some(3.0)), &HANGS, &[75.0; 2]).unwrap();
+    let range = found.joints_m[2][1];
+    let across = range.guaranteed;
+    // y = 4 sin(arctan(3/117)), where the force down is least.
+    let most = 4.0 * (3.0_f64 / 117.0).atan().sin();
+    // Whether a load down moves it out or in depends on the side: no hull, and said so.
+    assert!(
+        !range.is_hull && range.reached[1] <= most && range.reached[1] > 0.97 * most,
+        "{range:?}"
+    );
+    assert!(
+        across[1] >= most && across[1] < 1.06 * most && across[0] <= -most,
+        "{across:?} {most}"
+    );
+    // Along the bars, 3/5 and 4/5: (120 + 3)/2 5/4 in the plane and (3/2) 5/3, and across a little.
+    let most = found.axial_n[0].guaranteed[1];
+    assert!(most > 123.0 / 2.0 * 1.25 + 2.5 - 1e-6 && most < 79.5, "{most}");
+}
+
+/// A net of `size` × `size` knots between anchors, with tensions that are drawn, and the loads that go with them.
+fn net(size: usize, seed: u64, length_m: f64, stiffness: f64) -> (System, Vec<Vector>, Vec<f64>) {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut draw = |least: f64, most: f64| rng.random_range(least..most);
+    let side = size + 2;
+    let number = |i: usize, j: usize| i * side + j;
+    let mut places = vec![];
+    for i in 0..side {
+        for j in 0..side {
+            let z = draw(-0.3, 0.3) + 0.1 * (i as f64 - j as f64);
+            places.push([2.0 * i as f64 + draw(-0.2, 0.2), 2.0 * j as f64 + draw(-0.2, 0.2), z]);
+        }
+    }
+    let inside = |i: usize| (1..=size).contains(&i);
+    let mut ends = vec![];
+    for i in 0..side {
+        for j in 0..side {
+            for (k, l) in [(i + 1, j), (i, j + 1)] {
+                let within = k < side && l < side;
+                if within && (inside(i) && inside(j) || inside(k) && inside(l)) {
+                    ends.push([number(i, j), number(k, l)]);
+                }
+            }
+        }
+    }
+    let mut loads = vec![[0.0; 3]; places.len()];
+    let (mut members, mut axial) = (vec![], vec![]);
+    for [a, b] in ends {
+        let (distance, force) = (length(places[a], places[b]), draw(800.0, 2000.0));
+        for axis in 0..3 {
+            let pull = force * (places[b][axis] - places[a][axis]) / distance;
+            loads[a][axis] -= pull;
+            loads[b][axis] += pull;
+        }
+        let ea = draw(5e5, 1e6);
+        let body = Bar::homogeneous(distance / (1.0 + force / ea), 0.0).unwrap();
+        let cable = Member::cable(a, b, body).with_stiffness(ea).with_length_tolerance(length_m);
+        members.push(cable.with_tolerances(Some(stiffness), None).unwrap());
+        axial.push(force);
+    }
+    let joint = |k: usize| {
+        let (i, j) = (k / side, k % side);
+        if inside(i) && inside(j) {
+            Joint::free(k.to_string()).with_force(loads[k])
+        } else {
+            Joint::anchor(k.to_string(), places[k])
+        }
+    };
+    let joints = (0..places.len()).map(joint).collect();
+    (System::new("net", 10.0, joints, members).unwrap(), places, axial)
+}
+
+#[test]
+fn nets_have_nearly_their_hulls() {
+    for (seed, size, most) in [(0, 1, 1e-9), (1, 2, 1e-3), (2, 3, 0.05), (3, 3, 0.05), (7, 4, 0.05)]
+    {
+        let (system, places, axial) = net(size, seed, 1e-4, 0.01);
+        let found = prove_ranges(&system, &places, &axial).unwrap();
+        assert_eq!((found.boxes, found.numbers.len()), (1, 2 * axial.len()));
+        for (range, force) in found.axial_n.iter().zip(&axial) {
+            let [least, most_n] = range.guaranteed;
+            assert!(
+                range.contains(*force) && range.excess() < most * (most_n - least),
+                "{range:?}"
+            );
+            assert!(!range.is_hull || range.excess() < 1e-7, "{range:?}");
+        }
+    }
+}
+
+/// Draws of the numbers, at ends and between, each proved by itself: all are in the ranges.
+#[test]
+fn draws_stay_within_their_ranges() {
+    let (system, places, axial) = net(2, 5, 1e-6, 1e-4);
+    let found = prove_ranges(&system, &places, &axial).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    for k in 0..12 {
+        let values = found.numbers.iter().map(|number| {
+            let part: f64 = rng.random_range(-1.0..1.0);
+            number.given + number.within * if k % 2 == 0 { part } else { part.signum() }
+        });
+        let drawn = system.with_uncertain(&values.collect::<Vec<_>>()).unwrap();
+        let exact = prove(&drawn, &places, &axial).unwrap();
+        for (range, force) in found.axial_n.iter().zip(&exact.axial_n) {
+            assert!(range.contains(force.mid()), "{range:?} {force:?}");
+        }
+        for (range, x) in found.joints_m.iter().flatten().zip(exact.joints_m.iter().flatten()) {
+            assert!(range.contains(x.mid()), "{range:?} {x:?}");
+        }
+    }
+}
+
+/// A third cable below a knot, a little slack or hardly taut: within its tolerance it may change.
+#[test]
+fn what_may_go_slack_is_named() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::anchor("C", [0.0, 0.0, -5.0]),
+        Joint::free("P").with_force([0.0, 0.0, -120.0]),
+    ];
+    let cable = |from, length_m| {
+        let cable = Member::cable(from, 3, Bar::homogeneous(length_m, 0.0).unwrap());
+        cable.with_stiffness(1e4)
+    };
+    let of = |length_m: f64, within_m: f64| {
+        // The depth where the forces balance, by halving.
+        let force = |distance_m: f64, length_m: f64| 1e4 * (distance_m / length_m - 1.0).max(0.0);
+        let both = |depth: f64| (force(depth.hypot(3.0), 5.0), force(5.0 - depth, length_m));
+        let (mut high, mut low) = (4.0, 4.2);
+        for _ in 0..60 {
+            let depth = 0.5 * (high + low);
+            let (side, third) = both(depth);
+            if 2.0 * side * depth / depth.hypot(3.0) < 120.0 + third {
+                high = depth
+            } else {
+                low = depth
+            }
+        }
+        let (side, below) = both(low);
+        let near = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -5.0], [0.0, 0.0, -low]];
+        let third = cable(2, length_m).with_length_tolerance(within_m);
+        let members = vec![cable(0, 5.0), cable(1, 5.0), third];
+        let system = System::new("third", 10.0, joints.clone(), members).unwrap();
+        prove_ranges(&system, &near, &[side, side, below])
+    };
+    let changes = Err(NoRanges::MayChange { members: vec![2] });
+    assert_eq!(of(0.96, 2e-2), changes);
+    assert_eq!(of(0.9535, 1e-3), changes);
+    // 6 mm of slack are more than 2 mm.
+    let found = of(0.96, 2e-3).unwrap();
+    assert!(found.axial_n[2].guaranteed == [0.0; 2] && found.axial_n[0].guaranteed[0] > 74.0);
+}
+
+#[test]
+fn what_is_not_proved_says_why() {
+    let bar = |from| Member::bar(from, 2, Bar::homogeneous(5.0, 0.0).unwrap());
+    let joints = hanger(1e-3, None).joints().to_vec();
+    let exact = System::new("exact", 10.0, joints, vec![bar(0), bar(1)]).unwrap();
+    let of = |system: &System| prove_ranges(system, &HANGS, &[75.0; 2]).unwrap_err();
+    assert_eq!(of(&exact), NoRanges::NothingUncertain);
+    assert_eq!(of(&hanger(1e-3, None).with_floor(-9.0).unwrap()), NoRanges::Floor);
+    // From 0.1 m to 9.9 m the two bars may not reach each other.
+    let NoRanges::NoBox { boxes, part, .. } = of(&hanger(4.9, None)) else { panic!() };
+    assert!(boxes > 1 && part.is_some_and(|part| part > 0.0 && part < 0.5), "{boxes} {part:?}");
+}
+
+/// What fails in one box is proved in parts: 5 m and 0.9 m more or less, on a grid of closed forms.
+#[test]
+fn wide_tolerances_are_halved() {
+    let by_m = 0.9;
+    let found = prove_ranges(&hanger(by_m, None), &HANGS, &[75.0; 2]).unwrap();
+    assert!(found.boxes > 1);
+    let grid = || (0..=40).map(|k| 5.0 + by_m * (f64::from(k) / 20.0 - 1.0));
+    let all: Vec<[f64; 4]> = grid().flat_map(|a| grid().map(move |b| closed(a, b))).collect();
+    let [z, force] = [found.joints_m[2][2], found.axial_n[0]];
+    assert!(all.iter().all(|at| z.contains(at[1]) && force.contains(at[2])));
+    // Lowest where both are longest: a hull. The force does not change in one direction everywhere.
+    let lowest = closed(5.0 + by_m, 5.0 + by_m)[1];
+    let largest = all.iter().map(|at| at[2]).fold(0.0, f64::max);
+    assert!(z.is_hull && (z.guaranteed[0] - lowest).abs() < ROUNDING * 5.0);
+    assert!(
+        !force.is_hull && force.reached[1] < largest + 0.1 && force.guaranteed[1] < 1.15 * largest
+    );
+}

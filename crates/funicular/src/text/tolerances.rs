@@ -1,0 +1,134 @@
+//! Ranges over tolerances, for people.
+
+use std::fmt;
+
+use census::network::{Range, ToleranceRanges};
+
+use super::printable::Printable;
+use super::shape::{PRINTED, percent};
+use super::tables::{Table, counted, numbers_from, short, table, wrapped};
+use crate::tolerances::{Draws, TolerancesAnswer};
+
+/// An excess below this part of a range is rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// As `funicular solve --tolerances` prints it.
+impl fmt::Display for TolerancesAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let system = self.answer().system();
+        let numbers = counted(system.uncertain().len(), "uncertain number");
+        let title = format!("{}: over the tolerances of {numbers}", Printable(system.name()));
+        writeln!(f, "{}\n", wrapped(&title, 0))?;
+        match self.ranges() {
+            Ok(ranges) => self.proved(f, ranges)?,
+            Err(reason) => {
+                let line = format!("Nothing is proved for all of them: {reason}.");
+                writeln!(f, "{}", wrapped(&line, 0))?;
+            }
+        }
+        self.draws().map_or(Ok(()), |draws| writeln!(f, "\n{}", wrapped(&said(draws), 0)))
+    }
+}
+
+impl TolerancesAnswer {
+    fn proved(&self, f: &mut fmt::Formatter<'_>, ranges: &ToleranceRanges) -> fmt::Result {
+        let stable = match self.is_stable() {
+            Some(true) => "and stable",
+            _ => "as stable as for the numbers given",
+        };
+        let boxes = if ranges.boxes == 1 { "1 box" } else { &format!("{} boxes", ranges.boxes) };
+        let line = format!(
+            "For all of them exactly one equilibrium is near, {stable}, and no cable or strut changes between \
+             slack and taut (proved in {boxes})."
+        );
+        writeln!(f, "{}\n\n{}", wrapped(&line, 0), self.bars(ranges))?;
+        let places = ranges.joints_m.iter().enumerate();
+        let places = places.filter(|(_, at)| at.iter().any(|range| width(range) > 0.0));
+        writeln!(f, "\n{}", self.vectors("m", ["x", "y", "z"], places))?;
+        let reactions = ranges.reactions_n.iter().enumerate();
+        let reactions = reactions.filter_map(|(k, force)| Some((k, force.as_ref()?)));
+        writeln!(f, "\n{}", self.vectors("N", ["Fx", "Fy", "Fz"], reactions))?;
+        let hidden = [ranges.axial_n.len(), ranges.joints_m.len()].iter().any(|all| *all > PRINTED);
+        if hidden {
+            writeln!(f, "(the widest {PRINTED} of each; --json has all)")?;
+        }
+        let line = "hull: some values within the tolerances reach both ends; else how much wider than that \
+                    the range may be, as part of it.";
+        writeln!(f, "\n{}", wrapped(line, 0))
+    }
+
+    /// The forces of all members, or of those with the widest ranges.
+    fn bars(&self, ranges: &ToleranceRanges) -> Table {
+        let system = self.answer().system();
+        let name = |joint: usize| Printable(&system.joints()[joint].name).to_string();
+        let strong = system.has_strengths();
+        let mut head = vec!["bar", "from", "to", "least / N", "most / N", "excess"];
+        head.extend(strong.then_some("used"));
+        head.extend(self.draws().map(|_| "sd / N"));
+        head.push("most by");
+        let mut rows = table(head);
+        for k in widest(ranges.axial_n.iter().map(width).collect()) {
+            let (member, range) = (&system.members()[k], &ranges.axial_n[k]);
+            let mut row = vec![(k + 1).to_string(), name(member.from), name(member.to)];
+            row.extend(range.guaranteed.map(short));
+            row.push(excess(range));
+            let used = || self.utilisation(k).map_or_else(String::new, |[_, most]| percent(most));
+            row.extend(strong.then(used));
+            row.extend(self.draws().map(|draws| short(draws.axial_n[k].deviation)));
+            let most_by = range.most_by.and_then(|(number, _)| self.number_name(number));
+            row.push(most_by.map_or_else(String::new, |name| Printable(&name).to_string()));
+            rows.add_row(row);
+        }
+        numbers_from(&mut rows, 3);
+        rows
+    }
+
+    /// Three ranges for each joint.
+    fn vectors<'a>(
+        &self,
+        unit: &str,
+        names: [&str; 3],
+        all: impl Iterator<Item = (usize, &'a [Range; 3])>,
+    ) -> Table {
+        let heads = names.map(|name| [format!("{name} / {unit}"), format!("to / {unit}")]);
+        let heads = heads.as_flattened().iter().map(String::as_str);
+        let mut rows = table(std::iter::once("joint").chain(heads));
+        let all: Vec<_> = all.collect();
+        let widths = all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
+        for k in widest(widths) {
+            let (joint, of) = all[k];
+            let name = Printable(&self.answer().system().joints()[joint].name).to_string();
+            let ends = of.iter().flat_map(|range| range.guaranteed.map(short));
+            rows.add_row(std::iter::once(name).chain(ends));
+        }
+        numbers_from(&mut rows, 1);
+        rows
+    }
+}
+
+fn width(range: &Range) -> f64 {
+    range.guaranteed[1] - range.guaranteed[0]
+}
+
+/// Of many the widest, in their order.
+fn widest(widths: Vec<f64>) -> Vec<usize> {
+    let mut all: Vec<usize> = (0..widths.len()).collect();
+    all.sort_by(|a, b| widths[*b].total_cmp(&widths[*a]));
+    all.truncate(PRINTED);
+    all.sort_unstable();
+    all
+}
+
+fn excess(range: &Range) -> String {
+    let part = range.excess() / width(range);
+    if range.is_hull || part < ROUNDING { "hull".to_owned() } else { percent(part) }
+}
+
+fn said(draws: &Draws) -> String {
+    let Draws { count, seed, solved, outside, .. } = draws;
+    let outside = match outside {
+        0 => "none of them outside of a range that is proved".to_owned(),
+        outside => format!("{outside} of them OUTSIDE of what is proved"),
+    };
+    format!("{} (seed {seed}): {solved} with an answer, {outside}.", counted(*count, "draw"))
+}

@@ -1,0 +1,410 @@
+//! What becomes of an equilibrium within the tolerances of its numbers.
+
+use census::network::{NoRanges, Range, ToleranceRanges, prove_ranges};
+use model::InSpace;
+use model::system::{Strength, System, SystemEquilibrium, UncertainNumber};
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+use validate::UseCensus;
+
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::solve::{Lists, Solve, SolveAnswer};
+use crate::weakest::from_one;
+
+/// Solvers agree to this part of lengths and forces: less is no draw outside of what is proved.
+const ROUNDING: f64 = 1e-9;
+/// The coordinates as numbers of files name them.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// An equilibrium, and its ranges over the tolerances of the system's numbers.
+#[derive(Debug)]
+pub struct TolerancesAnswer {
+    answer: SolveAnswer,
+    ranges: Result<ToleranceRanges, NoRanges>,
+    draws: Option<Draws>,
+}
+
+/// What becomes of random values of the uncertain numbers, each anywhere within its tolerance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Draws {
+    /// How many were drawn.
+    pub count: usize,
+    /// The seed.
+    pub seed: u64,
+    /// Of how many there is an answer.
+    pub solved: usize,
+    /// Of how many an answer is outside of the ranges that are proved for all.
+    pub outside: usize,
+    /// Coordinates of all joints, m.
+    #[serde(skip)]
+    pub joints_m: Vec<[Drawn; 3]>,
+    /// Axial forces of all members, N.
+    #[serde(skip)]
+    pub axial_n: Vec<Drawn>,
+}
+
+/// One number of many draws.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Drawn {
+    /// The mean.
+    pub mean: f64,
+    /// The standard deviation.
+    pub deviation: f64,
+}
+
+impl Solve {
+    /// Bound places, forces and reactions for all values of the numbers within their tolerances
+    /// (`length_tolerance_m` and the like), in interval arithmetic: exactly one equilibrium is next to that of the
+    /// numbers given for all of them, no cable changes between slack and taut, and no value is outside of
+    /// the ranges. What is not proved says why.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // 30 kg on two ropes of 5 m between anchors 8 m apart: 250 N each, on a triangle 3, 4, 5.
+    /// let text = "gravity_m_s2 = 10\n\
+    ///             tolerances = { length_tolerance_m = 0.01 }\n\
+    ///             joints = { A = { at_m = [-4, 0, 0] }, B = { at_m = [4, 0, 0] }, P = { mass_kg = 30 } }\n\
+    ///             bars = [{ from = 'A', to = 'P', length_m = 5, mass_kg = 0 },\n\
+    ///                     { from = 'B', to = 'P', length_m = 5, mass_kg = 0 }]";
+    /// let found = Solve::new().tolerances(&Problem::parse(text, "ropes.toml")?)?;
+    /// let ranges = found.ranges().expect("a proof");
+    /// // Both a centimetre longer: P hangs at sqrt(5.01² - 4²), and each bears 300/2 · 5.01 over that.
+    /// let depth = (5.01_f64.powi(2) - 16.0).sqrt();
+    /// assert!((ranges.joints_m[2][2].guaranteed[0] + depth).abs() < 1e-9);
+    /// assert!(ranges.axial_n[0].contains(150.0 * 5.01 / depth) && ranges.axial_n[0].is_hull);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn tolerances(&self, problem: &Problem) -> Result<TolerancesAnswer, Error> {
+        self.tolerances_drawn(problem, 0, 0)
+    }
+
+    /// The same, and what becomes of so many random values from a seed, uniform within the tolerances, each
+    /// solved by itself.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn tolerances_drawn(
+        &self,
+        problem: &Problem,
+        draws: usize,
+        seed: u64,
+    ) -> Result<TolerancesAnswer, Error> {
+        let answer = self.run(problem)?;
+        let (system, found) = (answer.system(), &answer.equilibria()[0]);
+        let prove = || prove_ranges(system, &found.joints_m, &found.axial_n);
+        let ranges = self.on_threads(prove)?;
+        let draw = || (draws > 0).then(|| Draws::new(self, system, &ranges, draws, seed));
+        let draws = self.on_threads(draw)?;
+        Ok(TolerancesAnswer { answer, ranges, draws })
+    }
+}
+
+impl Draws {
+    fn new(
+        solve: &Solve,
+        system: &System,
+        ranges: &Result<ToleranceRanges, NoRanges>,
+        count: usize,
+        seed: u64,
+    ) -> Self {
+        let solve = solve.census(UseCensus::Never);
+        let of_draw = |draw: usize| {
+            let numbers = system.uncertain().into_iter().enumerate();
+            let values = numbers
+                .map(|(k, number)| number.given + number.within * uniform(seed, draw, k))
+                .collect::<Vec<_>>();
+            let answer = solve.run_here(&system.with_uncertain(&values).ok()?.into()).ok()?;
+            answer.into_parts().1.into_iter().next()
+        };
+        let all: Vec<Option<SystemEquilibrium>> = (0..count).into_par_iter().map(of_draw).collect();
+        let all: Vec<SystemEquilibrium> = all.into_iter().flatten().collect();
+        let outside = |found: &SystemEquilibrium| {
+            ranges.as_ref().is_ok_and(|ranges| is_outside(system, ranges, found))
+        };
+        let place =
+            |joint: usize, axis: usize| Drawn::of(all.iter().map(|e| e.joints_m[joint][axis]));
+        Self {
+            count,
+            seed,
+            solved: all.len(),
+            outside: all.iter().filter(|found| outside(found)).count(),
+            joints_m: (0..system.joints().len())
+                .map(|joint| [0, 1, 2].map(|axis| place(joint, axis)))
+                .collect(),
+            axial_n: (0..system.members().len())
+                .map(|member| Drawn::of(all.iter().map(|e| e.axial_n[member])))
+                .collect(),
+        }
+    }
+}
+
+/// Whether a solver's answer is outside of what is proved by more than its rounding.
+fn is_outside(system: &System, ranges: &ToleranceRanges, found: &SystemEquilibrium) -> bool {
+    let most_n = found.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+    let beyond = |(range, x): (&Range, &f64), size: f64| {
+        let [least, most] = range.guaranteed;
+        let beyond = (least - x).max(x - most);
+        beyond.is_nan() || beyond > ROUNDING * size
+    };
+    let places = ranges.joints_m.iter().flatten();
+    let mut places = places.zip(found.joints_m.iter().flatten());
+    places.any(|pair| beyond(pair, system.total_length_m()))
+        || ranges.axial_n.iter().zip(&found.axial_n).any(|pair| beyond(pair, most_n))
+}
+
+/// A number from -1 to 1 for each number of each draw: SplitMix64.
+///
+/// G. L. Steele, D. Lea, C. H. Flood, OOPSLA (2014) 453-472, doi:10.1145/2660193.2660195.
+fn uniform(seed: u64, draw: usize, number: usize) -> f64 {
+    let mixed = |x: u64| {
+        let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    let bits = mixed(mixed(mixed(seed) ^ draw as u64) ^ number as u64);
+    (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+impl Drawn {
+    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
+        let count = values.len() as f64;
+        let mean = model::sum(values.clone()) / count;
+        let squares = model::sum(values.map(|x| (x - mean).powi(2)));
+        if count > 1.0 {
+            Self { mean, deviation: (squares / (count - 1.0)).sqrt() }
+        } else {
+            Self::default()
+        }
+    }
+}
+
+impl TolerancesAnswer {
+    /// The equilibrium of the numbers given.
+    #[must_use]
+    pub fn answer(&self) -> &SolveAnswer {
+        &self.answer
+    }
+
+    /// The ranges over all tolerances.
+    ///
+    /// # Errors
+    ///
+    /// [`NoRanges`], why nothing is proved.
+    pub fn ranges(&self) -> Result<&ToleranceRanges, &NoRanges> {
+        self.ranges.as_ref()
+    }
+
+    /// What became of the draws.
+    #[must_use]
+    pub fn draws(&self) -> Option<&Draws> {
+        self.draws.as_ref()
+    }
+
+    /// Whether the equilibrium is stable for all values, as it is for the numbers given: its derivative is
+    /// regular for all, so that no stable one becomes unstable. `None` where nothing is proved.
+    #[must_use]
+    pub fn is_stable(&self) -> Option<bool> {
+        let stability = self.answer.equilibria()[0].stability;
+        self.ranges.as_ref().ok().map(|_| stability.in_space == InSpace::Stable)
+    }
+
+    /// Whether a check has failed: of the answer, or of a draw against the ranges.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.answer.check_failed() || self.draws.as_ref().is_some_and(|draws| draws.outside > 0)
+    }
+
+    /// Whether the solvers have decided, and the ranges are proved.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.answer.is_decided() && self.ranges.is_ok()
+    }
+
+    /// The least and the largest part of its strength that a member, from 0, uses; `None` without a
+    /// strength or a proof. Its own weight and loads are counted as if they all added to its force.
+    #[must_use]
+    pub fn utilisation(&self, member: usize) -> Option<[f64; 2]> {
+        let (system, ranges) = (self.answer.system(), self.ranges.as_ref().ok()?);
+        let strength: &Strength = system.members()[member].strength.as_deref()?;
+        let [least_n, most_n] = ranges.axial_n[member].guaranteed;
+        let more_n = own_load_n(system, member);
+        // Of the force that is nearest to none.
+        let smallest_n = 0.0_f64.clamp(least_n, most_n);
+        let [least_n, most_n] = [(least_n - more_n).next_down(), (most_n + more_n).next_up()];
+        let least = strength.utilisation(smallest_n, smallest_n).next_down().max(0.0);
+        Some([least, strength.utilisation(least_n, most_n).next_up()])
+    }
+
+    /// As a number of the file is named: `bars.2.length_m`.
+    #[must_use]
+    pub fn number_name(&self, number: usize) -> Option<String> {
+        let numbers = &self.ranges.as_ref().ok()?.numbers;
+        Some(name(self.answer.system(), numbers.get(number)?.number))
+    }
+}
+
+/// All loads of a member at their largest, N, from above.
+fn own_load_n(system: &System, member: usize) -> f64 {
+    let of = &system.members()[member];
+    let within_kg = of.tolerances.as_deref().map_or(0.0, |within| within.mass_kg());
+    let mass_kg = (of.body.mass_kg() + within_kg).next_up();
+    let weight_n = (mass_kg * system.gravity_m_s2()).next_up();
+    let weight_n = if of.body.mass_kg() > 0.0 { weight_n } else { 0.0 };
+    let sizes = of.loads.iter().flat_map(|load| load.force_n).map(f64::abs);
+    sizes.filter(|size| *size > 0.0).fold(weight_n, |all, size| (all + size).next_up())
+}
+
+/// As `study --vary` and `derivatives` name it.
+fn name(system: &System, number: UncertainNumber) -> String {
+    let bar = |k: usize, key: &str| format!("bars.{}.{key}", k + 1);
+    let joint = |k: usize, key: &str| format!("joints.{}.{key}", system.joints()[k].name);
+    match number {
+        UncertainNumber::Length(k) => bar(k, "length_m"),
+        UncertainNumber::Stiffness(k) => bar(k, "stiffness_n"),
+        UncertainNumber::Mass(k) => bar(k, "mass_kg"),
+        UncertainNumber::JointMass(k) => joint(k, "mass_kg"),
+        UncertainNumber::At(k, axis) => joint(k, &format!("at_m.{}", AXES[axis])),
+        UncertainNumber::Force(k, axis) => joint(k, &format!("force_n.{}", AXES[axis])),
+    }
+}
+
+/// A range as JSON has it.
+#[derive(Serialize)]
+struct RangeObject {
+    least: f64,
+    most: f64,
+    least_reached: f64,
+    most_reached: f64,
+    is_hull: bool,
+    most_by: Option<String>,
+    most_change: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct NumberObject {
+    name: String,
+    given: f64,
+    within: f64,
+}
+
+#[derive(Serialize)]
+struct JointObject<'a> {
+    name: &'a str,
+    at_m: [RangeObject; 3],
+    reaction_n: Option<[RangeObject; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drawn_m: Option<[Drawn; 3]>,
+}
+
+#[derive(Serialize)]
+struct BarObject {
+    #[serde(serialize_with = "from_one")]
+    bar: usize,
+    axial_n: RangeObject,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    utilisation: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drawn_n: Option<Drawn>,
+}
+
+#[derive(Serialize)]
+struct Proof<'a> {
+    boxes: usize,
+    is_stable: Option<bool>,
+    numbers: Vec<NumberObject>,
+    joints: Vec<JointObject<'a>>,
+    bars: Vec<BarObject>,
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    is_proved: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    may_change: Option<Vec<usize>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<f64>,
+    #[serde(flatten)]
+    proof: Option<Proof<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    draws: Option<&'a Draws>,
+}
+
+impl TolerancesAnswer {
+    fn object(&self) -> Object<'_> {
+        let failure = self.ranges.as_ref().err();
+        Object {
+            is_proved: failure.is_none(),
+            reason: failure.map(ToString::to_string),
+            may_change: failure.and_then(|failure| match failure {
+                NoRanges::MayChange { members } => Some(members.iter().map(|k| k + 1).collect()),
+                _ => None,
+            }),
+            part: failure.and_then(|failure| match failure {
+                NoRanges::NoBox { part, .. } => *part,
+                _ => None,
+            }),
+            proof: self.ranges.as_ref().ok().map(|ranges| self.proof(ranges)),
+            draws: self.draws.as_ref(),
+        }
+    }
+
+    fn proof<'a>(&'a self, ranges: &ToleranceRanges) -> Proof<'a> {
+        let (system, draws) = (self.answer.system(), self.draws.as_ref());
+        let object = |range: Range| RangeObject {
+            least: range.guaranteed[0],
+            most: range.guaranteed[1],
+            least_reached: range.reached[0],
+            most_reached: range.reached[1],
+            is_hull: range.is_hull,
+            most_by: range.most_by.and_then(|(number, _)| self.number_name(number)),
+            most_change: range.most_by.map(|(_, by)| by),
+        };
+        let joints = system.joints().iter().enumerate().map(|(k, joint)| JointObject {
+            name: &joint.name,
+            at_m: ranges.joints_m[k].map(object),
+            reaction_n: ranges.reactions_n[k].map(|all| all.map(object)),
+            drawn_m: draws.map(|draws| draws.joints_m[k]),
+        });
+        let bars = ranges.axial_n.iter().enumerate().map(|(bar, range)| BarObject {
+            bar,
+            axial_n: object(*range),
+            utilisation: self.utilisation(bar),
+            drawn_n: draws.map(|draws| draws.axial_n[bar]),
+        });
+        let numbers = ranges.numbers.iter().map(|uncertain| NumberObject {
+            name: name(system, uncertain.number),
+            given: uncertain.given,
+            within: uncertain.within,
+        });
+        Proof {
+            boxes: ranges.boxes,
+            is_stable: self.is_stable(),
+            numbers: numbers.collect(),
+            joints: joints.collect(),
+            bars: bars.collect(),
+        }
+    }
+}
+
+/// As `funicular solve --tolerances --json` prints it: the answer, and under `tolerances` the ranges.
+impl Serialize for TolerancesAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Both<'a, A: Serialize> {
+            #[serde(flatten)]
+            answer: A,
+            tolerances: Object<'a>,
+        }
+        let answer = self.answer.json(Lists::Objects);
+        Both { answer, tolerances: self.object() }.serialize(serializer)
+    }
+}
