@@ -57,6 +57,9 @@ pub fn prove(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Sys
     if !(finite && fits) {
         return Err(NoBox::NotFinite);
     }
+    if let Err(rope) = system.without_ropes("census") {
+        return Err(NoBox::Rope { member: rope.member });
+    }
     match system.floor_m() {
         None => prove_without_floor(system, joints_m, axial_n),
         Some(floor_m) => prove_above(system, floor_m, joints_m, axial_n),

@@ -163,6 +163,9 @@ impl Display for NoCensus {
             Self::Slider { joint } => {
                 write!(f, "no census: the {} joint slides", ordinal(*joint))
             }
+            Self::Rope { member } => {
+                write!(f, "no census: member {member} is a rope over rings or pulleys")
+            }
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")
             }
@@ -221,6 +224,9 @@ impl Display for NoBox {
                 "nothing brings the joints back, to first order, from {}",
                 counted(*dimension, "independent motion")
             ),
+            Self::Rope { member } => {
+                write!(f, "member {member} is a rope over rings or pulleys")
+            }
             Self::Degenerate { member } => {
                 write!(
                     f,
