@@ -194,7 +194,6 @@ impl Solve {
     ) -> Result<SolveAnswer, Error> {
         let system = system_of(problem);
         system.refusal()?;
-        system.without_ropes("solve")?;
         let Self { solvers, equations, census, max_work, .. } = *self;
         let is_row = || problem.row().is_some() && system.drawing().is_none();
         if equations == Equations::Full && !is_row() {

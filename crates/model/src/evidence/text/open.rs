@@ -198,6 +198,11 @@ impl Display for NoCertificate {
             Self::PivotsUndecided => {
                 f.write_str("the pivots of the stress matrix are not proved positive")
             }
+            Self::NotConvex { members } => write!(
+                f,
+                "a bound with ropes over rings or pulleys is known where anchors hold all parts and every member \
+                 pulls, and {members} push or may push"
+            ),
             Self::NotDefinite { compressed } => write!(
                 f,
                 "the stress matrix is not proved positive definite, with {compressed} members compressed"
