@@ -122,6 +122,7 @@ impl Basins {
         if let Some(chain) = problem.row() {
             return self.axes(chain.chain().bars().len()).map(|_| ());
         }
+        problem.without_ropes("basins")?;
         let system = equilibria::system_of(problem);
         system.refusal()?;
         self.moved(&system).map(|_| ())
@@ -196,6 +197,7 @@ impl Basins {
     /// Run all starts over the place of a joint.
     fn over_places(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
         threads::on(self.threads, || {
+            problem.without_ropes("basins")?;
             let known = equilibria::all(problem, CENSUS_BARS)?;
             let both = FromPlaces(validate::Solvers::Both);
             let starts = Followed::new(problem, &known, 1, both)?;

@@ -147,6 +147,7 @@ impl Derivatives {
     ///
     /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
+        problem.without_ropes("derivatives")?;
         problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         system.refusal()?;

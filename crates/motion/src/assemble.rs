@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::contacts::Contacts;
 use crate::error::MotionError;
 use crate::force::Forces;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{MOTION, Mechanism};
 use crate::rattle::Stepper;
 use crate::simulation::at_the_beginning;
 use crate::state::State;
@@ -40,6 +40,7 @@ const GUESSES: u64 = 50;
 /// # Ok::<(), motion::MotionError>(())
 /// ```
 pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+    system.without_ropes(MOTION)?;
     let Some(mut contacts) = Contacts::of(system) else { return closed(system, guess_m) };
     // What cannot hold where it is has to hold, until all that does not has room.
     for _ in 0..=contacts.list.len() {

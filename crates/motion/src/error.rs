@@ -17,6 +17,9 @@ pub enum MotionError {
         /// `cable` or `strut`.
         kind: &'static str,
     },
+    /// Occurs when a member is a rope over rings or pulleys.
+    #[error(transparent)]
+    Rope(#[from] model::system::RopeNotTaken),
     /// Occurs when an inextensible cable or strut about whose equilibrium a system oscillates is
     /// neither taut, with a force that is more than rounding, nor slack: on one side it would hold
     /// its ends, on the other it would not, and no small motion is linear.

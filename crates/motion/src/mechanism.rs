@@ -74,6 +74,9 @@ pub(crate) struct Slide {
     pub at: Vector,
 }
 
+/// What does not take ropes.
+pub(crate) const MOTION: &str = "motion";
+
 impl Mechanism {
     /// The mechanics of a system in small motions.
     ///
@@ -114,6 +117,7 @@ impl Mechanism {
         reference_m: Vector,
     ) -> Result<Self, MotionError> {
         let Expanded { system, inertia, cornered } = expanded;
+        system.without_ropes(MOTION)?;
         if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
         }

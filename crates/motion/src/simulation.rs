@@ -8,7 +8,7 @@ use crate::contacts::{Contacts, Impact};
 use crate::damping;
 use crate::error::MotionError;
 use crate::force::{ForceOfTime, Forces, MomentOfTime, kinetic_j, potential_j};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{MOTION, Mechanism};
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
 use crate::snapshot::Snapshot;
@@ -81,6 +81,7 @@ impl Simulation {
         settings: Settings,
     ) -> Result<Self, MotionError> {
         settings.validate()?;
+        system.without_ropes(MOTION)?;
         let mut contacts = Contacts::of(system);
         let held = match &mut contacts {
             Some(contacts) if joints_m.len() == system.joints().len() => {

@@ -8,7 +8,7 @@
 use model::system::{Joint, Kind, Support, System};
 
 use crate::error::MotionError;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{MOTION, Mechanism};
 use crate::modes::LeftOver;
 use model::Vector;
 use numerics::vector::{minus, norm, worse};
@@ -44,6 +44,7 @@ pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
 ///
 /// [`MotionError::Input`] where there are not as many places as joints, or one is below the floor.
 pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System, MotionError> {
+    system.without_ropes(MOTION)?;
     let refused = |reason| MotionError::Input { what: "places of the joints", reason };
     if joints_m.len() != system.joints().len() {
         let (given, joints) = (joints_m.len(), system.joints().len());

@@ -18,7 +18,7 @@
 //! | of so many equal bars | [`equal_bars`] |
 //! | of bars written down as numbers | [`chain`] |
 //!
-//! [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system in other units, [`root`] what closed forms need.
+//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system in other units, [`root`] what closed forms need.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -32,6 +32,7 @@ mod frozen;
 mod general;
 mod named;
 mod root;
+mod ropes;
 mod scaled;
 mod shape;
 mod stream;
@@ -43,6 +44,7 @@ pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs};
 pub use root::root;
+pub use ropes::{RopeSample, ropes};
 pub use scaled::scaled;
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

@@ -98,6 +98,10 @@ impl Posed {
         axial_n: &[f64],
         limit: usize,
     ) -> Result<Self, NoBox> {
+        // Its equations are those of straight members.
+        if let Err(rope) = system.without_ropes("census") {
+            return Err(NoBox::Rope { member: rope.member });
+        }
         let activities = activities(system, &frame, joints_m, axial_n)?;
         let loose = loose_joints(system, &activities);
         let held: Vec<bool> = system

@@ -19,6 +19,8 @@ const BALANCE: f64 = 2.5e-10;
 
 /// Rounding of a force over the loads from which on the forces say nothing.
 const ABSURD: f64 = 1e-6;
+/// A strand shorter than this part of its rope, where nothing converges, has run to its end.
+const JAMMED: f64 = 1e-2;
 
 /// The balance of a joint.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +37,15 @@ impl Frame {
     fn elastic_force(&self, shape: &Shape) -> f64 {
         let elastic = self.rods.iter().zip(&shape.force).filter(|(rod, _)| rod.elastic());
         elastic.fold(0.0, |most, (_, force)| force.abs().max(most))
+    }
+
+    /// Whether a strand of a rope has next to no length, where nothing converges.
+    pub(super) fn jam(&self, shape: &Shape) -> Option<Error> {
+        let is_short = |e: usize| norm(self.span(&shape.x, e)) <= JAMMED * self.rods[e].length;
+        self.ropes.iter().find_map(|rope| {
+            let span = rope.iter().position(|e| is_short(*e))? + 1;
+            Some(Error::Jammed { member: rope[0] + 1, span })
+        })
     }
 
     /// Forces whose rounding is a part [`ABSURD`] of all loads and of the prestress, or more.

@@ -77,7 +77,8 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     for ((force, rod), excess) in shape.force.iter_mut().zip(&frame.rods).zip(&excess) {
         *force = rod.prestress(excess.value);
     }
-    let rigid: Vec<usize> = (0..frame.rods.len()).filter(|e| !frame.rods[*e].elastic()).collect();
+    let once = |e: &usize| !frame.rods[*e].elastic() && !frame.again(*e);
+    let rigid: Vec<usize> = (0..frame.rods.len()).filter(once).collect();
     if !rigid.is_empty() {
         if frame.freedom > DENSE {
             return Ok(None);
@@ -131,6 +132,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
                 shape.force[*e] -= svd.U()[(row, k)] * part / size;
             }
         }
+        frame.spread(&mut shape.force);
         let zero = BALANCE * largest(&shape.force);
         let wrong = |e: &usize| {
             let force = shape.force[*e];

@@ -65,6 +65,17 @@ pub enum Error {
         /// Its misfit, m.
         misfit_m: f64,
     },
+    /// Occurs when a ring runs to the end of a span of its rope: the energy has a corner there, and no
+    /// gradient that could vanish.
+    #[error(
+        "the rope (member {member}) jams: its span {span} has no length left, and the energy a corner there"
+    )]
+    Jammed {
+        /// Number of the rope among the members, from 1.
+        member: usize,
+        /// Number of the span, from 1.
+        span: usize,
+    },
     /// Occurs when more inextensible members meet than decide the shape, and their lengths do not
     /// fit each other within their tolerances.
     #[error("{}", misfit_message(misfits))]
@@ -214,6 +225,7 @@ impl Error {
             Self::Falls { .. } => "falls",
             Self::Seed { .. } => "bad seed",
             Self::NotClosed { .. } => "not closed",
+            Self::Jammed { .. } => "jammed",
             Self::Misfit { .. } => "misfit",
             Self::Absurd { .. } => "absurd forces",
             Self::Unbalanced { .. } => "out of balance",
@@ -249,6 +261,7 @@ mod tests {
             (Error::Falls { joint: "P".into(), force_n: 1.0 }, "falls"),
             (Error::Seed { joints: 2, given: 1 }, "bad seed"),
             (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
+            (Error::Jammed { member: 1, span: 2 }, "jammed"),
             (Error::Misfit { misfits: Vec::new() }, "misfit"),
             (Error::Absurd { member: 1, ratio: 1e9 }, "absurd forces"),
             (Error::Unbalanced { joint: "P".into(), unbalance: 0.1 }, "out of balance"),

@@ -1,5 +1,7 @@
 //! Sparse factorisations of matrices that couple the ends of members.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -14,9 +16,9 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 use model::Vector;
 
 use crate::network::error::Error;
-use crate::network::frame::{Rod, Spot};
+use crate::network::frame::{Rod, Spot, strands};
 use crate::network::work::Meter;
-use crate::vector::dot;
+use crate::vector::{along, dot};
 
 /// What a member puts on the difference of its ends: `isotropic I + along d dᵀ`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,6 +26,41 @@ pub(super) struct Block {
     pub(super) isotropic: f64,
     pub(super) along: f64,
     pub(super) direction: Vector,
+    /// The part of `along` that comes of a longer member: the strands of a rope have it together.
+    pub(super) stretch: f64,
+}
+
+/// The strands of a rope, the joints that they meet, and where each two of these stand.
+struct Tie {
+    strands: Vec<usize>,
+    joints: Vec<usize>,
+    pairs: Vec<Option<(usize, usize, usize)>>,
+}
+
+impl Tie {
+    /// The joints of a rope, ascending.
+    fn joints(rods: &[Rod], strands: &[usize]) -> Vec<usize> {
+        let ends = strands.iter().flat_map(|e| [rods[*e].from, rods[*e].to]);
+        ends.collect::<BTreeSet<usize>>().into_iter().collect()
+    }
+
+    /// The gradient of the rope's length at a joint.
+    fn gradient(&self, rods: &[Rod], block: &impl Fn(usize) -> Block, joint: usize) -> Vector {
+        self.strands.iter().fold([0.0; 3], |sum, &e| {
+            let sign = f64::from(u8::from(rods[e].to == joint))
+                - f64::from(u8::from(rods[e].from == joint));
+            along(sum, sign, block(e).direction)
+        })
+    }
+}
+
+/// Each two of some joints.
+fn couples(joints: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let with = |(k, first): (usize, &usize)| {
+        let first = *first;
+        joints[k + 1..].iter().map(move |second| (first, *second))
+    };
+    joints.iter().enumerate().flat_map(with)
 }
 
 impl Block {
@@ -53,6 +90,7 @@ pub(super) struct Factor {
     /// of the first one's columns stand between the diagonal block and theirs; nothing for a
     /// support that is fixed.
     pairs: Vec<Option<(usize, usize, usize)>>,
+    ties: Vec<Tie>,
     values: Vec<f64>,
     lower: Vec<f64>,
     memory: MemBuffer,
@@ -66,9 +104,11 @@ pub(super) struct Factor {
 fn neighbours(spots: &[Spot], rods: &[Rod]) -> Vec<Vec<usize>> {
     let mut columns: Vec<Vec<usize>> =
         (0..spots.len()).map(|j| if spots[j].freedom > 0 { vec![j] } else { vec![] }).collect();
-    for rod in rods {
-        if spots[rod.from].freedom > 0 && spots[rod.to].freedom > 0 {
-            columns[rod.from.min(rod.to)].push(rod.from.max(rod.to));
+    let ropes: Vec<_> = strands(rods).iter().map(|strands| Tie::joints(rods, strands)).collect();
+    let ties = ropes.iter().flat_map(|joints| couples(joints));
+    for (a, b) in rods.iter().map(|rod| (rod.from, rod.to)).chain(ties) {
+        if spots[a].freedom > 0 && spots[b].freedom > 0 {
+            columns[a.min(b)].push(a.max(b));
         }
     }
     for column in &mut columns {
@@ -145,13 +185,19 @@ impl Factor {
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| out_of_memory())?;
-        let pairs = rods.iter().map(|rod| {
-            let (first, second) = (rod.from.min(rod.to), rod.from.max(rod.to));
+        let place = |(a, b): (usize, usize)| {
+            let (first, second) = (a.min(b), a.max(b));
             let column = &columns[first];
             let place =
                 column.binary_search(&second).ok().filter(|_| !columns[second].is_empty())?;
             Some((first, second, column[1..place].iter().map(|&i| spots[i].freedom).sum()))
-        });
+        };
+        let pairs = rods.iter().map(|rod| place((rod.from, rod.to)));
+        let tie = |strands: Vec<usize>| {
+            let joints = Tie::joints(rods, &strands);
+            Tie { pairs: couples(&joints).map(place).collect(), strands, joints }
+        };
+        let ties = strands(rods).into_iter().map(tie).collect();
         let scratch = StackReq::any_of(&[
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
             symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default()),
@@ -159,6 +205,7 @@ impl Factor {
         ]);
         Ok(Self {
             pairs: pairs.collect(),
+            ties,
             values: vec![0.0; entries],
             lower: vec![0.0; symbolic.len_val()],
             memory: MemBuffer::try_new(scratch).map_err(|_| out_of_memory())?,
@@ -192,7 +239,10 @@ impl Factor {
             }
         }
         for (e, rod) in rods.iter().enumerate() {
-            let block = block(e);
+            let mut block = block(e);
+            if rod.rope > 0 {
+                block.along -= block.stretch;
+            }
             for j in [rod.from, rod.to] {
                 let spot = &spots[j];
                 for k in 0..spot.freedom {
@@ -208,6 +258,34 @@ impl Factor {
                 let start = starts[column.first + k] + column.freedom - k + skipped;
                 for t in 0..row.freedom {
                     self.values[start + t] -= block.between(row.axes[t], column.axes[k]);
+                }
+            }
+        }
+        for tie in &self.ties {
+            let stretch = block(tie.strands[0]).stretch;
+            let parts: BTreeMap<usize, [f64; 3]> = tie
+                .joints
+                .iter()
+                .map(|j| {
+                    let gradient = tie.gradient(rods, &block, *j);
+                    (*j, spots[*j].axes.map(|axis| dot(axis, gradient)))
+                })
+                .collect();
+            for (j, part) in &parts {
+                let spot = &spots[*j];
+                for k in 0..spot.freedom {
+                    for t in k..spot.freedom {
+                        self.values[starts[spot.first + k] + t - k] += stretch * part[t] * part[k];
+                    }
+                }
+            }
+            for (first, second, skipped) in tie.pairs.iter().flatten() {
+                let (column, row) = (&spots[*first], &spots[*second]);
+                for k in 0..column.freedom {
+                    let start = starts[column.first + k] + column.freedom - k + skipped;
+                    for t in 0..row.freedom {
+                        self.values[start + t] += stretch * parts[second][t] * parts[first][k];
+                    }
                 }
             }
         }

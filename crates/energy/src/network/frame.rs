@@ -4,6 +4,7 @@ use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
 use crate::network::error::Error;
+use crate::network::law::Excess;
 use crate::network::work::Meter;
 use crate::vector::{along, cross, dot, norm, scaled, unit};
 
@@ -35,6 +36,20 @@ pub(super) struct Rod {
     pub(super) within: f64,
     /// Whether its excess is `|d| - l` although it is inextensible.
     pub(super) linear: bool,
+    /// Number of the rope that it is a strand of, from 1; 0 of a straight member. A strand carries the
+    /// numbers of its rope: its length, its law, its force, its excess.
+    pub(super) rope: u32,
+}
+
+/// The strands of each rope in their order.
+pub(super) fn strands(rods: &[Rod]) -> Vec<Vec<usize>> {
+    let mut ropes: Vec<Vec<usize>> = Vec::new();
+    for (e, rod) in rods.iter().enumerate().filter(|(_, rod)| rod.rope > 0) {
+        let number = rod.rope as usize;
+        ropes.resize(ropes.len().max(number), Vec::new());
+        ropes[number - 1].push(e);
+    }
+    ropes
 }
 
 /// The system without units: lengths in the longest member's, forces in the sum of all loads.
@@ -52,8 +67,11 @@ pub(super) struct Frame {
     pub(super) force_n: f64,
     /// Number of joints; a point of the floor may stand behind them.
     pub(super) joints: usize,
-    /// Number of members; what keeps joints above the floor stands behind them.
+    /// Number of members; behind them stand the further strands of ropes, then what keeps joints above
+    /// the floor.
     pub(super) members: usize,
+    /// The strands of each rope; the first is the rod of its member.
+    pub(super) ropes: Vec<Vec<usize>>,
     pub(super) spots: Vec<Spot>,
     /// Where supports are; the origin for free joints.
     pub(super) supports: Vec<Vector>,
@@ -159,16 +177,19 @@ impl Frame {
             ground: false,
             within: member.within_m() / length_m,
             linear: false,
+            rope: 0,
         });
+        let rods = with_strands(system, rods.collect());
         let mut frame = Self {
             origin_m,
             length_m,
             force_n: total,
             joints: spots.len(),
             members: system.members().len(),
+            ropes: strands(&rods),
             spots,
             supports: supports.collect(),
-            rods: rods.collect(),
+            rods,
             loads: loads_n.iter().map(|load| scaled(1.0 / total, *load)).collect(),
             freedom,
             meter: Meter::default(),
@@ -201,6 +222,7 @@ impl Frame {
                 ground: true,
                 within: 0.0,
                 linear: false,
+                rope: 0,
             });
         }
     }
@@ -220,6 +242,51 @@ impl Frame {
     pub(super) fn relative(&self, step: &[f64], rod: usize) -> Vector {
         let Rod { from, to, .. } = self.rods[rod];
         along(self.displacement(step, to), -1.0, self.displacement(step, from))
+    }
+
+    /// The value of a member, or the sum over the strands of its rope.
+    pub(super) fn whole(&self, rod: usize, value: impl Fn(usize) -> f64) -> f64 {
+        match self.rods[rod].rope {
+            0 => value(rod),
+            rope => self.ropes[rope as usize - 1].iter().map(|strand| value(*strand)).sum(),
+        }
+    }
+
+    /// The excess of a member, or of its whole rope with the gradient of this strand.
+    pub(super) fn excess(&self, x: &[Vector], rod: usize) -> Excess {
+        let here = &self.rods[rod];
+        let mut excess = here.excess(self.span(x, rod));
+        if here.rope > 0 {
+            excess.value = self.whole(rod, |e| norm(self.span(x, e))) - here.length;
+        }
+        excess
+    }
+
+    /// Change of an excess to first order by a change of the coordinates.
+    pub(super) fn change(&self, excess: &[Excess], rod: usize, step: &[f64]) -> f64 {
+        self.whole(rod, |strand| excess[strand].change(self.relative(step, strand)))
+    }
+
+    /// Whether a rod is a strand whose rope has another one before it: what is summed over members
+    /// leaves it out.
+    pub(super) fn again(&self, rod: usize) -> bool {
+        rod >= self.members && self.rods[rod].rope > 0
+    }
+
+    /// The member of a rod; of what is none the last one.
+    pub(super) fn member_of(&self, rod: usize) -> usize {
+        match self.rods[rod].rope {
+            0 => rod.min(self.members - 1),
+            rope => self.ropes[rope as usize - 1][0],
+        }
+    }
+
+    /// Give every strand what the first one of its rope has.
+    pub(super) fn spread(&self, values: &mut [f64]) {
+        for rope in &self.ropes {
+            let first = values[rope[0]];
+            rope.iter().for_each(|strand| values[*strand] = first);
+        }
     }
 
     /// Places after a part of a change of the coordinates.
@@ -260,6 +327,23 @@ impl Frame {
     pub(super) fn height(&self, x: &[Vector]) -> f64 {
         -model::sum(self.loads.iter().zip(x).map(|(load, x)| dot(*load, *x)))
     }
+}
+
+/// The members, with a rod for each strand of a rope: further ones behind them all.
+fn with_strands(system: &System, mut rods: Vec<Rod>) -> Vec<Rod> {
+    let ropes = system.members().iter().enumerate().filter(|(_, member)| member.rope.is_some());
+    for (rope, (e, member)) in (1..).zip(ropes) {
+        let model = Rod { rope, ..rods[e] };
+        for (k, [from, to]) in member.spans().enumerate() {
+            let strand = Rod { from, to, ..model };
+            if k == 0 {
+                rods[e] = strand;
+            } else {
+                rods.push(strand);
+            }
+        }
+    }
+    rods
 }
 
 /// The largest stiffness of a member, N.

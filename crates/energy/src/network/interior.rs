@@ -125,8 +125,7 @@ impl Interior {
             coordinates,
         };
         for e in 0..rods.len() {
-            let relative = frame.relative(&change.coordinates, e);
-            let first_order = excess[e].change(relative);
+            let first_order = frame.change(excess, e, &change.coordinates);
             force[e] += shape.force[e] / softness(e) * first_order;
             change.slack[e] = rods[e].flexibility * force[e] - off(e) - first_order;
         }
@@ -154,10 +153,10 @@ impl Interior {
         let part_f = part_inside(&shape.force, &predictor.force).min(1.0);
         let there = frame.moved(&shape.x, part_x, &predictor.coordinates);
         let mut left = 0.0;
-        for (e, excess) in excess.iter().enumerate() {
-            let relative = frame.relative(&predictor.coordinates, e);
-            let now = frame.rods[e].excess(frame.span(&there, e)).value;
-            predictor.curved[e] = now - excess.value - part_x * excess.change(relative);
+        for e in 0..frame.rods.len() {
+            let first_order = frame.change(&excess, e, &predictor.coordinates);
+            let now = frame.excess(&there, e).value;
+            predictor.curved[e] = now - excess[e].value - part_x * first_order;
             left += (shape.force[e] + part_f * predictor.force[e])
                 * (self.slack[e] + part_x * predictor.slack[e]);
         }

@@ -14,6 +14,9 @@
 //! the sign changed. The floor under a joint is a cable whose excess is the depth, `c = -d_z`,
 //! linear in the places.
 //!
+//! A rope over rings and pulleys has the excess `sum |d| - l` over its strands, whatever its law: each
+//! strand has its own `J`, and all have the force of the rope.
+//!
 //! Where lengths overdetermine the shape and are not met, the two laws differ: `linear` members
 //! have that of elastic ones without being longer by a force.
 
@@ -47,7 +50,7 @@ impl Rod {
     pub(super) fn excess(&self, d: Vector) -> Excess {
         if self.ground {
             Excess { value: -d[2], gradient: [0.0, 0.0, -1.0], bend: 0.0, stiff: 0.0 }
-        } else if self.elastic() || self.linear {
+        } else if self.elastic() || self.linear || self.rope > 0 {
             let length = norm(d).max(f64::MIN_POSITIVE);
             Excess {
                 value: length - self.length,
@@ -104,6 +107,7 @@ impl Excess {
             isotropic: force * self.bend,
             along: stiffness - force * self.bend * self.stiff,
             direction: self.gradient,
+            stretch: stiffness,
         }
     }
 
@@ -164,6 +168,7 @@ mod tests {
             ground: false,
             within: 0.0,
             linear: false,
+            rope: 0,
         }
     }
 

@@ -121,7 +121,7 @@ impl Frame {
     fn touching(&self, shape: &Shape) -> Vec<bool> {
         let rounding = rounding_floor(self, shape);
         let taut = |(e, rod): (usize, &Rod)| {
-            let excess = rod.excess(self.span(&shape.x, e)).value;
+            let excess = self.excess(&shape.x, e).value;
             let within = if rod.ground { rounding } else { rod.within };
             rod.kind == Kind::Bar
                 || rod.resists(shape.force[e])
@@ -159,7 +159,8 @@ impl Frame {
             // Without order, so that it has a part of every self-stress.
             if *stressed { size * (0.5 + (0.618_033_988_75 * (e + 1) as f64).fract()) } else { 0.0 }
         };
-        let force = members.iter().enumerate().map(any).collect();
+        let mut force: Vec<f64> = members.iter().enumerate().map(any).collect();
+        self.spread(&mut force);
         let stress = self.self_stress(share, &Shape { x: shape.x.clone(), force });
         let with = self.slope(&stressed(shape, &stress)).unbalance;
         with - self.slope(shape).unbalance > LEANING
@@ -199,7 +200,7 @@ impl Newton {
         if let Reading::Found(limit) = &mut found {
             // The force of the other law is that by its own gradient.
             for (e, rod) in self.frame.rods.iter().enumerate() {
-                if !rod.elastic() && !rod.ground {
+                if !rod.elastic() && !rod.ground && rod.rope == 0 {
                     limit.shape.force[e] *= rod.length / norm(self.frame.span(&limit.shape.x, e));
                 }
             }
@@ -423,8 +424,7 @@ fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f
         if taut[e] && force.abs() > least && !rod.resists(force) {
             (taut[e], changed) = (false, true);
         } else if !taut[e] {
-            let pulls =
-                if rod.elastic() { rod.excess(frame.span(&shape.x, e)).value } else { stretch[e] };
+            let pulls = if rod.elastic() { frame.excess(&shape.x, e).value } else { stretch[e] };
             if touching[e] && pulls.abs() > least && rod.resists(pulls)
                 || rod.elastic() && rod.prestress(pulls).abs() > least
             {

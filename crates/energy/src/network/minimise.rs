@@ -348,7 +348,12 @@ fn descend(
         .timer(false)
         .run()
         .map_err(passed_on)?;
-    outcome(&ended.state)?;
+    let last = ended.state.get_param().map(Arc::clone);
+    let named = |error| match error {
+        Error::IterationLimit { .. } => last.and_then(|shape| frame.jam(&shape)).unwrap_or(error),
+        error => error,
+    };
+    outcome(&ended.state).map_err(named)?;
     effort.iterations = ended.state.get_iter();
     effort.factorisations = ended.solver.factor.count;
     match ended.state.take_param() {

@@ -57,7 +57,7 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape
     }
     factor.solve(&mut moves);
     let force = (0..frame.rods.len()).map(|e| {
-        let force = strained(e) + stiffness(e) * excess[e].change(frame.relative(&moves, e));
+        let force = strained(e) + stiffness(e) * frame.change(&excess, e, &moves);
         if frame.rods[e].resists(force) { force } else { 0.0 }
     });
     Shape { x: drawn.x.clone(), force: force.collect() }

@@ -141,7 +141,8 @@ impl Local {
     /// Mean force of the members.
     fn typical(&self) -> f64 {
         let sum: f64 = self.soft.iter().map(|soft| soft.force.abs()).sum();
-        (sum / self.soft.len() as f64).max(f64::MIN_POSITIVE)
+        // Where no member bears anything yet, the loads.
+        if sum > 0.0 { sum / self.soft.len() as f64 } else { 1.0 }
     }
 }
 
@@ -183,7 +184,8 @@ impl Newton {
             self.frame.rods[e].softened(c.value, force[e], self.kappa(e))
         };
         let soft: Vec<Softened> = excess.iter().enumerate().map(soft).collect();
-        let potential = model::sum(soft.iter().map(|soft| soft.potential));
+        let once = soft.iter().enumerate().filter(|(e, _)| !self.frame.again(*e));
+        let potential = model::sum(once.map(|(_, soft)| soft.potential));
         (excess, soft, self.frame.height(x) + potential)
     }
 
@@ -240,7 +242,8 @@ impl Newton {
         rods.fold(1.0, |part, (e, rod)| {
             let strut = rod.kind == Kind::Strut;
             let most = if strut { STRUT_STEP.min(self.step) } else { self.step } * rod.length;
-            part.min(most / norm(self.frame.relative(step, e)).max(f64::MIN_POSITIVE))
+            let turned = self.frame.whole(e, |strand| norm(self.frame.relative(step, strand)));
+            part.min(most / turned.max(f64::MIN_POSITIVE))
         })
     }
 
@@ -257,6 +260,9 @@ impl Newton {
     }
 
     fn stalled(&self, shape: &Shape) -> Error {
+        if let Some(jam) = self.frame.jam(shape) {
+            return jam;
+        }
         let slope = self.frame.slope(shape);
         if slope.misfit > NEAR {
             return Error::NotClosed {
@@ -328,12 +334,10 @@ impl Newton {
         if misfit > ENOUGH * self.misfit {
             self.stiffness *= STIFFEN;
             if self.stiffness * LAST_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
-                return Err(Error::NotClosed {
-                    member: slope.worst + 1,
-                    misfit_m: slope.misfit
-                        * self.frame.rods[slope.worst].length
-                        * self.frame.length_m,
-                });
+                let (rod, off) = (&self.frame.rods[slope.worst], slope.misfit);
+                let misfit_m = off * rod.length * self.frame.length_m;
+                let not_closed = Error::NotClosed { member: slope.worst + 1, misfit_m };
+                return Err(self.frame.jam(shape).unwrap_or(not_closed));
             }
         }
         self.misfit = misfit;

@@ -207,9 +207,8 @@ impl Newton {
             *value = -*value;
         }
         self.factor.solve(&mut step);
-        let force = (0..frame.rods.len()).map(|e| {
-            soft[e].force + soft[e].stiffness * excess[e].change(frame.relative(&step, e))
-        });
+        let force = (0..frame.rods.len())
+            .map(|e| soft[e].force + soft[e].stiffness * frame.change(&excess, e, &step));
         Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) }
     }
 
@@ -248,7 +247,7 @@ impl Frame {
             if force.abs() > 0.0 {
                 return rod.resists(force);
             }
-            let excess = rod.excess(self.span(&shape.x, e)).value / rod.length;
+            let excess = self.excess(&shape.x, e).value / rod.length;
             excess.abs() > rounding && rod.resists(excess)
         };
         self.rods.iter().enumerate().map(resists).collect()

@@ -49,7 +49,7 @@ pub(super) fn largest(values: &[f64]) -> f64 {
 impl Frame {
     /// Excess of each member.
     pub(super) fn excesses(&self, x: &[Vector]) -> Vec<Excess> {
-        self.rods.iter().enumerate().map(|(e, rod)| rod.excess(self.span(x, e))).collect()
+        (0..self.rods.len()).map(|e| self.excess(x, e)).collect()
     }
 
     /// The largest force of the system: of a member or a load.
@@ -77,7 +77,7 @@ impl Frame {
         for (e, rod) in self.rods.iter().enumerate() {
             let off = rod.misfit(excess[e].value, shape.force[e]);
             if off > misfit || off.is_nan() {
-                (misfit, worst) = (off, e.min(self.members - 1));
+                (misfit, worst) = (off, self.member_of(e));
             }
         }
         let unbalance = largest(&gradient) / self.force_scale(&shape.force);
@@ -86,9 +86,10 @@ impl Frame {
 
     /// Energy of the loads and of the stretched members.
     pub(super) fn energy(&self, shape: &Shape) -> f64 {
-        let elastic = self.rods.iter().zip(&shape.force);
+        let elastic =
+            self.rods.iter().zip(&shape.force).enumerate().filter(|(e, _)| !self.again(*e));
         self.height(&shape.x)
-            + model::sum(elastic.map(|(rod, force)| 0.5 * rod.flexibility * force * force))
+            + model::sum(elastic.map(|(_, (rod, force))| 0.5 * rod.flexibility * force * force))
     }
 
     /// For each joint the sum of `force / length` over its members: the size of the second

@@ -79,6 +79,7 @@ impl Share {
                 isotropic: 0.0,
                 along: self.weight(e),
                 direction: self.excess[e].gradient,
+                stretch: self.weight(e),
             })
             .collect();
         frame.fill(
@@ -103,8 +104,7 @@ impl Share {
     }
 
     fn stretch(&self, y: &[f64]) -> Vec<f64> {
-        let change = |e: usize| self.excess[e].change(self.frame.relative(y, e));
-        (0..self.frame.rods.len()).map(change).collect()
+        (0..self.frame.rods.len()).map(|e| self.frame.change(&self.excess, e, y)).collect()
     }
 
     /// The same joint forces, borne by the springs.
@@ -141,7 +141,8 @@ impl Share {
         // The fractional parts of the multiples of the golden section: spread evenly, alike in
         // every run.
         let disorder = |e: usize| 0.5 + (0.618_033_988_75 * (e + 1) as f64).fract();
-        let force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
+        let mut force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
+        self.frame.spread(&mut force);
         let shared = self.shared(&force).force;
         let rest = force.iter().zip(shared).map(|(force, shared)| (force - shared).abs());
         let part: Vec<bool> =

@@ -96,6 +96,7 @@ impl Solution {
         }
         let balance = frame.balance(system, &shape, settings.tolerance)?;
         if let Some(member) = wrong_sign(frame, &shape) {
+            let member = if frame.rods[member].ground { member } else { frame.member_of(member) };
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
                 let joint = system.joints()[frame.rods[member].to].name.clone();
@@ -186,14 +187,24 @@ fn equilibrium(
         })
         .collect();
     for (e, member) in system.members().iter().enumerate() {
-        let d = frame.span(&shape.x, e);
         // By virtual work: the derivative of the energy by the place of an end.
-        let pull = scaled(frame.force_n * shape.force[e], frame.rods[e].excess(d).gradient);
+        let of = |e: usize| {
+            let gradient = frame.rods[e].excess(frame.span(&shape.x, e)).gradient;
+            scaled(frame.force_n * shape.force[e], gradient)
+        };
+        let strands = frame.rods[e].rope.checked_sub(1).map(|rope| &frame.ropes[rope as usize]);
+        let last = strands.and_then(|strands| strands.last()).map_or_else(|| of(e), |e| of(*e));
+        let pull = of(e);
         let [start, end] = end_loads_n(member, system.gravity_m_s2());
         let at_start = scaled(-1.0, along(pull, 1.0, start));
-        let at_end = along(pull, -1.0, end);
+        let at_end = along(last, -1.0, end);
         reactions_n[member.from] = along(reactions_n[member.from], 1.0, at_start);
         reactions_n[member.to] = along(reactions_n[member.to], 1.0, at_end);
+        for pair in strands.into_iter().flat_map(|strands| strands.windows(2)) {
+            let bent = along(of(pair[0]), -1.0, of(pair[1]));
+            let joint = frame.rods[pair[0]].to;
+            reactions_n[joint] = along(reactions_n[joint], 1.0, bent);
+        }
         start_forces_n.push(at_start);
         end_forces_n.push(at_end);
         axial_n.push(shape.force[e].signum() * norm(pull));
@@ -207,7 +218,8 @@ fn equilibrium(
             *reaction = [0.0; 3];
         }
     }
-    for (rod, force) in frame.rods.iter().zip(&shape.force).skip(frame.members) {
+    let floor = frame.rods.iter().zip(&shape.force).filter(|(rod, _)| rod.ground);
+    for (rod, force) in floor {
         let spot = &frame.spots[rod.to];
         for axis in &spot.axes[..spot.freedom] {
             let push = force * frame.force_n * axis[2];
@@ -255,6 +267,7 @@ mod tests {
             ground: false,
             within: 0.0,
             linear: false,
+            rope: 0,
         };
         let frame = Frame {
             origin_m: [0.0; 3],
@@ -262,6 +275,7 @@ mod tests {
             force_n: 1.0,
             joints: 2,
             members: 1,
+            ropes: Vec::new(),
             spots: Vec::new(),
             supports: Vec::new(),
             rods: vec![rod],

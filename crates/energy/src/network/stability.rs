@@ -211,14 +211,20 @@ pub(super) fn below(
 /// The derivatives of the lengths of some members by the coordinates, a row each.
 pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> Mat<f64> {
     let mut rows = Mat::<f64>::zeros(taut.len(), frame.freedom);
-    for (row, &e) in taut.iter().enumerate() {
-        let rod = &frame.rods[e];
-        // Of unit length also where the member is not quite as long as it should be.
-        let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
-        for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
-            let spot = &frame.spots[joint];
-            for k in 0..spot.freedom {
-                rows[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
+    for (row, e) in taut.iter().enumerate() {
+        let strands = match frame.rods[*e].rope {
+            0 => std::slice::from_ref(e),
+            rope => &frame.ropes[rope as usize - 1],
+        };
+        for &e in strands {
+            let rod = &frame.rods[e];
+            // Of unit length also where the member is not quite as long as it should be.
+            let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
+            for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
+                let spot = &frame.spots[joint];
+                for k in 0..spot.freedom {
+                    rows[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
+                }
             }
         }
     }
@@ -259,12 +265,13 @@ impl Dense {
     fn with(frame: &Frame, shape: &Shape, taut: impl Fn(usize) -> bool, zero: f64) -> Self {
         let n = frame.freedom;
         let excess = frame.excesses(&shape.x);
-        let taut: Vec<usize> =
-            (0..frame.rods.len()).filter(|&e| taut(e) && !frame.rods[e].elastic()).collect();
+        let once = |e: &usize| taut(*e) && !frame.again(*e);
+        let (springs, taut): (Vec<usize>, Vec<usize>) =
+            (0..frame.rods.len()).filter(once).partition(|&e| frame.rods[e].elastic());
         let rigidity = rows(frame, &excess, &taut);
         let mut hessian = Mat::<f64>::zeros(n, n);
         for (e, rod) in frame.rods.iter().enumerate() {
-            let elastic = rod.elastic() && resists(frame, shape, e);
+            let elastic = rod.elastic() && rod.rope == 0 && resists(frame, shape, e);
             let block =
                 excess[e].block(shape.force[e], if elastic { 1.0 / rod.flexibility } else { 0.0 });
             for (a, sign_a) in [(rod.from, -1.0), (rod.to, 1.0)] {
@@ -279,6 +286,12 @@ impl Dense {
                 }
             }
         }
+        let springs: Vec<usize> = springs.into_iter().filter(|e| frame.rods[*e].rope > 0).collect();
+        let stretch = rows(frame, &excess, &springs);
+        let stiff = Mat::from_fn(springs.len(), n, |row, column| {
+            stretch[(row, column)] / frame.rods[springs[row]].flexibility
+        });
+        hessian += stretch.transpose() * stiff;
         let size = frame.largest_force(&shape.force);
         // What keeps joints above the floor stands behind the members, and is no length.
         let floors = taut.partition_point(|e| *e < frame.members)..taut.len();

@@ -13,7 +13,7 @@ use crate::network::error::Error;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::{Frame, Rod, Spot};
 use crate::network::shape::Shape;
-use crate::vector::norm;
+use crate::vector::{dot, norm};
 
 /// Multiplicative updates of the force densities: lengths are within some per cent after that many,
 /// and more of them converge slowly.
@@ -24,6 +24,10 @@ const CLAMP: f64 = 20.0;
 
 /// Part of the diagonal added where supports leave a translation free.
 const SHIFT: f64 = 1e-9;
+
+/// A strand has at least this part of the length of its rope: the density of one without length has no
+/// bound.
+const NO_STRAND: f64 = 1e-3;
 
 /// A joint that moves has this one coordinate in the scalar system, for each of the three axes
 /// alike.
@@ -109,7 +113,10 @@ pub(super) fn hanging(frame: &Frame) -> Result<Shape, Error> {
             .rods
             .iter()
             .enumerate()
-            .map(|(e, rod)| if rod.ground { 1.0 } else { norm(frame.span(&x, e)) / rod.length })
+            .map(|(e, rod)| {
+                let length = || frame.whole(e, |strand| norm(frame.span(&x, strand)));
+                if rod.ground { 1.0 } else { length() / rod.length }
+            })
             .collect();
         // At first all alike: the sag is that of the mean length.
         let mean = stretch[..frame.members].iter().sum::<f64>() / frame.members as f64;
@@ -117,11 +124,36 @@ pub(super) fn hanging(frame: &Frame) -> Result<Shape, Error> {
             let ratio = if update == 0 { mean } else { stretch };
             *density *= ratio.clamp(1.0 / CLAMP, CLAMP);
         }
+        share_in_ropes(frame, &x, &mut density);
         x = densities.places(frame, &density)?;
     }
     // The floor pushes each joint with a part of the loads, whose sum is one.
     let push = 1.0 / frame.joints as f64;
     let force = frame.rods.iter().zip(&density);
-    let force = force.map(|(rod, w)| if rod.ground { push } else { w * rod.length }).collect();
+    let force = force.map(|(rod, w)| if rod.ground { push } else { w * rod.length });
+    let mut force: Vec<f64> = force.collect();
+    for rope in &frame.ropes {
+        force[rope[0]] = mean_force(frame, &x, &density, rope);
+    }
+    frame.spread(&mut force);
     Ok(Shape { x, force })
+}
+
+/// The force of a rope whose strands have these densities: its mean over the length.
+fn mean_force(frame: &Frame, x: &[Vector], density: &[f64], rope: &[usize]) -> f64 {
+    let square = |e: &usize| dot(frame.span(x, *e), frame.span(x, *e));
+    let work: f64 = rope.iter().map(|e| density[*e] * square(e)).sum();
+    let length: f64 = rope.iter().map(|e| square(e).sqrt()).sum();
+    if length > 0.0 { work / length } else { density[rope[0]] * frame.rods[rope[0]].length }
+}
+
+/// Give the strands of each rope the densities of one force.
+fn share_in_ropes(frame: &Frame, x: &[Vector], density: &mut [f64]) {
+    for rope in &frame.ropes {
+        let force = mean_force(frame, x, density, rope);
+        for e in rope {
+            let least = NO_STRAND * frame.rods[*e].length;
+            density[*e] = force / norm(frame.span(x, *e)).max(least);
+        }
+    }
 }

@@ -116,6 +116,14 @@ impl Displaced<'_> {
         let span_m = along(self.frame.span(self.x, e), 1.0, apart);
         let unit = 1.0 / self.frame.length_m;
         let whole: Excess = rod.excess(scaled(unit, span_m));
+        if rod.rope > 0 {
+            let moved = |strand: usize| {
+                let Rod { from, to, .. } = self.frame.rods[strand];
+                along(self.frame.span(self.x, strand), 1.0, along(self.u[to], -1.0, self.u[from]))
+            };
+            let length_m = self.frame.whole(e, |strand| norm(moved(strand)));
+            return (length_m * unit - rod.length, whole.gradient);
+        }
         let Some(&length_m) = self.lengths.get(e) else { return (whole.value, whole.gradient) };
         let squares = difference_of_squares(ends, apart, length_m);
         let both = if rod.elastic() { norm(span_m) + length_m } else { 2.0 * length_m };
@@ -156,7 +164,9 @@ impl Displaced<'_> {
             *value = -*value;
         }
         factor.solve(&mut step);
-        let change = |e: usize| dot(self.excess(e).1, frame.relative(&step, e));
+        let change = |e: usize| {
+            frame.whole(e, |strand| dot(self.excess(strand).1, frame.relative(&step, strand)))
+        };
         let force = (0..force.len()).map(|e| force[e] + stiffness(e) * change(e)).collect();
         let u = frame.moved(&self.u, frame.length_m, &step);
         Self { frame, lengths: self.lengths, x: self.x, u, force }

@@ -13,6 +13,7 @@ mod network_support;
 mod network_work;
 mod paper;
 mod physics;
+mod ropes;
 mod scale;
 mod settings;
 mod support;

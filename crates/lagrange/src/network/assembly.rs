@@ -8,7 +8,6 @@ use nalgebra::Vector3;
 use super::error::Error;
 use super::fitted::fitted_forces;
 use super::framework::Link;
-use super::law::by_direction;
 use super::newton::{Patience, Run};
 use super::readings::{clearer, nearly};
 use super::signs::{SIGN_CHANGES, signs_mended};
@@ -153,9 +152,8 @@ impl Solver<'_> {
     fn length_step(&mut self, run: &Run) -> Vec<Vector3<f64>> {
         let residual = &run.residual;
         let along = |k: usize| f64::from(u8::from(run.state.taut[k]));
-        let directions = residual.directions.iter().enumerate();
-        let blocks = directions.map(|(k, (u, _))| by_direction(u, 0.0, along(k)));
-        self.stiffness.assemble(&self.framework, blocks);
+        self.stiffness
+            .assemble_members(&self.framework, |k| (residual.directions[k].0, 0.0, along(k)));
         self.stiffness.shift(LENGTH_RIDGE * residual.length.0);
         self.stiffness.factorise_definite();
         self.factorisations += 1;

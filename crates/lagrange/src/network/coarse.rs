@@ -36,6 +36,7 @@ pub(super) fn start(framework: &Framework, runs: &Runs) -> Option<Start> {
         units: framework.units,
         nodes: runs.nodes.clone(),
         links: Vec::new(),
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: framework.work.clone(),
     };
@@ -101,6 +102,7 @@ fn refine(
             within: 0.0,
             compliance: group.iter().map(|step| step.compliance).sum(),
             kind: if cable { Kind::Cable } else { Kind::Bar },
+            rope: None,
         });
         from = to;
     }

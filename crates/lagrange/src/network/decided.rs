@@ -17,7 +17,6 @@ use nalgebra::Vector3;
 
 use super::error::Error;
 use super::framework::Framework;
-use super::law::by_direction;
 use super::state::State;
 use super::stiffness::Stiffness;
 
@@ -51,7 +50,7 @@ fn rows(framework: &Framework, state: &State) -> Vec<(Vector3<f64>, f64)> {
 
 /// $R^T L^{-1} R$
 fn assemble(framework: &Framework, stiffness: &mut Stiffness, rows: &[(Vector3<f64>, f64)]) {
-    stiffness.assemble(framework, rows.iter().map(|(u, weight)| by_direction(u, 0.0, *weight)));
+    stiffness.assemble_members(framework, |k| (rows[k].0, 0.0, rows[k].1));
 }
 
 /// Number of self-stresses at a cut, by the signs of pivots (Sylvester): as many negative ones has
@@ -66,7 +65,8 @@ fn self_stresses(
     stiffness.shift(-cut * cut * stiffness.largest());
     stiffness.factorise_indefinite();
     let rank = framework.freedoms().saturating_sub(stiffness.negative_pivots());
-    rows.iter().filter(|(_, weight)| *weight > 0.0).count().saturating_sub(rank)
+    let members = &rows[..framework.members()];
+    members.iter().filter(|(_, weight)| *weight > 0.0).count().saturating_sub(rank)
 }
 
 /// The cut at which a shape is singular that becomes so within the tolerances of its lengths: a
@@ -129,6 +129,11 @@ impl Decided {
         self.stiffness.factorise_definite();
     }
 
+    /// By how much moves of the joints make a member longer, to first order.
+    fn stretch(&self, framework: &Framework, link: usize, moves: &[Vector3<f64>]) -> f64 {
+        framework.whole(link, |k| self.rows[k].0.dot(&framework.links[k].span(moves)))
+    }
+
     /// The part of errors of lengths that places decide; those of elastic members are decided by
     /// their forces, and stay.
     pub fn part(&mut self, framework: &Framework, errors: &[f64]) -> Vec<f64> {
@@ -146,9 +151,9 @@ impl Decided {
             self.stiffness.solve(&mut moves);
             let moves = self.stiffness.scatter(framework, &moves);
             let mut change = 0.0_f64;
-            for ((link, (u, weight)), e) in framework.links.iter().zip(&self.rows).zip(&mut left) {
+            for (k, ((_, weight), e)) in self.rows.iter().zip(&mut left).enumerate() {
                 if *weight > 0.0 {
-                    let taken = u.dot(&link.span(&moves));
+                    let taken = self.stretch(framework, k, &moves);
                     change = change.max(taken.abs());
                     *e -= taken;
                 }
@@ -182,9 +187,8 @@ impl Decided {
             let mut moves = self.stiffness.gather(framework, &framework.unbalance(pulls));
             self.stiffness.solve(&mut moves);
             let moves = self.stiffness.scatter(framework, &moves);
-            let rows = framework.links.iter().zip(&self.rows).zip(&mut forces);
-            for ((link, (u, w)), t) in rows {
-                *t += w * u.dot(&link.span(&moves));
+            for (k, ((_, w), t)) in self.rows.iter().zip(&mut forces).enumerate() {
+                *t += w * self.stretch(framework, k, &moves);
             }
         }
         forces
@@ -194,10 +198,11 @@ impl Decided {
     /// no shape shows them.
     pub fn members(&mut self, framework: &Framework) -> Vec<usize> {
         let probe = |k: usize| framework.links[k].length * (0.5 + (k as f64 * GOLDEN).fract());
-        let probe: Vec<f64> = (0..framework.links.len()).map(probe).collect();
+        let members = framework.members();
+        let probe: Vec<f64> = framework.by_link((0..members).map(probe).collect());
         let parts = self.part(framework, &probe);
         let open = |k: &usize| (probe[*k] - parts[*k]).abs() > TAKES_PART * probe[*k];
-        (0..probe.len()).filter(|k| self.rows[*k].1 > 0.0 && open(k)).collect()
+        (0..members).filter(|k| self.rows[*k].1 > 0.0 && open(k)).collect()
     }
 }
 

@@ -18,6 +18,9 @@ const DENSITY_STEPS: usize = 20;
 /// The least density of a member at the start, in units of the mean one.
 const LEAST_DENSITY: f64 = 1e-3;
 
+/// A span has at least this part of its rope's length: where it has none its density has no bound.
+const NO_SPAN: f64 = 1e-3;
+
 /// Whether a member takes part: one that cannot pull does not.
 pub(super) fn pulls(framework: &Framework, link: &Link) -> bool {
     link.kind != Kind::Strut && framework.moves(link)
@@ -36,15 +39,28 @@ pub(super) fn by_densities(framework: &Framework) -> Result<(Vec<Vector3<f64>>, 
     for step in 0..=DENSITY_STEPS {
         places = by_density(framework, &mut stiffness, &densities, sliding);
         if step < DENSITY_STEPS {
-            for (density, link) in densities.iter_mut().zip(&framework.links) {
-                let span = link.span(&places).norm();
-                *density *= span / (link.length + link.compliance * *density * span);
-            }
+            densities = nearer(framework, &places, &densities);
         }
     }
     // A member whose joints are at one place has lost its density.
     let least = LEAST_DENSITY * densities.iter().sum::<f64>() / densities.len().max(1) as f64;
     Ok((places, densities.into_iter().map(|density| density.max(least)).collect()))
+}
+
+/// Densities that bring the lengths nearer. The spans of a rope have one force: its mean over them.
+fn nearer(framework: &Framework, places: &[Vector3<f64>], densities: &[f64]) -> Vec<f64> {
+    let span = |k: usize| framework.links[k].span(places).norm();
+    let nearer = |(k, link): (usize, &Link)| {
+        if link.rope.is_none() {
+            let stretched = link.length + link.compliance * densities[k] * span(k);
+            return densities[k] * (span(k) / stretched);
+        }
+        let length = framework.whole(k, span);
+        let force = framework.whole(k, |k| densities[k] * span(k) * span(k)) / length;
+        let density = force / span(k).max(NO_SPAN * length);
+        density * (length / (link.length + link.compliance * force))
+    };
+    framework.links.iter().enumerate().map(nearer).collect()
 }
 
 /// Places of the joints in balance for given force densities.

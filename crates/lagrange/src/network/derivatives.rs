@@ -152,6 +152,7 @@ impl<'a> Derivatives<'a> {
     /// [`Error::FreeMotion`], [`Error::OpenForces`], [`Error::JustTaut`] and [`Error::JustTouches`]
     /// where the equilibrium has no derivatives.
     pub fn new(system: &'a System, solution: &Solution) -> Result<Self, Error> {
+        system.without_ropes("derivatives")?;
         let framework = Framework::of(system, solution);
         let state = State::of(&framework, solution);
         let residual = Residual::new(&framework, &state);

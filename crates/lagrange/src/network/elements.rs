@@ -48,6 +48,9 @@ const WORTH: f64 = 0.5;
 /// The hanging equilibrium in which every member pulls, by runs; nothing when it is none or the
 /// runs are too short to pay. The number of factorisations counts those of the coarse start.
 pub(super) fn hang(framework: &Framework) -> Option<Run> {
+    if !framework.ropes.is_empty() {
+        return None;
+    }
     let runs = Runs::new(framework)?;
     if coarse::members(&runs) as f64 > WORTH * framework.links.len() as f64 {
         return None;
@@ -170,12 +173,14 @@ impl<'a> Shape<'a> {
             within: 0.0,
             compliance: 0.0,
             kind: Kind::Bar,
+            rope: None,
         });
         let (units, nodes) = (framework.units, runs.nodes.clone());
         let skeleton = Framework {
             units,
             nodes,
             links: links.collect(),
+            ropes: Vec::new(),
             lying: Vec::new(),
             work: framework.work.clone(),
         };

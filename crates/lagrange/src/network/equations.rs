@@ -78,6 +78,7 @@ impl Equations {
     ///
     /// [`Error::Memory`] when the factor cannot be held.
     pub fn new(system: &System) -> Result<Self, Error> {
+        system.without_ropes("trace")?;
         let bare = Framework::new(system);
         Ok(Self {
             units: bare.units,

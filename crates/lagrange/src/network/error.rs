@@ -13,6 +13,9 @@ pub enum Error {
     /// Occurs when a setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// Occurs when derivatives are asked for of a system with a rope over rings or pulleys.
+    #[error(transparent)]
+    Rope(#[from] model::system::RopeNotTaken),
     /// Occurs when the seed has not one place for each joint, or not one force for each member.
     #[error("the seed holds {got} {of}, the system has {expected}")]
     SeedLength {
@@ -102,6 +105,20 @@ pub enum Error {
         member: usize,
         /// How far, m.
         misfit_m: f64,
+    },
+    /// Occurs when a ring runs to the end of a span of its rope, where friction-free spans have no
+    /// direction and the balance has a corner.
+    #[error(
+        "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
+         direction for its force"
+    )]
+    Jammed {
+        /// Number of the rope among the members, from 1.
+        member: usize,
+        /// Name of one joint.
+        from: String,
+        /// Name of the other.
+        to: String,
     },
     /// Occurs when the lengths of inextensible members overdetermine the shape, and the shape that
     /// meets them best is off by more than their tolerances.

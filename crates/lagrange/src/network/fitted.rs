@@ -8,7 +8,6 @@
 use model::system::Kind;
 
 use super::framework::{Framework, Link};
-use super::law::by_direction;
 use super::state::State;
 use super::stiffness::Stiffness;
 
@@ -29,13 +28,13 @@ pub(super) fn fitted_forces(
     let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
     let member = |(k, link): (usize, &Link)| {
         let Some(along) = elastic(link) else { return (rigid, 0.0) };
-        let own = (directions[k].1 - link.length) * along;
+        let length = framework.whole(k, |span| directions[span].1);
+        let own = (length - link.length) * along;
         let slack = link.kind != Kind::Bar && own.abs() > 0.0 && !link.bears(own);
         if slack { (0.0, 0.0) } else { (along, own) }
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
-    let blocks = directions.iter().zip(&members).map(|((u, _), (k, _))| by_direction(u, 0.0, *k));
-    stiffness.assemble(framework, blocks);
+    stiffness.assemble_members(framework, |k| (directions[k].0, 0.0, members[k].0));
     stiffness.shift(RIDGE * stiffest.max(rigid));
     stiffness.factorise_definite();
     let pulls = directions.iter().zip(&members).map(|((u, _), (_, own))| u * *own);
@@ -43,6 +42,7 @@ pub(super) fn fitted_forces(
     let mut moves = stiffness.gather(framework, &loads);
     stiffness.solve(&mut moves);
     let moves = stiffness.scatter(framework, &moves);
-    let links = framework.links.iter().zip(&directions).zip(&members);
-    links.map(|((link, (u, _)), (k, own))| own + k * u.dot(&link.span(&moves))).collect()
+    let stretch = |span: usize| directions[span].0.dot(&framework.links[span].span(&moves));
+    let members = members.iter().enumerate();
+    members.map(|(e, (k, own))| own + k * framework.whole(e, stretch)).collect()
 }

@@ -6,6 +6,9 @@
 //! stretches uniformly as well. What remains of the member is a law between its length and its
 //! axial force.
 
+use std::collections::BTreeSet;
+use std::num::NonZeroU32;
+
 use model::system::{Joint, Kind, Member, Support, System};
 use nalgebra::{Matrix3, Vector3};
 
@@ -51,6 +54,33 @@ pub(super) struct Link {
     pub compliance: f64,
     /// Which sign of axial force it can have.
     pub kind: Kind,
+    /// Number from 1 of the rope that it is a span of. Each span has the numbers of the whole rope.
+    pub rope: Option<NonZeroU32>,
+}
+
+/// A rope over rings and pulleys: its length is the sum of its spans, its force that of each of
+/// them. With the spans' directions $u$ its length has the gradient $g = \sum C^T u$ by the places.
+#[derive(Debug, Clone)]
+pub(super) struct Rope {
+    /// Its spans in their order: the first is the link of the member, the others stand behind all
+    /// members.
+    pub spans: Vec<usize>,
+    /// The joints that it meets, each once.
+    pub joints: Vec<usize>,
+}
+
+impl Rope {
+    /// The gradient of its length at each of its joints.
+    pub fn gradient(&self, links: &[Link], u: impl Fn(usize) -> Vector3<f64>) -> Vec<Vector3<f64>> {
+        let at = |joint: &usize| {
+            self.spans.iter().fold(Vector3::zeros(), |sum, span| {
+                let sign = f64::from(u8::from(links[*span].to == *joint))
+                    - f64::from(u8::from(links[*span].from == *joint));
+                sum + u(*span) * sign
+            })
+        };
+        self.joints.iter().map(at).collect()
+    }
 }
 
 impl Link {
@@ -86,7 +116,9 @@ pub(super) struct Units {
 pub(super) struct Framework {
     pub units: Units,
     pub nodes: Vec<Node>,
+    /// The members, and behind them the further spans of ropes.
     pub links: Vec<Link>,
+    pub ropes: Vec<Rope>,
     /// Joints that lie on the floor.
     pub lying: Vec<Lying>,
     pub work: Work,
@@ -129,7 +161,61 @@ impl Framework {
             node.load /= units.force_n;
         }
         let links = system.members().iter().map(|member| link(member, units)).collect();
-        Self { units, nodes, links, lying: Vec::new(), work: Work::default() }
+        let (ropes, lying) = (Vec::new(), Vec::new());
+        let mut new = Self { units, nodes, links, ropes, lying, work: Work::default() };
+        for (k, member) in system.members().iter().enumerate().filter(|(_, m)| m.rope.is_some()) {
+            new.span_rope(k, member);
+        }
+        new
+    }
+
+    /// Give a rope a link for each of its spans.
+    fn span_rope(&mut self, member: usize, rope: &Member) {
+        let number = u32::try_from(self.ropes.len() + 1).ok().and_then(NonZeroU32::new);
+        let mut spans = vec![member];
+        for [from, to] in rope.spans() {
+            let link = Link { from, to, rope: number, ..self.links[member].clone() };
+            if self.links[member].rope.is_none() {
+                self.links[member] = link;
+            } else {
+                spans.push(self.links.len());
+                self.links.push(link);
+            }
+        }
+        let joints: BTreeSet<usize> = rope.path().collect();
+        self.ropes.push(Rope { spans, joints: joints.into_iter().collect() });
+    }
+
+    /// Number of members.
+    pub fn members(&self) -> usize {
+        self.ropes.first().map_or(self.links.len(), |rope| rope.spans[1])
+    }
+
+    /// What was given for each member, for each link.
+    pub fn by_link<T: Copy>(&self, mut of_members: Vec<T>) -> Vec<T> {
+        for rope in &self.ropes {
+            let of_rope = of_members[rope.spans[0]];
+            of_members.extend(rope.spans[1..].iter().map(|_| of_rope));
+        }
+        of_members
+    }
+
+    /// The rope of a link.
+    pub fn rope(&self, link: &Link) -> Option<&Rope> {
+        link.rope.map(|number| &self.ropes[number.get() as usize - 1])
+    }
+
+    /// The member that a link belongs to.
+    pub fn member_of(&self, link: usize) -> usize {
+        self.rope(&self.links[link]).map_or(link, |rope| rope.spans[0])
+    }
+
+    /// The value of a link, or the sum over the spans of its rope.
+    pub fn whole(&self, link: usize, value: impl Fn(usize) -> f64) -> f64 {
+        match self.rope(&self.links[link]) {
+            None => value(link),
+            Some(rope) => rope.spans.iter().map(|span| value(*span)).sum(),
+        }
     }
 
     /// With this much work for all solves over it.
@@ -142,18 +228,30 @@ impl Framework {
         self.nodes.iter().map(Node::freedom).sum()
     }
 
-    /// Whether a member has an end that can move.
+    /// Whether a member has a joint that can move.
     pub fn moves(&self, link: &Link) -> bool {
-        self.nodes[link.from].freedom() + self.nodes[link.to].freedom() > 0
+        let moves = |joint: usize| self.nodes[joint].freedom() > 0;
+        moves(link.from)
+            || moves(link.to)
+            || self.rope(link).is_some_and(|rope| rope.joints.iter().any(|joint| moves(*joint)))
+    }
+
+    /// Distance of the ends of a member that cannot move, along its spans.
+    pub fn held_length(&self, link: usize) -> f64 {
+        let base = |joint: usize| self.nodes[joint].base;
+        self.whole(link, |span| {
+            let Link { from, to, .. } = self.links[span];
+            (base(to) - base(from)).norm()
+        })
     }
 
     /// Axial force of an elastic member between two anchors; nothing for any other.
-    pub fn held_force(&self, link: &Link) -> Option<f64> {
+    pub fn held_force(&self, number: usize) -> Option<f64> {
+        let link = &self.links[number];
         if self.moves(link) || link.compliance <= 0.0 {
             return None;
         }
-        let distance = (self.nodes[link.to].base - self.nodes[link.from].base).norm();
-        let force = (distance - link.length) / link.compliance;
+        let force = (self.held_length(number) - link.length) / link.compliance;
         Some(if link.bears(force) { force } else { 0.0 })
     }
 
@@ -266,5 +364,6 @@ fn link(member: &Member, units: Units) -> Link {
         within: member.within_m() / units.length_m,
         compliance: member.stiffness_n.map_or(0.0, |stiffness| length * units.force_n / stiffness),
         kind: member.kind,
+        rope: None,
     }
 }

@@ -15,7 +15,6 @@ use nalgebra::Vector3;
 
 use super::decided::Decided;
 use super::framework::Framework;
-use super::law::by_direction;
 use super::residual::Residual;
 use super::settings::Settings;
 use super::state::State;
@@ -72,7 +71,7 @@ impl Run {
 /// The state with the forces of elastic members between anchors, which nothing else changes.
 pub(super) fn with_held(framework: &Framework, mut state: State) -> State {
     for (k, link) in framework.links.iter().enumerate() {
-        if let Some(force) = framework.held_force(link) {
+        if let Some(force) = framework.held_force(k) {
             (state.axial[k], state.taut[k]) = (force, link.bears(force));
         }
     }
@@ -207,8 +206,10 @@ impl Derivative {
     }
 
     fn assembled(&self, framework: &Framework, stiffness: &mut Stiffness) {
-        let blocks = self.rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
-        stiffness.assemble(framework, blocks);
+        stiffness.assemble_members(framework, |k| {
+            let row = &self.rows[k];
+            (row.u, row.across, row.along)
+        });
     }
 
     /// The same for a stiffness that holds a factor from nearby.
@@ -307,13 +308,18 @@ impl Derivative {
         let mut moves = stiffness.gather(framework, &right);
         stiffness.solve(&mut moves);
         let moves = stiffness.scatter(framework, &moves);
-        let links = framework.links.iter().zip(&self.rows).zip(lengths);
-        let axial =
-            links.map(|((link, row), misfit)| row.along * (row.u.dot(&link.span(&moves)) - misfit));
+        let axial = self.rows.iter().zip(lengths).enumerate();
+        let axial = axial
+            .map(|(k, (row, misfit))| row.along * (self.stretch(framework, k, &moves) - misfit));
         Step {
             axial: step.axial.iter().zip(axial).map(|(a, more)| a + more).collect(),
             places: step.places.iter().zip(&moves).map(|(place, more)| place + more).collect(),
         }
+    }
+
+    /// By how much moves of the joints make a member longer, to first order.
+    fn stretch(&self, framework: &Framework, link: usize, moves: &[Vector3<f64>]) -> f64 {
+        framework.whole(link, |k| self.rows[k].u.dot(&framework.links[k].span(moves)))
     }
 
     /// What a step leaves of unbalanced forces and misfits to first order.
@@ -327,11 +333,12 @@ impl Derivative {
         let (mut forces, mut lengths) = (forces.to_vec(), lengths.to_vec());
         for (k, (link, row)) in framework.links.iter().zip(&self.rows).enumerate() {
             let change = link.span(&step.places);
-            let stretch = row.u.dot(&change);
-            let pull = (change - row.u * stretch) * row.across + row.u * step.axial[k];
+            let across = change - row.u * row.u.dot(&change);
+            let pull = across * row.across + row.u * step.axial[k];
             forces[link.from] += pull;
             forces[link.to] -= pull;
             if row.taut {
+                let stretch = self.stretch(framework, k, &step.places);
                 lengths[k] -= stretch - row.compliance * step.axial[k];
             }
         }

@@ -10,15 +10,15 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
 use super::framework::Framework;
+use super::stiffness::couples;
 
 /// Rank of each joint in the elimination; nothing without memory for it.
 pub(super) fn by_degree(framework: &Framework) -> Option<Vec<usize>> {
     let joints = framework.nodes.len();
     let mut neighbours = vec![Vec::new(); joints];
-    for link in &framework.links {
-        if framework.nodes[link.from].freedom() > 0 && framework.nodes[link.to].freedom() > 0 {
-            let (low, high) = (link.from.min(link.to), link.from.max(link.to));
-            neighbours[high].push(low);
+    for (a, b) in couples(framework) {
+        if framework.nodes[a].freedom() > 0 && framework.nodes[b].freedom() > 0 {
+            neighbours[a.max(b)].push(a.min(b));
         }
     }
     let (mut columns, mut rows) = (vec![0], Vec::new());

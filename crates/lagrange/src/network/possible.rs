@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::directions::Directions;
 use super::error::Error;
 use super::framework::Framework;
+use super::state::State;
 
 /// A component falls when its supports leave it this part of its load.
 const UNHELD: f64 = 1e-12;
@@ -56,11 +57,11 @@ pub(super) fn is_loaded(framework: &Framework) -> bool {
 
 /// Refuse inextensible members between anchors that do not fit there.
 fn check_held(framework: &Framework) -> Result<(), Error> {
-    for (member, link) in framework.links.iter().enumerate() {
+    for (member, link) in framework.links[..framework.members()].iter().enumerate() {
         if framework.moves(link) || link.compliance > 0.0 {
             continue;
         }
-        let distance = (framework.nodes[link.to].base - framework.nodes[link.from].base).norm();
+        let distance = framework.held_length(member);
         let excess = distance - link.length;
         let misfit = match link.kind {
             Kind::Bar => excess.abs(),
@@ -140,6 +141,20 @@ fn root(parent: &mut [usize], mut joint: usize) -> usize {
         joint = parent[joint];
     }
     joint
+}
+
+/// A span shorter than this part of its rope, where nothing converges, has run to its end.
+const JAMMED: f64 = 1e-2;
+
+/// Whether two joints of a rope have run together: the span between them has no direction, and the energy
+/// a corner that no equation of the others describes.
+pub(super) fn jammed(system: &System, framework: &Framework, state: &State) -> Option<Error> {
+    let directions = state.directions(framework);
+    let is_short = |span: &&usize| directions[**span].1 <= JAMMED * framework.links[**span].length;
+    let span = *framework.ropes.iter().flat_map(|rope| &rope.spans).find(is_short)?;
+    let link = &framework.links[span];
+    let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.clone());
+    Some(Error::Jammed { member: framework.member_of(span) + 1, from, to })
 }
 
 /// Two anchors that are further apart than inextensible bars and cables between them reach, if

@@ -68,9 +68,11 @@ pub(super) fn ranges(
     for &member in limp {
         state.taut[member] = true;
     }
+    state.taut.truncate(framework.members());
+    state.taut = framework.by_link(state.taut);
     let basis = self_stresses(framework, &state);
     let mut table = Table::new(framework, &state, &basis);
-    (0..framework.links.len()).map(|member| table.range(member)).collect()
+    (0..framework.members()).map(|member| table.range(member)).collect()
 }
 
 /// Forces of all members, and pushes of the floor, as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown

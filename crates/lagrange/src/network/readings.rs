@@ -137,7 +137,8 @@ impl Solver<'_> {
         let (framework, unit) = (&self.framework, self.framework.units.length_m);
         let misfit = |member: usize| {
             let link = &framework.links[member];
-            let misfit_m = (run.residual.directions[member].1 - link.length) * unit;
+            let length = framework.whole(member, |span| run.residual.directions[span].1);
+            let misfit_m = (length - link.length) * unit;
             Misfit { member, misfit_m, within_m: link.within * unit }
         };
         let mut misfits: Vec<_> = decided.members(framework).into_iter().map(misfit).collect();

@@ -59,10 +59,10 @@ impl Residual {
         let balance = largest(free);
         // One by one: the square of the smallest number is none.
         merit = merit / unit / unit;
-        let links =
-            framework.links.iter().zip(&directions).zip(state.axial.iter().zip(&state.taut));
-        let misfits = links.map(|((link, (_, length)), (axial, taut))| {
+        let links = framework.links.iter().enumerate().zip(state.axial.iter().zip(&state.taut));
+        let misfits = links.map(|((k, link), (axial, taut))| {
             let keeps = *taut && framework.moves(link);
+            let length = framework.whole(k, |span| directions[span].1);
             if keeps { link.length + link.compliance * axial - length } else { 0.0 }
         });
         let lengths: Vec<f64> = misfits.collect();
@@ -90,7 +90,7 @@ impl Residual {
         framework: &Framework,
         iterations: usize,
     ) -> Error {
-        let member = self.length.1;
+        let member = framework.member_of(self.length.1);
         Error::NotConverged {
             iterations,
             joint: system.joints()[self.balance.1].name.clone(),

@@ -128,11 +128,11 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
     let links = links(framework, state);
     let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
     let negative = |stiffness: &mut Stiffness, shift: f64| {
-        let blocks = links.iter().map(|link| {
+        stiffness.assemble_members(framework, |k| {
+            let link = &links[k];
             let along = if link.taut { link.along.unwrap_or(RIGID * largest) } else { 0.0 };
-            by_direction(&link.u, link.across, along)
+            (link.u, link.across, along)
         });
-        stiffness.assemble(framework, blocks);
         stiffness.shift(shift);
         stiffness.factorise_indefinite();
         stiffness.negative_pivots()
@@ -155,17 +155,17 @@ struct Dense {
     rank_gap: [f64; 2],
 }
 
-impl Dense {
-    fn new(framework: &Framework, state: &State) -> Self {
-        let links = links(framework, state);
-        let first_unknown = first_unknowns(framework);
-        let size = framework.freedoms();
-        // Its answer would count for nothing after that.
-        framework.work.spend(size * size);
-        let rigid: Vec<usize> =
-            (0..links.len()).filter(|&k| links[k].taut && links[k].along.is_none()).collect();
-        let mut rows = Mat::<f64>::zeros(rigid.len(), size);
-        for (row, &k) in rigid.iter().enumerate() {
+/// The gradients of the lengths of some members by the free directions, a row for each.
+fn gradients(
+    framework: &Framework,
+    links: &[Link],
+    first_unknown: &[usize],
+    members: &[usize],
+) -> Mat<f64> {
+    let mut rows = Mat::<f64>::zeros(members.len(), framework.freedoms());
+    for (row, &member) in members.iter().enumerate() {
+        let spans = framework.rope(&framework.links[member]).map(|rope| rope.spans.as_slice());
+        for &k in spans.unwrap_or(&[member]) {
             for (joint, sign) in [(framework.links[k].from, -1.0), (framework.links[k].to, 1.0)] {
                 let node = &framework.nodes[joint];
                 let along = node.free.components(&links[k].u);
@@ -174,10 +174,26 @@ impl Dense {
                 }
             }
         }
+    }
+    rows
+}
+
+impl Dense {
+    fn new(framework: &Framework, state: &State) -> Self {
+        let links = links(framework, state);
+        let first_unknown = first_unknowns(framework);
+        let size = framework.freedoms();
+        // Its answer would count for nothing after that.
+        framework.work.spend(size * size);
+        let members = 0..framework.members();
+        let rigid: Vec<usize> =
+            members.filter(|&k| links[k].taut && links[k].along.is_none()).collect();
+        let rows = gradients(framework, &links, &first_unknown, &rigid);
         let Kernels { motions, stresses, gap: rank_gap } = kernels(&rows);
         let mut hessian = Mat::<f64>::zeros(size, size);
+        let is_rope = |k: usize| framework.links[k].rope.is_some();
         for (k, link) in links.iter().enumerate() {
-            let along = if link.taut { link.along.unwrap_or(0.0) } else { 0.0 };
+            let along = link.along.filter(|_| link.taut && !is_rope(k)).unwrap_or(0.0);
             add(
                 framework,
                 &first_unknown,
@@ -186,6 +202,14 @@ impl Dense {
                 &by_direction(&link.u, link.across, along),
             );
         }
+        let springs: Vec<usize> = framework.ropes.iter().map(|rope| rope.spans[0]).collect();
+        let springs: Vec<usize> =
+            springs.into_iter().filter(|k| links[*k].taut && links[*k].along.is_some()).collect();
+        let ropes = gradients(framework, &links, &first_unknown, &springs);
+        let stiffness = Mat::from_fn(springs.len(), size, |row, column| {
+            links[springs[row]].along.unwrap_or(0.0) * ropes[(row, column)]
+        });
+        hessian += ropes.transpose() * stiffness;
         let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
         let flat = (FLAT * largest).max(ROUNDING * stiffest);
@@ -199,11 +223,11 @@ impl Dense {
         let neutral = curvatures.iter().filter(|c| c.abs() <= flat).count();
         let self_stresses = (0..stresses.ncols())
             .map(|column| {
-                let mut forces = vec![0.0; links.len()];
+                let mut forces = vec![0.0; framework.members()];
                 for (row, &k) in rigid.iter().enumerate() {
                     forces[k] = stresses[(row, column)];
                 }
-                forces
+                framework.by_link(forces)
             })
             .collect();
         Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses, rank_gap }

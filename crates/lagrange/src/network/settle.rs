@@ -7,10 +7,9 @@
 //! member can bear. The energy of that is smooth, Newton's method brings it to a minimum, and $N_0
 //! \leftarrow N$ leads to the true law.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::framework::{Framework, Link};
-use super::law::by_direction;
 use super::state::State;
 use super::stiffness::Stiffness;
 use model::system::Kind;
@@ -134,8 +133,9 @@ impl Penalty {
     }
 
     fn forces(&self, framework: &Framework, places: &[Vector3<f64>]) -> Vec<f64> {
-        let links = framework.links.iter().zip(&self.offsets);
-        links.map(|(link, offset)| self.force(link, link.span(places).norm(), *offset)).collect()
+        let links = framework.links.iter().zip(&self.offsets).enumerate();
+        let length = |span: usize| framework.links[span].span(places).norm();
+        links.map(|(k, (link, n))| self.force(link, framework.whole(k, length), *n)).collect()
     }
 
     /// Largest error of a length, in units of the length: the update of the force over $\rho$.
@@ -148,7 +148,8 @@ impl Penalty {
     }
 
     fn energy(&self, framework: &Framework, places: &[Vector3<f64>]) -> f64 {
-        let links = framework.links.iter().zip(self.forces(framework, places));
+        let members = &framework.links[..framework.members()];
+        let links = members.iter().zip(self.forces(framework, places));
         let stored = links.map(|(link, force)| 0.5 * force * force / self.stiffness(link));
         let loads = framework.nodes.iter().zip(places).map(|(node, place)| -node.load.dot(place));
         stored.sum::<f64>() + loads.sum::<f64>()
@@ -247,14 +248,13 @@ impl Penalty {
         state: &State,
         directions: &[(Vector3<f64>, f64)],
     ) {
-        let links = framework.links.iter().zip(directions).zip(&state.axial);
-        let blocks = links.map(|((link, (u, length)), axial)| {
-            if *length <= 0.0 {
-                return Matrix3::zeros();
+        stiffness.assemble_members(framework, |k| {
+            let (link, (u, length), axial) = (&framework.links[k], directions[k], state.axial[k]);
+            if length <= 0.0 {
+                return (u, 0.0, 0.0);
             }
-            let works = link.kind == Kind::Bar || *axial != 0.0;
-            by_direction(u, axial / length, if works { self.stiffness(link) } else { 0.0 })
+            let works = link.kind == Kind::Bar || axial != 0.0;
+            (u, axial / length, if works { self.stiffness(link) } else { 0.0 })
         });
-        stiffness.assemble(framework, blocks);
     }
 }

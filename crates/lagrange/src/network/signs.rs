@@ -96,7 +96,7 @@ impl Solver<'_> {
         let worst = (0..axial.len()).max_by(|a, b| axial[*a].abs().total_cmp(&axial[*b].abs()));
         match worst {
             Some(member) if axial[member].abs() > ABSURD * scale => Err(Error::Absurd {
-                member: member + 1,
+                member: framework.member_of(member) + 1,
                 force_n: axial[member] * framework.units.force_n,
                 ratio: axial[member].abs() / scale,
             }),
@@ -122,7 +122,8 @@ pub(super) fn signs_mended(
             return None;
         }
         let axial = state.axial[k];
-        let excess = run.residual.directions[k].1 - link.length;
+        let length = framework.whole(k, |span| run.residual.directions[span].1);
+        let excess = length - link.length;
         let outside = if link.kind == Kind::Cable { excess } else { -excess };
         let pushes = state.taut[k] && axial.abs() > least && !link.bears(axial);
         let reaches = !state.taut[k] && outside > longer * link.length;

@@ -103,13 +103,14 @@ impl Solution {
             second_order.neutral + second_order.self_stresses.as_ref().map_or(0, Vec::len);
         evidence.rigidity = rigidity(framework, &second_order);
         let largest = state.largest_force(framework);
-        let members = 0..framework.links.len();
+        let members = 0..framework.members();
         let slack = members.clone().filter(|&k| !state.taut[k]).collect();
         let limp = members
             .filter(|&k| {
                 let link = &framework.links[k];
                 let rigid = link.compliance <= 0.0 && framework.moves(link);
-                let reaches = (directions[k].1 - link.length).abs() <= NO_SLACK * link.length;
+                let length = framework.whole(k, |span| directions[span].1);
+                let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
                 rigid && reaches && state.axial[k].abs() <= NO_FORCE * largest
             })
             .collect::<Vec<_>>();
@@ -117,13 +118,18 @@ impl Solution {
         let misfit_m = largest_misfit(framework, basis.unwrap_or_default(), &directions);
         evidence.self_stresses =
             named(basis, forces, misfit_m, || ranges(framework, state.clone(), &limp));
+        let own = |named: SelfStresses| SelfStresses {
+            basis: of_members(framework, named.basis),
+            ..named
+        };
+        evidence.self_stresses = evidence.self_stresses.map(own);
         Self {
             residual: size,
             equilibrium: Answer { system, framework, state, directions, left }
                 .equilibrium(&second_order, evidence),
             factorisations,
             mechanisms: second_order.mechanisms,
-            self_stresses: second_order.self_stresses,
+            self_stresses: second_order.self_stresses.map(|basis| of_members(framework, basis)),
             rank_gap: second_order.rank_gap,
             forces,
             slack,
@@ -148,16 +154,22 @@ fn named(
     Some(SelfStresses { dimension, basis, choice, misfit_m, ranges })
 }
 
+/// Self-stresses without what stands behind the members.
+fn of_members(framework: &Framework, mut basis: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    basis.iter_mut().for_each(|stress| stress.truncate(framework.members()));
+    basis
+}
+
 /// Largest misfit of a member that takes part in a self-stress, m.
 fn largest_misfit(
     framework: &Framework,
     basis: &[Vec<f64>],
     directions: &[(Vector3<f64>, f64)],
 ) -> f64 {
-    let links = framework.links.iter().zip(directions).enumerate();
+    let links = framework.links.iter().enumerate();
     let misfits = links
         .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > NO_PART))
-        .map(|(_, (link, (_, distance)))| (distance - link.length).abs());
+        .map(|(k, link)| (framework.whole(k, |span| directions[span].1) - link.length).abs());
     misfits.fold(0.0, f64::max) * framework.units.length_m
 }
 
@@ -182,7 +194,8 @@ fn choose(
     }
     // A Gram-Schmidt basis in the norm of the lengths, and the forces without their part in it.
     let product = |a: &[f64], b: &[f64]| -> f64 {
-        framework.links.iter().zip(a.iter().zip(b)).map(|(link, (a, b))| a * b * link.length).sum()
+        let members = framework.links[..framework.members()].iter();
+        members.zip(a.iter().zip(b)).map(|(link, (a, b))| a * b * link.length).sum()
     };
     let mut orthonormal: Vec<Vec<f64>> = Vec::new();
     let mut least = state.axial.clone();
@@ -284,12 +297,14 @@ impl Answer<'_> {
         let members = system.members();
         let (mut start_forces_n, mut end_forces_n) =
             (Vec::with_capacity(members.len()), Vec::with_capacity(members.len()));
-        for ((member, (u, _)), axial) in members.iter().zip(&directions).zip(&mut state.axial) {
+        state.axial.truncate(members.len());
+        for (k, (member, axial)) in members.iter().zip(&mut state.axial).enumerate() {
             *axial *= units.force_n;
-            let pull_n = u * *axial;
+            let last = framework.rope(&framework.links[k]).and_then(|rope| rope.spans.last());
+            let [pull_n, last_n] = [k, *last.unwrap_or(&k)].map(|span| directions[span].0 * *axial);
             let [start_n, end_n] = end_loads_n(system, member);
             start_forces_n.push((-pull_n - start_n).into());
-            end_forces_n.push((pull_n - end_n).into());
+            end_forces_n.push((last_n - end_n).into());
         }
         let places = state.places.iter();
         let reactions = framework.nodes.iter().zip(&left);
@@ -324,7 +339,7 @@ fn stability(second_order: &SecondOrder) -> SystemStability {
 pub(super) fn energy(framework: &Framework, state: &State) -> f64 {
     let loads =
         framework.nodes.iter().zip(&state.places).map(|(node, place)| -node.load.dot(place));
-    let links = framework.links.iter().zip(&state.axial);
+    let links = framework.links[..framework.members()].iter().zip(&state.axial);
     let stored = links.map(|(link, axial)| 0.5 * link.compliance * axial * axial);
     model::sum(loads.chain(stored))
 }

@@ -5,6 +5,7 @@ use std::time::Instant;
 use model::system::{Kind, System};
 use nalgebra::Vector3;
 
+use super::densities::by_densities;
 use super::elements;
 use super::error::Error;
 use super::fitted::fitted_forces;
@@ -12,7 +13,7 @@ use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::newton::{Patience, Run};
-use super::possible::{check, check_loaded, is_loaded, too_short};
+use super::possible::{check, check_loaded, is_loaded, jammed, too_short};
 use super::readings::nearly;
 use super::second_order::SecondOrder;
 use super::seed::Seed;
@@ -67,6 +68,9 @@ fn hang(
     settings: &Settings,
     began: Instant,
 ) -> Result<Solution, Error> {
+    if !framework.ropes.is_empty() {
+        return from_densities(system, framework, settings, began);
+    }
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
@@ -113,6 +117,27 @@ fn hang(
         Err(error) => solver.assembled(&start, error)?,
         Ok(run) => run,
     };
+    let run = solver.lowest(&start, run);
+    solver.stable(run)
+}
+
+/// With ropes over rings and pulleys, which module `hanging` does not know: from force densities to a
+/// rest of the true members.
+fn from_densities(
+    system: &System,
+    framework: Framework,
+    settings: &Settings,
+    began: Instant,
+) -> Result<Solution, Error> {
+    let (places, densities) = by_densities(&framework)?;
+    let stiffness = Stiffness::new(&framework, false)?;
+    let axial = framework.links.iter().zip(&densities);
+    let axial: Vec<f64> = axial.map(|(link, w)| w * link.span(&places).norm()).collect();
+    let taut = vec![true; axial.len()];
+    let axial = framework.by_link(axial[..framework.members()].to_vec());
+    let start = State::new(places, axial, taut);
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let run = solver.settled(&start, 0)?;
     let run = solver.lowest(&start, run);
     solver.stable(run)
 }
@@ -222,7 +247,11 @@ impl<'a> Solver<'a> {
                 return Err(Error::Escapes { joint, distance_m });
             }
             let fits = rest.fits;
+            let jam = jammed(self.system, &self.framework, &rest.state);
             result = self.with_signs(rest.state, Patience::Full);
+            if let (Err(Error::NotConverged { .. }), Some(jam)) = (&result, jam) {
+                return Err(jam);
+            }
             let never_fits = matches!(&result, Err(Error::Misfit { misfits }) if nearly(&self.framework, misfits));
             if never_fits || (fits && result.is_ok()) {
                 break;
@@ -284,7 +313,8 @@ impl<'a> Solver<'a> {
         let directions = state.directions(&self.framework);
         let mut off = 0.0_f64;
         for (k, link) in self.framework.links.iter().enumerate() {
-            let misfit = (directions[k].1 / link.length - 1.0).abs();
+            let length = self.framework.whole(k, |span| directions[span].1);
+            let misfit = (length / link.length - 1.0).abs();
             let stiff = link.compliance <= STIFF * link.length;
             unloaded.taut[k] = stiff && (link.kind == Kind::Bar || misfit <= LOOSE);
             off = off.max(if unloaded.taut[k] { misfit } else { 0.0 });
@@ -308,7 +338,10 @@ impl<'a> Solver<'a> {
         let members = self.framework.links.len();
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
         state.axial = match &seed.axial_n {
-            Some(axial_n) => axial_n.iter().map(|axial| axial / units.force_n).collect(),
+            Some(axial_n) => {
+                let axial = axial_n.iter().map(|axial| axial / units.force_n);
+                self.framework.by_link(axial.collect())
+            }
             None if self.system.is_unloaded() => self.prestress(&state),
             None => {
                 self.factorisations += 1;
@@ -317,7 +350,8 @@ impl<'a> Solver<'a> {
         };
         let directions = state.directions(&self.framework);
         for (k, link) in self.framework.links.iter().enumerate() {
-            let short = 1.0 - directions[k].1 / link.length;
+            let length = self.framework.whole(k, |span| directions[span].1);
+            let short = 1.0 - length / link.length;
             let slack = match link.kind {
                 Kind::Bar => false,
                 Kind::Cable => short > SLACK_LENGTH || state.axial[k] < 0.0,
@@ -334,15 +368,16 @@ impl<'a> Solver<'a> {
     /// the forces are. Inextensible members have none yet.
     fn prestress(&self, state: &State) -> Vec<f64> {
         let directions = state.directions(&self.framework);
-        let force = |(link, (_, distance)): (&Link, &(Vector3<f64>, f64))| {
+        let force = |(k, link): (usize, &Link)| {
             let force = if link.compliance > 0.0 {
-                (distance - link.length) / link.compliance
+                let length = self.framework.whole(k, |span| directions[span].1);
+                (length - link.length) / link.compliance
             } else {
                 0.0
             };
             if link.bears(force) { force } else { 0.0 }
         };
-        self.framework.links.iter().zip(&directions).map(force).collect()
+        self.framework.links.iter().enumerate().map(force).collect()
     }
 }
 

@@ -28,13 +28,13 @@ impl State {
     pub fn of(framework: &Framework, solution: &Solution) -> Self {
         let (units, answer) = (framework.units, &solution.equilibrium);
         let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-        let mut taut = vec![true; framework.links.len()];
+        let mut taut = vec![true; framework.members()];
         for &member in &solution.slack {
             taut[member] = false;
         }
         let places = answer.joints_m.iter().map(place).collect();
         let axial = answer.axial_n.iter().map(|axial| axial / units.force_n).collect();
-        Self::new(places, axial, taut)
+        Self::new(places, framework.by_link(axial), framework.by_link(taut))
     }
 
     /// The state with each joint moved by `t` times its step.
@@ -65,8 +65,7 @@ impl State {
     /// Energy of the loads and of the elastic members at their forces.
     pub fn energy(&self, framework: &Framework) -> f64 {
         let loads = framework.nodes.iter().zip(&self.places).map(|(n, at)| -n.load.dot(at));
-        let stored = framework
-            .links
+        let stored = framework.links[..framework.members()]
             .iter()
             .zip(&self.axial)
             .map(|(l, force)| 0.5 * l.compliance * force * force);

@@ -5,6 +5,8 @@
 //! members; the joints are numbered by approximate minimum degree, which a tree or a chain passes
 //! without any fill.
 
+use std::collections::BTreeMap;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
@@ -19,6 +21,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::directions::Directions;
 use super::error::Error;
 use super::framework::Framework;
+use super::law::by_direction;
 use super::order::by_degree;
 use super::work::Work;
 
@@ -51,6 +54,8 @@ struct Unknowns {
 pub(super) struct Stiffness {
     unknowns: Vec<Unknowns>,
     places: Vec<Place>,
+    /// Those of each two joints of each rope.
+    ties: Vec<Vec<Place>>,
     columns: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
@@ -77,7 +82,13 @@ impl Stiffness {
         let lost = || Error::Memory { unknowns: size };
         let rank = by_degree(framework).ok_or_else(lost)?;
         let unknowns = unknowns(&counts, &rank);
-        let (places, columns, rows) = pattern(framework, &unknowns, &rank);
+        let (mut places, columns, rows) = pattern(framework, &unknowns, &rank);
+        let mut between = places.split_off(framework.links.len()).into_iter();
+        let ties = framework.ropes.iter().map(|rope| {
+            let joints = rope.joints.len();
+            between.by_ref().take(joints * (joints - 1) / 2).collect()
+        });
+        let ties = ties.collect();
         let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
         // The joints are in their order already; this says so to a routine that turns the lower
         // triangle over only where it permutes.
@@ -95,7 +106,7 @@ impl Stiffness {
         let memory = MemBuffer::try_new(scratch).map_err(|_| lost())?;
         let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
         let work = framework.work.clone();
-        Ok(Self { unknowns, places, columns, rows, values, symbolic, factor, work, memory })
+        Ok(Self { unknowns, places, ties, columns, rows, values, symbolic, factor, work, memory })
     }
 
     /// Number of unknowns.
@@ -132,6 +143,53 @@ impl Stiffness {
                 let start = self.columns[unknowns_high.first + column];
                 for row in 0..unknowns_high.count - column {
                     self.values[start + row] += same_high[(column + row, column)];
+                }
+            }
+        }
+    }
+
+    /// The same with the direction of each link, and its stiffnesses across and along: that of a rope
+    /// along is one, $k g g^T$ with the gradient $g$ of its length.
+    pub fn assemble_members(
+        &mut self,
+        framework: &Framework,
+        row: impl Fn(usize) -> (Vector3<f64>, f64, f64),
+    ) {
+        let blocks = framework.links.iter().enumerate().map(|(k, link)| {
+            let (u, across, along) = row(k);
+            by_direction(&u, across, if link.rope.is_some() { 0.0 } else { along })
+        });
+        self.assemble(framework, blocks);
+        for number in 0..framework.ropes.len() {
+            let rope = &framework.ropes[number];
+            let along = row(rope.spans[0]).2;
+            let gradient = rope.gradient(&framework.links, |span| row(span).0);
+            let parts = rope.joints.iter().zip(gradient).map(|(joint, g)| {
+                let part = framework.nodes[*joint].free.components(&g);
+                (*joint, part)
+            });
+            self.tie(number, along, &parts.collect());
+        }
+    }
+
+    /// Add $k g g^T$ with the components of $g$ at the joints of a rope.
+    fn tie(&mut self, rope: usize, k: f64, parts: &BTreeMap<usize, Vector3<f64>>) {
+        for (joint, part) in parts {
+            let own = self.unknowns[*joint];
+            for column in 0..own.count {
+                let start = self.columns[own.first + column];
+                for row in column..own.count {
+                    self.values[start + row - column] += k * part[row] * part[column];
+                }
+            }
+        }
+        for place in &self.ties[rope] {
+            let (low, high) = (self.unknowns[place.low], self.unknowns[place.high]);
+            for column in 0..low.count {
+                let start = self.columns[low.first + column] + low.count - column + place.gap;
+                for row in 0..high.count {
+                    self.values[start + row] +=
+                        k * parts[&place.high][row] * parts[&place.low][column];
                 }
             }
         }
@@ -306,9 +364,7 @@ fn pattern(
     rank: &[usize],
 ) -> (Vec<Place>, Vec<usize>, Vec<usize>) {
     let mut later = vec![Vec::new(); unknowns.len()];
-    let ends = framework.links.iter().map(|link| {
-        if rank[link.from] < rank[link.to] { (link.from, link.to) } else { (link.to, link.from) }
-    });
+    let ends = couples(framework).map(|(a, b)| if rank[a] < rank[b] { (a, b) } else { (b, a) });
     let ends: Vec<_> = ends.collect();
     for &(low, high) in &ends {
         if unknowns[low].count > 0 && unknowns[high].count > 0 {
@@ -339,6 +395,18 @@ fn pattern(
         Place { low, high, gap }
     });
     (places.collect(), columns, rows)
+}
+
+/// The joints that each link couples, then each two of each rope.
+pub(super) fn couples(framework: &Framework) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let ropes = framework.ropes.iter().flat_map(|rope| {
+        let later = |(k, a): (usize, &usize)| {
+            let a = *a;
+            rope.joints[k + 1..].iter().map(move |b| (a, *b))
+        };
+        rope.joints.iter().enumerate().flat_map(later)
+    });
+    framework.links.iter().map(|link| (link.from, link.to)).chain(ropes)
 }
 
 #[cfg(test)]

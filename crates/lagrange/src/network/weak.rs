@@ -69,7 +69,9 @@ pub(super) fn settled(
 fn exact_misfits(system: &System, framework: &Framework, run: &Run) -> Vec<f64> {
     let places = places_m(system, framework, &run.state);
     let misfit = |(k, link): (usize, &Link)| {
-        if link.compliance > 0.0 && run.state.taut[k] && framework.moves(link) {
+        // The spans of a rope are long beside what it is longer.
+        let straight = link.rope.is_none();
+        if straight && link.compliance > 0.0 && run.state.taut[k] && framework.moves(link) {
             let length_m = system.members()[k].body.length_m();
             let longer_m = elongation_m(&places[link.from], &places[link.to], length_m);
             link.compliance * run.state.axial[k] - longer_m / framework.units.length_m

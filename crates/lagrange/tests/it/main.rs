@@ -24,6 +24,7 @@ mod network_runs;
 mod network_work;
 mod paper;
 mod properties;
+mod ropes;
 mod scale;
 mod seeds;
 mod stability;

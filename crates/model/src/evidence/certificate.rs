@@ -66,6 +66,12 @@ pub enum NoCertificate {
         /// turns freely leaves it singular.
         compressed: usize,
     },
+    /// Occurs when a rope runs over rings or pulleys, and not every member of the system pulls: only
+    /// then a bound is known.
+    NotConvex {
+        /// How many members push, or may; without any a part without anchors slides away.
+        members: usize,
+    },
     /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
     Unusable,
 }

@@ -114,6 +114,11 @@ pub enum NoCensus {
         /// The joint, from 1.
         joint: usize,
     },
+    /// A member is a rope over rings or pulleys.
+    Rope {
+        /// The member, from 1.
+        member: usize,
+    },
     /// The system has more equilibria than are listed.
     TooManyPositions {
         /// The limit.

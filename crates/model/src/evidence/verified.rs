@@ -66,6 +66,11 @@ pub enum NoBox {
         /// Number of independent ones.
         dimension: usize,
     },
+    /// Occurs when a member is a rope over rings or pulleys, whose equations are not enclosed.
+    Rope {
+        /// The member, from 1.
+        member: usize,
+    },
     /// Occurs when a cable or strut has just its length and bears no force but that of its own
     /// weight.
     Degenerate {

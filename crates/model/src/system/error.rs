@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::{Joint, Member, Support};
+use super::{Joint, Member, RopeFault, Support};
 use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{SMALLEST_TOTAL, Vector};
@@ -98,6 +98,14 @@ pub enum SystemError {
         member: usize,
         /// Name of the joint.
         joint: String,
+    },
+    /// Occurs when a rope over rings or pulleys is none that is modelled here.
+    #[error("{fault}")]
+    Rope {
+        /// Number of the member, from 1.
+        member: usize,
+        /// What is wrong with it.
+        fault: RopeFault,
     },
     /// Occurs when two members connect the same two joints: how they share a force is
     /// indeterminate.
@@ -304,6 +312,10 @@ pub(super) fn check(
     let mut pairs = HashMap::with_capacity(members.len());
     for (k, member) in members.iter().enumerate() {
         check_member(k + 1, member, joints)?;
+        if member.rope.is_some() {
+            // A tackle has parallel strands, and their shares are equal.
+            continue;
+        }
         let pair = (member.from.min(member.to), member.from.max(member.to));
         if let Some(first) = pairs.insert(pair, k + 1) {
             return Err(SystemError::Parallel {
@@ -341,13 +353,12 @@ fn check_joint(number: usize, joint: &Joint) -> Result<(), SystemError> {
 }
 
 fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), SystemError> {
-    for joint in [member.from, member.to] {
-        if joint >= joints.len() {
-            let joints = joints.len();
-            return Err(SystemError::NoSuchJoint { member: number, joint, joints });
-        }
+    if let Some(joint) = member.path().find(|joint| *joint >= joints.len()) {
+        let joints = joints.len();
+        return Err(SystemError::NoSuchJoint { member: number, joint, joints });
     }
-    if member.from == member.to {
+    super::rope::check(number, member, joints)?;
+    if member.from == member.to && member.rope.is_none() {
         let joint = joints[member.from].name.clone();
         return Err(SystemError::SelfLoop { member: number, joint });
     }

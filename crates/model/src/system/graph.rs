@@ -1,7 +1,7 @@
 //! Which joints are connected, and how far apart members let them be.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap, HashMap, HashSet};
 
 use super::System;
 
@@ -10,8 +10,10 @@ pub(super) struct Graph<'a> {
     system: &'a System,
     /// Where the list of each joint begins in `meeting`.
     begins: Vec<usize>,
-    /// Numbers of members.
+    /// Numbers of members, and behind them those of `reaches`.
     meeting: Vec<usize>,
+    /// Ropes with the other joints that they meet: no two are further apart than a rope is long.
+    reaches: Vec<(usize, usize)>,
     /// The anchors with their places; between two of them the distance is that of the places.
     anchors: Vec<usize>,
     places: HashMap<usize, [f64; 3]>,
@@ -36,27 +38,32 @@ impl<'a> Graph<'a> {
     pub(super) fn new(system: &'a System) -> Self {
         let joints = system.joints().len();
         let mut begins = vec![0; joints + 1];
-        for member in system.members() {
-            begins[member.from + 1] += 1;
-            begins[member.to + 1] += 1;
+        let members = system.members();
+        let straight = || members.iter().enumerate().filter(|(_, m)| m.rope.is_none());
+        let pairs: Vec<[usize; 3]> = pairs_of_ropes(system);
+        let ends = || {
+            let ropes = pairs.iter().enumerate().map(|(k, [_, a, _])| (members.len() + k, *a));
+            straight().flat_map(|(k, m)| [(k, m.from), (k, m.to)]).chain(ropes)
+        };
+        for (_, here) in ends() {
+            begins[here + 1] += 1;
         }
         for joint in 0..joints {
             begins[joint + 1] += begins[joint];
         }
         let mut next = begins.clone();
-        let mut meeting = vec![0; 2 * system.members().len()];
-        for (k, member) in system.members().iter().enumerate() {
-            for here in [member.from, member.to] {
-                meeting[next[here]] = k;
-                next[here] += 1;
-            }
+        let mut meeting = vec![0; begins[joints]];
+        for (k, here) in ends() {
+            meeting[next[here]] = k;
+            next[here] += 1;
         }
+        let reaches = pairs.iter().map(|[rope, _, other]| (*rope, *other)).collect();
         let fixed = system.joints().iter().enumerate().filter(|(_, j)| j.support.is_fixed());
         let places: HashMap<_, _> =
             fixed.filter_map(|(k, joint)| Some((k, joint.support.at_m()?))).collect();
         let mut anchors: Vec<usize> = places.keys().copied().collect();
         anchors.sort_unstable();
-        Self { system, begins, meeting, anchors, places }
+        Self { system, begins, meeting, reaches, anchors, places }
     }
 
     /// The members at a joint, with the joint at their other end and their greatest length.
@@ -65,8 +72,12 @@ impl<'a> Graph<'a> {
         joint: usize,
     ) -> impl ExactSizeIterator<Item = (usize, usize, f64)> + use<'_, 'a> {
         let meeting = &self.meeting[self.begins[joint]..self.begins[joint + 1]];
+        let members = self.system.members();
         meeting.iter().map(move |&k| {
-            let member = &self.system.members()[k];
+            if let Some((rope, other)) = k.checked_sub(members.len()).map(|k| self.reaches[k]) {
+                return (rope, other, members[rope].greatest_length_m());
+            }
+            let member = &members[k];
             let other = if member.from == joint { member.to } else { member.from };
             (k, other, member.greatest_length_m())
         })
@@ -160,6 +171,17 @@ impl<'a> Graph<'a> {
         }
         ways
     }
+}
+
+/// Each rope with each two of the joints that it meets, both ways.
+fn pairs_of_ropes(system: &System) -> Vec<[usize; 3]> {
+    let mut pairs = Vec::new();
+    for (k, rope) in system.members().iter().enumerate().filter(|(_, m)| m.rope.is_some()) {
+        let met: BTreeSet<usize> = rope.path().collect();
+        let others = |a: usize| met.iter().filter(move |b| **b != a).map(move |b| [k, a, *b]);
+        pairs.extend(met.iter().flat_map(|a| others(*a)));
+    }
+    pairs
 }
 
 impl Ways {

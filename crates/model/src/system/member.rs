@@ -1,9 +1,9 @@
 //! Members between joints.
 
-use super::{MemberTolerances, Prestress, Strength};
+use super::{MemberTolerances, Prestress, Rope, Strength};
 use crate::{Bar, Vector};
 
-/// A straight member between two joints.
+/// A straight member between two joints, or a [`Rope`] over others.
 ///
 /// Its [`body`](Self::body) gives the unstretched length, the mass and where the mass is. Any
 /// weight or constant force at a point of a straight member is linear in the places of its two
@@ -14,6 +14,8 @@ pub struct Member {
     pub from: usize,
     /// The joint where it ends.
     pub to: usize,
+    /// The joints between that it runs over; `None` where it is straight. See [`over`](Self::over).
+    pub rope: Option<Box<Rope>>,
     /// Which changes of its length it resists.
     pub kind: Kind,
     /// Length (unstretched), mass, centre of weight from [`from`](Self::from), moments of inertia.
@@ -86,6 +88,7 @@ impl Member {
         Self {
             from,
             to,
+            rope: None,
             kind: Kind::Bar,
             body,
             stiffness_n: None,

@@ -24,6 +24,7 @@ mod load_case;
 mod member;
 mod prestress;
 mod refusal;
+mod rope;
 mod row;
 mod strength;
 mod symmetry;
@@ -38,6 +39,7 @@ pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
 pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
+pub use rope::{Rope, RopeFault, RopeNotTaken};
 pub use row::Row;
 pub use strength::{Strength, StrengthError};
 pub use symmetry::Part;
@@ -166,18 +168,21 @@ impl System {
     pub fn without(&self, member: usize) -> (Self, Vec<usize>) {
         let mut members = self.members.clone();
         let lost = members.remove(member);
-        let met = |joint: usize| members.iter().any(|m| m.from == joint || m.to == joint);
+        let met = |joint: usize| members.iter().any(|m| m.path().any(|k| k == joint));
         let of_use = |k: usize| {
             let joint = &self.joints[k];
             let loaded = joint.mass_kg > 0.0 || joint.force_n.iter().any(|n| n.abs() > 0.0);
             (loaded && !joint.support.is_fixed()) || met(k)
         };
-        let is_left = |k: &usize| (*k != lost.from && *k != lost.to) || of_use(*k);
+        let is_left = |k: &usize| lost.path().all(|joint| joint != *k) || of_use(*k);
         let kept: Vec<usize> = (0..self.joints.len()).filter(is_left).collect();
         // Those that stay keep their order.
         let number = |joint: usize| kept.partition_point(|k| *k < joint);
         for member in &mut members {
             (member.from, member.to) = (number(member.from), number(member.to));
+            for joint in member.rope.iter_mut().flat_map(|rope| &mut rope.via) {
+                *joint = number(*joint);
+            }
         }
         let joints = kept.iter().map(|k| self.joints[*k].clone()).collect();
         let left = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);

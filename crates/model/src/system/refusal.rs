@@ -85,6 +85,19 @@ pub enum SystemRefusal {
         /// The shortest way from the one to the other over members.
         reach_m: f64,
     },
+    /// Occurs when a rope is no longer than the straight way past the anchors that it runs over.
+    #[error(
+        "the rope (member {member}) is {} m long, and the way past the anchors that it meets {} m: {}",
+        Readable(*length_m), Computed::of(*way_m), short_or_taut(*length_m, *way_m)
+    )]
+    ShortRope {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Its length.
+        length_m: f64,
+        /// Sum of the distances between the anchors that it meets, one after another.
+        way_m: f64,
+    },
     /// Occurs when a member is longer than the rest of a loop through it.
     #[error(
         "member {member} from {from:?} to {to:?} is {} m long, and the rest of a loop through it ({}) \
@@ -177,6 +190,7 @@ impl System {
             return Err(SystemRefusal::LoadOnAnchors);
         }
         self.anchors_in_reach(&graph)?;
+        self.ropes_reach()?;
         self.loops_close(&graph)
     }
 
@@ -262,6 +276,19 @@ impl System {
         Ok(())
     }
 
+    fn ropes_reach(&self) -> Result<(), SystemRefusal> {
+        let ropes = self.members().iter().enumerate().filter(|(_, member)| member.rope.is_some());
+        for (k, rope) in ropes {
+            let held = || rope.path().filter(|joint| self.joints()[*joint].support.is_fixed());
+            let way_m = held().zip(held().skip(1)).map(|(a, b)| self.distance_m(a, b)).sum::<f64>();
+            let length_m = rope.greatest_length_m();
+            if way_m >= length_m * (1.0 - crate::STRAIGHT_TOLERANCE) {
+                return Err(SystemRefusal::ShortRope { member: k + 1, length_m, way_m });
+            }
+        }
+        Ok(())
+    }
+
     /// Whether other members hold every joint that is inside a way over members in one line: joints
     /// of trusses lie straight between others and are held by their diagonals. Nothing else holds
     /// those of a taut rope, and a load there has no finite force.
@@ -304,6 +331,14 @@ impl System {
         }
         Ok(())
     }
+}
+
+/// What becomes of a rope that is no longer than its way.
+fn short_or_taut(length_m: f64, way_m: f64) -> String {
+    if way_m > length_m * (1.0 + crate::STRAIGHT_TOLERANCE) {
+        return format!("{} m are missing", Computed::difference(way_m, length_m));
+    }
+    "it lies straight and taut, and its tension is indeterminate".to_owned()
 }
 
 /// At most six names, with the number of those left out in the middle.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::budget::OutOfMemory;
 use crate::readable::Readable;
-use crate::system::{PrestressError, SystemError, SystemRefusal};
+use crate::system::{PrestressError, RopeFault, SystemError, SystemRefusal};
 use crate::{BarError, ChainError, Refusal};
 
 /// What the program knows, and what it does not.
@@ -447,8 +447,21 @@ fn system_help(error: &SystemError) -> Option<&'static str> {
             "give it a place: near_m = [x, y, z]; without any near_m the lowest equilibrium is found",
         ),
         SystemError::DrawnTogether { .. } => Some("give one of them another place near_m"),
+        SystemError::Rope { fault, .. } => rope_help(fault),
         SystemError::NoMembers => Some("describe every bar under a line [[bars]]"),
         _ => None,
+    }
+}
+
+fn rope_help(fault: &RopeFault) -> Option<&'static str> {
+    match fault {
+        RopeFault::Kind => Some("a rope has kind = \"cable\""),
+        RopeFault::Mass => Some(
+            "leave its mass out, or hang it as mass_kg at the joints, or give each span a bar of its own",
+        ),
+        RopeFault::Load => Some("let the force act at a joint"),
+        RopeFault::Prestress => Some("give its unstretched length_m and stiffness_n alone"),
+        RopeFault::Repeated { .. } => None,
     }
 }
 
@@ -464,6 +477,7 @@ fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
         SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"
         }
+        SystemRefusal::ShortRope { .. } => "lengthen the rope, or move the anchors together",
         SystemRefusal::TooLong { .. } | SystemRefusal::Folded { .. } => {
             "shorten this bar, or lengthen another of the loop"
         }

@@ -36,6 +36,8 @@ pub(super) fn mass_kg(
     }
     match table.number("density_kg_m3")? {
         Some(density) => Ok((density * area_m2(table)? * length_m, "density_kg_m3")),
+        // A rope over rings has none.
+        None if table.get("via").is_some() => Ok((0.0, "mass_kg")),
         None => {
             Err(table.error(Kind::MissingKey { key: "mass_kg", wanted: WANTED_MASS }, "mass_kg"))
         }

@@ -54,6 +54,7 @@ const JOINT_KEYS: &[&str] = &[
 const MEMBER_KEYS: &[&str] = &[
     "from",
     "to",
+    "via",
     "length_m",
     "mass_kg",
     "mass_kg_per_m",
@@ -234,12 +235,18 @@ impl Reading<'_> {
         let (to, to_name) = self.joint(table, "to")?;
         let count = table.count("count")?;
         let ends = self.drawn.then(|| [from, to].map(|end| self.joints[end].clone()));
+        let via = self.via(table)?;
         let drawn = || {
-            let length = |[from, to]: &[Joint; 2]| drawing::length_m(from, to, count);
-            let length = ends.as_ref().map_or(Ok(None), length);
+            let path = [&[from], via.as_slice(), &[to]].concat();
+            let length = if self.drawn { self.drawn_m(&path, count) } else { Ok(None) };
             length.map_err(|kind| table.error(kind, "length_m"))
         };
-        let model = self.tolerances.member(member(table, &drawn, self.safety)?, table)?;
+        let read = Member { from, to, ..member(table, &drawn, self.safety)? }.over(via);
+        if let Some(fault) = read.rope_fault(&self.joints) {
+            let (key, member) = (fault.key(), self.members.len() + 1);
+            return Err(table.error(Kind::System(SystemError::Rope { member, fault }), key));
+        }
+        let model = self.tolerances.member(read, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
         let asked = budget.take_members(count);
@@ -263,6 +270,30 @@ impl Reading<'_> {
             here = there;
         }
         Ok(())
+    }
+
+    /// The joints that a rope runs over.
+    fn via(&self, table: &Table<'_>) -> Result<Vec<usize>, SystemFileError> {
+        const WANTED: &str = "one or more names of joints, such as [\"P\"]";
+        let Some(value) = table.get("via") else { return Ok(Vec::new()) };
+        if table.get("count").is_some() {
+            return Err(table.error(Kind::Conflict { key: "count", other: "via" }, "count"));
+        }
+        let names = value.get_ref().as_array().filter(|names| !names.is_empty());
+        let names = names.ok_or_else(|| table.wrong_type("via", value, WANTED))?;
+        let joint = |name: &Value<'_>| {
+            let text = name.get_ref().as_str();
+            let text = text.ok_or_else(|| table.wrong_type("via", name, WANTED))?;
+            self.number(text).map_err(|kind| table.error_at(kind, "via", name.span()))
+        };
+        names.iter().map(joint).collect()
+    }
+
+    /// The length of one of `count` members along these joints as they are drawn, m.
+    fn drawn_m(&self, path: &[usize], count: usize) -> Result<Option<f64>, Kind> {
+        let span =
+            |pair: &[usize]| drawing::length_m(&self.joints[pair[0]], &self.joints[pair[1]], count);
+        path.windows(2).map(span).sum()
     }
 
     /// A name for a run of bars, so that the joints between them are new: `A-P`, or `A-P#2`, ...
@@ -357,6 +388,7 @@ impl Reading<'_> {
                 }
                 SystemError::SelfLoop { member, .. }
                 | SystemError::Parallel { member, .. }
+                | SystemError::Rope { member, .. }
                 | SystemError::NoSuchJoint { member, .. }
                 | SystemError::Stiffness { member, .. }
                 | SystemError::LengthTolerance { member, .. }
@@ -379,7 +411,9 @@ impl Reading<'_> {
                 let joint = *joint;
                 at_joint(Kind::SystemRefused(refusal), joint)
             }
-            SystemRefusal::TooLong { member, .. } | SystemRefusal::Folded { member, .. } => {
+            SystemRefusal::TooLong { member, .. }
+            | SystemRefusal::Folded { member, .. }
+            | SystemRefusal::ShortRope { member, .. } => {
                 let member = *member;
                 at_member(Kind::SystemRefused(refusal), member)
             }

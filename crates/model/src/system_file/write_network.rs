@@ -111,6 +111,10 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
         name(member.from),
         name(member.to),
     );
+    if member.rope.is_some() {
+        let via: Vec<String> = member.via().iter().map(|joint| name(*joint).to_string()).collect();
+        let _ = writeln!(text, "via = [{}]", via.join(", "));
+    }
     write_given(text, body);
     match member.kind {
         Kind::Bar => {}

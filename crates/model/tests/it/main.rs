@@ -17,6 +17,7 @@ mod mutations;
 mod network_columns;
 mod parts;
 mod refused;
+mod ropes;
 mod round_trip;
 mod strength;
 mod support;

@@ -60,8 +60,10 @@ impl Bodies {
         let joints = system.joints().len();
         let mut neighbours = vec![Vec::new(); joints];
         for member in system.members() {
-            neighbours[member.from].push(member.to);
-            neighbours[member.to].push(member.from);
+            for [a, b] in member.spans() {
+                neighbours[a].push(b);
+                neighbours[b].push(a);
+            }
         }
         let fixed = feeling_turns(system);
         let node = nodes(system);

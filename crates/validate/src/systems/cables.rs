@@ -72,6 +72,7 @@ struct Place {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
+    system.without_ropes("the cone programme")?;
     let cables = as_cables(system)?;
     let loads_n = joint_loads(system);
     // Units in which all numbers of the programme are of size one.

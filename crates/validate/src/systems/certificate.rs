@@ -83,9 +83,12 @@ pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, N
     if !fits || !answer.energy_j.is_finite() {
         return Err(NoCertificate::Unusable);
     }
-    let densities = densities(system, answer);
     let unit_j = total_load_n(system) * size_m(system, answer);
     let unit_j = if unit_j > 0.0 { unit_j } else { elastic_unit_j(system) };
+    if system.has_ropes() {
+        return within(answer.energy_j, super::convex::bound_j(system, answer)?, unit_j);
+    }
+    let densities = densities(system, answer);
     let tangent = tangent(system, answer, &densities);
     let wanted = tangent.squared_gradient / (2.0 * SMALL_GAP * unit_j);
     let matrix = stress_matrix(system, &densities);
@@ -93,7 +96,12 @@ pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, N
         compressed: densities.iter().filter(|w| **w < 0.0).count(),
     })?;
     let bound_j = tangent.value_j - tangent.squared_gradient / (2.0 * least);
-    let gap = (answer.energy_j - bound_j) / unit_j;
+    within(answer.energy_j, bound_j, unit_j)
+}
+
+/// The certificate of a bound that is near enough, in units of some energy.
+fn within(energy_j: f64, bound_j: f64, unit_j: f64) -> Result<Optimal, NoCertificate> {
+    let gap = (energy_j - bound_j) / unit_j;
     // NaN is no proof.
     if gap <= GAP {
         Ok(Optimal { gap: Some(gap), singular: false })
@@ -168,7 +176,7 @@ fn largest_degree(system: &System) -> usize {
 
 /// Units in the last place that the operations of one term come to: fewer than 16 roundings of half
 /// a unit each, and as many again for those of the bound itself.
-const TERM_ULPS: f64 = 16.0;
+pub(super) const TERM_ULPS: f64 = 16.0;
 
 /// The quadratic function below the energy, at an answer.
 struct Tangent {
@@ -178,27 +186,43 @@ struct Tangent {
     squared_gradient: f64,
 }
 
+/// Add the pushes of the floor to the loads of the joints: the energies of the floor's height under them, each
+/// with its size, J. Whatever is pushed the bound holds; what the answer's floor pulls is none.
+pub(super) fn pushed(
+    system: &System,
+    answer: &SystemEquilibrium,
+    loads: &mut [Vector],
+) -> Vec<(f64, f64)> {
+    let Some(floor_m) = system.floor_m() else { return vec![] };
+    let height_m = floor_m - system.reference_m()[2];
+    let push = |(k, load): (usize, &mut Vector)| {
+        let push_n = push_n(system, answer, k).max(0.0);
+        load[2] += push_n;
+        (push_n * height_m, (push_n * height_m).abs())
+    };
+    loads.iter_mut().enumerate().map(push).collect()
+}
+
+/// What of a force moves a joint along its support.
+pub(super) fn along_supports(system: &System, joint: usize, force: Vector) -> Vector {
+    match system.joints()[joint].support {
+        Support::Fixed { .. } => [0.0; 3],
+        Support::Free => force,
+        Support::Line { direction, .. } => times(dot(force, direction), direction),
+        Support::Plane { normal, .. } => minus(force, times(dot(force, normal), normal)),
+    }
+}
+
 /// The quadratic function at an answer. What is added is paired with the size of all that was
 /// rounded on the way: of differences, with the size of what was subtracted.
 fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Tangent {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let mut loads = joint_loads(system);
-    let pushed = system.floor_m().map(|floor_m| {
-        // Whatever is pushed the bound holds; what the answer's floor pulls is none.
-        loads
-            .iter_mut()
-            .enumerate()
-            .map(|(k, load)| {
-                let push_n = push_n(system, answer, k).max(0.0);
-                load[2] += push_n;
-                push_n * (floor_m - origin[2])
-            })
-            .collect::<Vec<_>>()
-    });
+    let mut terms = pushed(system, answer, &mut loads);
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
     let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
-    let mut terms = Vec::with_capacity(densities.len() + loads.len());
+    terms.reserve(densities.len() + loads.len());
     for (member, density) in system.members().iter().zip(densities) {
         let along = minus(place(member.to), place(member.from));
         let pull = times(*density, along);
@@ -214,19 +238,16 @@ fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Ta
         (-dot(*load, at), norm(*load) * norm(at))
     });
     terms.extend(works);
-    terms.extend(pushed.into_iter().flatten().map(|energy_j| (energy_j, energy_j.abs())));
     let ulps = TERM_ULPS * f64::EPSILON;
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     // As many additions as members meet in a joint, each rounded.
     let ulps = ulps + f64::EPSILON * largest_degree(system) as f64;
     let squared_gradient =
         sum(gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
-            let moving = match system.joints()[k].support {
-                Support::Fixed { .. } => return 0.0,
-                Support::Free => *force,
-                Support::Line { direction, .. } => times(dot(*force, direction), direction),
-                Support::Plane { normal, .. } => minus(*force, times(dot(*force, normal), normal)),
-            };
+            if system.joints()[k].support.is_fixed() {
+                return 0.0;
+            }
+            let moving = along_supports(system, k, *force);
             let most = norm(moving) + ulps * size;
             most * most
         }));

@@ -8,11 +8,14 @@
 //! S. Pellegrino and C. R. Calladine, Int. J. Solids Struct. 22 (1986) 409-428,
 //! doi:10.1016/0020-7683(86)90014-4
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
 use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
+use super::spans::{direction, length_m};
 use super::statics::rounding_m;
 use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
 
@@ -41,6 +44,8 @@ pub(super) struct Family {
     pub(super) rounding: f64,
     /// Unit vector along each member.
     along: Vec<Vector>,
+    /// The joints and directions of the spans of each rope.
+    ropes: BTreeMap<usize, Vec<([usize; 2], Vector)>>,
     /// Of each inextensible member that has its length within what its length may be off: distance
     /// less length, m.
     misfit_m: Vec<Option<f64>>,
@@ -75,11 +80,16 @@ impl Family {
         });
         let free: Vec<Vec<Vector>> = free.collect();
         let coordinates: usize = free.iter().map(Vec::len).sum();
-        let (mut along, mut misfit_m) = (Vec::new(), Vec::new());
+        let (mut along, mut misfit_m, mut ropes) = (Vec::new(), Vec::new(), BTreeMap::new());
         for (k, member) in members.iter().enumerate() {
-            let d = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
-            let distance_m = norm(d);
-            along.push(times(1.0 / distance_m, d));
+            let mut spans = member.spans().map(|span| direction(span, &answer.joints_m));
+            let first = spans.next().unwrap_or_default();
+            if member.rope.is_some() {
+                let joints = member.spans().zip(std::iter::once(first).chain(spans));
+                ropes.insert(k, joints.collect());
+            }
+            along.push(first);
+            let distance_m = length_m(member, &answer.joints_m);
             let bears = answer.axial_n.get(k).is_some_and(|axial_n| axial_n.abs() > 0.0);
             misfit_m.push(misfit(member, distance_m, bears));
         }
@@ -90,8 +100,8 @@ impl Family {
             self_stresses: taut.len().saturating_sub(coordinates),
             gap: [1.0, 0.0],
         };
-        let mut family =
-            Self { basis: vec![], counted: false, rounding: RANK, along, misfit_m, free, counts };
+        let (basis, counted, rounding) = (vec![], false, RANK);
+        let mut family = Self { basis, counted, rounding, along, ropes, misfit_m, free, counts };
         if coordinates <= COUNTED {
             family.count(system, &taut, coordinates)?;
         }
@@ -185,11 +195,12 @@ impl Family {
     /// What axial forces without any load leave along the free motions of the joints.
     pub(super) fn left_by(&self, system: &System, axial: &[f64]) -> Vec<f64> {
         let mut left = vec![[0.0; 3]; self.free.len()];
-        for ((member, force), along) in system.members().iter().zip(axial).zip(&self.along) {
+        for (k, (member, force)) in system.members().iter().zip(axial).enumerate() {
             // A member without length, or one that is slack, carries nothing.
             if force.abs() > 0.0 {
-                left[member.from] = plus(left[member.from], times(*force, *along));
-                left[member.to] = plus(left[member.to], times(-force, *along));
+                for (joint, pull) in self.pulls(member, k) {
+                    left[joint] = plus(left[joint], times(*force, pull));
+                }
             }
         }
         let joints = self.free.iter().zip(left);
@@ -201,9 +212,24 @@ impl Family {
         onto(&self.basis, axial)
     }
 
-    /// The pull of a member with this axial force on the joint where it begins.
-    pub(super) fn pull(&self, member: usize, axial: f64) -> Vector {
-        times(axial, self.along[member])
+    /// The pulls of a member at its two ends under this axial force, each from the end inwards, N.
+    pub(super) fn pull(&self, member: usize, axial: f64) -> [Vector; 2] {
+        let last = self.ropes.get(&member).and_then(|spans| spans.last()).map(|(_, along)| *along);
+        let first = self.along[member];
+        [times(axial, first), times(-axial, last.unwrap_or(first))]
+    }
+
+    /// The joints that a member pulls under a unit force, and how.
+    pub(super) fn pulls<'a>(
+        &'a self,
+        member: &Member,
+        k: usize,
+    ) -> impl Iterator<Item = (usize, Vector)> + 'a {
+        let own = ([member.from, member.to], self.along[k]);
+        let rope = self.ropes.get(&k);
+        let straight = rope.is_none().then_some(own);
+        let spans = rope.into_iter().flatten().copied().chain(straight);
+        spans.flat_map(|([a, b], along)| [(a, along), (b, times(-1.0, along))])
     }
 
     /// How far axial forces are from the share of equally stiff members: least $\sum N^2 l$ among
@@ -245,14 +271,11 @@ impl Family {
             })
             .collect();
         let rises = |stress: &[f64], joint: usize| -> f64 {
-            let pulls = system.members().iter().zip(stress).zip(&self.along);
-            pulls
-                .filter(|((_, n), _)| n.abs() > 0.0)
-                .map(|((member, n), along)| {
-                    let sign = f64::from(u8::from(member.from == joint))
-                        - f64::from(u8::from(member.to == joint));
-                    sign * n * along[2]
-                })
+            let members = system.members().iter().zip(stress).enumerate();
+            members
+                .filter(|(_, (_, n))| n.abs() > 0.0)
+                .flat_map(|(k, (member, n))| self.pulls(member, k).map(move |pull| (pull, n)))
+                .map(|((at, pull), n)| if at == joint { n * pull[2] } else { 0.0 })
                 .sum()
         };
         let limits = Mat::from_fn(self.basis.len(), members.len() + joints.len(), |row, column| {

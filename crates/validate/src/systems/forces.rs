@@ -6,7 +6,8 @@ use model::{Choices, ForceChoice, LargeForce, Vector};
 
 use super::family::Family;
 use super::scale::Scale;
-use numerics::vector::{minus, norm, plus, worse};
+use super::spans::span_forces;
+use numerics::vector::{minus, norm, plus, times, worse};
 
 /// Forces of this many times all that acts on the system are a finding of their own: the shape is
 /// nearly singular.
@@ -75,10 +76,10 @@ impl Pair<'_> {
         let largest = |answer: &SystemEquilibrium| {
             let mut most_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
             for (k, member) in self.system.members().iter().enumerate() {
-                let ends =
-                    [(member.from, answer.start_forces_n[k]), (member.to, answer.end_forces_n[k])];
-                for (joint, force) in ends {
-                    most_n[joint] = most_n[joint].max(norm(force));
+                for (joints, forces) in span_forces(member, k, answer) {
+                    for (joint, force) in joints.into_iter().zip(forces) {
+                        most_n[joint] = most_n[joint].max(norm(force));
+                    }
                 }
             }
             most_n
@@ -100,18 +101,23 @@ impl Pair<'_> {
         let mut reactions: Vec<Vector> =
             first.reactions_n.iter().zip(&second.reactions_n).map(|(a, b)| minus(*a, *b)).collect();
         for (k, member) in self.system.members().iter().enumerate() {
-            let pull = match (self.family, &part) {
-                (Some(family), Some(part)) if part[k].abs() > 0.0 => family.pull(k, part[k]),
-                _ => [0.0; 3],
+            let stress = match (self.family, &part) {
+                (Some(family), Some(part)) if part[k].abs() > 0.0 => Some((family, part[k])),
+                _ => None,
             };
+            let pull = stress.map_or([[0.0; 3]; 2], |(family, part)| family.pull(k, part));
             // The joints pull at the member's ends, outwards.
             let start = minus(first.start_forces_n[k], second.start_forces_n[k]);
             let end = minus(first.end_forces_n[k], second.end_forces_n[k]);
             let budget_n = budgets_n[member.from].max(budgets_n[member.to]);
-            apart.note(norm(plus(start, pull)), budget_n);
-            apart.note(norm(minus(end, pull)), budget_n);
-            reactions[member.from] = plus(reactions[member.from], pull);
-            reactions[member.to] = minus(reactions[member.to], pull);
+            apart.note(norm(plus(start, pull[0])), budget_n);
+            apart.note(norm(plus(end, pull[1])), budget_n);
+            let pulls = stress.into_iter().flat_map(|(family, part)| {
+                family.pulls(member, k).map(move |(joint, along)| (joint, times(part, along)))
+            });
+            for (joint, pull) in pulls {
+                reactions[joint] = plus(reactions[joint], pull);
+            }
         }
         for (reaction, budget_n) in reactions.into_iter().zip(budgets_n) {
             apart.note(norm(reaction), budget_n);

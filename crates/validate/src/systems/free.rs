@@ -101,8 +101,7 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     let least: Vec<f64> = answers.iter().map(least).collect();
     for (k, member) in system.members().iter().enumerate() {
         if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
-            loose[member.from] = false;
-            loose[member.to] = false;
+            member.path().for_each(|joint| loose[joint] = false);
         }
     }
     loose
@@ -130,9 +129,9 @@ fn unloaded(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     }
     for member in system.members() {
         let light = member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
-        if !light {
-            unloaded[member.from] = false;
-            unloaded[member.to] = false;
+        // What room a rope leaves its rings is not counted.
+        if !light || member.rope.is_some() {
+            member.path().for_each(|joint| unloaded[joint] = false);
         }
     }
     unloaded

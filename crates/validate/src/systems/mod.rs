@@ -11,6 +11,7 @@ mod cables;
 mod certificate;
 pub(crate) mod compare;
 mod completeness;
+mod convex;
 mod definite;
 mod family;
 mod floor;
@@ -22,6 +23,7 @@ mod near;
 mod prestress;
 mod proved;
 mod scale;
+mod spans;
 mod statics;
 #[cfg(test)]
 mod tests;

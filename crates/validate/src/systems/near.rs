@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::ask::SystemFailure;
 use super::certificate::total_load_n;
+use super::spans::length_m;
 use crate::question::{Question, Solvers};
 use numerics::vector::{dot, minus, norm, plus, times, worse};
 
@@ -54,7 +55,7 @@ impl Near {
     pub fn of(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> Self {
         let mut shortest = vec![f64::INFINITY; drawing_m.len()];
         for member in system.members() {
-            for joint in [member.from, member.to] {
+            for joint in member.path() {
                 shortest[joint] = shortest[joint].min(member.body.length_m());
             }
         }
@@ -150,7 +151,7 @@ pub(super) fn potential_j(system: &System, members: &[Member], places_m: &[Vecto
         let at = |at_m: f64| plus(a, times(at_m / body.length_m(), minus(b, a)));
         let own = -dot(weight(body.mass_kg()), at(body.centre_m()));
         let loads = member.loads.iter().map(|load| -dot(load.force_n, at(load.at_m)));
-        own + sum(loads) + strain_j(member, norm(minus(b, a)))
+        own + sum(loads) + strain_j(member, length_m(member, places_m))
     });
     sum(joints) + sum(members)
 }

@@ -165,7 +165,7 @@ struct Geometry<'a> {
 
 impl<'a> Geometry<'a> {
     fn new(system: &System, joints_m: &'a [Vector], standing: Standing) -> Option<Self> {
-        let finite = joints_m.iter().flatten().all(|x| x.is_finite());
+        let finite = joints_m.iter().flatten().all(|x| x.is_finite()) && !system.has_ropes();
         if joints_m.len() != system.joints().len() || !finite {
             return None;
         }

@@ -45,7 +45,8 @@ struct Acting {
 pub(super) fn proved(system: &System, answer: &SystemEquilibrium) -> Option<Proved> {
     let joints = system.joints().len();
     let members = system.members().len();
-    if [answer.joints_m.len(), answer.axial_n.len()] != [joints, members] {
+    // The rows of ropes over rings and pulleys are not among those below.
+    if [answer.joints_m.len(), answer.axial_n.len()] != [joints, members] || system.has_ropes() {
         return None;
     }
     let acting: Vec<Acting> = (0..members).filter_map(|k| acting(system, answer, k)).collect();

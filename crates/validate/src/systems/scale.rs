@@ -19,6 +19,7 @@ use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::{joint_loads, size_m, total_load_n};
+use super::spans::length_m;
 use super::statics::STORED_ULPS;
 use numerics::vector::{minus, norm, worse};
 
@@ -64,7 +65,7 @@ impl Scale {
         };
         for (member, prestress_n) in system.members().iter().zip(&prestress) {
             let weight_n = member.body.mass_kg() * system.gravity_m_s2();
-            for joint in [member.from, member.to] {
+            for joint in member.path() {
                 joint_n[joint] =
                     worse(joint_n[joint], if loaded { weight_n } else { *prestress_n });
             }
@@ -124,10 +125,10 @@ fn reach_m(system: &System) -> f64 {
 /// What an elastic member bears by its law at these places, N.
 fn prestress_n(member: &Member, joints_m: &[Vector]) -> f64 {
     let Some(stiffness_n) = member.stiffness_n else { return 0.0 };
-    let (Some(a), Some(b)) = (joints_m.get(member.from), joints_m.get(member.to)) else {
+    if member.path().any(|joint| joint >= joints_m.len()) {
         return 0.0;
-    };
-    let strain = norm(minus(*b, *a)) / member.body.length_m() - 1.0;
+    }
+    let strain = length_m(member, joints_m) / member.body.length_m() - 1.0;
     let borne = match member.kind {
         Kind::Bar => strain.abs(),
         Kind::Cable => strain,

@@ -20,6 +20,7 @@ use super::family::Family;
 use super::floor::{push_n, rising};
 use super::free::free_joints;
 use super::scale::{MOST_FORCE, Scale};
+use super::spans::{self, span_forces};
 use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
@@ -216,8 +217,11 @@ impl Units {
         let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
         let mut meet_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
         for (k, member) in system.members().iter().enumerate() {
-            meet_n[member.from] += norm(answer.start_forces_n[k]);
-            meet_n[member.to] += norm(answer.end_forces_n[k]);
+            for (joints, forces) in span_forces(member, k, answer) {
+                for (joint, force) in joints.into_iter().zip(forces) {
+                    meet_n[joint] += norm(force);
+                }
+            }
         }
         for (meet_n, acts_n) in meet_n.iter_mut().zip(&scale.joint_n) {
             *meet_n = worse(*meet_n, *acts_n);
@@ -275,8 +279,7 @@ impl Local {
 /// would remove: see [`Family::unremovable_m`]. What lengths that overdetermine the shape may be off
 /// is left out of the distance.
 fn distances_m(system: &System, answer: &SystemEquilibrium, rounding_m: f64) -> Vec<(f64, f64)> {
-    let distance =
-        |member: &Member| norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
+    let distance = |member: &Member| spans::length_m(member, &answer.joints_m);
     let mut all: Vec<(f64, f64)> =
         system.members().iter().map(|member| (distance(member), 0.0)).collect();
     let off = |(member, (distance_m, _)): (&Member, &(f64, f64))| {
@@ -315,6 +318,9 @@ fn member(
 ) {
     let member = &system.members()[k];
     let place = Place::Member(k + 1);
+    if member.rope.is_some() {
+        return rope(system, answer, k, lawful_m, units, found);
+    }
     let local = units.at(&[member.from, member.to]);
     let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
     let distance_m = norm(along);
@@ -345,6 +351,33 @@ fn member(
         let followed = dot(carried, along) / distance_m;
         let off = local.part((axial_n - followed).abs(), largest_n);
         found.note(|s| &mut s.derived, off, place);
+    }
+    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
+}
+
+/// A rope over rings and pulleys: at each of its ends it pulls with its tension along its span there. Inside,
+/// its spans bear the same tension by the making of [`span_forces`], and the joints feel it.
+fn rope(
+    system: &System,
+    answer: &SystemEquilibrium,
+    k: usize,
+    lawful_m: f64,
+    units: &Units,
+    found: &mut SystemStatics,
+) {
+    let (member, place) = (&system.members()[k], Place::Member(k + 1));
+    let joints: Vec<usize> = member.path().collect();
+    let local = units.at(&joints);
+    let (axial_n, last) = (answer.axial_n[k], joints.len() - 1);
+    let ends = [
+        ([joints[0], joints[1]], -1.0, answer.start_forces_n[k]),
+        ([joints[last - 1], joints[last]], 1.0, answer.end_forces_n[k]),
+    ];
+    let unit_n = local.unit_n(worse(norm(answer.start_forces_n[k]), norm(answer.end_forces_n[k])));
+    for (span, sign, force) in ends {
+        let pull = times(sign * axial_n, spans::direction(span, &answer.joints_m));
+        let off = if axial_n.abs() > 0.0 { minus(force, pull) } else { force };
+        found.note(|s| &mut s.force, local.part(norm(off), unit_n), place);
     }
     law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
 }
@@ -416,10 +449,11 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
         })
         .collect();
     for (k, member) in system.members().iter().enumerate() {
-        let ends = [(member.from, answer.start_forces_n[k]), (member.to, answer.end_forces_n[k])];
-        for (joint, force) in ends {
-            left[joint] = minus(left[joint], force);
-            unit_n[joint] = worse(unit_n[joint], norm(force));
+        for (joints, forces) in span_forces(member, k, answer) {
+            for (joint, force) in joints.into_iter().zip(forces) {
+                left[joint] = minus(left[joint], force);
+                unit_n[joint] = worse(unit_n[joint], norm(force));
+            }
         }
     }
     let all = left.into_iter().zip(unit_n).enumerate();
@@ -534,7 +568,7 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     for member in system.members() {
         let Some(stiffness_n) = member.stiffness_n else { continue };
         let length_m = member.body.length_m();
-        let stretch_m = norm(minus(place(member.to), place(member.from))) - length_m;
+        let stretch_m = spans::length_m(member, &answer.joints_m) - length_m;
         let stretch_m = match member.kind {
             Kind::Bar => stretch_m,
             Kind::Cable => stretch_m.max(0.0),

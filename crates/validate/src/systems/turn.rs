@@ -8,6 +8,7 @@ use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
 use super::bodies::Bodies;
+use super::spans::span_forces;
 use super::statics::judge;
 use super::verticals::firsts;
 use crate::tolerances::Tolerances;
@@ -53,6 +54,7 @@ pub(crate) fn turned_onto<'a>(
     let as_it_is = (Cow::Borrowed(second), 0);
     let joints = system.joints().len();
     let complete = [&first.joints_m, &second.joints_m].map(Vec::len) == [joints; 2]
+        && second.axial_n.len() == system.members().len()
         && [&second.start_forces_n, &second.end_forces_n].map(Vec::len)
             == [system.members().len(); 2]
         && second.reactions_n.len() == joints;
@@ -125,8 +127,10 @@ fn add_hinged(
     let largest_n = forces.map(|force| norm(*force)).fold(0.0, worse);
     let mut ends = vec![Vec::new(); system.joints().len()];
     for (k, member) in system.members().iter().enumerate() {
-        ends[member.from].push((member.to, second.start_forces_n[k]));
-        ends[member.to].push((member.from, second.end_forces_n[k]));
+        for ([a, b], [start, end]) in span_forces(member, k, second) {
+            ends[a].push((b, start));
+            ends[b].push((a, end));
+        }
     }
     let level_n = |joint: usize, part: &[bool]| {
         if system.joints()[joint].support.is_fixed() {
@@ -186,18 +190,25 @@ fn turned(
     }
     let depth = |joint: usize| bodies.all[bodies.of_joint[joint]].depth;
     for (k, member) in system.members().iter().enumerate() {
-        // A member turns with its joint that is further from the ground.
-        let (from, to) = (member.from, member.to);
-        let turn = &turns[bodies.of_joint[if depth(from) > depth(to) { from } else { to }]];
-        let ends = [(from, &mut turned.start_forces_n[k]), (to, &mut turned.end_forces_n[k])];
-        for (joint, force) in ends {
-            let after = turn.vector(*force);
-            // The ground takes what has changed.
-            if !matches!(system.joints()[joint].support, Support::Free) {
-                let reaction = plus(turned.reactions_n[joint], minus(after, *force));
-                turned.reactions_n[joint] = reaction;
+        let last = member.via().len();
+        for (n, (joints, forces)) in span_forces(member, k, answer).enumerate() {
+            // A span turns with its joint that is further from the ground.
+            let [from, to] = joints;
+            let turn = &turns[bodies.of_joint[if depth(from) > depth(to) { from } else { to }]];
+            let after = forces.map(|force| turn.vector(force));
+            for ((joint, before), after) in joints.into_iter().zip(forces).zip(after) {
+                // The ground takes what has changed.
+                if !matches!(system.joints()[joint].support, Support::Free) {
+                    let reaction = plus(turned.reactions_n[joint], minus(after, before));
+                    turned.reactions_n[joint] = reaction;
+                }
             }
-            *force = after;
+            if n == 0 {
+                turned.start_forces_n[k] = after[0];
+            }
+            if n == last {
+                turned.end_forces_n[k] = after[1];
+            }
         }
     }
     turned

@@ -28,6 +28,7 @@ mod networks;
 mod networks_census;
 mod paper;
 mod prescribed;
+mod ropes;
 mod rows;
 mod statics;
 mod tensegrities;

@@ -142,6 +142,9 @@ impl SystemCensus {
         if system.floor_m().is_some() {
             return Err(NoCensus::Floor);
         }
+        if let Err(rope) = system.without_ropes("census") {
+            return Err(NoCensus::Rope { member: rope.member });
+        }
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {

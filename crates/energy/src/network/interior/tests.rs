@@ -21,6 +21,7 @@ fn interior(rods: &[(f64, Kind)], force: &[f64], slack: &[f64]) -> (Interior, Sh
         ground: false,
         within: 0.0,
         linear: false,
+        rope: 0,
     };
     let frame = Frame {
         origin_m: ZERO3,
@@ -28,6 +29,7 @@ fn interior(rods: &[(f64, Kind)], force: &[f64], slack: &[f64]) -> (Interior, Sh
         force_n: 1.0,
         joints: 2,
         members: rods.len(),
+        ropes: Vec::new(),
         spots: vec![held, Spot { freedom: 3, axes, ..held }],
         supports: x.clone(),
         rods: rods.iter().map(rod).collect(),

@@ -20,6 +20,7 @@ fn newton() -> Newton {
         ground: false,
         within: 0.0,
         linear: false,
+        rope: 0,
     };
     let frame = Frame {
         origin_m: ZERO3,
@@ -27,6 +28,7 @@ fn newton() -> Newton {
         force_n: 1.0,
         joints: 3,
         members: 2,
+        ropes: Vec::new(),
         spots: vec![held, Spot { freedom: 3, axes, ..held }, Spot { first: 3, freedom: 3, axes }],
         supports: vec![ZERO3; 3],
         rods: vec![rod(0, 1, 1.0, Kind::Bar), rod(1, 2, 0.5, Kind::Strut)],

@@ -20,6 +20,7 @@ fn truss(flexibility: f64) -> (Frame, Shape) {
         ground: false,
         within: 0.0,
         linear: false,
+        rope: 0,
     };
     let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -35,6 +36,7 @@ fn truss(flexibility: f64) -> (Frame, Shape) {
         force_n: 1.0,
         joints: 4,
         members: 3,
+        ropes: Vec::new(),
         spots: vec![held, held, held, Spot { freedom: 3, axes, ..held }],
         supports: x.clone(),
         rods: vec![

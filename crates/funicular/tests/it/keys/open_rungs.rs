@@ -103,6 +103,7 @@ fn reasons_without_a_census() {
             (reason(NoCensus::Flat { joint: 13 }), &["the 13th joint may lie flat"]),
             (reason(NoCensus::Floor), &["no census knows a floor"]),
             (reason(NoCensus::TooManyPositions { limit: 14 }), &["more than 14 equilibria"]),
+            (reason(NoCensus::Rope { member: 15 }), &["member 15 is a rope over rings or pulleys"]),
         ],
     );
     let because = [
@@ -120,6 +121,7 @@ fn reasons_without_a_census() {
         "flat",
         "floor",
         "too_many_positions",
+        "rope",
     ];
     output.each("kind", "no_census");
     output.is("because", because.as_slice());
@@ -128,7 +130,7 @@ fn reasons_without_a_census() {
     output.is("limit", json!([5, 14]));
     output.is("boxes", 6);
     output.is("joint", json!([7, 9, 13]));
-    output.is("member", json!([10, 11, 12]));
+    output.is("member", json!([10, 11, 12, 15]));
     output.done();
 }
 
@@ -166,6 +168,7 @@ fn reasons_without_a_box() {
                 &["is 1.2e-1 m and 3.8e-1 N away"],
             ),
             (reason(NoBox::NotFinite), &["incomplete or not finite"]),
+            (reason(NoBox::Rope { member: 12 }), &["member 12 is a rope over rings or pulleys"]),
         ],
     );
     let because = [
@@ -182,13 +185,14 @@ fn reasons_without_a_box() {
         "not_contracting",
         "elsewhere",
         "not_finite",
+        "rope",
     ];
     output.each("kind", "no_box");
     output.is("because", because.as_slice());
     output.is("unknowns", 3);
     output.is("limit", 4);
     output.is("dimension", json!([5, 6]));
-    output.is("member", json!([7, 8, 9, 10]));
+    output.is("member", json!([7, 8, 9, 10, 12]));
     output.is("joint", 11);
     output.is("distance_m", 0.125);
     output.is("distance_n", 0.375);

@@ -96,6 +96,7 @@ fn a_pull_lifts_the_weights_that_it_can_bear() {
         units: Units { length_m: 1.0, force_n: 2.0, origin_m: Vector3::zeros() },
         nodes: [8.0, 1.0, 2.0, 4.0].map(node).into(),
         links: Vec::new(),
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: crate::network::work::Work::default(),
     };

@@ -17,7 +17,9 @@ fn hanging(force: Pair, slack: Pair) -> (Framework, Hanging) {
             within: 0.0,
             compliance: 0.0,
             kind: Kind::Cable,
+            rope: None,
         }],
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: crate::network::work::Work::default(),
     };

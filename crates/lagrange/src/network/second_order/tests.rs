@@ -17,6 +17,7 @@ fn shape(azimuth: f64, joint: f64, largest: f64, load: f64) -> (Framework, State
             node(along * (0.5 * largest)),
         ],
         links: Vec::new(),
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: crate::network::work::Work::default(),
     };

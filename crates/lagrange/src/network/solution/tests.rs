@@ -13,11 +13,13 @@ use model::system::Kind;
 /// bears what can be taken off.
 fn chosen(largest: f64, cable: f64) -> Forces {
     let node = Node { base: Vector3::zeros(), free: Directions::All, load: Vector3::zeros() };
-    let link = |kind| Link { from: 0, to: 1, length: 1.0, within: 0.0, compliance: 0.0, kind };
+    let link =
+        |kind| Link { from: 0, to: 1, length: 1.0, within: 0.0, compliance: 0.0, kind, rope: None };
     let framework = Framework {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node.clone(), node],
         links: vec![link(Kind::Bar), link(Kind::Cable), link(Kind::Bar)],
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: crate::network::work::Work::default(),
     };

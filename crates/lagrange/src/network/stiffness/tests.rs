@@ -9,12 +9,20 @@ use crate::network::framework::{Link, Node, Units};
 fn complete(joints: usize) -> Framework {
     let node = Node { base: Vector3::zeros(), free: Directions::All, load: Vector3::zeros() };
     let pairs = (0..joints).flat_map(|to| (0..to).map(move |from| (from, to)));
-    let link =
-        |(from, to)| Link { from, to, length: 1.0, within: 0.0, compliance: 0.0, kind: Kind::Bar };
+    let link = |(from, to)| Link {
+        from,
+        to,
+        length: 1.0,
+        within: 0.0,
+        compliance: 0.0,
+        kind: Kind::Bar,
+        rope: None,
+    };
     Framework {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node; joints],
         links: pairs.map(link).collect(),
+        ropes: Vec::new(),
         lying: Vec::new(),
         work: Work::default(),
     }

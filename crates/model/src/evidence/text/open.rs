@@ -163,6 +163,9 @@ impl Display for NoCensus {
             Self::Slider { joint } => {
                 write!(f, "no census: the {} joint slides", ordinal(*joint))
             }
+            Self::Rope { member } => {
+                write!(f, "no census: member {member} is a rope over rings or pulleys")
+            }
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")
             }
@@ -195,6 +198,11 @@ impl Display for NoCertificate {
             Self::PivotsUndecided => {
                 f.write_str("the pivots of the stress matrix are not proved positive")
             }
+            Self::NotConvex { members } => write!(
+                f,
+                "a bound with ropes over rings or pulleys is known where anchors hold all parts and every member \
+                 pulls, and {members} push or may push"
+            ),
             Self::NotDefinite { compressed } => write!(
                 f,
                 "the stress matrix is not proved positive definite, with {compressed} members compressed"
@@ -221,6 +229,9 @@ impl Display for NoBox {
                 "nothing brings the joints back, to first order, from {}",
                 counted(*dimension, "independent motion")
             ),
+            Self::Rope { member } => {
+                write!(f, "member {member} is a rope over rings or pulleys")
+            }
             Self::Degenerate { member } => {
                 write!(
                     f,

@@ -20,6 +20,9 @@ const TOLERANCE: f64 = 1e-9;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConeError {
+    /// Occurs when a member is a rope over rings or pulleys.
+    #[error(transparent)]
+    Rope(#[from] model::system::RopeNotTaken),
     /// Occurs when a system has a strut, which no convex programme knows.
     #[error("member {member} is a strut, and the least energy of struts is no convex problem")]
     Strut {

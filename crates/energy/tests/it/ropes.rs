@@ -1,0 +1,85 @@
+//! Ropes over rings and pulleys against closed forms.
+
+use energy::network::{
+    Error, Forces, Settings, Solution, critical, minimise, minimise_from, minimise_near,
+};
+use model::Bar;
+use model::system::{Joint, Member, System};
+use samples::RopeSample;
+
+fn near(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() <= 1e-9 * wanted.abs().max(1.0)
+}
+
+fn holds(sample: &RopeSample, found: &Solution) {
+    let (name, answer) = (sample.system.name(), &found.equilibrium);
+    assert_eq!(answer.axial_n.len(), sample.axial_n.len());
+    for (axial, wanted) in answer.axial_n.iter().zip(&sample.axial_n) {
+        assert!(near(*axial, *wanted), "{name}: {axial} is not {wanted}");
+    }
+    for (joint, at_m) in &sample.at_m {
+        let found = answer.joints_m[*joint];
+        assert!((0..3).all(|k| near(found[k], at_m[k])), "{name}: {found:?} is not {at_m:?}");
+    }
+}
+
+#[test]
+fn ropes_have_one_tension() {
+    for sample in samples::ropes() {
+        let name = sample.system.name();
+        let settings = Settings::default();
+        let found = minimise(&sample.system, &settings);
+        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(matches!(found.forces, Forces::Unique(_)), "{name}: {:?}", found.forces);
+        assert_eq!(found.equilibrium.stability.neutral, 0, "{name}");
+        holds(&sample, &found);
+        let joints_m = &found.equilibrium.joints_m;
+        let moved: Vec<_> = joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]).collect();
+        for again in [
+            minimise_from(&sample.system, &moved, &settings),
+            minimise_near(&sample.system, &moved, &settings),
+        ] {
+            holds(&sample, &again.unwrap_or_else(|error| panic!("{name}: {error}")));
+        }
+    }
+}
+
+/// A shape at rest, and the same with its ring lifted.
+#[test]
+fn shapes_of_ropes_are_judged_by_their_energy() {
+    let ring = &samples::ropes()[0];
+    let mut at_m = [[0.0; 3], [4.0, 0.0, 1.0], ring.at_m[0].1];
+    let found = critical(&ring.system, &at_m).unwrap().unwrap();
+    assert!(found.is_equilibrium() && found.index == 0, "{found:?}");
+    at_m[2][2] += 1e-3;
+    assert!(!critical(&ring.system, &at_m).unwrap().unwrap().is_equilibrium());
+}
+
+/// Two weights over two pulleys: the lighter one is pulled up to its pulley.
+#[test]
+fn unequal_weights_jam() {
+    for (masses_kg, light) in [([3.0, 2.0], 3), ([3.0, 2.99], 3), ([1.0, 5.0], 1)] {
+        let joints = vec![
+            Joint::anchor("D", [0.0; 3]),
+            Joint::anchor("E", [1.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(masses_kg[0]),
+            Joint::free("Q").with_mass(masses_kg[1]),
+        ];
+        let rope = Member::cable(2, 3, Bar::homogeneous(6.0, 0.0).unwrap()).over(vec![0, 1]);
+        let system = System::new("two weights", 10.0, joints, vec![rope]).unwrap();
+        let error = minimise(&system, &Settings::default()).unwrap_err();
+        assert_eq!(error, Error::Jammed { member: 1, span: light });
+    }
+}
+
+/// A cable that is slack where it is let go bears nothing there, and no force is a measure.
+#[test]
+fn what_begins_slack_falls_into_its_cable() {
+    let joints = vec![Joint::anchor("D", [0.0; 3]), Joint::free("P").with_mass(1.0)];
+    let cable = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0).unwrap());
+    let system = System::new("one", 10.0, joints, vec![cable]).unwrap();
+    let from = [[0.0; 3], [0.1, 0.0, -0.9]];
+    let found = minimise_from(&system, &from, &Settings::default()).unwrap();
+    assert!(found.work.iterations < 60, "{:?}", found.work);
+    assert!(near(found.equilibrium.axial_n[0], 10.0));
+}

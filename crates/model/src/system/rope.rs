@@ -1,0 +1,141 @@
+//! Ropes: members that run over rings and pulleys.
+
+use super::error::SystemError;
+use super::{Joint, Kind, Member, System};
+
+/// What makes a member a rope: the joints that it runs over without friction.
+///
+/// A joint that is free is a ring on the rope, one that is held a pulley. The length of a rope is the
+/// sum of its spans, and its tension is the same in all of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rope {
+    /// The joints between its ends, in their order; one joint may stand here more than once.
+    pub via: Vec<usize>,
+}
+
+/// Why a rope is none that is modelled here.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RopeFault {
+    /// Occurs when a member that pushes is to run over a joint.
+    #[error("only a cable runs over rings or pulleys: a bar or a strut cannot bend around a joint")]
+    Kind,
+    /// Occurs when a rope has a mass.
+    #[error("a rope over rings or pulleys has no mass here: its weight would slide with the rope")]
+    Mass,
+    /// Occurs when a force acts on a rope between its joints.
+    #[error("no force acts on a rope over rings or pulleys: it would slide with the rope")]
+    Load,
+    /// Occurs when a prestress is given for a rope.
+    #[error(
+        "a rope over rings or pulleys has no prestress here: its unstretched length says what it bears"
+    )]
+    Prestress,
+    /// Occurs when a rope runs from a joint to the same joint.
+    #[error("a rope runs from joint {joint:?} to itself: a span has two joints")]
+    Repeated {
+        /// Name of the joint.
+        joint: String,
+    },
+}
+
+impl RopeFault {
+    /// The key of a system file that is wrong.
+    pub(crate) fn key(&self) -> &'static str {
+        match self {
+            Self::Kind => "kind",
+            Self::Mass => "mass_kg",
+            Self::Load => "forces",
+            Self::Prestress => "prestress_n",
+            Self::Repeated { .. } => "via",
+        }
+    }
+}
+
+/// Occurs when what is asked for does not know ropes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, thiserror::Error)]
+#[error("a rope over rings or pulleys (member {member}) is not taken by {what} yet")]
+pub struct RopeNotTaken {
+    /// Number of the first rope among the members, from 1.
+    pub member: usize,
+    /// What was asked for.
+    pub what: &'static str,
+}
+
+impl Member {
+    /// The same member as a rope over these joints; without joints it is as it was.
+    ///
+    /// ```
+    /// use model::{Bar, system::Member};
+    /// // From an anchor over a ring, a pulley and the same ring again: a tackle.
+    /// let rope = Member::cable(0, 2, Bar::homogeneous(9.0, 0.0)?).over(vec![2, 1]);
+    /// assert_eq!(rope.path().collect::<Vec<_>>(), [0, 2, 1, 2]);
+    /// assert_eq!(rope.spans().collect::<Vec<_>>(), [[0, 2], [2, 1], [1, 2]]);
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    #[must_use]
+    pub fn over(self, via: Vec<usize>) -> Self {
+        let rope = (!via.is_empty()).then(|| Box::new(Rope { via }));
+        Self { rope, ..self }
+    }
+
+    /// The joints between its ends that it runs over; none of a member that is straight.
+    #[must_use]
+    pub fn via(&self) -> &[usize] {
+        self.rope.as_ref().map_or(&[], |rope| &rope.via)
+    }
+
+    /// Every joint that it meets, from its first to its last.
+    pub fn path(&self) -> impl Iterator<Item = usize> + Clone {
+        std::iter::once(self.from).chain(self.via().iter().copied()).chain([self.to])
+    }
+
+    /// The two joints of each of its spans: one of a member that is straight.
+    pub fn spans(&self) -> impl Iterator<Item = [usize; 2]> + Clone {
+        self.path().zip(self.path().skip(1)).map(|(a, b)| [a, b])
+    }
+
+    /// What of a rope is not modelled.
+    pub(crate) fn rope_fault(&self, joints: &[Joint]) -> Option<RopeFault> {
+        self.rope.as_ref()?;
+        let repeated = self.spans().find(|[a, b]| a == b);
+        if let Some(joint) = repeated.map(|[joint, _]| joints[joint].name.clone()) {
+            return Some(RopeFault::Repeated { joint });
+        }
+        let faults = [
+            (self.kind != Kind::Cable, RopeFault::Kind),
+            (self.body.mass_kg() > 0.0, RopeFault::Mass),
+            (!self.loads.is_empty(), RopeFault::Load),
+            (self.prestress.is_some(), RopeFault::Prestress),
+        ];
+        faults.into_iter().find_map(|(is, fault)| is.then_some(fault))
+    }
+}
+
+impl System {
+    /// Whether a member runs over rings or pulleys.
+    #[must_use]
+    pub fn has_ropes(&self) -> bool {
+        self.members().iter().any(|member| member.rope.is_some())
+    }
+
+    /// Refuse a system with ropes, for what does not know them.
+    ///
+    /// # Errors
+    ///
+    /// [`RopeNotTaken`] if a member runs over rings or pulleys.
+    pub fn without_ropes(&self, what: &'static str) -> Result<(), RopeNotTaken> {
+        match self.members().iter().position(|member| member.rope.is_some()) {
+            Some(member) => Err(RopeNotTaken { member: member + 1, what }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuse a rope that is none.
+pub(super) fn check(number: usize, member: &Member, joints: &[Joint]) -> Result<(), SystemError> {
+    match member.rope_fault(joints) {
+        Some(fault) => Err(SystemError::Rope { member: number, fault }),
+        None => Ok(()),
+    }
+}

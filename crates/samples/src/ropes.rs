@@ -1,0 +1,154 @@
+//! Ropes over rings and pulleys whose equilibria are known by hand.
+
+use model::system::{Joint, Member, System};
+use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
+
+/// A system with ropes, and what its equilibrium is.
+#[derive(Debug, Clone)]
+pub struct RopeSample {
+    /// The system.
+    pub system: System,
+    /// Axial force of each member, N.
+    pub axial_n: Vec<f64>,
+    /// Some of the joints, and where they are, m.
+    pub at_m: Vec<(usize, Vector)>,
+}
+
+/// What each weight of a kilogram bears, N.
+const G: f64 = STANDARD_GRAVITY_M_S2;
+
+/// All of them.
+///
+/// | system | its law |
+/// |---|---|
+/// | a ring on a rope, and on one that stretches | both spans lean by `a` with `sin a = d/L`, `T = W/(2 cos a)` |
+/// | two ropes through one ring | four spans of one slope, 4 : 5 |
+/// | a tackle, and one that begins at its own block | `T = W/n` for n strands at the block |
+/// | a weight over a pulley, rigid and elastic | `T = W`, `s = L (1 + T/EA)` |
+/// | a lighter weight that a cable holds down | `T` of the heavier, the rest in the cable |
+/// | a slack rope | nothing |
+///
+/// ```
+/// let ring = &samples::ropes()[0];
+/// assert!((ring.axial_n[0] - 81.722_083_333_333).abs() < 1e-11);
+/// ```
+///
+/// # Panics
+///
+/// When a number is out of range.
+#[must_use]
+pub fn ropes() -> Vec<RopeSample> {
+    let leaning = 10.0 * G / (2.0 * 0.6);
+    let block_m = [0.0, 0.0, -(9.0 - 10.0_f64.sqrt()) / 4.0];
+    let own_block_m = [0.0, 0.0, -(8.0 - 5.0_f64.sqrt()) / 3.0];
+    vec![
+        known(
+            "a ring on a rope",
+            on_two([4.0, 0.0, 1.0]),
+            vec![rope(&[0, 2, 1], 5.0)],
+            &[leaning],
+            &[(2, [4.0 / 3.0, 0.0, -1.0])],
+        ),
+        known(
+            "a ring on a rope that stretches",
+            on_two([4.0, 0.0, 1.0]),
+            vec![rope(&[0, 2, 1], 5.0 / (1.0 + leaning / 1000.0)).with_stiffness(1000.0)],
+            &[leaning],
+            &[(2, [4.0 / 3.0, 0.0, -1.0])],
+        ),
+        known(
+            "two ropes through one ring",
+            [[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0]]
+                .into_iter()
+                .enumerate()
+                .map(|(k, [x, y])| Joint::anchor(format!("{k}"), [x, y, 4.0]))
+                .chain([Joint::free("P").with_mass(10.0)])
+                .collect(),
+            vec![rope(&[0, 4, 1], 10.0), rope(&[2, 4, 3], 10.0)],
+            &[10.0 * G / 3.2; 2],
+            &[(4, [0.0; 3])],
+        ),
+        known(
+            "a tackle of four strands",
+            tackle(40.0, [1.0, 0.0, -3.0]),
+            vec![rope(&[0, 1, 0, 1, 0, 2], 9.0)],
+            &[10.0 * G],
+            &[(1, block_m)],
+        ),
+        known(
+            "a tackle that begins at its own block",
+            tackle(30.0, [1.0, 0.0, -2.0]),
+            vec![rope(&[1, 0, 1, 0, 2], 8.0)],
+            &[10.0 * G],
+            &[(1, own_block_m)],
+        ),
+        known(
+            "a weight over a pulley",
+            tackle(3.0, [-3.0, 0.0, -4.0]),
+            vec![rope(&[2, 0, 1], 6.0)],
+            &[3.0 * G],
+            &[(1, [0.0, 0.0, -1.0])],
+        ),
+        known(
+            "a weight on a rope that stretches",
+            tackle(3.0, [-3.0, 0.0, -4.0]),
+            vec![rope(&[2, 0, 1], 6.0).with_stiffness(300.0)],
+            &[3.0 * G],
+            &[(1, [0.0, 0.0, -1.0 - 6.0 * G / 100.0])],
+        ),
+        known(
+            "a lighter weight that a cable holds down",
+            vec![
+                Joint::anchor("D", [0.0; 3]),
+                Joint::anchor("E", [1.0, 0.0, 0.0]),
+                Joint::anchor("F", [1.0, 0.0, -3.0]),
+                Joint::free("P").with_mass(3.0),
+                Joint::free("Q").with_mass(2.0),
+            ],
+            vec![rope(&[3, 0, 1, 4], 6.0), cable(2, 4, 1.0)],
+            &[3.0 * G, G],
+            &[(3, [0.0, 0.0, -3.0]), (4, [1.0, 0.0, -2.0])],
+        ),
+        known(
+            "a slack rope",
+            on_two([4.0, 0.0, 0.0])
+                .into_iter()
+                .chain([Joint::anchor("C", [2.0, 0.0, 1.0])])
+                .collect(),
+            vec![rope(&[0, 2, 1], 9.0), cable(3, 2, 2.0)],
+            &[0.0, 10.0 * G],
+            &[(2, [2.0, 0.0, -1.0])],
+        ),
+    ]
+}
+
+fn known(
+    name: &str,
+    joints: Vec<Joint>,
+    members: Vec<Member>,
+    axial_n: &[f64],
+    at_m: &[(usize, Vector)],
+) -> RopeSample {
+    let system = System::new(name, G, joints, members).expect("a valid system");
+    RopeSample { system, axial_n: axial_n.to_vec(), at_m: at_m.to_vec() }
+}
+
+/// Anchors at the origin and there, and 10 kg.
+fn on_two(b_m: Vector) -> Vec<Joint> {
+    vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", b_m), Joint::free("P").with_mass(10.0)]
+}
+
+/// A beam at the origin, a block, and where the rope ends.
+fn tackle(mass_kg: f64, end_m: Vector) -> Vec<Joint> {
+    let block = Joint::free("block").with_mass(mass_kg);
+    vec![Joint::anchor("beam", [0.0; 3]), block, Joint::anchor("end", end_m)]
+}
+
+fn cable(from: usize, to: usize, length_m: f64) -> Member {
+    Member::cable(from, to, Bar::homogeneous(length_m, 0.0).expect("a valid length"))
+}
+
+fn rope(path: &[usize], length_m: f64) -> Member {
+    let last = path.len() - 1;
+    cable(path[0], path[last], length_m).over(path[1..last].to_vec())
+}

@@ -1,0 +1,165 @@
+//! Ropes over rings and pulleys: both solvers agree, the judge and the certificate hold them to the laws of a
+//! rope.
+
+use model::system::{Joint, Member, Support, System, SystemEquilibrium};
+use model::{Bar, NoBox, NoCensus, NoCertificate, Reason, Status, Vector};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use validate::Solvers;
+use validate::systems::{SystemAnswer, ask, certify, judge};
+
+fn asked(system: &System) -> SystemAnswer {
+    ask(system, Solvers::Both, &|_| {})
+}
+
+#[test]
+fn known_ropes_are_agreed_upon_and_proved_optimal() {
+    for sample in samples::ropes() {
+        let name = sample.system.name();
+        let answer = asked(&sample.system);
+        assert!(answer.agrees() && answer.is_decided(), "{name}: {answer:?}");
+        for found in &answer.equilibria {
+            let ladder = &found.evidence.ladder;
+            let Status::Reached(optimal) = &ladder.optimal else {
+                panic!("{name}: {:?}", ladder.optimal)
+            };
+            assert!(optimal.gap.unwrap() < 1e-11 && judge(&sample.system, found).largest() < 1e-11);
+            assert_eq!(ladder.verified, Status::Open(Reason::NoBox(NoBox::Rope { member: 1 })));
+            assert_eq!(
+                ladder.complete,
+                Status::Open(Reason::NoCensus(NoCensus::Rope { member: 1 }))
+            );
+        }
+    }
+}
+
+/// A strut or a bar that pushes beside a rope leaves no bound.
+#[test]
+fn ropes_beside_what_pushes_are_not_certified() {
+    let top = Joint::free("top").near([0.0, 0.0, -1.0]).with_mass(1.0).with_force([0.0, 1.0, 0.0]);
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::anchor("foot", [0.0, 0.0, -5.0]),
+        // Along the stay nothing holds it.
+        Joint { support: Support::Plane { at_m: [0.0; 3], normal: [1.0, 0.0, 0.0] }, ..top },
+    ];
+    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let mast = Member::bar(2, 3, body(4.0)).with_stiffness(1e4);
+    let stay = Member::cable(0, 1, body(6.3)).over(vec![3]).with_stiffness(1e3);
+    let system = System::new("a mast under a stay", 9.81, joints, vec![mast, stay]).unwrap();
+    let answer = asked(&system);
+    assert!(answer.agrees(), "{answer:?}");
+    let found = &answer.equilibria[0];
+    assert!(found.axial_n[0] < 0.0 && found.axial_n[1] > 0.0);
+    assert_eq!(certify(&system, found), Err(NoCertificate::NotConvex { members: 1 }));
+}
+
+/// Everything that is stored of a rope, changed by a part in a million.
+#[test]
+fn the_judge_sees_what_is_wrong_with_a_rope() {
+    let (system, found) = {
+        let sample = samples::ropes().swap_remove(3);
+        let answer = asked(&sample.system);
+        (sample.system, answer.equilibria[0].clone())
+    };
+    let off = 1.0 + 1e-6;
+    let seen = |name: &str, change: &dyn Fn(&mut SystemEquilibrium)| {
+        let mut wrong = found.clone();
+        change(&mut wrong);
+        let largest = judge(&system, &wrong).largest();
+        assert!(largest > 1e-7 || largest.is_nan(), "{name}: {largest:e}");
+    };
+    seen("tension", &|a| a.axial_n[0] *= off);
+    seen("start", &|a| a.start_forces_n[0][2] *= off);
+    seen("end", &|a| a.end_forces_n[0][0] *= off);
+    seen("block lower", &|a| a.joints_m[1][2] *= off);
+    seen("block aside", &|a| a.joints_m[1][0] += 1e-6);
+    seen("pulley", &|a| a.reactions_n[0][2] *= off);
+    seen("energy", &|a| a.energy_j *= off);
+    seen("block on its pulley", &|a| a.joints_m[1] = [0.0; 3]);
+    // Of all ends together the whole is in balance, but not the joint inside.
+    seen("all forces", &|a| {
+        a.axial_n[0] *= off;
+        for force in [&mut a.start_forces_n[0], &mut a.end_forces_n[0]] {
+            *force = force.map(|x| x * off);
+        }
+    });
+}
+
+/// Rings that a rope and cables hold, some of the cables slack and some elastic.
+fn net(random: &mut ChaCha8Rng) -> System {
+    let mut between = |low: f64, high: f64| random.random_range(low..high);
+    let rings = between(1.0, 6.0) as usize;
+    let mut place = |z: f64| -> Vector { [between(0.0, 4.0), between(0.0, 4.0), z] };
+    let mut joints: Vec<Joint> =
+        (0..4).map(|k| Joint::anchor(format!("A{k}"), place(f64::from(k) / 3.0))).collect();
+    let middle: Vec<Vector> = (0..rings).map(|_| place(-2.0)).collect();
+    joints.extend((0..rings).map(|k| Joint::free(format!("P{k}")).with_mass(between(0.5, 5.0))));
+    let at = |joint: usize| match joints[joint].support.at_m() {
+        Some(at_m) => at_m,
+        None => middle[joint - 4],
+    };
+    let apart = |path: &[usize]| -> f64 {
+        let span = |pair: &[usize]| {
+            let [a, b] = [at(pair[0]), at(pair[1])];
+            (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        path.windows(2).map(span).sum()
+    };
+    let mut members = Vec::new();
+    let mut add = |path: Vec<usize>, part: f64, stiffness_n: Option<f64>| {
+        let (first, last) = (path[0], path[path.len() - 1]);
+        let body = Bar::homogeneous(part * apart(&path), 0.0).unwrap();
+        let member = Member::cable(first, last, body).over(path[1..path.len() - 1].to_vec());
+        members.push(Member { stiffness_n, ..member });
+    };
+    // One rope over all rings, past an anchor that is a pulley, and a second one over the first ring.
+    let mut path = vec![0];
+    path.extend(4..4 + rings);
+    path.insert(between(1.0, path.len() as f64) as usize, 1);
+    path.push(2);
+    let elastic = |x: f64| (x > 0.5).then_some(1000.0 * x);
+    let (part, soft) = (between(1.0, 1.3), elastic(between(0.0, 1.0)));
+    add(path, part, soft);
+    let (part, soft) = (between(0.9, 1.2), elastic(between(0.0, 1.0)));
+    add(vec![3, 4, 0], part, soft);
+    for ring in 4..4 + rings {
+        let (part, soft) = (between(0.9, 1.5), elastic(between(0.0, 1.0)));
+        add(vec![1 + ring % 3, ring], part, soft);
+        if ring > 4 {
+            let (part, soft) = (between(0.8, 1.5), elastic(between(0.0, 1.0)));
+            add(vec![ring - 1, ring], part, soft);
+        }
+    }
+    System::new("a net with ropes", 9.81, joints, members).unwrap()
+}
+
+#[test]
+fn random_nets_with_ropes_are_agreed_upon() {
+    let (mut agreed, mut jammed) = (0, 0);
+    for number in 0..60 {
+        let system = net(&mut samples::stream(20_261_126, number));
+        if system.refusal().is_err() {
+            continue;
+        }
+        let answer = asked(&system);
+        if answer.agrees() && answer.equilibria.len() == 2 {
+            agreed += 1;
+            for found in &answer.equilibria {
+                assert!(
+                    found.evidence.ladder.optimal.is_reached(),
+                    "{number}: {:?}",
+                    found.evidence.ladder.optimal
+                );
+            }
+        } else {
+            // A ring that runs to another one, or to a pulley: both solvers say so.
+            let said: Vec<String> = answer.failures.iter().map(ToString::to_string).collect();
+            let jams = said.len() == 2 && said.iter().all(|text| text.contains("jams"));
+            assert!(jams, "{number}: {said:?}");
+            jammed += 1;
+        }
+    }
+    assert_eq!((agreed, jammed), (58, 2));
+}
