@@ -1,14 +1,13 @@
 //! A motion as one HTML file: play, pause, scrub, turn; members by their forces, trails of the joints,
 //! the energies and the distances from the equilibria as curves.
 
-use std::fmt::Write as _;
-
 use model::Vector;
 use model::system::System;
 use motion::Snapshot;
+use serde::Serialize;
 
 use crate::equilibria;
-use crate::moving_page::{self, comma, eye, list, places, structure};
+use crate::moving_page::{self, eye, flat, six};
 use crate::problem::Problem;
 use crate::resting::Resting;
 use crate::simulate::CENSUS_BARS;
@@ -108,34 +107,39 @@ impl Animation {
 
     /// Everything that is drawn, as JSON of numbers and of the numbers of equilibria.
     fn data(&self) -> String {
-        let mut out = String::from("{\"t\":");
-        list(&mut out, self.times_s.iter().copied());
-        out.push_str(",\"kinetic\":");
-        list(&mut out, self.kinetic_j.iter().copied());
-        out.push_str(",\"potential\":");
-        list(&mut out, self.potential_j.iter().copied());
-        out.push_str(",\"equilibria\":[");
-        for (k, (label, distances)) in self.labels.iter().zip(&self.distances_m).enumerate() {
-            let _ = write!(out, "{}{{\"label\":\"{label}\",\"distance\":", comma(k));
-            list(&mut out, distances.iter().copied());
-            out.push('}');
+        #[derive(Serialize)]
+        struct Near<'a> {
+            label: &'a str,
+            distance: Vec<f64>,
         }
-        out.push_str("],\"x\":[");
-        for (k, frame) in self.frames.iter().enumerate() {
-            out.push_str(comma(k));
-            places(&mut out, &self.system, frame.iter().copied());
+        #[derive(Serialize)]
+        struct Moved<'a> {
+            t: Vec<f64>,
+            kinetic: Vec<f64>,
+            potential: Vec<f64>,
+            equilibria: Vec<Near<'a>>,
+            x: Vec<Vec<f64>>,
+            axial: Vec<Vec<f64>>,
+            speed: Vec<f64>,
+            ends: String,
+            view: f64,
         }
-        out.push_str("],\"axial\":[");
-        for (k, axial_n) in self.axial_n.iter().enumerate() {
-            out.push_str(comma(k));
-            list(&mut out, axial_n.iter().copied());
-        }
-        out.push_str("],\"speed\":");
-        list(&mut out, self.speed_m_s.iter().copied());
-        out.push(',');
-        structure(&mut out, &self.system);
-        let _ = write!(out, "\"ends\":\"{}\",\"view\":{:.4}}}", self.ends(), self.view_rad());
-        out
+        let numbers = |all: &Vec<f64>| all.iter().copied().map(six).collect::<Vec<_>>();
+        let near = self.labels.iter().zip(&self.distances_m);
+        let near = near.map(|(label, distances)| Near { label, distance: numbers(distances) });
+        let frames = self.frames.iter().map(|frame| flat(&self.system, frame.iter().copied()));
+        let moved = Moved {
+            t: numbers(&self.times_s),
+            kinetic: numbers(&self.kinetic_j),
+            potential: numbers(&self.potential_j),
+            equilibria: near.collect(),
+            x: frames.collect(),
+            axial: self.axial_n.iter().map(numbers).collect(),
+            speed: numbers(&self.speed_m_s),
+            ends: self.ends(),
+            view: six(self.view_rad()),
+        };
+        moving_page::data(&self.system, &moved)
     }
 
     /// Where it comes to rest, or is at the end.

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::mode_pages::heading;
 use crate::modes::Mode;
-use crate::moving_page::{self, flat, in_script, plain, six};
+use crate::moving_page::{self, flat, plain, six};
 
 const PAGE: &str = include_str!("page.html");
 
@@ -101,22 +101,6 @@ pub(crate) fn plain_lines(text: &str) -> String {
 impl Shown {
     /// The page, with the answer in words if there are some.
     pub fn html(&self, system: &System, words: &str) -> String {
-        #[derive(Serialize)]
-        struct Data<'a> {
-            bars: Vec<[usize; 2]>,
-            held: Vec<u8>,
-            names: Vec<String>,
-            #[serde(flatten)]
-            shown: &'a Shown,
-        }
-        let (joints, members) = (system.joints(), system.members());
-        let data = Data {
-            bars: members.iter().map(|member| [member.from, member.to]).collect(),
-            held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
-            names: joints.iter().map(|joint| plain(&joint.name)).collect(),
-            shown: self,
-        };
-        let data = serde_json::to_string(&data).unwrap_or_default();
         let name = match self.heading {
             "" => plain(system.name()),
             heading => format!("{}: {heading}", plain(system.name())),
@@ -130,6 +114,6 @@ impl Shown {
                 )
             }
         };
-        moving_page::filled(PAGE, &name, &words, &in_script(&data))
+        moving_page::filled(PAGE, &name, &words, &moving_page::data(system, self))
     }
 }
