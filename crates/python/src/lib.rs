@@ -46,6 +46,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::solve, module)?)?;
     module.add_function(wrap_pyfunction!(solve::solve_text, module)?)?;
     module.add_function(wrap_pyfunction!(solve::losses, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
     module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;

@@ -15,6 +15,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | every equilibrium, with proof | :meth:`System.census` |
 | the equilibrium over a parameter | :meth:`System.study` |
 | the loss of each member | :func:`losses` |
+| guaranteed ranges over tolerances | :func:`tolerances` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
@@ -42,7 +43,7 @@ from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
-from .study import Gradient, Losses, Study, anchor_stiffness, change, gradient, losses, study
+from .study import Gradient, Losses, Study, Tolerances, anchor_stiffness, change, gradient, losses, study, tolerances
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -84,6 +85,7 @@ __all__ = [
     "System",
     "SystemBatch",
     "Table",
+    "Tolerances",
     "Trace",
     "__version__",
     "anchor_stiffness",
@@ -105,6 +107,7 @@ __all__ = [
     "solve_many",
     "study",
     "sweep",
+    "tolerances",
     "trace",
     *_errors,
 ]

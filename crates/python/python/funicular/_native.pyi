@@ -37,6 +37,7 @@ __all__ = [
     "sweep",
     "sweep_merge",
     "sweep_write",
+    "tolerances",
     "trace",
 ]
 __version__: str
@@ -161,6 +162,9 @@ def study(
     progress: _Progress,
 ) -> tuple[str, str, list[str], bool, bool, str]: ...
 def losses(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool]: ...
+def tolerances(
+    problem: Problem, draws: int, seed: int, solver: str, threads: int, progress: _Progress
+) -> tuple[str, str]: ...
 def derivatives(
     problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress
 ) -> str: ...

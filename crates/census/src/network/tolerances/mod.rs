@@ -265,18 +265,30 @@ impl Cover<'_> {
         let ranges = ranges.into_iter().enumerate();
         let ranges: Vec<Range> =
             ranges.filter_map(|(k, bounds)| Some(range(bounds?, leaves[0].most_by(k)))).collect();
-        let members = self.may_change(&ranges);
-        if !members.is_empty() {
-            return Err(NoRanges::MayChange { members });
-        }
-        Ok(self.in_si(&ranges, leaves.len()))
+        let found = self.in_si(&ranges, leaves.len());
+        let mut members = self.may_change(&ranges);
+        members.extend(self.idle_may_change(&found.axial_n));
+        members.sort_unstable();
+        if members.is_empty() { Ok(found) } else { Err(NoRanges::MayChange { members }) }
+    }
+
+    /// Elastic cables and struts between two anchors whose force may vanish, and may not.
+    fn idle_may_change<'b>(&'b self, axial_n: &'b [Range]) -> impl Iterator<Item = usize> + 'b {
+        let idle = |k: &usize| self.posed.activities[*k] == Activity::Idle;
+        let changes = move |k: &usize| {
+            let range = &axial_n[*k];
+            self.system.members()[*k].kind != Kind::Bar
+                && range.contains(0.0)
+                && range.guaranteed.iter().any(|end| end.abs() > 0.0)
+        };
+        (0..axial_n.len()).filter(idle).filter(changes)
     }
 
     /// Cables and struts that are not proved to stay taut or slack.
     fn may_change(&self, ranges: &[Range]) -> Vec<usize> {
         let acting = &self.posed.equations.acting;
         let pairs = self.outputs.iter().zip(ranges);
-        let mut members: Vec<usize> = pairs
+        pairs
             .filter_map(|(output, range)| {
                 let [least, most] = range.guaranteed;
                 let (member, stays) = match *output {
@@ -290,9 +302,7 @@ impl Cover<'_> {
                 };
                 (!stays).then_some(member)
             })
-            .collect();
-        members.sort_unstable();
-        members
+            .collect()
     }
 
     fn in_si(&self, ranges: &[Range], boxes: usize) -> ToleranceRanges {
