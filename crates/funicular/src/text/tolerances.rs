@@ -11,8 +11,8 @@ use crate::tolerances::{Draws, TolerancesAnswer};
 
 /// Digits of what is an estimate.
 const DIGITS: usize = 3;
-/// An excess below this part of a range is rounding.
-const ROUNDING: f64 = 1e-6;
+/// The least excess that is told in digits, as a part of a range.
+const SMALL: f64 = 1e-3;
 
 /// As `funicular solve --tolerances` prints it.
 impl fmt::Display for TolerancesAnswer {
@@ -137,7 +137,11 @@ fn widest(widths: Vec<f64>) -> Vec<usize> {
 
 fn excess(range: &Range) -> String {
     let part = range.excess() / width(range);
-    if range.is_hull || part < ROUNDING { "hull".to_owned() } else { percent(part) }
+    match part {
+        _ if range.is_hull => "hull".to_owned(),
+        part if part < SMALL => format!("< {}", percent(SMALL)),
+        part => percent(part),
+    }
 }
 
 fn said(draws: &Draws) -> String {
