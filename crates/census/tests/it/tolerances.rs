@@ -218,9 +218,9 @@ fn what_may_go_slack_is_named() {
             let depth = 0.5 * (high + low);
             let (side, third) = both(depth);
             if 2.0 * side * depth / depth.hypot(3.0) < 120.0 + third {
-                high = depth
+                high = depth;
             } else {
-                low = depth
+                low = depth;
             }
         }
         let (side, below) = both(low);
@@ -235,7 +235,8 @@ fn what_may_go_slack_is_named() {
     assert_eq!(of(0.9535, 1e-3), changes);
     // 6 mm of slack are more than 2 mm.
     let found = of(0.96, 2e-3).unwrap();
-    assert!(found.axial_n[2].guaranteed == [0.0; 2] && found.axial_n[0].guaranteed[0] > 74.0);
+    let [slack, borne] = [2, 0].map(|k| found.axial_n[k].guaranteed);
+    assert!(slack.iter().all(|n| n.abs() <= 0.0) && borne[0] > 74.0, "{slack:?} {borne:?}");
 }
 
 /// A spring of 2 m between anchors 2 m apart, and one of 1.9 m: by its law alone, which each number enters once.

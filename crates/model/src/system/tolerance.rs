@@ -234,7 +234,9 @@ impl System {
                 UncertainNumber::Force(k, axis) => joints[k].force_n[axis] = *value,
             }
         }
-        joints.iter_mut().for_each(|joint| joint.tolerances = None);
+        for joint in &mut joints {
+            joint.tolerances = None;
+        }
         for member in &mut members {
             (member.tolerances, member.length_tolerance_m, member.prestress) = (None, None, None);
         }

@@ -56,7 +56,7 @@ pub(super) struct Leaf {
 /// An upper bound of an output, or of its negative; what it reaches; whether that is the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
-    pub(super) bound: f64,
+    pub(super) most: f64,
     pub(super) reached: f64,
     pub(super) is_hull: bool,
 }
@@ -64,7 +64,7 @@ pub(super) struct Bound {
 impl Bound {
     /// Over two boxes.
     pub(super) fn or(self, other: Self) -> Self {
-        let largest = if other.bound > self.bound { other } else { self };
+        let largest = if other.most > self.most { other } else { self };
         Self { reached: self.reached.max(other.reached), ..largest }
     }
 }
@@ -304,7 +304,9 @@ impl Leaf {
             .collect();
         let mut wanted: HashMap<&[i8], Vec<usize>> = HashMap::new();
         for (output, corners) in corners.iter().enumerate() {
-            corners.iter().for_each(|corner| wanted.entry(&corner.at).or_default().push(output));
+            for corner in corners {
+                wanted.entry(&corner.at).or_default().push(output);
+            }
         }
         let values = wanted.into_par_iter().map(|(corner, outputs)| {
             let numbers: Vec<f64> = corner.iter().zip(&self.parts).map(end).collect();
@@ -316,8 +318,8 @@ impl Leaf {
         let bound = |output: usize, corner: &Corner, sign: f64| {
             let value = values[corner.at.as_slice()][&output];
             let value = if sign < 0.0 { -value } else { value };
-            let bound = up(value.hi() + corner.more);
-            Bound { bound, reached: value.lo(), is_hull: corner.is_hull() }
+            let most = up(value.hi() + corner.more);
+            Bound { most, reached: value.lo(), is_hull: corner.is_hull() }
         };
         let both = |(k, [least, most]): (usize, &[Corner; 2])| {
             [bound(k, least, -1.0), bound(k, most, 1.0)]

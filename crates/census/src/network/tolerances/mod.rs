@@ -168,7 +168,7 @@ pub fn prove_ranges(
         tried: AtomicUsize::new(0),
     };
     let whole = vec![Interval::new(-1.0, 1.0); numbers.len()];
-    let leaves = cover.leaves(whole, &start).map_err(|reason| cover.open(reason, &start))?;
+    let leaves = cover.leaves(&whole, &start).map_err(|reason| cover.open(reason, &start))?;
     cover.gather(&leaves)
 }
 
@@ -202,9 +202,9 @@ struct Cover<'a> {
 
 impl Cover<'_> {
     /// Boxes with a proof for each, which together are this one.
-    fn leaves(&self, parts: Vec<Interval>, start: &[f64]) -> Result<Vec<Leaf>, NoBox> {
+    fn leaves(&self, parts: &[Interval], start: &[f64]) -> Result<Vec<Leaf>, NoBox> {
         self.tried.fetch_add(1, Ordering::Relaxed);
-        let failure = match Leaf::new(self, parts.clone(), start) {
+        let failure = match Leaf::new(self, parts.to_vec(), start) {
             Ok(leaf) => return Ok(vec![leaf]),
             Err(failure) => failure,
         };
@@ -216,9 +216,9 @@ impl Cover<'_> {
         }
         let middle = parts[widest].mid();
         let half = |part: Interval, start: &[f64]| {
-            let mut parts = parts.clone();
+            let mut parts = parts.to_vec();
             parts[widest] = part;
-            self.leaves(parts, start)
+            self.leaves(&parts, start)
         };
         let mut below = half(Interval::new(parts[widest].lo(), middle), &starts[0])?;
         let above = half(Interval::new(middle, parts[widest].hi()), &starts[1])?;
@@ -364,7 +364,7 @@ impl Cover<'_> {
 
 fn range([least, most]: [Bound; 2], most_by: Option<(usize, f64)>) -> Range {
     Range {
-        guaranteed: [-least.bound, most.bound],
+        guaranteed: [-least.most, most.most],
         reached: [-least.reached, most.reached],
         is_hull: least.is_hull && most.is_hull,
         most_by,
