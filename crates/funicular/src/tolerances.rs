@@ -2,7 +2,9 @@
 
 use census::network::{NoRanges, Range, ToleranceRanges, prove_ranges};
 use model::InSpace;
-use model::system::{Strength, System, SystemEquilibrium, Uncertain, UncertainNumber};
+use model::system::{
+    MemberTolerances, Strength, System, SystemEquilibrium, Uncertain, UncertainNumber,
+};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
@@ -253,7 +255,7 @@ impl TolerancesAnswer {
 /// All loads of a member at their largest, N, from above.
 fn own_load_n(system: &System, member: usize) -> f64 {
     let of = &system.members()[member];
-    let within_kg = of.tolerances.as_deref().map_or(0.0, |within| within.mass_kg());
+    let within_kg = of.tolerances.as_deref().map_or(0.0, MemberTolerances::mass_kg);
     let mass_kg = (of.body.mass_kg() + within_kg).next_up();
     let weight_n = (mass_kg * system.gravity_m_s2()).next_up();
     let weight_n = if of.body.mass_kg() > 0.0 { weight_n } else { 0.0 };

@@ -65,7 +65,7 @@ impl TolerancesAnswer {
         let system = self.answer().system();
         let name = |joint: usize| Printable(&system.joints()[joint].name).to_string();
         let mut rows = table(["bar", "from", "to", "least / N", "most / N", "excess"]);
-        for k in widest(ranges.axial_n.iter().map(width).collect()) {
+        for k in widest(&ranges.axial_n.iter().map(width).collect::<Vec<_>>()) {
             let (member, range) = (&system.members()[k], &ranges.axial_n[k]);
             let mut row = vec![(k + 1).to_string(), name(member.from), name(member.to)];
             row.extend(range.guaranteed.map(short));
@@ -83,7 +83,7 @@ impl TolerancesAnswer {
         head.extend(strong.then_some("used"));
         head.extend(self.draws().map(|_| "sd / N"));
         let mut rows = table(head);
-        for k in widest(ranges.axial_n.iter().map(width).collect()) {
+        for k in widest(&ranges.axial_n.iter().map(width).collect::<Vec<_>>()) {
             let most_by = ranges.axial_n[k].most_by;
             let number = most_by.and_then(|(number, _)| self.number_name(number));
             let number = number.map_or_else(String::new, |name| Printable(&name).to_string());
@@ -110,8 +110,9 @@ impl TolerancesAnswer {
         let heads = heads.as_flattened().iter().map(String::as_str);
         let mut rows = table(std::iter::once("joint").chain(heads));
         let all: Vec<_> = all.collect();
-        let widths = all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
-        for k in widest(widths) {
+        let widths: Vec<f64> =
+            all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
+        for k in widest(&widths) {
             let (joint, of) = all[k];
             let name = Printable(&self.answer().system().joints()[joint].name).to_string();
             let ends = of.iter().flat_map(|range| range.guaranteed.map(short));
@@ -127,7 +128,7 @@ fn width(range: &Range) -> f64 {
 }
 
 /// Of many the widest, in their order.
-fn widest(widths: Vec<f64>) -> Vec<usize> {
+fn widest(widths: &[f64]) -> Vec<usize> {
     let mut all: Vec<usize> = (0..widths.len()).collect();
     all.sort_by(|a, b| widths[*b].total_cmp(&widths[*a]));
     all.truncate(PRINTED);

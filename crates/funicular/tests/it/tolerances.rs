@@ -168,7 +168,7 @@ fn three_cables_have_the_hull_of_their_corners() {
     let answers: Vec<SolveAnswer> = answers.into_iter().map(Result::unwrap).collect();
     assert!(ranges.numbers.len() == 6 && answers.iter().all(SolveAnswer::agrees));
     for (member, range) in ranges.axial_n.iter().enumerate() {
-        let forces = || answers.iter().flat_map(|a| a.equilibria()).map(|e| e.axial_n[member]);
+        let forces = || answers.iter().flat_map(SolveAnswer::equilibria).map(|e| e.axial_n[member]);
         let (least, most) =
             (forces().fold(f64::INFINITY, f64::min), forces().fold(f64::NEG_INFINITY, f64::max));
         let [from, to] = range.guaranteed;

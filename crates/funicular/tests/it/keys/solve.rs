@@ -202,23 +202,23 @@ fn tolerances_of_a_plumb_bob() {
     output.is("tolerances.numbers[].within", json!([0.1, 0.1, 0.1, 0.5]));
     output.is("tolerances.joints[].name", json!(["A", "P"]));
     // A bound of what vanishes is as wide as the rounding of all forces.
-    const ROUNDING: f64 = 1e-10;
+    let rounding = 1e-10;
     for (least, most) in [("least", "most"), ("least_reached", "most_reached")] {
         let path = |of: &str, end: &str| format!("tolerances.{of}.{end}");
         output.near(
             &path("joints[].at_m[]", least),
-            ROUNDING,
+            rounding,
             json!([-0.1, -0.1, -0.1, -0.1, -0.1, -3.1]),
         );
         output.near(
             &path("joints[].at_m[]", most),
-            ROUNDING,
+            rounding,
             json!([0.1, 0.1, 0.1, 0.1, 0.1, -2.9]),
         );
-        output.near(&path("joints[].reaction_n[]", least), ROUNDING, json!([0.0, 0.0, 15.0]));
-        output.near(&path("joints[].reaction_n[]", most), ROUNDING, json!([0.0, 0.0, 25.0]));
-        output.near(&path("bars[].axial_n", least), ROUNDING, 15.0);
-        output.near(&path("bars[].axial_n", most), ROUNDING, 25.0);
+        output.near(&path("joints[].reaction_n[]", least), rounding, json!([0.0, 0.0, 15.0]));
+        output.near(&path("joints[].reaction_n[]", most), rounding, json!([0.0, 0.0, 25.0]));
+        output.near(&path("bars[].axial_n", least), rounding, 15.0);
+        output.near(&path("bars[].axial_n", most), rounding, 25.0);
     }
     output.each("tolerances.joints[].at_m[].is_hull", true);
     output.each("tolerances.joints[].reaction_n[].is_hull", true);
