@@ -27,6 +27,7 @@
 //! |---|---|
 //! | the hanging equilibrium of a chain, or of bars, cables and struts, elastic or not, by both solvers, judged and proved | [`Solve`] |
 //! | the same of many systems in parallel | [`Solve::run_all`] |
+//! | guaranteed ranges of places and forces over tolerances | [`Solve::tolerances`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
 #![cfg_attr(
     feature = "branches",

@@ -2,15 +2,17 @@
 
 use census::network::{NoRanges, Range, ToleranceRanges, prove_ranges};
 use model::InSpace;
-use model::system::{Strength, System, SystemEquilibrium, UncertainNumber};
+use model::system::{
+    MemberTolerances, Strength, System, SystemEquilibrium, Uncertain, UncertainNumber,
+};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
 use validate::UseCensus;
 
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::{Lists, Solve, SolveAnswer};
-use crate::weakest::from_one;
 
 /// Solvers agree to this part of lengths and forces: less is no draw outside of what is proved.
 const ROUNDING: f64 = 1e-9;
@@ -253,7 +255,7 @@ impl TolerancesAnswer {
 /// All loads of a member at their largest, N, from above.
 fn own_load_n(system: &System, member: usize) -> f64 {
     let of = &system.members()[member];
-    let within_kg = of.tolerances.as_deref().map_or(0.0, |within| within.mass_kg());
+    let within_kg = of.tolerances.as_deref().map_or(0.0, MemberTolerances::mass_kg);
     let mass_kg = (of.body.mass_kg() + within_kg).next_up();
     let weight_n = (mass_kg * system.gravity_m_s2()).next_up();
     let weight_n = if of.body.mass_kg() > 0.0 { weight_n } else { 0.0 };
@@ -275,134 +277,90 @@ fn name(system: &System, number: UncertainNumber) -> String {
     }
 }
 
-/// A range as JSON has it.
-#[derive(Serialize)]
-struct RangeObject {
-    least: f64,
-    most: f64,
-    least_reached: f64,
-    most_reached: f64,
-    is_hull: bool,
-    most_by: Option<String>,
-    most_change: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct NumberObject {
-    name: String,
-    given: f64,
-    within: f64,
-}
-
-#[derive(Serialize)]
-struct JointObject<'a> {
-    name: &'a str,
-    at_m: [RangeObject; 3],
-    reaction_n: Option<[RangeObject; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    drawn_m: Option<[Drawn; 3]>,
-}
-
-#[derive(Serialize)]
-struct BarObject {
-    #[serde(serialize_with = "from_one")]
-    bar: usize,
-    axial_n: RangeObject,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    utilisation: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    drawn_n: Option<Drawn>,
-}
-
-#[derive(Serialize)]
-struct Proof<'a> {
-    boxes: usize,
-    is_stable: Option<bool>,
-    numbers: Vec<NumberObject>,
-    joints: Vec<JointObject<'a>>,
-    bars: Vec<BarObject>,
-}
-
-#[derive(Serialize)]
-struct Object<'a> {
-    is_proved: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    may_change: Option<Vec<usize>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    part: Option<f64>,
-    #[serde(flatten)]
-    proof: Option<Proof<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    draws: Option<&'a Draws>,
-}
-
 impl TolerancesAnswer {
-    fn object(&self) -> Object<'_> {
-        let failure = self.ranges.as_ref().err();
-        Object {
-            is_proved: failure.is_none(),
-            reason: failure.map(ToString::to_string),
-            may_change: failure.and_then(|failure| match failure {
-                NoRanges::MayChange { members } => Some(members.iter().map(|k| k + 1).collect()),
-                _ => None,
-            }),
-            part: failure.and_then(|failure| match failure {
-                NoRanges::NoBox { part, .. } => *part,
-                _ => None,
-            }),
-            proof: self.ranges.as_ref().ok().map(|ranges| self.proof(ranges)),
-            draws: self.draws.as_ref(),
+    /// As JSON has it under `tolerances`.
+    fn object(&self) -> Value {
+        let mut object = match &self.ranges {
+            Ok(ranges) => self.proof(ranges),
+            Err(reason) => refusal(reason),
+        };
+        if let Some(draws) = &self.draws {
+            object["draws"] = json!(draws);
         }
+        object
     }
 
-    fn proof<'a>(&'a self, ranges: &ToleranceRanges) -> Proof<'a> {
-        let (system, draws) = (self.answer.system(), self.draws.as_ref());
-        let object = |range: Range| RangeObject {
-            least: range.guaranteed[0],
-            most: range.guaranteed[1],
-            least_reached: range.reached[0],
-            most_reached: range.reached[1],
-            is_hull: range.is_hull,
-            most_by: range.most_by.and_then(|(number, _)| self.number_name(number)),
-            most_change: range.most_by.map(|(_, by)| by),
-        };
-        let joints = system.joints().iter().enumerate().map(|(k, joint)| JointObject {
-            name: &joint.name,
-            at_m: ranges.joints_m[k].map(object),
-            reaction_n: ranges.reactions_n[k].map(|all| all.map(object)),
-            drawn_m: draws.map(|draws| draws.joints_m[k]),
+    fn proof(&self, ranges: &ToleranceRanges) -> Value {
+        let system = self.answer.system();
+        let numbers = ranges.numbers.iter().map(|uncertain| {
+            let Uncertain { number, given, within } = *uncertain;
+            json!({ "name": name(system, number), "given": given, "within": within })
         });
-        let bars = ranges.axial_n.iter().enumerate().map(|(bar, range)| BarObject {
-            bar,
-            axial_n: object(*range),
-            utilisation: self.utilisation(bar),
-            drawn_n: draws.map(|draws| draws.axial_n[bar]),
+        let joints = system.joints().iter().enumerate().map(|(k, joint)| {
+            let [at_m, reaction_n] = [Some(ranges.joints_m[k]), ranges.reactions_n[k]]
+                .map(|all| all.map(|all| all.map(|range| self.range(range))));
+            let mut object = json!({ "name": joint.name, "at_m": at_m, "reaction_n": reaction_n });
+            if let Some(draws) = &self.draws {
+                object["drawn_m"] = json!(draws.joints_m[k]);
+            }
+            object
         });
-        let numbers = ranges.numbers.iter().map(|uncertain| NumberObject {
-            name: name(system, uncertain.number),
-            given: uncertain.given,
-            within: uncertain.within,
+        let bars = ranges.axial_n.iter().enumerate().map(|(k, range)| {
+            let mut object = json!({ "bar": k + 1, "axial_n": self.range(*range) });
+            if let Some(used) = self.utilisation(k) {
+                object["utilisation"] = json!(used);
+            }
+            if let Some(draws) = &self.draws {
+                object["drawn_n"] = json!(draws.axial_n[k]);
+            }
+            object
         });
-        Proof {
-            boxes: ranges.boxes,
-            is_stable: self.is_stable(),
-            numbers: numbers.collect(),
-            joints: joints.collect(),
-            bars: bars.collect(),
-        }
+        json!({
+            "is_proved": true,
+            "boxes": ranges.boxes,
+            "is_stable": self.is_stable(),
+            "numbers": numbers.collect::<Vec<_>>(),
+            "joints": joints.collect::<Vec<_>>(),
+            "bars": bars.collect::<Vec<_>>(),
+        })
     }
+
+    fn range(&self, range: Range) -> Value {
+        let ([least, most], [least_reached, most_reached]) = (range.guaranteed, range.reached);
+        let (most_by, most_change) = range.most_by.unzip();
+        json!({
+            "least": least,
+            "most": most,
+            "least_reached": least_reached,
+            "most_reached": most_reached,
+            "is_hull": range.is_hull,
+            "most_by": most_by.and_then(|number| self.number_name(number)),
+            "most_change": most_change,
+        })
+    }
+}
+
+/// Why nothing is proved, with its numbers.
+fn refusal(reason: &NoRanges) -> Value {
+    let mut object = json!({ "is_proved": false, "reason": reason.to_string() });
+    match reason {
+        NoRanges::MayChange { members } => {
+            object["may_change"] = members.iter().map(|k| k + 1).collect();
+        }
+        NoRanges::NoBox { part: Some(part), .. } => object["part"] = json!(part),
+        _ => {}
+    }
+    object
 }
 
 /// As `funicular solve --tolerances --json` prints it: the answer, and under `tolerances` the ranges.
 impl Serialize for TolerancesAnswer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
-        struct Both<'a, A: Serialize> {
+        struct Both<A: Serialize> {
             #[serde(flatten)]
             answer: A,
-            tolerances: Object<'a>,
+            tolerances: Value,
         }
         let answer = self.answer.json(Lists::Objects);
         Both { answer, tolerances: self.object() }.serialize(serializer)

@@ -48,6 +48,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::losses, module)?)?;
     module.add_function(wrap_pyfunction!(solve::load_cases, module)?)?;
     module.add_function(wrap_pyfunction!(solve::page, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
     module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;

@@ -139,11 +139,10 @@ impl Problem {
         )?;
         let build = || {
             let joints = names.into_iter().enumerate().map(|(k, name)| Joint {
-                name,
                 support: support(supports[k], at_m[k], directions[k]),
                 mass_kg: joint_masses[k],
                 force_n: forces[k],
-                near_m: None,
+                ..Joint::free(name)
             });
             let joints = joints.collect();
             let bodies = bars(&lengths, &masses, centres.as_deref(), None)?;

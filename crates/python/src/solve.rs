@@ -221,6 +221,28 @@ fn run_told<'py, T: Serialize + Display, V: Send + 'static>(
     found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
 }
 
+/// Ranges over the tolerances of a system: the answer with its ranges as JSON, and as text.
+#[pyfunction]
+pub fn tolerances<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    draws: usize,
+    seed: u64,
+    solver: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, String)> {
+    let solve = Solve::new().solvers(words::solvers(solver)?).census(words::census("never")?);
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        watch.tell("proving ranges", 0, 0);
+        let found = solve.tolerances_drawn(&of, draws, seed)?;
+        let text = serde_json::to_string(&found);
+        Ok::<_, Error>(text.map(|text| (text, printable(&found.to_string()))))
+    })?;
+    found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
+}
+
 /// What is asked, by its words.
 fn solver_of(solver: &str, equations: &str, census: &str) -> PyResult<Solve> {
     Ok(Solve::new()

@@ -37,6 +37,11 @@
 //! [`prove_path`] proves the path of equilibria through a shape by Krawczyk's test with the load as an
 //! interval, box after box, up to its first singular point (modules `tube` and `path`).
 //!
+//! # Over tolerances
+//!
+//! [`prove_ranges`] bounds an equilibrium for all values of numbers that are known within limits (module
+//! `tolerances`).
+//!
 //! # All equilibria
 //!
 //! [`SystemCensus::take`] takes a system apart. Trees, chains and frames that are built up joint by

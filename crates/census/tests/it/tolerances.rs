@@ -218,9 +218,9 @@ fn what_may_go_slack_is_named() {
             let depth = 0.5 * (high + low);
             let (side, third) = both(depth);
             if 2.0 * side * depth / depth.hypot(3.0) < 120.0 + third {
-                high = depth
+                high = depth;
             } else {
-                low = depth
+                low = depth;
             }
         }
         let (side, below) = both(low);
@@ -235,7 +235,34 @@ fn what_may_go_slack_is_named() {
     assert_eq!(of(0.9535, 1e-3), changes);
     // 6 mm of slack are more than 2 mm.
     let found = of(0.96, 2e-3).unwrap();
-    assert!(found.axial_n[2].guaranteed == [0.0; 2] && found.axial_n[0].guaranteed[0] > 74.0);
+    let [slack, borne] = [2, 0].map(|k| found.axial_n[k].guaranteed);
+    assert!(slack.iter().all(|n| n.abs() <= 0.0) && borne[0] > 74.0, "{slack:?} {borne:?}");
+}
+
+/// A spring of 2 m between anchors 2 m apart, and one of 1.9 m: by its law alone, which each number enters once.
+#[test]
+fn springs_between_anchors_have_the_hull_of_their_law() {
+    let anchor = |name: &str, x: f64| {
+        Joint::anchor(name, [x, 0.0, 0.0]).with_tolerances(None, Some(0.01), None).unwrap()
+    };
+    let of = |length_m: f64| {
+        let joints = vec![anchor("A", 0.0), anchor("B", 2.0), Joint::free("P").with_mass(1.0)];
+        let spring = Member::cable(0, 1, Bar::homogeneous(length_m, 0.0).unwrap());
+        let spring = spring.with_stiffness(1000.0).with_tolerances(Some(0.1), None).unwrap();
+        let bar = Member::bar(0, 2, Bar::homogeneous(1.0, 0.0).unwrap());
+        let system = System::new("spring", 10.0, joints, vec![spring, bar]).unwrap();
+        let places = [[0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
+        prove_ranges(&system, &places, &[1000.0 * (2.0 / length_m - 1.0), 10.0])
+    };
+    let found = of(1.9).unwrap();
+    let force = |distance: f64, stiffness: f64| stiffness * (distance / 1.9 - 1.0);
+    // Askew by 0.02 m in both other directions it is a little longer.
+    let far = 2.02_f64.hypot(0.02).hypot(0.02);
+    is(found.axial_n[0], force(1.98, 900.0), force(far, 1100.0), 1000.0);
+    // P hangs plumb from an anchor that may be anywhere; next to the spring no reaction is given.
+    is(found.joints_m[2][2], -1.01, -0.99, 1.0);
+    assert!(found.reactions_n.iter().all(Option::is_none));
+    assert_eq!(of(2.0), Err(NoRanges::MayChange { members: vec![0] }));
 }
 
 #[test]

@@ -6,11 +6,13 @@ use census::network::{Range, ToleranceRanges};
 
 use super::printable::Printable;
 use super::shape::{PRINTED, percent};
-use super::tables::{Table, counted, numbers_from, short, table, wrapped};
+use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
 use crate::tolerances::{Draws, TolerancesAnswer};
 
-/// An excess below this part of a range is rounding.
-const ROUNDING: f64 = 1e-6;
+/// Digits of what is an estimate.
+const DIGITS: usize = 3;
+/// The least excess that is told in digits, as a part of a range.
+const SMALL: f64 = 1e-3;
 
 /// As `funicular solve --tolerances` prints it.
 impl fmt::Display for TolerancesAnswer {
@@ -33,7 +35,7 @@ impl fmt::Display for TolerancesAnswer {
 impl TolerancesAnswer {
     fn proved(&self, f: &mut fmt::Formatter<'_>, ranges: &ToleranceRanges) -> fmt::Result {
         let stable = match self.is_stable() {
-            Some(true) => "and stable",
+            Some(true) => "stable",
             _ => "as stable as for the numbers given",
         };
         let boxes = if ranges.boxes == 1 { "1 box" } else { &format!("{} boxes", ranges.boxes) };
@@ -42,6 +44,7 @@ impl TolerancesAnswer {
              slack and taut (proved in {boxes})."
         );
         writeln!(f, "{}\n\n{}", wrapped(&line, 0), self.bars(ranges))?;
+        writeln!(f, "\n{}", self.causes(ranges))?;
         let places = ranges.joints_m.iter().enumerate();
         let places = places.filter(|(_, at)| at.iter().any(|range| width(range) > 0.0));
         writeln!(f, "\n{}", self.vectors("m", ["x", "y", "z"], places))?;
@@ -52,8 +55,8 @@ impl TolerancesAnswer {
         if hidden {
             writeln!(f, "(the widest {PRINTED} of each; --json has all)")?;
         }
-        let line = "hull: some values within the tolerances reach both ends; else how much wider than that \
-                    the range may be, as part of it.";
+        let line = "hull: both ends are reached; else how much wider than that the range may be, as part of it. \
+                    most by: the number that changes the force most, and by how much over its tolerance.";
         writeln!(f, "\n{}", wrapped(line, 0))
     }
 
@@ -61,25 +64,38 @@ impl TolerancesAnswer {
     fn bars(&self, ranges: &ToleranceRanges) -> Table {
         let system = self.answer().system();
         let name = |joint: usize| Printable(&system.joints()[joint].name).to_string();
-        let strong = system.has_strengths();
-        let mut head = vec!["bar", "from", "to", "least / N", "most / N", "excess"];
-        head.extend(strong.then_some("used"));
-        head.extend(self.draws().map(|_| "sd / N"));
-        head.push("most by");
-        let mut rows = table(head);
-        for k in widest(ranges.axial_n.iter().map(width).collect()) {
+        let mut rows = table(["bar", "from", "to", "least / N", "most / N", "excess"]);
+        for k in widest(&ranges.axial_n.iter().map(width).collect::<Vec<_>>()) {
             let (member, range) = (&system.members()[k], &ranges.axial_n[k]);
             let mut row = vec![(k + 1).to_string(), name(member.from), name(member.to)];
             row.extend(range.guaranteed.map(short));
             row.push(excess(range));
-            let used = || self.utilisation(k).map_or_else(String::new, |[_, most]| percent(most));
-            row.extend(strong.then(used));
-            row.extend(self.draws().map(|draws| short(draws.axial_n[k].deviation)));
-            let most_by = range.most_by.and_then(|(number, _)| self.number_name(number));
-            row.push(most_by.map_or_else(String::new, |name| Printable(&name).to_string()));
             rows.add_row(row);
         }
         numbers_from(&mut rows, 3);
+        rows
+    }
+
+    /// What the forces depend on, and what they use of their strengths.
+    fn causes(&self, ranges: &ToleranceRanges) -> Table {
+        let strong = self.answer().system().has_strengths();
+        let mut head = vec!["bar", "most by", "by / N"];
+        head.extend(strong.then_some("used"));
+        head.extend(self.draws().map(|_| "sd / N"));
+        let mut rows = table(head);
+        for k in widest(&ranges.axial_n.iter().map(width).collect::<Vec<_>>()) {
+            let most_by = ranges.axial_n[k].most_by;
+            let number = most_by.and_then(|(number, _)| self.number_name(number));
+            let number = number.map_or_else(String::new, |name| Printable(&name).to_string());
+            let by = most_by.map_or_else(String::new, |(_, by)| significant(by, DIGITS));
+            let mut row = vec![(k + 1).to_string(), number, by];
+            let used = || self.utilisation(k).map_or_else(String::new, |[_, most]| percent(most));
+            row.extend(strong.then(used));
+            let sd = |draws: &Draws| significant(draws.axial_n[k].deviation, DIGITS);
+            row.extend(self.draws().map(sd));
+            rows.add_row(row);
+        }
+        numbers_from(&mut rows, 2);
         rows
     }
 
@@ -94,8 +110,9 @@ impl TolerancesAnswer {
         let heads = heads.as_flattened().iter().map(String::as_str);
         let mut rows = table(std::iter::once("joint").chain(heads));
         let all: Vec<_> = all.collect();
-        let widths = all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
-        for k in widest(widths) {
+        let widths: Vec<f64> =
+            all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
+        for k in widest(&widths) {
             let (joint, of) = all[k];
             let name = Printable(&self.answer().system().joints()[joint].name).to_string();
             let ends = of.iter().flat_map(|range| range.guaranteed.map(short));
@@ -111,7 +128,7 @@ fn width(range: &Range) -> f64 {
 }
 
 /// Of many the widest, in their order.
-fn widest(widths: Vec<f64>) -> Vec<usize> {
+fn widest(widths: &[f64]) -> Vec<usize> {
     let mut all: Vec<usize> = (0..widths.len()).collect();
     all.sort_by(|a, b| widths[*b].total_cmp(&widths[*a]));
     all.truncate(PRINTED);
@@ -121,7 +138,11 @@ fn widest(widths: Vec<f64>) -> Vec<usize> {
 
 fn excess(range: &Range) -> String {
     let part = range.excess() / width(range);
-    if range.is_hull || part < ROUNDING { "hull".to_owned() } else { percent(part) }
+    match part {
+        _ if range.is_hull => "hull".to_owned(),
+        part if part < SMALL => format!("< {}", percent(SMALL)),
+        part => percent(part),
+    }
 }
 
 fn said(draws: &Draws) -> String {

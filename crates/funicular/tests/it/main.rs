@@ -39,4 +39,5 @@ mod study;
 mod study_rows;
 mod sweep;
 mod systems;
+mod tolerances;
 mod trace;

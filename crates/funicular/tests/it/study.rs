@@ -289,7 +289,7 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 /// drawn decides which equilibrium is meant.
 /// What people know of a bar is made into other keys where the file is read.
 /// Strengths and tolerances change nothing.
-const NO_PARAMETERS: [&str; 31] = [
+const NO_PARAMETERS: [&str; 30] = [
     "bars.mass_kg_per_m",
     "bars.diameter_m",
     "bars.density_kg_m3",
@@ -315,7 +315,6 @@ const NO_PARAMETERS: [&str; 31] = [
     "joints.NAME.mass_tolerance_kg",
     "joints.NAME.at_tolerance_m",
     "joints.NAME.force_tolerance_n",
-    "tolerances",
     "tolerances.length_tolerance_m",
     "tolerances.stiffness_tolerance",
     "tolerances.mass_tolerance_kg",

@@ -234,7 +234,9 @@ impl System {
                 UncertainNumber::Force(k, axis) => joints[k].force_n[axis] = *value,
             }
         }
-        joints.iter_mut().for_each(|joint| joint.tolerances = None);
+        for joint in &mut joints {
+            joint.tolerances = None;
+        }
         for member in &mut members {
             (member.tolerances, member.length_tolerance_m, member.prestress) = (None, None, None);
         }
@@ -258,7 +260,8 @@ fn of_member((k, member): (usize, &Member)) -> impl Iterator<Item = Uncertain> {
 
 fn of_joint((k, joint): (usize, &Joint)) -> impl Iterator<Item = Uncertain> {
     let tolerances = joint.tolerances.as_deref().copied().unwrap_or_default();
-    let mass = (UncertainNumber::JointMass(k), joint.mass_kg, tolerances.mass_kg);
+    let within_kg = tolerances.mass_kg.min(joint.mass_kg);
+    let mass = (UncertainNumber::JointMass(k), joint.mass_kg, within_kg);
     let at_m = joint.support.at_m().unwrap_or_default();
     let axes = (0..3).flat_map(move |axis| {
         let at = (UncertainNumber::At(k, axis), at_m[axis], tolerances.at_m);

@@ -17,6 +17,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the loss of each member | :func:`losses` |
 | load cases and their envelope | :func:`load_cases` |
 | a page to look at it | :func:`page` |
+| guaranteed ranges over tolerances | :func:`tolerances` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
@@ -44,7 +45,8 @@ from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
-from .study import Gradient, LoadCases, Losses, Study, anchor_stiffness, change, gradient, load_cases, losses, page, study
+from .study import Gradient, LoadCases, Losses, Study, Tolerances, anchor_stiffness, change, gradient
+from .study import load_cases, losses, page, study, tolerances
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -87,6 +89,7 @@ __all__ = [
     "System",
     "SystemBatch",
     "Table",
+    "Tolerances",
     "Trace",
     "__version__",
     "anchor_stiffness",
@@ -110,6 +113,7 @@ __all__ = [
     "solve_many",
     "study",
     "sweep",
+    "tolerances",
     "trace",
     *_errors,
 ]

@@ -39,6 +39,7 @@ __all__ = [
     "sweep",
     "sweep_merge",
     "sweep_write",
+    "tolerances",
     "trace",
 ]
 __version__: str
@@ -166,6 +167,9 @@ def study(
 def load_cases(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool | None]: ...
 def page(problem: Problem, vary: list[str], threads: int, progress: _Progress) -> str: ...
 def losses(problem: Problem, solver: str, threads: int, progress: _Progress) -> tuple[str, str, bool]: ...
+def tolerances(
+    problem: Problem, draws: int, seed: int, solver: str, threads: int, progress: _Progress
+) -> tuple[str, str]: ...
 def derivatives(
     problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress
 ) -> str: ...

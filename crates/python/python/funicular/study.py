@@ -217,6 +217,66 @@ def page(system: Described, *vary: str, threads: int = 0, progress: Progress = N
         return _native.page(described(system)._problem, list(map(str, vary)), whole("threads", threads), callback)
 
 
+class Tolerances(Result):
+    """Ranges of an equilibrium over all values of its numbers within their tolerances, guaranteed.
+
+    ``is_proved``, ``reason``
+        whether one equilibrium is proved for all values, near that of the numbers given; else why not.
+    ``is_stable``
+        whether it is stable for all of them.
+    ``numbers``
+        a :class:`Record` for each uncertain number: ``name``, ``given``, ``within``.
+    ``bars``, ``joints``
+        a :class:`Record` for each: ``axial_n``, and ``at_m``, ``reaction_n`` for each axis, with ``least``, ``most``, ``least_reached``,
+        ``most_reached``, ``is_hull``, ``most_by`` (the number on which it depends most) and ``most_change``.
+    ``axial_n``, ``joints_m``
+        least and most of all forces and places, as arrays of shape (bars, 2) and (joints, 3, 2).
+    ``draws``
+        what became of random values, if any were drawn.
+    """
+
+    def __init__(self, system: System, text: str, said: str) -> None:
+        self.system = system
+        self.data = json.loads(text)
+        found = self.data["tolerances"]
+        self.is_proved: bool = found["is_proved"]
+        self.reason: str | None = found.get("reason")
+        self.is_stable: bool | None = found.get("is_stable")
+        self.numbers = [Record(number) for number in found.get("numbers", [])]
+        self.bars = [Record(bar) for bar in found.get("bars", [])]
+        self.joints = [Record(joint) for joint in found.get("joints", [])]
+        self.draws = Record(found["draws"]) if "draws" in found else None
+        ends = [[bar["axial_n"]["least"], bar["axial_n"]["most"]] for bar in found.get("bars", [])]
+        self.axial_n = np.array(ends).reshape(-1, 2)
+        places = [[[x["least"], x["most"]] for x in joint["at_m"]] for joint in found.get("joints", [])]
+        self.joints_m = np.array(places).reshape(-1, 3, 2)
+        self._said = said
+
+    def __repr__(self) -> str:
+        return f"<Tolerances of {printable(self.system.name)!r}: {'proved' if self.is_proved else 'not proved'}>"
+
+
+def tolerances(
+    system: Described, *, draws: int = 0, seed: int = 1, solver: str = "both", threads: int = 0, progress: Progress = None
+) -> Tolerances:
+    """Bound all places, forces and reactions over the tolerances in the system's file, in interval arithmetic; with ``draws``
+    solve so many random values within them too.
+
+    >>> import funicular as fn
+    >>> text = '''gravity_m_s2 = 10
+    ... joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }
+    ... bars = [{ from = "A", to = "P", length_m = 3, mass_kg = 0 }]'''
+    >>> found = fn.System.from_toml(text).tolerances()
+    >>> found.is_proved, found.axial_n.round(9).tolist(), found.bars[0].axial_n.most_by
+    (True, [[15.0, 25.0]], 'joints.P.mass_kg')
+    """
+    system = described(system)
+    with shown(progress) as callback:
+        numbers = whole("draws", draws), whole("seed", seed)
+        found = _native.tolerances(system._problem, *numbers, str(solver), whole("threads", threads), callback)
+    return Tolerances(system, *found)
+
+
 class Gradient(Record):
     """The derivatives of one number of an equilibrium: ``of``, ``value`` (m or N), ``derivatives``; ``gradient["bars.1.length_m"]``
     is the derivative by that parameter, ``table`` has all with their units."""

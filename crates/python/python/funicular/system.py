@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .census import Census
     from .motion import Modes, Motion
     from .rows import SystemBatch
-    from .study import LoadCases, Losses, Study
+    from .study import LoadCases, Losses, Study, Tolerances
     from .sweep import Sweep
     from .trace import Trace
 
@@ -506,6 +506,12 @@ class System:
         from .study import losses
 
         return losses(self, **settings)
+
+    def tolerances(self, **settings: Any) -> Tolerances:
+        """Guaranteed ranges over the tolerances of its numbers. See :func:`funicular.tolerances`."""
+        from .study import tolerances
+
+        return tolerances(self, **settings)
 
     def derivatives(self, *, of: str | None = None, by: str | None = None, **settings: Any) -> Any:
         """The derivatives ``of`` one number of the equilibrium by all parameters (:func:`funicular.gradient`), ``by`` one

@@ -23,6 +23,10 @@ const WIDER: f64 = 1.2;
 const LEANS: f64 = 1.0 / 3.0;
 /// A guess of the equilibrium in the middle of a half may be so far from it.
 const REACH: f64 = 0.3;
+/// What numbers that do nothing at all may add by rounding, as a part of what the others do.
+const ROUNDING: f64 = 1e-9;
+/// The same in units of the system's length and force.
+const NOTHING: f64 = 1e-12;
 /// Steps with a fixed inverse to an equilibrium at a corner.
 const STEPS: usize = 40;
 /// A step that has not fallen to this part of the last one is at the level of rounding.
@@ -52,7 +56,7 @@ pub(super) struct Leaf {
 /// An upper bound of an output, or of its negative; what it reaches; whether that is the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
-    pub(super) bound: f64,
+    pub(super) most: f64,
     pub(super) reached: f64,
     pub(super) is_hull: bool,
 }
@@ -60,7 +64,7 @@ pub(super) struct Bound {
 impl Bound {
     /// Over two boxes.
     pub(super) fn or(self, other: Self) -> Self {
-        let largest = if other.bound > self.bound { other } else { self };
+        let largest = if other.most > self.most { other } else { self };
         Self { reached: self.reached.max(other.reached), ..largest }
     }
 }
@@ -69,12 +73,14 @@ impl Bound {
 struct Corner {
     at: Vec<i8>,
     more: f64,
+    /// What all numbers do together, about.
+    all: f64,
 }
 
 impl Corner {
     /// For an output with these derivatives, or, with the sign -1, for its negative.
     fn new(slopes: &[Interval], parts: &[Interval], sign: f64) -> Self {
-        let mut found = Self { at: Vec::with_capacity(slopes.len()), more: 0.0 };
+        let mut found = Self { at: Vec::with_capacity(slopes.len()), more: 0.0, all: 0.0 };
         for (slope, part) in slopes.iter().zip(parts) {
             let [lo, hi] =
                 if sign < 0.0 { [-slope.hi(), -slope.lo()] } else { [slope.lo(), slope.hi()] };
@@ -91,6 +97,7 @@ impl Corner {
                 (0, hi.max(-lo))
             };
             found.at.push(at);
+            found.all += slope.mag() * radius;
             if more > 0.0 {
                 found.more = up(found.more + up(more * radius));
             }
@@ -109,6 +116,13 @@ pub(super) struct Failure {
 impl From<NoBox> for Failure {
     fn from(reason: NoBox) -> Self {
         Self { reason, halves: None }
+    }
+}
+
+impl Corner {
+    /// Whether nothing is added but rounding.
+    fn is_hull(&self) -> bool {
+        self.more <= ROUNDING * self.all + NOTHING
     }
 }
 
@@ -290,7 +304,9 @@ impl Leaf {
             .collect();
         let mut wanted: HashMap<&[i8], Vec<usize>> = HashMap::new();
         for (output, corners) in corners.iter().enumerate() {
-            corners.iter().for_each(|corner| wanted.entry(&corner.at).or_default().push(output));
+            for corner in corners {
+                wanted.entry(&corner.at).or_default().push(output);
+            }
         }
         let values = wanted.into_par_iter().map(|(corner, outputs)| {
             let numbers: Vec<f64> = corner.iter().zip(&self.parts).map(end).collect();
@@ -302,8 +318,8 @@ impl Leaf {
         let bound = |output: usize, corner: &Corner, sign: f64| {
             let value = values[corner.at.as_slice()][&output];
             let value = if sign < 0.0 { -value } else { value };
-            let bound = up(value.hi() + corner.more);
-            Bound { bound, reached: value.lo(), is_hull: corner.more <= 0.0 }
+            let most = up(value.hi() + corner.more);
+            Bound { most, reached: value.lo(), is_hull: corner.is_hull() }
         };
         let both = |(k, [least, most]): (usize, &[Corner; 2])| {
             [bound(k, least, -1.0), bound(k, most, 1.0)]
@@ -321,7 +337,7 @@ impl Leaf {
     pub(super) fn most_by(&self, output: usize) -> Option<(usize, f64)> {
         let slopes = self.slopes[output].iter().map(|slope| slope.mid()).enumerate();
         let largest = slopes.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a });
-        largest.filter(|(_, by)| by.abs() > 0.0)
+        largest.filter(|(_, by)| by.abs() > NOTHING)
     }
 }
 

@@ -168,7 +168,7 @@ pub fn prove_ranges(
         tried: AtomicUsize::new(0),
     };
     let whole = vec![Interval::new(-1.0, 1.0); numbers.len()];
-    let leaves = cover.leaves(whole, &start).map_err(|reason| cover.open(reason, &start))?;
+    let leaves = cover.leaves(&whole, &start).map_err(|reason| cover.open(reason, &start))?;
     cover.gather(&leaves)
 }
 
@@ -202,9 +202,9 @@ struct Cover<'a> {
 
 impl Cover<'_> {
     /// Boxes with a proof for each, which together are this one.
-    fn leaves(&self, parts: Vec<Interval>, start: &[f64]) -> Result<Vec<Leaf>, NoBox> {
+    fn leaves(&self, parts: &[Interval], start: &[f64]) -> Result<Vec<Leaf>, NoBox> {
         self.tried.fetch_add(1, Ordering::Relaxed);
-        let failure = match Leaf::new(self, parts.clone(), start) {
+        let failure = match Leaf::new(self, parts.to_vec(), start) {
             Ok(leaf) => return Ok(vec![leaf]),
             Err(failure) => failure,
         };
@@ -216,9 +216,9 @@ impl Cover<'_> {
         }
         let middle = parts[widest].mid();
         let half = |part: Interval, start: &[f64]| {
-            let mut parts = parts.clone();
+            let mut parts = parts.to_vec();
             parts[widest] = part;
-            self.leaves(parts, start)
+            self.leaves(&parts, start)
         };
         let mut below = half(Interval::new(parts[widest].lo(), middle), &starts[0])?;
         let above = half(Interval::new(middle, parts[widest].hi()), &starts[1])?;
@@ -265,18 +265,30 @@ impl Cover<'_> {
         let ranges = ranges.into_iter().enumerate();
         let ranges: Vec<Range> =
             ranges.filter_map(|(k, bounds)| Some(range(bounds?, leaves[0].most_by(k)))).collect();
-        let members = self.may_change(&ranges);
-        if !members.is_empty() {
-            return Err(NoRanges::MayChange { members });
-        }
-        Ok(self.in_si(&ranges, leaves.len()))
+        let found = self.in_si(&ranges, leaves.len());
+        let mut members = self.may_change(&ranges);
+        members.extend(self.idle_may_change(&found.axial_n));
+        members.sort_unstable();
+        if members.is_empty() { Ok(found) } else { Err(NoRanges::MayChange { members }) }
+    }
+
+    /// Elastic cables and struts between two anchors whose force may vanish, and may not.
+    fn idle_may_change<'b>(&'b self, axial_n: &'b [Range]) -> impl Iterator<Item = usize> + 'b {
+        let idle = |k: &usize| self.posed.activities[*k] == Activity::Idle;
+        let changes = move |k: &usize| {
+            let range = &axial_n[*k];
+            self.system.members()[*k].kind != Kind::Bar
+                && range.contains(0.0)
+                && range.guaranteed.iter().any(|end| end.abs() > 0.0)
+        };
+        (0..axial_n.len()).filter(idle).filter(changes)
     }
 
     /// Cables and struts that are not proved to stay taut or slack.
     fn may_change(&self, ranges: &[Range]) -> Vec<usize> {
         let acting = &self.posed.equations.acting;
         let pairs = self.outputs.iter().zip(ranges);
-        let mut members: Vec<usize> = pairs
+        pairs
             .filter_map(|(output, range)| {
                 let [least, most] = range.guaranteed;
                 let (member, stays) = match *output {
@@ -290,9 +302,7 @@ impl Cover<'_> {
                 };
                 (!stays).then_some(member)
             })
-            .collect();
-        members.sort_unstable();
-        members
+            .collect()
     }
 
     fn in_si(&self, ranges: &[Range], boxes: usize) -> ToleranceRanges {
@@ -354,7 +364,7 @@ impl Cover<'_> {
 
 fn range([least, most]: [Bound; 2], most_by: Option<(usize, f64)>) -> Range {
     Range {
-        guaranteed: [-least.bound, most.bound],
+        guaranteed: [-least.most, most.most],
         reached: [-least.reached, most.reached],
         is_hull: least.is_hull && most.is_hull,
         most_by,

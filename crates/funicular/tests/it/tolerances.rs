@@ -1,0 +1,181 @@
+//! Ranges over tolerances, against what both solvers find of systems within them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use funicular::prelude::*;
+
+/// What the program prints and says, and how it ends.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut program = Command::cargo_bin("funicular").unwrap();
+    let output = program.current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// A mast on three elastic legs under a rope to a load, with tolerances of all kinds.
+fn mast(root: &str) -> String {
+    format!(
+        "name = \"mast\"\ngravity_m_s2 = 10\n{root}\n\
+         joints = {{ A = {{ at_m = [2, 0, 0] }}, B = {{ at_m = [-1, 1.8, 0] }}, C = {{ at_m = [-1, -1.6, 0.2] }}, \
+         D = {{ at_m = [0, 5, 3] }}, top = {{ near_m = [0, 0.1, 3], mass_kg = 20, force_n = [30, 0, 0] }}, \
+         Q = {{ near_m = [0, 2.4, 2], mass_kg = 15, mass_tolerance_kg = 1 }} }}\n\
+         bars = [{{ from = 'A', to = 'top', mass_kg = 4, stiffness_n = 4e5, strength_n = 900, compression_n = 900 }},\n\
+         {{ from = 'B', to = 'top', mass_kg = 4, stiffness_n = 4e5 }},\n\
+         {{ from = 'C', to = 'top', mass_kg = 4, stiffness_n = 4e5 }},\n\
+         {{ from = 'top', to = 'Q', length_m = 2.6, mass_kg = 0.4, kind = 'cable' }},\n\
+         {{ from = 'Q', to = 'D', length_m = 2.9, mass_kg = 0.4, kind = 'cable', length_tolerance_m = 2e-2 }}]"
+    )
+}
+
+const ALL: &str = "tolerances = { length_tolerance_m = 2e-3, stiffness_tolerance = 0.05, mass_tolerance_kg = 0.1, \
+                   at_tolerance_m = 3e-3, force_tolerance_n = 2 }";
+
+fn problem(text: &str) -> Problem {
+    Problem::parse(text, "mast.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+#[test]
+fn solvers_stay_within_the_ranges() {
+    let problem = problem(&mast(ALL));
+    let found = Solve::new().tolerances_drawn(&problem, 60, 11).unwrap();
+    let ranges = found.ranges().unwrap();
+    assert_eq!((found.is_stable(), ranges.numbers.len()), (Some(true), 5 + 3 + 5 + 12 + 2 + 3));
+    let draws = found.draws().unwrap();
+    assert_eq!((draws.solved, draws.outside), (60, 0));
+    // Both ends of a force that is said to be a hull are those of a system, by both solvers.
+    let system = found.answer().system();
+    for (member, range) in ranges.axial_n.iter().enumerate().filter(|(_, range)| range.is_hull) {
+        let [least, most] = range.guaranteed;
+        let nominal = found.answer().equilibria()[0].axial_n[member];
+        assert!(least < nominal && nominal < most, "{range:?} {nominal}");
+        // A draw deviates by no more than half the range.
+        let drawn = draws.axial_n[member];
+        assert!(drawn.deviation < 0.5 * (most - least) && range.contains(drawn.mean), "{drawn:?}");
+    }
+    // Each number alone, at both of its ends, is in all ranges; of the one that matters most it says how much.
+    for (k, number) in ranges.numbers.iter().enumerate() {
+        let ends = [-1.0, 1.0].map(|end| {
+            let values = ranges.numbers.iter().enumerate();
+            let values =
+                values.map(|(i, n)| n.given + if i == k { end * number.within } else { 0.0 });
+            let varied = system.with_uncertain(&values.collect::<Vec<_>>()).unwrap();
+            let answer = Solve::new().census(UseCensus::Never).run(&varied.into()).unwrap();
+            assert!(answer.agrees());
+            answer.equilibria().iter().for_each(|e| {
+                let mut forces = ranges.axial_n.iter().zip(&e.axial_n);
+                assert!(forces.all(|(range, force)| range.contains(*force)), "{number:?}");
+            });
+            answer.equilibria()[0].axial_n.clone()
+        });
+        for (member, range) in ranges.axial_n.iter().enumerate() {
+            let change = 0.5 * (ends[1][member] - ends[0][member]);
+            let (most_by, by) = range.most_by.unwrap();
+            assert!(change.abs() < 1.001 * by.abs() + 1e-6, "{member} {number:?}: {change} {by}");
+            assert!(most_by != k || (change - by).abs() < 1e-2 * by.abs(), "{change} {by}");
+        }
+    }
+}
+
+#[test]
+fn the_program_prints_them_in_eighty_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("mast.toml"), mast(ALL)).unwrap();
+    let arguments = ["solve", "mast.toml", "--tolerances", "--monte-carlo", "20"];
+    let (code, said, _) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    for words in
+        ["exactly one equilibrium", "hull", "most by", "sd / N", "Fx / N", "20 draws (seed 1)"]
+    {
+        assert!(said.contains(words), "{words}\n{said}");
+    }
+    // A strength that all forces stay below, and one that some do not.
+    for (strength, wanted) in [("900", 0), ("101", 1)] {
+        let text = mast(ALL).replace("compression_n = 900", &format!("compression_n = {strength}"));
+        std::fs::write(folder.path().join("weak.toml"), text).unwrap();
+        let (code, said, _) =
+            run(folder.path(), &["solve", "weak.toml", "--tolerances", "--check"]);
+        assert_eq!(code, Some(wanted), "{said}");
+    }
+}
+
+#[test]
+fn what_has_no_ranges_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "exact.toml",
+        &mast("").replace(", mass_tolerance_kg = 1", "").replace(", length_tolerance_m = 2e-2", ""),
+    );
+    write("floor.toml", &mast("floor_m = -1"));
+    write("mast.toml", &mast(ALL));
+    for (arguments, wanted, words) in [
+        (&["exact.toml", "--tolerances"][..], 2, "no number of this system has a tolerance"),
+        (&["floor.toml", "--tolerances"], 3, "above a floor"),
+        (&["mast.toml", "mast.toml", "--tolerances"], 2, "one system at a time"),
+        (&["mast.toml", "--monte-carlo", "5"], 2, "--tolerances"),
+        (&["mast.toml", "--tolerances", "--monte-carlo", "0"], 2, "1..=1000000"),
+        (&["mast.toml", "--tolerances", "--summary"], 2, "cannot be used"),
+    ] {
+        let arguments: Vec<&str> = ["solve"].iter().chain(arguments).copied().collect();
+        let (code, said, failed) = run(folder.path(), &arguments);
+        assert_eq!(code, Some(wanted), "{said}\n{failed}");
+        assert!(format!("{said}{failed}").replace('\n', " ").contains(words), "{said}\n{failed}");
+    }
+}
+
+/// Draws are the same for the same seed, and others for another.
+#[test]
+fn seeds_make_the_draws() {
+    let problem = problem(&mast(ALL));
+    let draws = |seed: u64| {
+        let found = Solve::new().tolerances_drawn(&problem, 3, seed).unwrap();
+        found.draws().unwrap().axial_n.clone()
+    };
+    let first = draws(1);
+    assert_eq!(first, draws(1));
+    assert_ne!(first, draws(2));
+}
+
+/// Three prestressed cables of 2 m that meet in a knot, 0.1 mm and 1 % more or less: at all 64 corners of their six
+/// numbers both solvers find forces whose least and largest are the ends of the ranges.
+#[test]
+fn three_cables_have_the_hull_of_their_corners() {
+    let root = 3.0_f64.sqrt();
+    let text = format!(
+        "tolerances = {{ length_tolerance_m = 1e-4, stiffness_tolerance = 0.01 }}\n\
+         joints = {{ A = {{ at_m = [2, 0, 0] }}, B = {{ at_m = [-1, {root}, 0] }}, \
+         C = {{ at_m = [-1, -{root}, 0] }}, P = {{ near_m = [0, 0, 0], force_n = [0, 0, -40] }} }}\n\
+         bars = [{{ from = 'A', to = 'P', mass_kg = 0, length_m = 2, kind = 'cable', stiffness_n = 1e6, prestress_n = 1800 }},\n\
+         {{ from = 'B', to = 'P', mass_kg = 0, length_m = 2, kind = 'cable', stiffness_n = 1e6, prestress_n = 1800 }},\n\
+         {{ from = 'C', to = 'P', mass_kg = 0, length_m = 2, kind = 'cable', stiffness_n = 1e6, prestress_n = 1900 }}]"
+    );
+    let problem = problem(&text);
+    let found = Solve::new().tolerances(&problem).unwrap();
+    let (ranges, system) = (found.ranges().unwrap(), found.answer().system());
+    let corner = |corner: usize| {
+        let values = ranges.numbers.iter().enumerate();
+        let values = values.map(|(k, number)| {
+            number.given + if corner >> k & 1 == 1 { number.within } else { -number.within }
+        });
+        Problem::from(system.with_uncertain(&values.collect::<Vec<_>>()).unwrap())
+    };
+    let corners: Vec<Problem> = (0..64).map(corner).collect();
+    let answers = Solve::new().census(UseCensus::Never).run_all(&corners).unwrap();
+    let answers: Vec<SolveAnswer> = answers.into_iter().map(Result::unwrap).collect();
+    assert!(ranges.numbers.len() == 6 && answers.iter().all(SolveAnswer::agrees));
+    for (member, range) in ranges.axial_n.iter().enumerate() {
+        let forces = || answers.iter().flat_map(SolveAnswer::equilibria).map(|e| e.axial_n[member]);
+        let (least, most) =
+            (forces().fold(f64::INFINITY, f64::min), forces().fold(f64::NEG_INFINITY, f64::max));
+        let [from, to] = range.guaranteed;
+        assert!(range.is_hull && most - least > 100.0, "{range:?}");
+        assert!(
+            (from - least).abs() < 1e-6 && (to - most).abs() < 1e-6,
+            "{range:?} {least} {most}"
+        );
+    }
+}
