@@ -28,7 +28,8 @@ pub(crate) fn filled(page: &str, title: &str, words: &str, data: &str) -> String
 pub(crate) fn data(system: &System, shown: &impl Serialize) -> String {
     #[derive(Serialize)]
     struct Data<'a, T> {
-        bars: Vec<[usize; 2]>,
+        /// The joints of each, those that a rope runs over too.
+        bars: Vec<Vec<usize>>,
         held: Vec<u8>,
         names: Vec<String>,
         #[serde(flatten)]
@@ -36,7 +37,7 @@ pub(crate) fn data(system: &System, shown: &impl Serialize) -> String {
     }
     let (joints, members) = (system.joints(), system.members());
     let data = Data {
-        bars: members.iter().map(|member| [member.from, member.to]).collect(),
+        bars: members.iter().map(|member| member.path().collect()).collect(),
         held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
         names: joints.iter().map(|joint| plain(&joint.name)).collect(),
         shown,

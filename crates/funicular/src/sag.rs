@@ -81,7 +81,8 @@ fn level(d: Vector) -> f64 {
 
 impl<'a> Rows<'a> {
     fn new(system: &'a System, joints_m: &'a [Vector]) -> Self {
-        let ways = || system.members().iter().flat_map(|m| [(m.from, m.to), (m.to, m.from)]);
+        let spans = || system.members().iter().flat_map(|member| member.spans());
+        let ways = || spans().flat_map(|[a, b]| [(a, b), (b, a)]);
         let mut begins = vec![0; joints_m.len() + 1];
         for (here, _) in ways() {
             begins[here + 1] += 1;
@@ -89,7 +90,7 @@ impl<'a> Rows<'a> {
         for joint in 0..joints_m.len() {
             begins[joint + 1] += begins[joint];
         }
-        let (mut next, mut ends) = (begins.clone(), vec![0; 2 * system.members().len()]);
+        let (mut next, mut ends) = (begins.clone(), vec![0; begins[joints_m.len()]]);
         for (here, there) in ways() {
             ends[next[here]] = there;
             next[here] += 1;

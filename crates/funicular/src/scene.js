@@ -39,13 +39,16 @@ function onScreen(at, share, w, h) {
   return [w / 2 + scale * across, h / 2 - scale * up];
 }
 
+// From joint to joint of a bar, or of a rope.
+function along(g, place, [first, ...others]) {
+  g.moveTo(...place(first));
+  others.forEach(joint => g.lineTo(...place(joint)));
+}
+
 function lines(g, place) {
   g.lineCap = "round";
   g.beginPath();
-  for (const [a, b] of data.bars) {
-    g.moveTo(...place(a));
-    g.lineTo(...place(b));
-  }
+  data.bars.forEach(bar => along(g, place, bar));
   g.stroke();
 }
 
@@ -69,15 +72,14 @@ function joints(g, place, ink, held, edge) {
 function members(g, place, axial, largest) {
   const many = data.bars.length > 200, paper = getComputedStyle(document.body).backgroundColor;
   g.lineCap = "butt";
-  data.bars.forEach(([a, b], bar) => {
+  data.bars.forEach((joints, bar) => {
     const part = largest > 0 ? axial[bar] / largest : 0, size = Math.abs(part), none = !(size > 1e-9);
     const width = many ? 1 : 1.8 + Math.min(3, Math.floor(4 * size));
     const stroke = (style, wide) => {
       g.strokeStyle = style;
       g.lineWidth = wide;
       g.beginPath();
-      g.moveTo(...place(a));
-      g.lineTo(...place(b));
+      along(g, place, joints);
       g.stroke();
     };
     g.setLineDash(none ? [6, 3] : []);

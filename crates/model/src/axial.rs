@@ -89,6 +89,10 @@ impl SystemEquilibrium {
     #[must_use]
     pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {
         let member = &system.members()[k];
+        if member.rope.is_some() {
+            // One tension from end to end.
+            return AxialForce::along(Default::default(), Default::default(), self.axial_n[k], []);
+        }
         let ends_m = (self.joints_m[member.from], self.joints_m[member.to]);
         let body = &member.body;
         let weight_n = |part: f64| [0.0, 0.0, -part * body.mass_kg() * system.gravity_m_s2()];

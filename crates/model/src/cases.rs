@@ -121,15 +121,27 @@ const DRAWN: &[Exhibit] = registry! {
     "geiger-dome": "a prestressed cable dome",
 };
 
+const ROPES: &[Exhibit] = registry! {
+    Exhibit,
+    "ring-on-a-rope": "a lantern by a ring on one rope: both spans lean alike",
+    "tackle": "one elastic rope over a block and two pulleys: a third each",
+};
+
+/// Ropes that run over rings and pulleys.
+#[must_use]
+pub fn ropes() -> &'static [Exhibit] {
+    ROPES
+}
+
 /// Structures that stand where they are drawn: trusses, a tower, domes.
 #[must_use]
 pub fn drawn() -> &'static [Exhibit] {
     DRAWN
 }
 
-/// Every system of joints and members with a name: [`systems`] and [`drawn`].
+/// Every system of joints and members with a name: [`systems`], [`drawn`] and [`ropes`].
 pub fn exhibits() -> impl Iterator<Item = &'static Exhibit> {
-    systems().chain(DRAWN)
+    systems().chain(DRAWN).chain(ROPES)
 }
 
 /// Tensegrities that no load holds up: cables of a given prestress around rigid struts, each with

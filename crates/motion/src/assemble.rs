@@ -117,8 +117,10 @@ fn guess(system: &System, seed: u64, stream: u64) -> Vec<Vector> {
             (None, Kind::Strut) => length_m * random.random_range(1.0..2.0),
             _ => length_m,
         };
-        members[member.from].push((member.to, length_m));
-        members[member.to].push((member.from, length_m));
+        for [a, b] in member.spans() {
+            members[a].push((b, length_m));
+            members[b].push((a, length_m));
+        }
     }
     let mut open: Vec<usize> = (0..joints.len()).filter(|&joint| at[joint].is_some()).collect();
     if open.is_empty() {

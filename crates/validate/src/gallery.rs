@@ -1,4 +1,4 @@
-//! The gallery: systems of bars, hanging or drawn, of which a number is known in a closed form, by
+//! The gallery: systems of bars, hanging or drawn, and ropes over pulleys, of which a number is known in a closed form, by
 //! both solvers.
 //!
 //! Each reference number is of kind `analytic`: it follows from the numbers of the system file by
@@ -131,6 +131,10 @@ fn closed_form(name: &str) -> Option<ClosedForm> {
                     reaction(s, e, "S0")[2]
                 })
             }
+            "ring-on-a-rope" => {
+                ("pull of the rope", "5/6 of 10 kg g", "N", 50.0 * G / 6.0, |_, e| e.axial_n[0])
+            }
+            "tackle" => ("pull of the rope", "1/3 of 60 kg g", "N", 20.0 * G, |_, e| e.axial_n[0]),
             _ => return None,
         };
     Some(ClosedForm { what, formula, unit, value, of })

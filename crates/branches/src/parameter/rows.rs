@@ -34,12 +34,12 @@ pub(super) fn row(joints: &[Joint], members: &[Member], of: usize) -> [usize; 2]
 fn in_row<'a>(joints: &'a [Joint], members: &'a [Member]) -> impl Fn(usize) -> bool + 'a {
     let mut meet = vec![0_usize; joints.len()];
     for member in members {
-        meet[member.from] += 1;
-        meet[member.to] += 1;
+        member.path().for_each(|joint| meet[joint] += 1);
     }
     move |k| {
         let [here, next] = [&members[k], &members[k + 1]];
         here.to == next.from
+            && [here, next].iter().all(|member| member.rope.is_none())
             && meet[here.to] == 2
             && is_between(&joints[here.to], &joints[here.from].name)
     }
@@ -110,6 +110,10 @@ pub(super) fn set(
     if row(joints, members, first) != [first, last] {
         return Err(PointError::Unequal { first: first + 1, last: last + 1 });
     }
+    if members[first].rope.is_some() {
+        // It runs over joints of its own.
+        return if count > 1 { Err(PointError::Count { value, most: 1 }) } else { Ok(()) };
+    }
     let part = old as f64 / count as f64;
     let model = divided(&members[first], part, first + 1)?;
     let ends = [members[first].from, members[last].to];
@@ -139,9 +143,8 @@ pub(super) fn set(
     };
     let all_new: Vec<_> =
         (0..count).map(|k| Member { from: at(k), to: at(k + 1), ..model.clone() }).collect();
-    for member in members.iter_mut() {
-        (member.from, member.to) = (goes[member.from], goes[member.to]);
-    }
+    let moved = std::mem::take(members).into_iter().map(|member| member.renumbered(|k| goes[k]));
+    *members = moved.collect();
     members.splice(first..=last, all_new);
     *joints = all;
     Ok(())

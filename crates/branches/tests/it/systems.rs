@@ -292,6 +292,29 @@ fn a_row_ends_where_another_member_meets_it() {
     assert!(of("bars.1-2.count=3").is_ok() && of("bars.3-5.count=2").is_ok());
 }
 
+/// A rope over a ring behind a row runs over the same ring when the row has other joints; it is no row itself.
+#[test]
+fn counts_leave_ropes_on_their_rings() {
+    let text = |count: usize| {
+        format!(
+            "joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [4, 0, 0] }}, P = {{ mass_kg = 2 }} }}\n\
+             bars = [{{ from = \"A\", to = \"P\", length_m = {}, mass_kg = 0, count = {count} }}, \
+             {{ from = \"A\", to = \"B\", via = [\"P\"], length_m = 6, kind = \"cable\" }}]",
+            3.0 / count as f64
+        )
+    };
+    let of = |path: &str, value: f64| {
+        let vary: Parameter = path.parse().unwrap();
+        Variation::new(read(&text(1)), &[vary], Combine::Product).unwrap().system(&[value])
+    };
+    for count in [1, 2, 4] {
+        assert_eq!(of(&format!("bars.1.count={count}"), count as f64).unwrap(), read(&text(count)));
+    }
+    assert_eq!(of("bars.2.count=1", 1.0).unwrap(), read(&text(1)));
+    let refused = of("bars.2.count=2", 2.0).unwrap_err();
+    assert_eq!(refused, PointError::Count { value: 2.0, most: 1 });
+}
+
 /// The rows of a chain are its runs of equal bars, each with its own first and last.
 #[test]
 fn a_count_of_a_chain_is_that_of_its_file() {

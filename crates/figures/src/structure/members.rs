@@ -132,8 +132,12 @@ pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, la
     if scene.detail < 1.0 {
         return;
     }
-    let mut known: Vec<(f64, &Member)> =
-        structure.members.iter().filter_map(|m| Some((m.axial_n?, m))).collect();
+    let mut known: Vec<(f64, &Member)> = structure
+        .members
+        .iter()
+        .filter(|m| !m.unlabelled)
+        .filter_map(|m| Some((m.axial_n?, m)))
+        .collect();
     known.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
     for (force, &Member { joints, used, .. }) in known {
         if labels.full() {

@@ -69,6 +69,8 @@ pub struct Member {
     pub used: Option<f64>,
     /// Whether it is weaker than wanted.
     pub weak: bool,
+    /// Whether its force stands elsewhere: at another span of the same rope.
+    pub unlabelled: bool,
 }
 
 /// What is drawn: plain data, in SI units.
@@ -81,7 +83,7 @@ pub struct Member {
 ///     Joint { load_n: [0.0, 0.0, -8.0], ..Joint::free("P", [3.0, 0.0, -4.0]) },
 ///     Joint { support: held, reaction_n: [3.0, 0.0, 4.0], ..Joint::free("B", [6.0, 0.0, 0.0]) },
 /// ];
-/// let of = |joints| Member { joints, axial_n: Some(5.0), used: Some(0.25), weak: false };
+/// let of = |joints| Member { joints, axial_n: Some(5.0), used: Some(0.25), ..Member::default() };
 /// let members = [[0, 1], [1, 2]].map(of);
 /// let (title, seen) = ("two bars", figures::Seen::Best);
 /// let structure = Structure { title, note: "", joints: &joints, members: &members, floor_m: None, seen };

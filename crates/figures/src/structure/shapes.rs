@@ -128,7 +128,8 @@ impl ModeShapes<'_> {
         for (joints, look) in positions.iter().zip(looks) {
             let ends = |joint: usize| place(&joints[joint]);
             let members = self.system.members().iter();
-            svg.lines(look, members.map(|member| [ends(member.from), ends(member.to)]));
+            let spans = members.flat_map(|member| member.spans());
+            svg.lines(look, spans.map(|joints| joints.map(ends)));
         }
         for (joint, data) in self.system.joints().iter().enumerate() {
             let at = place(&positions[2][joint]);

@@ -67,6 +67,16 @@ impl SystemShape<'_> {
         self.draw(Some(id))
     }
 
+    /// The span of a rope beside which its force stands.
+    fn longest_span(&self, member: &model::system::Member) -> usize {
+        let square = |[a, b]: [usize; 2]| {
+            let apart = |k: usize| self.joints_m[a][k] - self.joints_m[b][k];
+            (0..3).map(|k| apart(k) * apart(k)).sum::<f64>()
+        };
+        let spans = member.spans().map(square).enumerate();
+        spans.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(n, _)| n)
+    }
+
     fn draw(&self, id: Option<&str>) -> Result<String, StructureError> {
         let gravity = self.system.gravity_m_s2();
         let placed = self.system.joints().iter().zip(self.joints_m).zip(self.reactions_n);
@@ -93,11 +103,15 @@ impl SystemShape<'_> {
             .iter()
             .zip(self.axial_n)
             .enumerate()
-            .map(|(k, (member, axial))| {
+            .flat_map(|(k, (member, axial))| {
                 let used = self.used.get(k).copied().flatten();
                 let strength = member.strength.as_deref();
                 let weak = used.zip(strength).is_some_and(|(used, all)| !all.suffices(used));
-                Member { joints: [member.from, member.to], axial_n: Some(*axial), used, weak }
+                let longest = self.longest_span(member);
+                member.spans().enumerate().map(move |(n, joints)| {
+                    let axial_n = Some(*axial);
+                    Member { joints, axial_n, used, weak, unlabelled: n != longest }
+                })
             })
             .collect();
         let title = self.system.name();

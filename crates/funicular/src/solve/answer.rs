@@ -135,7 +135,8 @@ impl SolveAnswer {
 
     /// Members as CSV, a line per solver and member: its joints, axial force (with the weight at the
     /// joints, at both ends, and where it is largest), and the forces on it at both joints. What is zero but for rounding is written as 0.
-    /// Where a member has a strength, the part of it that is used stands last.
+    /// Where a member has a strength, the part of it that is used stands behind these; where one is a rope, the
+    /// joints that it runs over last.
     ///
     /// # Errors
     ///
@@ -143,9 +144,11 @@ impl SolveAnswer {
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
         let strong = self.system.has_strengths();
         let last = if strong { ",utilisation" } else { "" };
+        let roped = self.system.has_ropes();
+        let via = if roped { ",via" } else { "" };
         writeln!(
             to,
-            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n{last}"
+            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n{last}{via}"
         )?;
         for e in self.equilibria() {
             let ends = e.start_forces_n.as_flattened().iter().chain(e.end_forces_n.as_flattened());
@@ -161,10 +164,15 @@ impl SolveAnswer {
                     (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));
                 write!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
                 match e.utilisation(&self.system, k) {
-                    Some(utilisation) => writeln!(to, ",{utilisation:?}")?,
-                    None if strong => writeln!(to, ",")?,
-                    None => writeln!(to)?,
+                    Some(utilisation) => write!(to, ",{utilisation:?}")?,
+                    None if strong => write!(to, ",")?,
+                    None => {}
                 }
+                if roped {
+                    let names = member.via().iter().map(|k| self.system.joints()[*k].name.as_str());
+                    write!(to, ",{}", quoted(&names.collect::<Vec<_>>().join(" ")))?;
+                }
+                writeln!(to)?;
             }
         }
         Ok(())

@@ -173,6 +173,8 @@ impl Serialize for Bars<'_> {
         struct Bar<'a> {
             from: &'a str,
             to: &'a str,
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            via: Vec<&'a str>,
             axial_n: f64,
             axial_from_n: f64,
             axial_to_n: f64,
@@ -189,6 +191,7 @@ impl Serialize for Bars<'_> {
             list.serialize_element(&Bar {
                 from: &system.joints()[member.from].name,
                 to: &system.joints()[member.to].name,
+                via: member.via().iter().map(|k| system.joints()[*k].name.as_str()).collect(),
                 axial_n: e.axial_n[k],
                 axial_from_n: along.from_n,
                 axial_to_n: along.to_n,

@@ -1,6 +1,7 @@
 //! The hanging shape at a point of a study.
 
 use branches::PointError;
+use model::system::Member;
 use model::{Rung, Vector};
 use serde::Serialize;
 
@@ -51,7 +52,8 @@ pub struct StudyShape {
     /// [`StudyAnswer::supports`](super::StudyAnswer::supports).
     #[serde(skip)]
     pub reactions_n: Vec<Vector>,
-    /// How steeply each bar rises from its first joint to its second, degrees from the level.
+    /// How steeply each bar rises from its first joint to its second, a rope to the first that it runs
+    /// over, degrees from the level.
     pub rises_deg: Vec<f64>,
     /// What [`Study::of`](super::Study::of) asks for; `None` for a sag of joints that no members connect, or
     /// of which one is above the other, and for what is not there with another count of bars.
@@ -122,8 +124,10 @@ impl StudyShape {
         let held =
             joints.zip(&first.reactions_n).filter(|(joint, _)| joint.support.at_m().is_some());
         let reactions = held.map(|(_, force)| *force).collect();
-        let rises =
-            system.members().iter().map(|member| rise_deg(places[member.from], places[member.to]));
+        // Of a rope its first span.
+        let next = |member: &Member| member.path().nth(1).unwrap_or(member.to);
+        let rises = system.members().iter();
+        let rises = rises.map(|member| rise_deg(places[member.from], places[next(member)]));
         let agreement = answer.agreement();
         let extremes = Extremes::of(system, first)?;
         Some(Self {

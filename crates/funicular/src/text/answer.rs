@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Evidence, Rung, SolverName, Vector};
+use model::{Anchors, Evidence, Rung, SolverName, Vector};
 
 use super::printable::Printable;
 use super::printed::{numbers, quantity};
@@ -229,6 +229,7 @@ fn shape(system: &System, e: &SystemEquilibrium, tables: Option<bool>) -> String
     let shape = Shape {
         name: &|joint| Printable(&system.joints()[joint].name).to_string(),
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],
+        via: &|bar| system.members()[bar].via(),
         joints_m: &e.joints_m,
         axial: e.axial_forces(system),
         extremes: Extremes::of(system, e),
@@ -247,9 +248,11 @@ fn shape(system: &System, e: &SystemEquilibrium, tables: Option<bool>) -> String
 fn idle(member: &Member, joints_m: &[Vector]) -> &'static str {
     /// A member whose length is off by less than this part of it has it.
     const JUST: f64 = 1e-10;
-    let [a, b] = [joints_m[member.from], joints_m[member.to]];
-    let distance_m = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
-    let longer = distance_m / member.body.length_m() - 1.0;
+    let span_m = |[a, b]: [usize; 2]| {
+        let [start_m, end_m] = [joints_m[a], joints_m[b]];
+        Anchors { start_m, end_m }.span_m()
+    };
+    let longer = member.spans().map(span_m).sum::<f64>() / member.body.length_m() - 1.0;
     match member.kind {
         Kind::Cable if longer < -JUST => "slack",
         Kind::Cable => "just taut",

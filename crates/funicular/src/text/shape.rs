@@ -43,6 +43,8 @@ pub struct Shape<'a> {
     pub name: &'a dyn Fn(usize) -> String,
     /// The joints of a bar.
     pub ends: &'a dyn Fn(usize) -> [usize; 2],
+    /// The joints between them that a rope runs over.
+    pub via: &'a dyn Fn(usize) -> &'a [usize],
     /// Places, m.
     pub joints_m: &'a [Vector],
     /// Axial forces along the bars.
@@ -117,16 +119,18 @@ impl Shape<'_> {
                 n if n < 0.0 => "compression",
                 _ => (self.idle)(bar),
             };
+            let via = (self.via)(bar);
             let mut row = vec![
                 (bar + 1).to_string(),
                 (self.name)(from),
-                (self.name)(to),
+                (self.name)(to) + &self.over(via),
                 axial.short(along.from_n),
                 axial.short(along.to_n),
                 what.to_owned(),
             ];
             row.extend(self.weakest.map(|_| (self.used)(bar).map_or_else(String::new, percent)));
-            row.extend(rises.then(|| self.rise([from, to])));
+            let straight = rises && via.is_empty();
+            row.extend(rises.then(|| if straight { self.rise([from, to]) } else { String::new() }));
             row.extend(self.ranges.map(|ranges| open(ranges[bar], &axial)));
             table.add_row(row);
         }
@@ -135,6 +139,17 @@ impl Shape<'_> {
             words.set_cell_alignment(comfy_table::CellAlignment::Left);
         }
         table
+    }
+
+    /// The joints that a rope runs over, in words: the first few by their names.
+    fn over(&self, via: &[usize]) -> String {
+        const NAMED: usize = 2;
+        let names: Vec<String> = via.iter().take(NAMED).map(|joint| (self.name)(*joint)).collect();
+        match via.len().saturating_sub(NAMED) {
+            _ if via.is_empty() => String::new(),
+            0 => format!(" over {}", names.join(", ")),
+            more => format!(" over {} and {more} more", names.join(", ")),
+        }
     }
 
     /// The angle of a bar above the level, degrees, to a hundredth.

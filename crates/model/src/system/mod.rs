@@ -178,12 +178,7 @@ impl System {
         let kept: Vec<usize> = (0..self.joints.len()).filter(is_left).collect();
         // Those that stay keep their order.
         let number = |joint: usize| kept.partition_point(|k| *k < joint);
-        for member in &mut members {
-            (member.from, member.to) = (number(member.from), number(member.to));
-            for joint in member.rope.iter_mut().flat_map(|rope| &mut rope.via) {
-                *joint = number(*joint);
-            }
-        }
+        let members = members.into_iter().map(|member| member.renumbered(number)).collect();
         let joints = kept.iter().map(|k| self.joints[*k].clone()).collect();
         let left = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);
         (Self { floor_m: self.floor_m, ..left }, kept)

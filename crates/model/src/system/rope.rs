@@ -95,6 +95,16 @@ impl Member {
         self.path().zip(self.path().skip(1)).map(|(a, b)| [a, b])
     }
 
+    /// The same member where its joints have other numbers.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(usize) -> usize) -> Self {
+        let via = self.rope.iter_mut().flat_map(|rope| &mut rope.via);
+        for joint in via.chain([&mut self.from, &mut self.to]) {
+            *joint = number(*joint);
+        }
+        self
+    }
+
     /// What of a rope is not modelled.
     pub(crate) fn rope_fault(&self, joints: &[Joint]) -> Option<RopeFault> {
         self.rope.as_ref()?;

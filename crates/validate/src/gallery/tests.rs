@@ -1,6 +1,6 @@
 //! Numbers by names.
 
-use model::cases::{drawn, gallery};
+use model::cases::{drawn, gallery, ropes};
 use model::system::System;
 
 use super::*;
@@ -32,7 +32,7 @@ fn numbers_are_read_by_the_names_of_joints() {
 #[test]
 fn what_is_known_is_found() {
     let pieces = solve();
-    assert_eq!(pieces.len(), gallery().len() + drawn().len());
+    assert_eq!(pieces.len(), gallery().len() + drawn().len() + ropes().len());
     for piece in pieces {
         let wanted = piece.closed_form.value;
         assert_eq!(piece.answer.equilibria.len(), 2);

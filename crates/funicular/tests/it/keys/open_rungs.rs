@@ -215,6 +215,7 @@ fn reasons_without_a_certificate() {
             (reason(NoCertificate::EnergyFalls { directions: 5 }), &["falls in 5 directions"]),
             (reason(NoCertificate::PivotsUndecided), &["not proved positive"]),
             (reason(NoCertificate::NotDefinite { compressed: 6 }), &["with 6 members compressed"]),
+            (reason(NoCertificate::NotConvex { members: 7 }), &["and 7 push or may push"]),
             (reason(NoCertificate::Unusable), &["incomplete or not finite"]),
         ],
     );
@@ -226,6 +227,7 @@ fn reasons_without_a_certificate() {
         "energy_falls",
         "pivots_undecided",
         "not_definite",
+        "not_convex",
         "unusable",
     ];
     output.each("kind", "no_certificate");
@@ -238,6 +240,7 @@ fn reasons_without_a_certificate() {
     output.is("slack_m", 0.25);
     output.is("directions", 5);
     output.is("compressed", 6);
+    output.is("members", 7);
     output.done();
 }
 

@@ -4,7 +4,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use model::system::Misfit;
+use model::system::{Misfit, RopeNotTaken};
 
 use super::output::Output;
 
@@ -405,16 +405,27 @@ fn refusals_of_lagrange_for_frames() {
             &Error::Absurd { member: 2, force_n: 3.5, ratio: 4.5 },
             &["member 2 would bear 3.500e0 N, 4.5e0 times the loads"],
         ),
+        of(
+            &Error::Jammed { member: 3, from: "P".into(), to: "D".into() },
+            &["the rope (member 3) jams: P and D run together"],
+        ),
+        of(
+            &Error::Rope(RopeNotTaken { member: 5, what: "trace" }),
+            &["rings or pulleys (member 5) is not taken by trace yet"],
+        ),
     ];
     let test = "refusals_of_lagrange_for_frames";
     let mut output = output("a refusal of lagrange for a system", test, &refusals);
-    output.is("kind", json!(["misfit", "absurd"]));
+    output.is("kind", json!(["misfit", "absurd", "jammed", "rope"]));
     output.is("misfits[].member", 1);
     output.is("misfits[].misfit_m", 0.25);
     output.is("misfits[].within_m", 0.125);
-    output.is("member", 2);
+    output.is("member", json!([2, 3, 5]));
     output.is("force_n", 3.5);
     output.is("ratio", 4.5);
+    output.is("from", "P");
+    output.is("to", "D");
+    output.is("what", "trace");
     output.done();
 }
 
@@ -430,14 +441,16 @@ fn refusals_of_energy_for_frames() {
             &Error::Unbalanced { joint: "U".into(), unbalance: 0.5 },
             &["joint U is out of balance by 5e-1"],
         ),
+        of(&Error::Jammed { member: 6, span: 7 }, &["(member 6) jams: its span 7 has no length"]),
     ];
     let test = "refusals_of_energy_for_frames";
     let mut output = output("a refusal of energy for a system", test, &refusals);
-    output.is("kind", json!(["misfit", "absurd", "unbalanced"]));
+    output.is("kind", json!(["misfit", "absurd", "unbalanced", "jammed"]));
     output.is("misfits[].member", 1);
     output.is("misfits[].misfit_m", 0.25);
     output.is("misfits[].within_m", 0.125);
-    output.is("member", 2);
+    output.is("member", json!([2, 6]));
+    output.is("span", 7);
     output.is("ratio", 4.5);
     output.is("joint", "U");
     output.is("unbalance", 0.5);

@@ -118,6 +118,31 @@ fn strength_of_level_v() {
     output.done();
 }
 
+/// A block of 40 kg under gravity 10 on four strands, each of which bears a quarter; the last runs 3 m down and 4 m
+/// aside.
+#[test]
+fn a_tackle() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\njoints = { beam = { at_m = [0, 0, 0] }, block = { mass_kg = 40 }, \
+                winch = { at_m = [4, 0, -3] } }\nbars = [{ from = \"beam\", to = \"winch\", length_m = 9, \
+                via = [\"block\", \"beam\", \"block\", \"beam\"], kind = \"cable\" }]";
+    std::fs::write(folder.path().join("tackle.toml"), text).unwrap();
+    let arguments = ["solve", "tackle.toml", "--json", "--bars-csv", "tackle.csv"];
+    let mut output = Output::json("solve", "a_tackle", &good(folder.path(), &arguments));
+    output.each("equilibria[].bars[].via[]", json!(["block", "beam", "block", "beam"]));
+    output.each("equilibria[].bars[].axial_n", 100.0);
+    output.each("equilibria[].bars[].force_at_end_n[]", json!([80.0, 0.0, -60.0]));
+    output.each(
+        "equilibria[].joints[].at_m[]",
+        json!([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 4.0, 0.0, -3.0]),
+    );
+    output.done();
+    let columns = std::fs::read_to_string(folder.path().join("tackle.csv")).unwrap();
+    let mut output = Output::csv("solve --bars-csv", "a_tackle", &columns);
+    output.each("via", "block beam block beam");
+    output.done();
+}
+
 /// 300 N on two ropes of 5 m from anchors 6 m apart, 187.5 N in each, by a hanger of 1 m. Without one of
 /// the ropes all hangs on the other; without the hanger the load falls.
 #[test]
