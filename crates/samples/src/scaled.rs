@@ -51,14 +51,15 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             at_m: load.at_m * length,
             force_n: times(load.force_n, force),
         };
-        let scaled = Member {
+        let within_m = given.length_tolerance_m().map(|within_m| within_m * length);
+        let mut scaled = Member {
             body: body.expect("a bar in other units"),
             stiffness_n: given.stiffness_n.map(|stiffness_n| stiffness_n * force),
-            length_tolerance_m: given.length_tolerance_m.map(|within_m| within_m * length),
             loads: given.loads.iter().map(load).collect(),
             tolerances: None,
             ..given
         };
+        scaled.set_length_tolerance(within_m);
         match member.prestress_n() {
             Some(prestress_n) => scaled.with_prestress(prestress_n * force).expect("as before"),
             None => scaled,

@@ -156,7 +156,7 @@ fn divided(member: &Member, part: f64, bar: usize) -> Result<Member, PointError>
     let mut member = member.clone().as_given();
     let body = UncheckedBar::new(&member.body).divided(part).bar();
     member.body = body.map_err(|error| PointError::Bar { bar, error })?;
-    member.length_tolerance_m = member.length_tolerance_m.map(|within_m| part * within_m);
+    member.set_length_tolerance(member.length_tolerance_m().map(|within_m| part * within_m));
     for PointLoad { at_m, force_n } in &mut member.loads {
         *at_m = (part * *at_m).min(member.body.length_m());
         *force_n = force_n.map(|x| part * x);

@@ -138,7 +138,7 @@ fn with(
         match field {
             BarField::Stiffness => member.stiffness_n = Some(value),
             BarField::Prestress => prestress_n = Some(value),
-            BarField::LengthTolerance => member.length_tolerance_m = Some(value),
+            BarField::LengthTolerance => member.set_length_tolerance(Some(value)),
             _ => body.set(field, value),
         }
     }

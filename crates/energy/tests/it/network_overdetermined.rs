@@ -177,8 +177,9 @@ impl Drawn {
     fn system(&self, change: impl Fn(usize) -> f64, tolerance_m: Option<f64>) -> System {
         let members = self.members.iter().enumerate().map(|(e, &(from, to, stiffness_n))| {
             let length = norm(difference(self.shape[to], self.shape[from])) * (1.0 + change(e));
-            let length_tolerance_m = tolerance_m.filter(|_| stiffness_n.is_none());
-            Member { stiffness_n, length_tolerance_m, ..bar(from, to, length, 0.0) }
+            let mut member = Member { stiffness_n, ..bar(from, to, length, 0.0) };
+            member.set_length_tolerance(tolerance_m.filter(|_| stiffness_n.is_none()));
+            member
         });
         System::new("a frame", G, self.joints.clone(), members.collect()).expect("a system")
     }

@@ -228,7 +228,7 @@ mod tests {
             let mut members =
                 vec![bar(0, 1, 4.0), bar(1, 2, 2.0), bar(0, 2, 3.0).with_stiffness(10.0)];
             for (member, within) in members.iter_mut().zip(within) {
-                member.length_tolerance_m = within;
+                member.set_length_tolerance(within);
             }
             wide(&Framework::new(&System::new("", 10.0, joints, members).unwrap()))
         };

@@ -368,7 +368,7 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
         return Err(SystemError::Stiffness { member: number, stiffness_n });
     }
     let length_m = member.body.length_m();
-    if let Some(tolerance_m) = member.length_tolerance_m
+    if let Some(tolerance_m) = member.length_tolerance_m()
         && !(tolerance_m > 0.0 && tolerance_m < length_m)
     {
         return Err(SystemError::LengthTolerance { member: number, length_m, tolerance_m });

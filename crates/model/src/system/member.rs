@@ -25,8 +25,6 @@ pub struct Member {
     /// What was given in the place of the unstretched length: see
     /// [`with_prestress`](Self::with_prestress), which sets it together with the body.
     pub prestress: Option<Box<Prestress>>,
-    /// How far the length may be off, m. `None` is rounding: see [`within_m`](Self::within_m).
-    pub length_tolerance_m: Option<f64>,
     /// What it bears before it breaks; nothing that a solver looks at.
     pub strength: Option<Box<Strength>>,
     /// How far its other numbers may be off: see [`with_tolerances`](Self::with_tolerances).
@@ -93,7 +91,6 @@ impl Member {
             body,
             stiffness_n: None,
             prestress: None,
-            length_tolerance_m: None,
             strength: None,
             tolerances: None,
             loads: Vec::new(),
@@ -114,8 +111,9 @@ impl Member {
 
     /// The same member with a length known to within this, m.
     #[must_use]
-    pub fn with_length_tolerance(self, length_tolerance_m: f64) -> Self {
-        Self { length_tolerance_m: Some(length_tolerance_m), ..self }
+    pub fn with_length_tolerance(mut self, length_tolerance_m: f64) -> Self {
+        self.set_length_tolerance(Some(length_tolerance_m));
+        self
     }
 
     /// The same member with what it bears before it breaks.
@@ -135,7 +133,7 @@ impl Member {
     /// ```
     #[must_use]
     pub fn within_m(&self) -> f64 {
-        self.length_tolerance_m.unwrap_or(LENGTH_ROUNDING * self.body.length_m())
+        self.length_tolerance_m().unwrap_or(LENGTH_ROUNDING * self.body.length_m())
     }
 
     /// The greatest distance of its ends that the member allows, m; infinite where it stretches or

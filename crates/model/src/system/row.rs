@@ -109,7 +109,7 @@ impl System {
             let member = &members[k];
             member.kind == Kind::Bar
                 && member.stiffness_n.is_none()
-                && member.length_tolerance_m.is_none()
+                && member.length_tolerance_m().is_none()
                 && member.loads.is_empty()
         };
         self.floor_m().is_none()

@@ -3,10 +3,10 @@
 use super::{Joint, Member, Support, System, SystemError};
 use crate::Bar;
 
-/// How far the stiffness and the mass of a member may be off; that of its length is
-/// [`Member::length_tolerance_m`].
+/// How far the numbers of a member may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MemberTolerances {
+    length_m: Option<f64>,
     stiffness: f64,
     mass_kg: f64,
 }
@@ -80,6 +80,19 @@ fn checked(
 }
 
 impl Member {
+    /// How far the length may be off, m, where it is said: of a rigid member see [`within_m`](Self::within_m).
+    #[must_use]
+    pub fn length_tolerance_m(&self) -> Option<f64> {
+        self.tolerances.as_ref()?.length_m
+    }
+
+    /// Say how far the length may be off, m, or that nothing is known of it.
+    pub fn set_length_tolerance(&mut self, length_m: Option<f64>) {
+        let others = self.tolerances.as_deref().copied().unwrap_or_default();
+        let all = MemberTolerances { length_m, ..others };
+        self.tolerances = (all != MemberTolerances::default()).then(|| Box::new(all));
+    }
+
     /// The same member with a stiffness known to within a part of it, and a mass to within `mass_kg`, kg, as
     /// far as they are given.
     ///
@@ -104,7 +117,8 @@ impl Member {
         let wanted = "positive and less than 1, of a bar with a stiffness";
         let stiffness = checked("stiffness_tolerance", wanted, stiffness, part)?;
         let mass_kg = checked("mass_tolerance_kg", OF_MASS, mass_kg, self.body.mass_kg())?;
-        let tolerances = MemberTolerances { stiffness, mass_kg };
+        let length_m = self.length_tolerance_m();
+        let tolerances = MemberTolerances { length_m, stiffness, mass_kg };
         let given = tolerances != MemberTolerances::default();
         Ok(Self { tolerances: given.then(|| Box::new(tolerances)), ..self })
     }
@@ -238,7 +252,7 @@ impl System {
             joint.tolerances = None;
         }
         for member in &mut members {
-            (member.tolerances, member.length_tolerance_m, member.prestress) = (None, None, None);
+            (member.tolerances, member.prestress) = (None, None);
         }
         let system = Self::new(self.name(), self.gravity_m_s2(), joints, members)?;
         self.floor_m().map_or(Ok(system.clone()), |floor_m| system.with_floor(floor_m))
@@ -250,7 +264,7 @@ fn of_member((k, member): (usize, &Member)) -> impl Iterator<Item = Uncertain> {
     let (length_m, mass_kg) = (member.body.length_m(), member.body.mass_kg());
     let stiffness_n = member.stiffness_n.unwrap_or(0.0);
     [
-        (UncertainNumber::Length(k), length_m, member.length_tolerance_m.unwrap_or(0.0)),
+        (UncertainNumber::Length(k), length_m, tolerances.length_m.unwrap_or(0.0)),
         (UncertainNumber::Stiffness(k), stiffness_n, tolerances.stiffness * stiffness_n),
         (UncertainNumber::Mass(k), mass_kg, tolerances.mass_kg.min(mass_kg)),
     ]

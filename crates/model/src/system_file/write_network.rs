@@ -127,7 +127,7 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if let Some(prestress_n) = member.prestress_n() {
         let _ = writeln!(text, "prestress_n = {prestress_n:?}");
     }
-    if let Some(tolerance_m) = member.length_tolerance_m {
+    if let Some(tolerance_m) = member.length_tolerance_m() {
         let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
     }
     let within = member.tolerances.as_deref().copied().unwrap_or_default();

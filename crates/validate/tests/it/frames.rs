@@ -306,7 +306,9 @@ fn lengths_that_do_not_fit_are_refused_and_fit_within_a_tolerance() {
                 let members = system.members().iter().enumerate().map(|(m, member)| {
                     let length_m = member.body.length_m() * if m == 0 { 1.0 + 1e-6 } else { 1.0 };
                     let body = Bar::homogeneous(length_m, member.body.mass_kg()).unwrap();
-                    Member { body, length_tolerance_m: tolerance_m, ..member.clone() }
+                    let mut changed = Member { body, ..member.clone() };
+                    changed.set_length_tolerance(tolerance_m);
+                    changed
                 });
                 let joints = system.joints().to_vec();
                 System::new("frame", system.gravity_m_s2(), joints, members.collect()).unwrap()

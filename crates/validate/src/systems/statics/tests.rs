@@ -450,7 +450,7 @@ fn lengths_that_overdetermine_a_shape_are_met_best() {
     let found = |down_m: f64, within_m: Option<f64>| {
         let mut members = system.members().to_vec();
         for member in &mut members {
-            member.length_tolerance_m = within_m;
+            member.set_length_tolerance(within_m);
         }
         members[0].body = Bar::homogeneous(5.0 + 4e-10, 0.0).unwrap();
         let system = System::new("legs", 10.0, system.joints().to_vec(), members).unwrap();
