@@ -4,7 +4,7 @@ use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};
 
 use model::Vector;
-use model::system::{Support, System};
+use model::system::{Member, Support, System};
 
 /// What is less than this part of a length is its rounding.
 const LEVEL: f64 = 1e-12;
@@ -81,7 +81,7 @@ fn level(d: Vector) -> f64 {
 
 impl<'a> Rows<'a> {
     fn new(system: &'a System, joints_m: &'a [Vector]) -> Self {
-        let spans = || system.members().iter().flat_map(|member| member.spans());
+        let spans = || system.members().iter().flat_map(Member::spans);
         let ways = || spans().flat_map(|[a, b]| [(a, b), (b, a)]);
         let mut begins = vec![0; joints_m.len() + 1];
         for (here, _) in ways() {

@@ -34,7 +34,9 @@ pub(super) fn row(joints: &[Joint], members: &[Member], of: usize) -> [usize; 2]
 fn in_row<'a>(joints: &'a [Joint], members: &'a [Member]) -> impl Fn(usize) -> bool + 'a {
     let mut meet = vec![0_usize; joints.len()];
     for member in members {
-        member.path().for_each(|joint| meet[joint] += 1);
+        for joint in member.path() {
+            meet[joint] += 1;
+        }
     }
     move |k| {
         let [here, next] = [&members[k], &members[k + 1]];

@@ -285,7 +285,9 @@ impl Frame {
     pub(super) fn spread(&self, values: &mut [f64]) {
         for rope in &self.ropes {
             let first = values[rope[0]];
-            rope.iter().for_each(|strand| values[*strand] = first);
+            for strand in rope {
+                values[*strand] = first;
+            }
         }
     }
 

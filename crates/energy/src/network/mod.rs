@@ -36,6 +36,9 @@
 //! is indefinite, a third larger for nets, and its factorisation must count signs; here positive
 //! definite means stable.
 //!
+//! A rope over rings and pulleys has a rod for each strand and one excess, that of their sum: convex as
+//! those of cables, so that all four steps take it as it is.
+//!
 //! # Cost
 //!
 //! Processor time of one core (AMD EPYC), by

@@ -128,7 +128,7 @@ impl ModeShapes<'_> {
         for (joints, look) in positions.iter().zip(looks) {
             let ends = |joint: usize| place(&joints[joint]);
             let members = self.system.members().iter();
-            let spans = members.flat_map(|member| member.spans());
+            let spans = members.flat_map(model::system::Member::spans);
             svg.lines(look, spans.map(|joints| joints.map(ends)));
         }
         for (joint, data) in self.system.joints().iter().enumerate() {

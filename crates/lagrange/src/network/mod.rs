@@ -42,6 +42,10 @@
 //! From 4,900 to 199,080 members of nets that is n to the power 1.36; the elimination alone has
 //! 1.5.
 //!
+//! A rope over rings and pulleys has a link for each span and one force: its equation is that of the sum of
+//! its spans, and its stiffness along couples all joints that it meets. What knows runs or cones leaves
+//! systems with ropes to augmented multipliers (`settle`) and Newton's method.
+//!
 //! [`Derivatives`] of an answer by lengths, masses, stiffnesses, loads and anchors come from one
 //! more factorisation; where the forces are one family [`force_ranges`] says how far each of them
 //! is open.

@@ -156,7 +156,9 @@ fn named(
 
 /// Self-stresses without what stands behind the members.
 fn of_members(framework: &Framework, mut basis: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    basis.iter_mut().for_each(|stress| stress.truncate(framework.members()));
+    for stress in &mut basis {
+        stress.truncate(framework.members());
+    }
     basis
 }
 

@@ -8,16 +8,18 @@
 //!
 //! in every configuration: an inextensible member is not longer than $s_e = l_e$, of an elastic one
 //! $T_e$ is the slope of $\varphi_e$ at $s_e = l_e (1 + T_e/EA_e)$, and $|d| \ge u \cdot d$. The right side
-//! is linear in the places. With its gradient $r$ at the answer $\tilde x$, the places of which no
-//! configuration with less energy is further away than $D$,
+//! is linear in the places. With its gradient $r$ at the answer $\tilde x$, where in no configuration with
+//! less energy a joint is further from its place than $D_j$,
 //!
-//! $$ V(x) \ge Q(\tilde x) - D \sum_j |r_j| . $$
+//! $$ V(x) \ge Q(\tilde x) - \sum_j D_j |r_j| . $$
 //!
-//! $D$ follows from the lengths of all members and, where some stretch, from their energy: together they
+//! $D_j$ is twice the length of members to an anchor and, where some stretch, by how much: together they
 //! stretch by no more than the root $S$ of $k S^2/2m - F S = V(\tilde x) + F a$, with the least spring rate
 //! $k$ of the $m$ that stretch, all loads $F$ and the reach $a$ without stretching.
 
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use std::collections::VecDeque;
+
+use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{NoCertificate, Vector, sum};
 
 use super::certificate::{TERM_ULPS, along_supports, joint_loads, pushed, size_m, total_load_n};
@@ -39,9 +41,12 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
         0 => {}
         members => return Err(NoCertificate::NotConvex { members }),
     }
-    let held = |joints: &[usize]| joints.iter().any(|k| system.joints()[*k].support.is_fixed());
-    let far_m = far_m(system, answer);
-    if !system.parts().iter().all(|part| held(&part.joints)) || !far_m.is_finite() {
+    let reaches_m = reaches_m(system);
+    let longest_m = reaches_m.iter().copied().fold(0.0, f64::max);
+    let stretch_m = stretch_m(system, answer, longest_m);
+    let far_m = |reach_m: f64| REACHES * 2.0 * (reach_m + stretch_m);
+    let farthest_m = far_m(longest_m);
+    if !farthest_m.is_finite() {
         return Err(NoCertificate::NotConvex { members: 0 });
     }
     let origin = system.reference_m();
@@ -55,7 +60,7 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
         if tension_n <= 0.0 {
             continue;
         }
-        let (mut along_m, mut size_m) = (0.0, far_m);
+        let (mut along_m, mut size_m) = (0.0, farthest_m);
         for [a, b] in member.spans() {
             let pull = times(tension_n, direction([a, b], &answer.joints_m));
             gradient[b] = plus(gradient[b], pull);
@@ -82,29 +87,47 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     let many =
         f64::EPSILON * system.members().iter().map(|m| m.via().len() + 1).sum::<usize>() as f64;
-    let left_n = gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
-        let moving = along_supports(system, k, *force);
-        if system.joints()[k].support.is_fixed() {
-            0.0
-        } else {
-            norm(moving) + (ulps + many) * size
-        }
+    let left_j = gradient.iter().zip(sizes_n).zip(reaches_m).enumerate();
+    let left_j = left_j.map(|(k, ((force, size), reach_m))| {
+        let moving = norm(along_supports(system, k, *force)) + (ulps + many) * size;
+        if system.joints()[k].support.is_fixed() { 0.0 } else { moving * far_m(reach_m) }
     });
-    Ok(sum(terms.iter().map(|(term, _)| *term)) - rounding_j - far_m * sum(left_n))
+    Ok(sum(terms.iter().map(|(term, _)| *term)) - rounding_j - sum(left_j))
 }
 
-/// How far any configuration with no more energy may be from the answer, m.
-fn far_m(system: &System, answer: &SystemEquilibrium) -> f64 {
-    let (at_m, length_m) = (size_m(system, answer), system.total_length_m());
+/// How far each joint may be from an anchor along unstretched members, m; infinite where nothing leads to one.
+fn reaches_m(system: &System) -> Vec<f64> {
+    let mut neighbours = vec![Vec::new(); system.joints().len()];
+    for member in system.members() {
+        for [a, b] in member.spans() {
+            neighbours[a].push((b, member.body.length_m()));
+            neighbours[b].push((a, member.body.length_m()));
+        }
+    }
+    let held = |joint: &Joint| if joint.support.is_fixed() { 0.0 } else { f64::INFINITY };
+    let mut reaches_m: Vec<f64> = system.joints().iter().map(held).collect();
+    let mut open: VecDeque<usize> =
+        (0..reaches_m.len()).filter(|joint| reaches_m[*joint] <= 0.0).collect();
+    while let Some(joint) = open.pop_front() {
+        for &(other, length_m) in &neighbours[joint] {
+            if reaches_m[other].is_infinite() {
+                reaches_m[other] = reaches_m[joint] + length_m;
+                open.push_back(other);
+            }
+        }
+    }
+    reaches_m
+}
+
+/// By how much all members together may stretch in a configuration with no more energy, m.
+fn stretch_m(system: &System, answer: &SystemEquilibrium, reach_m: f64) -> f64 {
     let rate = |member: &Member| Some(member.stiffness_n? / member.body.length_m());
     let rates: Vec<f64> = system.members().iter().filter_map(rate).collect();
-    let stretch_m = if rates.is_empty() {
-        0.0
-    } else {
-        let load_n = total_load_n(system);
-        let soft = rates.iter().copied().fold(f64::INFINITY, f64::min) / rates.len() as f64;
-        let energy_j = (answer.energy_j + load_n * (at_m + length_m)).max(0.0);
-        (load_n + (load_n * load_n + 2.0 * soft * energy_j).sqrt()) / soft
-    };
-    REACHES * (2.0 * at_m + length_m + stretch_m)
+    if rates.is_empty() {
+        return 0.0;
+    }
+    let load_n = total_load_n(system);
+    let soft = rates.iter().copied().fold(f64::INFINITY, f64::min) / rates.len() as f64;
+    let energy_j = (answer.energy_j + load_n * (size_m(system, answer) + reach_m)).max(0.0);
+    (load_n + (load_n * load_n + 2.0 * soft * energy_j).sqrt()) / soft
 }

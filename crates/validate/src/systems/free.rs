@@ -101,7 +101,9 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     let least: Vec<f64> = answers.iter().map(least).collect();
     for (k, member) in system.members().iter().enumerate() {
         if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
-            member.path().for_each(|joint| loose[joint] = false);
+            for joint in member.path() {
+                loose[joint] = false;
+            }
         }
     }
     loose
@@ -131,7 +133,9 @@ fn unloaded(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
         let light = member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
         // What room a rope leaves its rings is not counted.
         if !light || member.rope.is_some() {
-            member.path().for_each(|joint| unloaded[joint] = false);
+            for joint in member.path() {
+                unloaded[joint] = false;
+            }
         }
     }
     unloaded

@@ -89,8 +89,9 @@ fn the_judge_sees_what_is_wrong_with_a_rope() {
 
 /// Rings that a rope and cables hold, some of the cables slack and some elastic.
 fn net(random: &mut ChaCha8Rng) -> System {
+    let rings = random.random_range(1..6_usize);
+    let pulley = random.random_range(1..=rings + 1);
     let mut between = |low: f64, high: f64| random.random_range(low..high);
-    let rings = between(1.0, 6.0) as usize;
     let mut place = |z: f64| -> Vector { [between(0.0, 4.0), between(0.0, 4.0), z] };
     let mut joints: Vec<Joint> =
         (0..4).map(|k| Joint::anchor(format!("A{k}"), place(f64::from(k) / 3.0))).collect();
@@ -117,7 +118,7 @@ fn net(random: &mut ChaCha8Rng) -> System {
     // One rope over all rings, past an anchor that is a pulley, and a second one over the first ring.
     let mut path = vec![0];
     path.extend(4..4 + rings);
-    path.insert(between(1.0, path.len() as f64) as usize, 1);
+    path.insert(pulley, 1);
     path.push(2);
     let elastic = |x: f64| (x > 0.5).then_some(1000.0 * x);
     let (part, soft) = (between(1.0, 1.3), elastic(between(0.0, 1.0)));
