@@ -75,14 +75,15 @@ def test_strengths_and_the_weakest_member():
 
 
 def test_ranges_over_tolerances():
-    # 2 kg and half a kilogram on a bar of 3 m and 0.1 m, under 10 m/s^2.
-    bar = '{ from = "A", to = "P", length_m = 3, length_tolerance_m = 0.1, mass_kg = 0 }'
-    text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }"
-    found = fn.System.from_toml(f"{text}\nbars = [{bar}]").tolerances(draws=50, seed=3)
+    # 2 kg and half a kilogram on a bar of 3 m below an anchor that is known to 0.1 m, under 10 m/s^2.
+    bar = '{ from = "A", to = "P", length_m = 3, mass_kg = 0 }'
+    joints = "A = { at_m = [0, 0, 0], at_tolerance_m = 0.1 }, P = { mass_kg = 2, mass_tolerance_kg = 0.5 }"
+    text = f"gravity_m_s2 = 10\njoints = {{ {joints} }}\nbars = [{bar}]"
+    found = fn.System.from_toml(text).tolerances(draws=50, seed=3)
     assert found.is_proved and found.is_stable and found.reason is None
     assert found.axial_n == pytest.approx(np.array([[15.0, 25.0]]))
     assert found.joints_m[1, 2] == pytest.approx([-3.1, -2.9]) and found.joints_m.shape == (2, 3, 2)
-    assert [number.name for number in found.numbers] == ["bars.1.length_m", "joints.P.mass_kg"]
+    assert [number.name for number in found.numbers][2:] == ["joints.A.at_m.z", "joints.P.mass_kg"]
     assert found.bars[0].axial_n.is_hull and found.bars[0].axial_n.most_by == "joints.P.mass_kg"
     assert found.draws.solved == 50 and found.draws.outside == 0 and 1 < found.bars[0].drawn_n.deviation < 5
     assert "exactly one equilibrium" in str(found).replace("\n", " ")

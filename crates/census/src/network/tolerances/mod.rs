@@ -39,8 +39,11 @@ use super::proven::spring_n;
 use leaf::{Bound, Leaf};
 use outputs::{Output, outputs};
 
-/// Boxes of numbers that are tried at most: each costs an inverse.
+/// Boxes of numbers that are tried at most.
 const MOST_BOXES: usize = 64;
+/// The same as work, unknowns squared times unknowns and numbers: some seconds. Halves of one of a hundred
+/// numbers hardly help.
+const MOST_WORK: usize = 100_000_000;
 /// Where the proof fails it is tried for tolerances halved so many times.
 const HALVINGS: i32 = 6;
 
@@ -211,7 +214,7 @@ impl Cover<'_> {
         let (reason, Some((widest, starts))) = (failure.reason, failure.halves) else {
             return Err(failure.reason);
         };
-        if self.tried.load(Ordering::Relaxed) >= MOST_BOXES {
+        if self.tried.load(Ordering::Relaxed) >= self.most_boxes() {
             return Err(reason);
         }
         let middle = parts[widest].mid();
@@ -227,6 +230,11 @@ impl Cover<'_> {
         self.meet(&below, &above, &face)?;
         below.extend(above);
         Ok(below)
+    }
+
+    fn most_boxes(&self) -> usize {
+        let size = self.posed.equations.size;
+        (MOST_WORK / (size * size * (size + self.numbers.len())).max(1)).min(MOST_BOXES)
     }
 
     /// Prove that at a point on both sides the equilibrium is the same.
