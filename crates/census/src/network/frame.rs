@@ -4,7 +4,7 @@ use model::system::{Member, System};
 use model::{Bar, Vector as Point};
 use numerics::{Interval, lever};
 
-use super::arithmetic::{Vector, plus, points, product, sum, times};
+use super::arithmetic::{NOWHERE, Vector, plus, points, sum, times};
 
 /// Powers of two, so that scaling rounds nothing.
 #[derive(Debug, Clone, Copy)]
@@ -113,13 +113,20 @@ impl Frame {
     ) -> Vector {
         let end = if is_start { End::Start } else { End::End };
         let part = end.share(&member.body, member.body.centre_m());
-        self.weight(system, product(mass_kg, part))
+        if mass_kg == Interval::ZERO || part == Interval::ZERO {
+            return NOWHERE;
+        }
+        self.weight(system, mass_kg * part)
     }
 
     /// The weight of a mass, in units.
     pub(super) fn weight(&self, system: &System, mass_kg: Interval) -> Vector {
-        let g = Interval::point(system.gravity_m_s2());
-        [Interval::ZERO, Interval::ZERO, -self.force(product(mass_kg, g))]
+        if mass_kg == Interval::ZERO {
+            return NOWHERE;
+        }
+        // Rounded whatever the numbers are, so that a mass of 1 in other units has the same digits.
+        let weight_n = mass_kg * Interval::point(system.gravity_m_s2());
+        [Interval::ZERO, Interval::ZERO, -self.force(weight_n)]
     }
 
     /// `l/EA` of a member in units; exactly 0 for an inextensible one.
