@@ -162,5 +162,5 @@ fn random_nets_with_ropes_are_agreed_upon() {
             jammed += 1;
         }
     }
-    assert_eq!((agreed, jammed), (58, 2));
+    assert_eq!((agreed, jammed), (59, 1));
 }
