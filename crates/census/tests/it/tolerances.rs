@@ -2,7 +2,7 @@
 
 use census::network::{NoRanges, Range, prove, prove_ranges};
 use model::system::{Joint, Member, System};
-use model::{Bar, Vector};
+use model::{Bar, NoBox, Vector};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
@@ -295,4 +295,22 @@ fn wide_tolerances_are_halved() {
     assert!(
         !force.is_hull && force.reached[1] < largest + 0.1 && force.guaranteed[1] < 1.15 * largest
     );
+}
+
+/// The equations are those of straight members: nothing is said of ropes that run over rings.
+#[test]
+fn ropes_over_rings_have_no_ranges() {
+    for sample in samples::ropes() {
+        let mut joints = sample.system.joints().to_vec();
+        let held = joints.iter_mut().find(|joint| joint.support.is_fixed()).unwrap();
+        *held = held.clone().with_tolerances(None, Some(1e-6), None).unwrap();
+        let members = sample.system.members().to_vec();
+        let system = System::new("ropes", sample.system.gravity_m_s2(), joints, members).unwrap();
+        let mut places: Vec<_> =
+            system.joints().iter().map(|joint| joint.support.at_m().unwrap_or_default()).collect();
+        sample.at_m.iter().for_each(|(joint, at_m)| places[*joint] = *at_m);
+        let found = prove_ranges(&system, &places, &sample.axial_n);
+        let is_rope = matches!(found, Err(NoRanges::NoBox { reason: NoBox::Rope { .. }, .. }));
+        assert!(is_rope, "{found:?}");
+    }
 }

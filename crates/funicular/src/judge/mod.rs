@@ -110,7 +110,6 @@ impl Judge {
         watch: &(dyn Fn(&str) + Sync),
     ) -> Result<Judged, Error> {
         threads::on(self.threads, || {
-            problem.without_ropes("judge")?;
             let system = system_of(problem);
             let judgement = judge_foreign(&system, answer, self.tolerance, watch)?;
             Ok(Judged { system, judgement })

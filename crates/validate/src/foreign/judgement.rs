@@ -1,6 +1,6 @@
 //! The judgement of an answer from elsewhere.
 
-use model::system::{System, SystemEquilibrium};
+use model::system::{RopeNotTaken, System, SystemEquilibrium};
 use model::{
     Agreed, Convergence, Disagreement, Excess, Ladder, Place, Quantity, Reason, SolverName, Status,
     Vector,
@@ -142,6 +142,17 @@ pub struct ToleranceError {
     pub tolerance: f64,
 }
 
+/// Why an answer is not judged.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NotJudged {
+    /// The tolerance is out of range.
+    #[error(transparent)]
+    Tolerance(#[from] ToleranceError),
+    /// A member is a rope over rings or pulleys, whose laws this judge does not know yet.
+    #[error(transparent)]
+    Rope(#[from] RopeNotTaken),
+}
+
 /// Below this rounding decides.
 const LEAST: f64 = 1e-13;
 /// Above this every shape is an equilibrium.
@@ -154,7 +165,7 @@ const POWERS: [f64; 12] =
 ///
 /// # Errors
 ///
-/// [`ToleranceError`] when the tolerance is out of range.
+/// [`NotJudged`] when the tolerance is out of range, or a member runs over rings or pulleys.
 ///
 /// ```
 /// use model::system::{Joint, Member, System};
@@ -186,9 +197,10 @@ pub fn judge_foreign(
     answer: &ForeignAnswer,
     tolerance: f64,
     watch: &dyn Fn(&str),
-) -> Result<Judgement, ToleranceError> {
+) -> Result<Judgement, NotJudged> {
+    system.without_ropes("judge")?;
     if !(LEAST..=MOST).contains(&tolerance) {
-        return Err(ToleranceError { tolerance });
+        return Err(ToleranceError { tolerance }.into());
     }
     let Trial { bounds, forces, completed, measured, force_digits } =
         trial(system, answer, tolerance, watch);

@@ -62,7 +62,7 @@ mod tests;
 mod violation;
 
 pub use given::{ForeignAnswer, GivenError};
-pub use judgement::{Finding, ForcesJudged, Judgement, ToleranceError, judge_foreign};
+pub use judgement::{Finding, ForcesJudged, Judgement, NotJudged, ToleranceError, judge_foreign};
 pub use nearest::{Nearest, NearestEquilibrium};
 pub use proved::ProvedError;
 pub use violation::{Law, Violation};

@@ -6,6 +6,7 @@ use model::{Bar, NoBox, NoCensus, NoCertificate, Reason, Status, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
+use validate::foreign::{ForeignAnswer, NotJudged, judge_foreign};
 use validate::systems::{SystemAnswer, ask, certify, judge};
 
 fn asked(system: &System) -> SystemAnswer {
@@ -163,4 +164,14 @@ fn random_nets_with_ropes_are_agreed_upon() {
         }
     }
     assert_eq!((agreed, jammed), (59, 1));
+}
+
+/// Who judges the answers of others knows straight members alone.
+#[test]
+fn answers_of_others_are_not_judged_with_ropes() {
+    let sample = samples::ropes().swap_remove(0);
+    let places = asked(&sample.system).equilibria[0].joints_m.clone();
+    let answer = ForeignAnswer::in_order(&sample.system, "a table", places, None).unwrap();
+    let found = judge_foreign(&sample.system, &answer, 1e-6, &|_| {});
+    assert!(matches!(found, Err(NotJudged::Rope(rope)) if rope.member == 1), "{found:?}");
 }
