@@ -104,7 +104,8 @@ pub enum NoRanges {
     },
     /// Occurs when there is no proof that one equilibrium is near for all values.
     #[error(
-        "{boxes} boxes of the uncertain numbers do not prove one equilibrium near for all of them ({reason}){}",
+        "one equilibrium near for all of them is not proved in {} of the uncertain numbers ({reason}){}",
+        in_boxes(*boxes),
         .part.map_or_else(String::new, |part| format!("; for {part} times the tolerances it is proved"))
     )]
     NoBox {
@@ -115,6 +116,10 @@ pub enum NoRanges {
         /// For which part of all tolerances there is one.
         part: Option<f64>,
     },
+}
+
+fn in_boxes(count: usize) -> String {
+    if count == 1 { "one box".to_owned() } else { format!("{count} boxes") }
 }
 
 fn listed(members: &[usize]) -> String {
