@@ -145,7 +145,8 @@ fn listed(members: &[usize]) -> String {
 /// let ranges = census::network::prove_ranges(&system, &answer, &[1.25, 1.25])?;
 /// // The force leans by 0.02 along x too: (0.02/2) 5/3 N more in one bar and less in the other.
 /// let [least, most] = ranges.axial_n[0].guaranteed;
-/// assert!(least < 1.22 && most > 1.28);
+/// assert!(1.22 < least && least < 1.98 * 0.625 - 0.02 * 5.0 / 6.0 + 1e-12);
+/// assert!(2.02 * 0.625 + 0.02 * 5.0 / 6.0 - 1e-12 < most && most < 1.281);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn prove_ranges(
