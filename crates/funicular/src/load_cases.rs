@@ -155,7 +155,7 @@ impl Solve {
             settled
         };
         let one = answer(&first.name, &[]);
-        let places = one.as_ref().map_or_else(|_| vec![], |(_, found)| found.joints_m.clone());
+        let places = one.as_ref().map_or_else(|_| vec![], |(.., found)| found.joints_m.clone());
         let rest = || others.par_iter().map(|case| answer(&case.name, &places)).collect::<Vec<_>>();
         let rest = solve.on_threads(rest)?;
         let all: Vec<_> = std::iter::once(one).chain(rest).collect();
@@ -163,15 +163,24 @@ impl Solve {
     }
 }
 
+/// A case that has an answer: the system under its loads.
+type InCase = (Settled, Arc<System>, SystemEquilibrium);
+
 /// The cases that have an answer, by their names.
 struct Answered<'a> {
     system: &'a System,
-    cases: Vec<(&'a str, &'a SystemEquilibrium)>,
+    cases: Vec<(&'a str, &'a InCase)>,
 }
 
 impl Answered<'_> {
-    fn largest(&self, number: impl Fn(&SystemEquilibrium) -> Option<f64>) -> Option<Governing> {
-        let numbers = self.cases.iter().filter_map(|(case, found)| Some((number(found)?, case)));
+    fn largest(
+        &self,
+        number: impl Fn(&System, &SystemEquilibrium) -> Option<f64>,
+    ) -> Option<Governing> {
+        let numbers = self.cases.iter().filter_map(|(case, (_, system, found))| {
+            let number = number(system, found)?;
+            Some((number, case))
+        });
         // Of equal ones the first.
         let (value, case) =
             numbers.reduce(|most, next| if next.0 > most.0 { next } else { most })?;
@@ -179,22 +188,22 @@ impl Answered<'_> {
     }
 
     fn bar(&self, bar: usize) -> Option<BarEnvelope> {
-        let along = |found: &SystemEquilibrium| found.axial_force(self.system, bar);
-        let least = self.largest(|found| Some(-along(found).least_n))?;
+        // What acts between its ends is that of the case.
+        let least = self.largest(|system, found| Some(-found.axial_force(system, bar).least_n))?;
         let member = &self.system.members()[bar];
         Some(BarEnvelope {
             bar,
             ends: [member.from, member.to].map(|end| self.system.joints()[end].name.clone()),
             least_n: Governing { value: -least.value, ..least },
-            most_n: self.largest(|found| Some(along(found).most_n))?,
-            utilisation: self.largest(|found| found.utilisation(self.system, bar)),
+            most_n: self.largest(|system, found| Some(found.axial_force(system, bar).most_n))?,
+            utilisation: self.largest(|system, found| found.utilisation(system, bar)),
         })
     }
 
     fn support(&self, joint: usize) -> Option<SupportEnvelope> {
         let Joint { name, support, .. } = &self.system.joints()[joint];
         support.at_m()?;
-        let most_n = self.largest(|found| {
+        let most_n = self.largest(|_, found| {
             let [x, y, z] = found.reactions_n[joint];
             Some(x.hypot(y).hypot(z))
         })?;
@@ -203,16 +212,13 @@ impl Answered<'_> {
 }
 
 impl LoadCasesAnswer {
-    fn new(
-        system: &Arc<System>,
-        found: &[Result<(Settled, SystemEquilibrium), Unsettled>],
-    ) -> Self {
+    fn new(system: &Arc<System>, found: &[Result<InCase, Unsettled>]) -> Self {
         let all = || system.load_cases().iter().map(|case| case.name.as_str()).zip(found);
-        let cases = all().filter_map(|(name, one)| Some((name, &one.as_ref().ok()?.1))).collect();
+        let cases = all().filter_map(|(name, one)| Some((name, one.as_ref().ok()?))).collect();
         let answered = Answered { system, cases };
-        let case = |(name, one): (&str, &Result<(Settled, _), Unsettled>)| CaseAnswer {
+        let case = |(name, one): (&str, &Result<InCase, Unsettled>)| CaseAnswer {
             name: name.to_owned(),
-            settled: one.as_ref().map(|(settled, _)| settled.clone()).map_err(Clone::clone),
+            settled: one.as_ref().map(|(settled, ..)| settled.clone()).map_err(Clone::clone),
         };
         Self {
             bars: (0..system.members().len()).filter_map(|bar| answered.bar(bar)).collect(),

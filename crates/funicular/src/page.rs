@@ -22,7 +22,7 @@ const MODES: usize = 12;
 ///
 /// ```
 /// use funicular::{Page, prelude::*};
-/// let page = Page::new().vary("loads=0..1.2")?.run(&Problem::case("lamp")?)?;
+/// let page = Page::new().vary("loads=0.5..1.2")?.run(&Problem::case("lamp")?)?;
 /// assert!(page.html().starts_with("<!DOCTYPE html>") && page.html().contains("Load paths"));
 /// assert!(page.answer().agrees());
 /// # Ok::<(), Error>(())

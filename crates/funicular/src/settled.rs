@@ -1,5 +1,7 @@
 //! What a system that has been changed comes to rest in.
 
+use std::sync::Arc;
+
 use model::system::{System, SystemEquilibrium, SystemRefusal};
 use model::{Rung, Vector};
 use serde::{Serialize, Serializer};
@@ -71,12 +73,13 @@ pub(crate) fn either<S: Serializer>(
     }
 }
 
-/// Where a system comes to rest whose joints were at `before_m`, m, if that is known, and its first equilibrium.
+/// Where a system comes to rest whose joints were at `before_m`, m, if that is known; the system as it was
+/// solved, and its first equilibrium.
 pub(crate) fn settle(
     solve: &Solve,
     system: System,
     before_m: &[Vector],
-) -> Result<(Settled, SystemEquilibrium), Unsettled> {
+) -> Result<(Settled, Arc<System>, SystemEquilibrium), Unsettled> {
     let refused = |refusal: SystemRefusal| Unsettled {
         outcome: match refusal {
             SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. } => Outcome::Falls,
@@ -96,8 +99,10 @@ pub(crate) fn settle(
         return Err(Unsettled { outcome: Outcome::Leaves, reason });
     }
     let settled = Settled::of(&answer, before_m);
-    let first = answer.into_parts().1.into_iter().next();
-    settled.zip(first).ok_or_else(|| unknown("no equilibrium".to_owned()))
+    let (system, found) = answer.into_parts();
+    let first = found.into_iter().next();
+    let all = settled.zip(first).map(|(settled, first)| (settled, system, first));
+    all.ok_or_else(|| unknown("no equilibrium".to_owned()))
 }
 
 impl Settled {

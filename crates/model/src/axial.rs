@@ -71,6 +71,19 @@ impl AxialForce {
     }
 }
 
+/// Loads in the order of their places, those at one place as one: no part of the member is between them.
+fn by_place(mut loads: Vec<(f64, Vector)>) -> Vec<(f64, Vector)> {
+    loads.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    loads.dedup_by(|(at, force), (before, sum)| {
+        let is_same = at.total_cmp(before).is_eq();
+        if is_same {
+            sum.iter_mut().zip(force).for_each(|(sum, component)| *sum += *component);
+        }
+        is_same
+    });
+    loads
+}
+
 impl SystemEquilibrium {
     /// The axial force along every member.
     ///
@@ -98,9 +111,9 @@ impl SystemEquilibrium {
         let weight_n = |part: f64| [0.0, 0.0, -part * body.mass_kg() * system.gravity_m_s2()];
         let place = |at_m: f64| at_m / body.length_m();
         let centre = place(body.centre_m());
-        let mut loads: Vec<(f64, Vector)> =
+        let loads: Vec<(f64, Vector)> =
             member.loads.iter().map(|load| (place(load.at_m), load.force_n)).collect();
-        loads.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let mut loads = by_place(loads);
         if (centre - 0.5).abs() <= f64::EPSILON && !loads.is_empty() {
             // The weight between one load and the next, in half before and half behind each load's jump.
             let mut spread = Vec::with_capacity(2 * loads.len() + 1);
@@ -114,6 +127,7 @@ impl SystemEquilibrium {
             loads = spread;
         } else {
             loads.push((centre, weight_n(1.0)));
+            loads = by_place(loads);
         }
         let forces_n = (self.start_forces_n[k], self.end_forces_n[k]);
         AxialForce::along(ends_m, forces_n, self.axial_n[k], loads)

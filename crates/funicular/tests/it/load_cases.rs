@@ -51,6 +51,27 @@ fn a_pole_in_still_air_storm_and_gale() {
     assert!(unfit.contains("\"still\", \"storm\", \"gale\""), "{unfit}");
 }
 
+/// A rod of 2 m and 4 kg that is lifted by 50 N in its middle and carries 10 kg: of twice all of that it bears 180 N
+/// at its top, 40 N less above its middle, 100 N more below it, and 200 N at its end.
+#[test]
+fn what_acts_along_a_bar_is_that_of_the_case() {
+    let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 10 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 2, mass_kg = 4, strength_n = 220, \
+        forces = [{ force_n = [0, 0, 50] }] }]\n\
+        cases = [{ name = 'twice', factors = { permanent = 2 } }]";
+    let problem = Problem::parse(text, "rod.toml").unwrap();
+    let found = Solve::new().load_cases(&problem).unwrap();
+    let bar = &found.bars()[0];
+    assert!(near(bar.most_n.value, 240.0) && near(bar.least_n.value, 140.0), "{bar:?}");
+    assert!(near(bar.utilisation.as_ref().unwrap().value, 240.0 / 220.0));
+    // As the case says by itself.
+    let alone = Solve::new().run(&problem.in_case("twice").unwrap()).unwrap();
+    let along = alone.equilibria()[0].axial_force(alone.system(), 0);
+    assert!(near(bar.most_n.value, along.most_n) && near(bar.least_n.value, along.least_n));
+    let settled = found.cases()[0].settled.as_ref().unwrap();
+    assert!(near(settled.weakest.unwrap().utilisation, 240.0 / 220.0));
+}
+
 /// What has no equilibrium in a case has one in the others.
 #[test]
 fn a_case_without_an_answer_leaves_the_others() {

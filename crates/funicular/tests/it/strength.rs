@@ -128,6 +128,20 @@ fn a_chain_with_strengths_is_the_same_chain() {
     assert_eq!((bare.2, strong.2), (None, Some(true)));
 }
 
+/// Loads at one place of a bar act as one, in whatever order they stand: nothing of it is between them.
+#[test]
+fn loads_at_one_place_are_one() {
+    for [first, second] in [[50, -50], [-50, 50]] {
+        let text = format!(
+            "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = [0, 0, 0] }}, P = {{ mass_kg = 10 }} }}\n\
+             bars = [{{ from = 'A', to = 'P', length_m = 2, mass_kg = 0, strength_n = 120, forces = [\
+             {{ force_n = [0, 0, {first}], at_m = 1 }}, {{ force_n = [0, 0, {second}], at_m = 1 }}] }}]"
+        );
+        let found = weakest(&text);
+        assert!((found.utilisation - 100.0 / 120.0).abs() < 1e-12, "{found:?}");
+    }
+}
+
 /// A bar fewer and a truss folds, a rope fewer and a bridle hangs elsewhere: which of its bars are meant
 /// stays as it was, and joints that nothing holds any more are gone with it.
 #[test]

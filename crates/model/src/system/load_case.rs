@@ -110,6 +110,7 @@ fn scale(factor: f64, joints: &mut [Joint], members: &mut [Member]) -> Result<()
     }
     for member in members {
         member.body = heavier(&member.body, factor)?;
+        member.scale_tolerances(factor);
         member.loads.iter_mut().for_each(|load| times(&mut load.force_n));
         if let Some(given) = &mut member.prestress {
             given.body = heavier(&given.body, factor)?;
@@ -213,6 +214,11 @@ impl System {
         Self { load_cases: other.load_cases, ..self }
     }
 
+    /// The same with other tolerances of its joints.
+    pub(crate) fn with_joints(self, joints: Vec<Joint>) -> Self {
+        Self { joints, row: super::row::Once::default(), ..self }
+    }
+
     /// The loads by name.
     #[must_use]
     pub fn named_loads(&self) -> &[NamedLoad] {
@@ -263,13 +269,21 @@ impl System {
             load: PERMANENT.to_owned(),
             factor: case.factor(PERMANENT),
         })?;
+        let mut largest = vec![case.factor(PERMANENT); joints.len()];
         for load in self.named_loads() {
             // What does not act leaves no trace, not even a zero.
             let factor = case.factor(&load.name);
             if factor.abs() > 0.0 {
                 load.act(factor, &mut joints, &mut members);
+                if let LoadOn::Joints { joints, .. } = &load.on {
+                    for k in joints {
+                        largest[*k] = largest[*k].max(factor.abs());
+                    }
+                }
             }
         }
+        // Which of its loads is off nobody has said: that with the largest factor.
+        joints.iter_mut().zip(largest).for_each(|(joint, by)| joint.scale_tolerances(by));
         let title = format!("{}, {name}", self.name);
         let system = Self::new(title, self.gravity_m_s2, joints, members)?;
         Ok(Self { floor_m: self.floor_m, ..system })

@@ -124,9 +124,26 @@ impl Member {
     }
 }
 
+impl Member {
+    /// The mass is so many times as large, and so is what it may be off.
+    pub(super) fn scale_tolerances(&mut self, factor: f64) {
+        if let Some(tolerances) = &mut self.tolerances {
+            tolerances.mass_kg *= factor;
+        }
+    }
+}
+
 const OF_MASS: &str = "positive and not more than the mass";
 
 impl Joint {
+    /// Its loads are up to so many times as large, and so is what they may be off.
+    pub(super) fn scale_tolerances(&mut self, factor: f64) {
+        if let Some(tolerances) = &mut self.tolerances {
+            tolerances.mass_kg *= factor;
+            tolerances.force_n *= factor;
+        }
+    }
+
     /// The same joint with a point mass known to within `mass_kg`, kg, the place of its support to within
     /// `at_m`, m, along each axis, and the components of its force to within `force_n`, N, as far as they
     /// are given.

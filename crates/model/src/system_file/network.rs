@@ -398,7 +398,7 @@ impl Reading<'_> {
                 }
                 _ => root.error(Kind::System(error), "bars"),
             })?;
-        let system = loads::by_name(root, system)?;
+        let system = tolerance::of_loads(root, loads::by_name(root, system)?)?;
         strength::check(root, &system)?;
         let key = if root.get("bars").is_some() { "bars" } else { "bars_file" };
         let room = root.source().budget.fits_solve(&system);

@@ -104,6 +104,26 @@ impl Tolerances {
     }
 }
 
+/// The tolerances of all for masses and forces that came by `[[loads]]`.
+pub(super) fn of_loads(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+    if root.get("tolerances").is_none() || root.get("loads").is_none() {
+        return Ok(system);
+    }
+    let all = all(root)?;
+    let given = |number: f64| Some(number).filter(|x| *x > 0.0);
+    let joint = |joint: &Joint| {
+        let own = joint.tolerances.as_deref().copied().unwrap_or_default();
+        let heavy = joint.mass_kg > 0.0;
+        let pulled = joint.force_n.iter().any(|x| x.abs() > 0.0);
+        let mass_kg = given(own.mass_kg()).or(all.mass_kg.filter(|_| heavy));
+        let force_n = given(own.force_n()).or(all.force_n.filter(|_| pulled));
+        let known = joint.clone().with_tolerances(mass_kg, given(own.at_m()), force_n);
+        known.map_err(|error| root.refused(error))
+    };
+    let joints = system.joints().iter().map(joint).collect::<Result<_, _>>()?;
+    Ok(system.with_joints(joints))
+}
+
 /// The first key about tolerances that the file of a chain has.
 pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
     let of_all = root.get("tolerances").map(|_| "tolerances");

@@ -92,6 +92,24 @@ fn each_case_has_its_loads_by_their_factors() {
     assert!(error.contains("mass at joint \"P\""), "{error}");
 }
 
+/// What a mass or force may be off is multiplied with it, and that of all counts for loads as well.
+#[test]
+fn tolerances_go_with_the_loads() {
+    let text = format!("[tolerances]\nmass_tolerance_kg = 0.1\nforce_tolerance_n = 0.25\n{LOADS}");
+    let system = system(&net(&text));
+    let off = |system: &System, joint: usize| {
+        system.joints()[joint].tolerances.as_deref().map(|t| [t.mass_kg(), t.force_n()])
+    };
+    // P has its force by the load alone, Q its mass.
+    assert_eq!([2, 3].map(|joint| off(&system, joint)), [Some([0.1, 0.25]); 2]);
+    let winter = system.in_case("winter").unwrap();
+    assert_eq!([2, 3].map(|joint| off(&winter, joint)), [Some([0.2, 0.5]); 2]);
+    let of_bar = winter.members()[0].tolerances.as_deref().map(|t| 1e9 * t.mass_kg());
+    assert_eq!(of_bar.map(f64::round), Some(0.15e9));
+    let storm = system.in_case("storm").unwrap();
+    assert_eq!([2, 3].map(|joint| off(&storm, joint)), [Some([0.1, 0.25]); 2]);
+}
+
 #[test]
 fn chains_have_them_too() {
     let loads = "[[loads]]\nname = \"ice\"\njoint = [1, 2]\nmass_kg = 2\n\
