@@ -234,13 +234,9 @@ pub fn tolerances<'py>(
 ) -> PyResult<(String, String)> {
     let solve = Solve::new().solvers(words::solvers(solver)?).census(words::census("never")?);
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        watch.tell("proving ranges", 0, 0);
-        let found = solve.tolerances_drawn(&of, draws, seed)?;
-        let text = serde_json::to_string(&found);
-        Ok::<_, Error>(text.map(|text| (text, printable(&found.to_string()))))
-    })?;
-    found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
+    let prove = move || Ok((solve.tolerances_drawn(&of, draws, seed)?, ()));
+    let (text, said, ()) = run_told(py, threads, progress, "proving ranges", prove)?;
+    Ok((text, said))
 }
 
 /// What is asked, by its words.

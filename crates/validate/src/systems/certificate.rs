@@ -186,6 +186,17 @@ struct Tangent {
     squared_gradient: f64,
 }
 
+/// The potential energies of the loads of the joints at their places, each with its size, J.
+pub(super) fn works(
+    loads: &[Vector],
+    place: impl Fn(usize) -> Vector,
+) -> impl Iterator<Item = (f64, f64)> {
+    loads.iter().enumerate().map(move |(k, load)| {
+        let at = place(k);
+        (-dot(*load, at), norm(*load) * norm(at))
+    })
+}
+
 /// Add the pushes of the floor to the loads of the joints: the energies of the floor's height under them, each
 /// with its size, J. Whatever is pushed the bound holds; what the answer's floor pulls is none.
 pub(super) fn pushed(
@@ -233,11 +244,7 @@ fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Ta
         }
         terms.push(tangent_j(member, *density, dot(along, along)));
     }
-    let works = loads.iter().enumerate().map(|(k, load)| {
-        let at = place(k);
-        (-dot(*load, at), norm(*load) * norm(at))
-    });
-    terms.extend(works);
+    terms.extend(works(&loads, place));
     let ulps = TERM_ULPS * f64::EPSILON;
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     // As many additions as members meet in a joint, each rounded.

@@ -22,7 +22,9 @@ use std::collections::VecDeque;
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{NoCertificate, Vector, sum};
 
-use super::certificate::{TERM_ULPS, along_supports, joint_loads, pushed, size_m, total_load_n};
+use super::certificate::{
+    TERM_ULPS, along_supports, joint_loads, pushed, size_m, total_load_n, works,
+};
 use super::spans::direction;
 use numerics::vector::{dot, minus, norm, plus, times};
 
@@ -78,11 +80,7 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
         let value_j = tension_n * (along_m - stretched_m) + 0.5 * tension_n * stretch_m;
         terms.push((value_j, tension_n * (size_m + stretched_m)));
     }
-    let works = loads.iter().enumerate().map(|(k, load)| {
-        let at = place(k);
-        (-dot(*load, at), norm(*load) * norm(at))
-    });
-    terms.extend(works);
+    terms.extend(works(&loads, place));
     let ulps = TERM_ULPS * f64::EPSILON;
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     let many =

@@ -29,6 +29,8 @@ mod refusals;
 mod reproduce;
 mod solve;
 mod starts;
+mod strength;
 mod table;
+mod tolerances;
 mod undecided;
 mod vary;

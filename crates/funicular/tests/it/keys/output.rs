@@ -74,6 +74,19 @@ impl Output {
         self.near(path, CLOSE, wanted);
     }
 
+    /// What a system is: its name, how many joints and bars, total length, total mass and gravity.
+    pub fn system(&mut self, name: &str, counts: [u32; 2], totals: [f64; 3]) {
+        self.is("system.name", name);
+        for (what, count) in ["joints", "bars"].into_iter().zip(counts) {
+            self.is(&format!("system.{what}"), count);
+        }
+        for (what, total) in
+            ["total_length_m", "total_mass_kg", "gravity_m_s2"].into_iter().zip(totals)
+        {
+            self.is(&format!("system.{what}"), total);
+        }
+    }
+
     /// The same of numbers that are less close.
     pub fn near(&mut self, path: &str, close: f64, wanted: impl Into<Value>) {
         let (found, wanted) = (self.found(path), leaves(&wanted.into()));

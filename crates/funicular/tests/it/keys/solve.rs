@@ -1,6 +1,6 @@
 //! `solve`: two bars between anchors on one level, a lamp on two light bars, the paper's chain.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::evidence::{self, NOTHING};
 use super::output::{Output, good, run};
@@ -14,9 +14,9 @@ bars = [{ length_m = 1, mass_kg = 1, count = 2 }]
 "#;
 
 /// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
+pub const DEPTH: f64 = 0.866_025_403_784_438_6;
 /// The moment of 10 N about an anchor is borne by H over the depth: H = 10 (1/4)/(√3/2), N.
-const H: f64 = 2.886_751_345_948_129;
+pub const H: f64 = 2.886_751_345_948_129;
 /// The mean force of a bar is (H, 5 N), along the bar: its size, N.
 const AXIAL: f64 = 5.773_502_691_896_258;
 
@@ -93,31 +93,6 @@ fn columns_of_level_v() {
     output.done();
 }
 
-/// Bars that bear 20 and 10 N in tension, twice as much as they are to.
-#[test]
-fn strength_of_level_v() {
-    let folder = tempfile::tempdir().unwrap();
-    let strong = "bars = [{ length_m = 1, mass_kg = 1, strength_n = 20 }, \
-                  { length_m = 1, mass_kg = 1, strength_n = 10, safety = 2 }]";
-    let text = LEVEL_V.replace("bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", strong);
-    std::fs::write(folder.path().join("v.toml"), text).unwrap();
-    // The force at the anchors, over each strength.
-    let largest = 0.5 * H + 10.0 * DEPTH;
-    let used = json!([largest / 20.0, largest / 10.0]);
-    let arguments = ["solve", "v.toml", "--json", "--bars-csv", "v.csv"];
-    let mut output = Output::json("solve", "strength_of_level_v", &good(folder.path(), &arguments));
-    output.each("equilibria[].bars[].utilisation", used.clone());
-    output.each("equilibria[].weakest.bar", 2);
-    output.each("equilibria[].weakest.utilisation", largest / 10.0);
-    output.each("equilibria[].weakest.safety", 10.0 / largest);
-    output.each("equilibria[].weakest.safety_wanted", 2.0);
-    output.done();
-    let columns = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
-    let mut output = Output::csv("solve --bars-csv", "strength_of_level_v", &columns);
-    output.each("utilisation", used);
-    output.done();
-}
-
 /// A block of 40 kg under gravity 10 on four strands, each of which bears a quarter; the last runs 3 m down and 4 m
 /// aside.
 #[test]
@@ -141,227 +116,6 @@ fn a_tackle() {
     let mut output = Output::csv("solve --bars-csv", "a_tackle", &columns);
     output.each("via", "block beam block beam");
     output.done();
-}
-
-/// 300 N on two ropes of 5 m from anchors 6 m apart, 187.5 N in each, by a hanger of 1 m. Without one of
-/// the ropes all hangs on the other; without the hanger the load falls.
-#[test]
-fn losses_of_two_ropes_and_a_hanger() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
-                B = { at_m = [3, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\nbars = [\
-                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 600 }, \
-                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 1200 }, \
-                { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0 }]";
-    std::fs::write(folder.path().join("ropes.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "ropes.toml", "--without", "each", "--json"]);
-    let mut output = Output::json("losses", "losses_of_two_ropes_and_a_hanger", &text);
-    output.is("schema_version", 3);
-    output.is("system.name", "ropes");
-    output.is("system.joints", 4);
-    output.is("system.bars", 3);
-    output.is("system.total_length_m", 11.0);
-    output.is("system.total_mass_kg", 30.0);
-    output.is("system.gravity_m_s2", 10.0);
-    output.is("losses[].bar", json!([1, 2, 3]));
-    output.is("losses[].lowest_m[]", json!([3.0, 0.0, -6.0, -3.0, 0.0, -6.0]));
-    output.is("losses[].lowest_joint", json!(["Q", "Q"]));
-    // Below the anchor that is left.
-    output.is("losses[].sag_m", json!([6.0, 6.0]));
-    // From 4 m below the middle to 5 m below an anchor.
-    output.is("losses[].moves", json!(["P", "P"]));
-    output.is("losses[].moves_m", json!([10.0_f64.sqrt(), 10.0_f64.sqrt()]));
-    output.is("losses[].tension_n[]", json!([2, 300.0, 1, 300.0]));
-    output.is("losses[].compression_n", json!([null, null]));
-    output.is("losses[].weakest.bar", json!([2, 1]));
-    output.is("losses[].weakest.utilisation", json!([0.25, 0.5]));
-    output.is("losses[].weakest.safety", json!([4.0, 2.0]));
-    output.is("losses[].weakest.safety_wanted", json!([1.0, 1.0]));
-    output.is("losses[].rung", json!(["optimal", "optimal"]));
-    output.is("losses[].agrees", json!([true, true]));
-    output.says("losses[].outcome", &["falls"]);
-    output.says("losses[].reason", &["no member meets joint \"Q\""]);
-    output.done();
-}
-
-/// 100 N between two ropes of 5 m from anchors 6 m apart, 3-4-5, and 30 N of wind along them: each rope takes
-/// 62.5 N of the weight and 25 N of the wind, or is relieved of it. A gust from the side as well, 75 N, tilts them as 3-4-5 and
-/// makes 125 N of the weight.
-#[test]
-fn load_cases_of_two_ropes() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
-                B = { at_m = [3, 0, 0] }, P = { mass_kg = 10 } }\nbars = [\
-                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 175 }, \
-                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 350 }]\n\
-                [[loads]]\nname = \"wind\"\njoint = \"P\"\nforce_n = [30, 0, 0]\n\
-                [[loads]]\nname = \"gust\"\njoint = \"P\"\nforce_n = [0, 75, 0]\n\
-                [[cases]]\nname = \"east\"\nfactors = { wind = 1 }\n\
-                [[cases]]\nname = \"west\"\nfactors = { wind = -1, gust = 1 }\n";
-    let nothing = "[[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
-    std::fs::write(folder.path().join("ropes.toml"), format!("{text}{nothing}")).unwrap();
-    let arguments = ["solve", "ropes.toml", "--load-case", "each", "--json"];
-    let (code, text) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(3));
-    let mut output = Output::json("load cases", "load_cases_of_two_ropes", &text);
-    output.is("schema_version", 3);
-    output.is("system.name", "ropes");
-    output.is("system.joints", 3);
-    output.is("system.bars", 2);
-    output.is("system.total_length_m", 10.0);
-    output.is("system.total_mass_kg", 10.0);
-    output.is("system.gravity_m_s2", 10.0);
-    output.is("cases[].name", json!(["east", "west", "nothing"]));
-    output.is("cases[].lowest_m[]", json!([0.0, 0.0, -4.0, 0.0, 2.4, -3.2]));
-    output.is("cases[].lowest_joint", json!(["P", "P"]));
-    output.is("cases[].sag_m", json!([4.0, 3.2]));
-    output.is("cases[].moves_m", json!([0.0, 2.4_f64.hypot(0.8)]));
-    output.is("cases[].moves", json!(["A", "P"]));
-    output.is("cases[].tension_n[]", json!([1, 87.5, 2, 103.125]));
-    output.is("cases[].compression_n", json!([null, null]));
-    output.is("cases[].weakest.bar", json!([1, 1]));
-    output.is("cases[].weakest.utilisation", json!([0.5, 53.125 / 175.0]));
-    output.is("cases[].weakest.safety", json!([2.0, 175.0 / 53.125]));
-    output.is("cases[].weakest.safety_wanted", json!([1.0, 1.0]));
-    output.is("cases[].rung", json!(["optimal", "optimal"]));
-    output.is("cases[].agrees", json!([true, true]));
-    output.says("cases[].outcome", &["no-load"]);
-    output.says("cases[].reason", &["no mass and no force"]);
-    output.is("bars[].bar", json!([1, 2]));
-    output.is("bars[].ends[]", json!(["A", "P", "B", "P"]));
-    output.is("bars[].least_n.value", json!([53.125, 37.5]));
-    output.is("bars[].least_n.case", json!(["west", "east"]));
-    output.is("bars[].most_n.value", json!([87.5, 103.125]));
-    output.is("bars[].most_n.case", json!(["east", "west"]));
-    output.is("bars[].utilisation.value", json!([0.5, 103.125 / 350.0]));
-    output.is("bars[].utilisation.case", json!(["east", "west"]));
-    output.is("supports[].joint", json!(["A", "B"]));
-    output.is("supports[].most_n.value", json!([87.5, 103.125]));
-    output.is("supports[].most_n.case", json!(["east", "west"]));
-    output.done();
-}
-
-/// A triangle on a roller folds without any of its bars; a bar that weighs leaves nothing behind.
-#[test]
-fn losses_after_which_nothing_hangs() {
-    let folder = tempfile::tempdir().unwrap();
-    let triangle = "plane = \"xz\"\njoints = { A = { at_m = [0, 0, 0] }, \
-                    B = { at_m = [2, 0, 0], free = \"x\" }, C = { near_m = [1, 0, 1], mass_kg = 100 } }\n\
-                    bars = [{ from = \"A\", to = \"B\", mass_kg = 0 }, { from = \"A\", to = \"C\", mass_kg = 0 }, \
-                    { from = \"B\", to = \"C\", mass_kg = 0 }]";
-    let alone = "joints = { A = { at_m = [0, 0, 0] }, P = {} }\n\
-                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1 }]";
-    for (text, outcome) in [(triangle, "leaves"), (alone, "no-load")] {
-        std::fs::write(folder.path().join("system.toml"), text).unwrap();
-        let text = good(folder.path(), &["solve", "system.toml", "--without", "each", "--json"]);
-        let mut output = Output::json("losses", "losses_after_which_nothing_hangs", &text);
-        output.says("losses[].outcome", &[outcome]);
-        output.done();
-    }
-}
-
-/// 2 kg and half a kilogram more or less on a bar of 3 m, straight below an anchor that is known to 0.1 m: the
-/// force is that of the weight, 20 N and 5, and P moves with the anchor. Uniform draws deviate by the
-/// tolerance over the root of three.
-#[test]
-fn tolerances_of_a_plumb_bob() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0], at_tolerance_m = 0.1 }, \
-                P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }\n\
-                bars = [{ from = \"A\", to = \"P\", length_m = 3, mass_kg = 0, strength_n = 50 }]";
-    std::fs::write(folder.path().join("bob.toml"), text).unwrap();
-    let arguments =
-        ["solve", "bob.toml", "--tolerances", "--json", "--monte-carlo", "400", "--seed", "7"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("solve", "tolerances_of_a_plumb_bob", &text);
-    output.is("tolerances.is_proved", true);
-    output.is("tolerances.is_stable", true);
-    output.is("tolerances.boxes", 1);
-    let [x, y, z, mass] =
-        ["A.at_m.x", "A.at_m.y", "A.at_m.z", "P.mass_kg"].map(|n| format!("joints.{n}"));
-    output.is("tolerances.numbers[].name", json!([x, y, z, mass]));
-    output.is("tolerances.numbers[].given", json!([0.0, 0.0, 0.0, 2.0]));
-    output.is("tolerances.numbers[].within", json!([0.1, 0.1, 0.1, 0.5]));
-    output.is("tolerances.joints[].name", json!(["A", "P"]));
-    // A bound of what vanishes is as wide as the rounding of all forces.
-    let rounding = 1e-10;
-    for (least, most) in [("least", "most"), ("least_reached", "most_reached")] {
-        let path = |of: &str, end: &str| format!("tolerances.{of}.{end}");
-        output.near(
-            &path("joints[].at_m[]", least),
-            rounding,
-            json!([-0.1, -0.1, -0.1, -0.1, -0.1, -3.1]),
-        );
-        output.near(
-            &path("joints[].at_m[]", most),
-            rounding,
-            json!([0.1, 0.1, 0.1, 0.1, 0.1, -2.9]),
-        );
-        output.near(&path("joints[].reaction_n[]", least), rounding, json!([0.0, 0.0, 15.0]));
-        output.near(&path("joints[].reaction_n[]", most), rounding, json!([0.0, 0.0, 25.0]));
-        output.near(&path("bars[].axial_n", least), rounding, 15.0);
-        output.near(&path("bars[].axial_n", most), rounding, 25.0);
-    }
-    output.each("tolerances.joints[].at_m[].is_hull", true);
-    output.each("tolerances.joints[].reaction_n[].is_hull", true);
-    output.each("tolerances.bars[].axial_n.is_hull", true);
-    // What no unknown moves depends on its own number alone, which is not named.
-    let none = Value::Null;
-    output.is("tolerances.joints[].at_m[].most_by", json!([none, none, none, x, y, z]));
-    output.is("tolerances.joints[].at_m[].most_change", json!([none, none, none, 0.1, 0.1, 0.1]));
-    output.is("tolerances.joints[].reaction_n[].most_by", json!([none, none, mass]));
-    output.is("tolerances.joints[].reaction_n[].most_change", json!([none, none, 5.0]));
-    // Nothing holds P but its bar.
-    output.is("tolerances.joints[].reaction_n", none);
-    output.is("tolerances.bars[].axial_n.most_by", mass);
-    output.is("tolerances.bars[].axial_n.most_change", 5.0);
-    output.is("tolerances.bars[].bar", 1);
-    output.is("tolerances.bars[].utilisation[]", json!([0.3, 0.5]));
-    output.is("tolerances.draws.count", 400);
-    output.is("tolerances.draws.solved", 400);
-    output.is("tolerances.draws.outside", 0);
-    output.is("tolerances.draws.seed", 7);
-    // Of 400 draws the mean is known to 1/20 of the deviation, and that to 1/40 of itself: four times that.
-    let third = 3.0_f64.sqrt().recip();
-    output.near("tolerances.bars[].drawn_n.mean", 0.03, 20.0);
-    output.near("tolerances.bars[].drawn_n.deviation", 0.1, 5.0 * third);
-    output.near(
-        "tolerances.joints[].drawn_m[].mean",
-        0.012,
-        json!([0.0, 0.0, 0.0, 0.0, 0.0, -3.0]),
-    );
-    output.near("tolerances.joints[].drawn_m[].deviation", 0.006, json!(vec![0.1 * third; 6]));
-    output.done();
-}
-
-/// A rope that may go slack within its tolerance, and one that may not reach: why nothing is proved.
-#[test]
-fn tolerances_without_a_proof() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = |within_m: f64, third_m: f64| {
-        format!(
-            "joints = {{ A = {{ at_m = [-3, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, C = {{ at_m = [0, 0, -5] }}, \
-             P = {{ mass_kg = 10 }} }}\nbars = [\
-             {{ from = 'A', to = 'P', length_m = 5, mass_kg = 0, length_tolerance_m = {within_m} }}, \
-             {{ from = 'B', to = 'P', length_m = 5, mass_kg = 0, length_tolerance_m = {within_m} }}, \
-             {{ from = 'C', to = 'P', length_m = {third_m}, mass_kg = 0, kind = 'cable', stiffness_n = 1e4 }}]"
-        )
-    };
-    for (within_m, third_m) in [(0.01, 1.001), (4.5, 9.0)] {
-        std::fs::write(folder.path().join("ropes.toml"), text(within_m, third_m)).unwrap();
-        let (code, said) = run(folder.path(), &["solve", "ropes.toml", "--tolerances", "--json"]);
-        assert_eq!(code, Some(3), "{said}");
-        let mut output = Output::json("solve", "tolerances_without_a_proof", &said);
-        output.is("tolerances.is_proved", false);
-        let words =
-            if third_m < 2.0 { "slack and taut: 3" } else { "times the tolerances it is proved" };
-        output.says("tolerances.reason", &[words]);
-        if third_m < 2.0 {
-            output.is("tolerances.may_change[]", 3);
-        } else {
-            output.within("tolerances.part", 1e-3..=0.5);
-        }
-    }
 }
 
 /// The paper's chain in its own numbering, from 40 digits; it may turn about the line between its
@@ -459,12 +213,7 @@ mass_kg = 0
 
 /// What a system is, as its file says.
 pub fn system_of_lamp(output: &mut Output) {
-    output.is("system.name", "lamp");
-    output.is("system.joints", 3);
-    output.is("system.bars", 2);
-    output.is("system.total_length_m", 7.0);
-    output.is("system.total_mass_kg", 2.0);
-    output.is("system.gravity_m_s2", 10.0);
+    output.system("lamp", [3, 2], [7.0, 2.0, 10.0]);
 }
 
 /// Joints, members and reactions of the lamp. 9/5 m along, 12/5 m down; the bars bear 4/5 and 3/5

@@ -1,0 +1,138 @@
+//! What bars bear: how much of it they use, what the loss of each does, load cases and their envelope.
+
+use serde_json::json;
+
+use super::output::{Output, good, run};
+use super::solve::{DEPTH, H, LEVEL_V};
+
+/// Bars that bear 20 and 10 N in tension, twice as much as they are to.
+#[test]
+fn strength_of_level_v() {
+    let folder = tempfile::tempdir().unwrap();
+    let strong = "bars = [{ length_m = 1, mass_kg = 1, strength_n = 20 }, \
+                  { length_m = 1, mass_kg = 1, strength_n = 10, safety = 2 }]";
+    let text = LEVEL_V.replace("bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", strong);
+    std::fs::write(folder.path().join("v.toml"), text).unwrap();
+    // The force at the anchors, over each strength.
+    let largest = 0.5 * H + 10.0 * DEPTH;
+    let used = json!([largest / 20.0, largest / 10.0]);
+    let arguments = ["solve", "v.toml", "--json", "--bars-csv", "v.csv"];
+    let mut output = Output::json("solve", "strength_of_level_v", &good(folder.path(), &arguments));
+    output.each("equilibria[].bars[].utilisation", used.clone());
+    output.each("equilibria[].weakest.bar", 2);
+    output.each("equilibria[].weakest.utilisation", largest / 10.0);
+    output.each("equilibria[].weakest.safety", 10.0 / largest);
+    output.each("equilibria[].weakest.safety_wanted", 2.0);
+    output.done();
+    let columns = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
+    let mut output = Output::csv("solve --bars-csv", "strength_of_level_v", &columns);
+    output.each("utilisation", used);
+    output.done();
+}
+
+/// 300 N on two ropes of 5 m from anchors 6 m apart, 187.5 N in each, by a hanger of 1 m. Without one of
+/// the ropes all hangs on the other; without the hanger the load falls.
+#[test]
+fn losses_of_two_ropes_and_a_hanger() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
+                B = { at_m = [3, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\nbars = [\
+                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 600 }, \
+                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 1200 }, \
+                { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0 }]";
+    std::fs::write(folder.path().join("ropes.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "ropes.toml", "--without", "each", "--json"]);
+    let mut output = Output::json("losses", "losses_of_two_ropes_and_a_hanger", &text);
+    output.is("schema_version", 3);
+    output.system("ropes", [4, 3], [11.0, 30.0, 10.0]);
+    output.is("losses[].bar", json!([1, 2, 3]));
+    output.is("losses[].lowest_m[]", json!([3.0, 0.0, -6.0, -3.0, 0.0, -6.0]));
+    output.is("losses[].lowest_joint", json!(["Q", "Q"]));
+    // Below the anchor that is left.
+    output.is("losses[].sag_m", json!([6.0, 6.0]));
+    // From 4 m below the middle to 5 m below an anchor.
+    output.is("losses[].moves", json!(["P", "P"]));
+    output.is("losses[].moves_m", json!([10.0_f64.sqrt(), 10.0_f64.sqrt()]));
+    output.is("losses[].tension_n[]", json!([2, 300.0, 1, 300.0]));
+    output.is("losses[].compression_n", json!([null, null]));
+    output.is("losses[].weakest.bar", json!([2, 1]));
+    output.is("losses[].weakest.utilisation", json!([0.25, 0.5]));
+    output.is("losses[].weakest.safety", json!([4.0, 2.0]));
+    output.is("losses[].weakest.safety_wanted", json!([1.0, 1.0]));
+    output.is("losses[].rung", json!(["optimal", "optimal"]));
+    output.is("losses[].agrees", json!([true, true]));
+    output.says("losses[].outcome", &["falls"]);
+    output.says("losses[].reason", &["no member meets joint \"Q\""]);
+    output.done();
+}
+
+/// 100 N between two ropes of 5 m from anchors 6 m apart, 3-4-5, and 30 N of wind along them: each rope takes
+/// 62.5 N of the weight and 25 N of the wind, or is relieved of it. A gust from the side as well, 75 N, tilts them as 3-4-5 and
+/// makes 125 N of the weight.
+#[test]
+fn load_cases_of_two_ropes() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
+                B = { at_m = [3, 0, 0] }, P = { mass_kg = 10 } }\nbars = [\
+                { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 175 }, \
+                { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 350 }]\n\
+                [[loads]]\nname = \"wind\"\njoint = \"P\"\nforce_n = [30, 0, 0]\n\
+                [[loads]]\nname = \"gust\"\njoint = \"P\"\nforce_n = [0, 75, 0]\n\
+                [[cases]]\nname = \"east\"\nfactors = { wind = 1 }\n\
+                [[cases]]\nname = \"west\"\nfactors = { wind = -1, gust = 1 }\n";
+    let nothing = "[[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
+    std::fs::write(folder.path().join("ropes.toml"), format!("{text}{nothing}")).unwrap();
+    let arguments = ["solve", "ropes.toml", "--load-case", "each", "--json"];
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(3));
+    let mut output = Output::json("load cases", "load_cases_of_two_ropes", &text);
+    output.is("schema_version", 3);
+    output.system("ropes", [3, 2], [10.0, 10.0, 10.0]);
+    output.is("cases[].name", json!(["east", "west", "nothing"]));
+    output.is("cases[].lowest_m[]", json!([0.0, 0.0, -4.0, 0.0, 2.4, -3.2]));
+    output.is("cases[].lowest_joint", json!(["P", "P"]));
+    output.is("cases[].sag_m", json!([4.0, 3.2]));
+    output.is("cases[].moves_m", json!([0.0, 2.4_f64.hypot(0.8)]));
+    output.is("cases[].moves", json!(["A", "P"]));
+    output.is("cases[].tension_n[]", json!([1, 87.5, 2, 103.125]));
+    output.is("cases[].compression_n", json!([null, null]));
+    output.is("cases[].weakest.bar", json!([1, 1]));
+    output.is("cases[].weakest.utilisation", json!([0.5, 53.125 / 175.0]));
+    output.is("cases[].weakest.safety", json!([2.0, 175.0 / 53.125]));
+    output.is("cases[].weakest.safety_wanted", json!([1.0, 1.0]));
+    output.is("cases[].rung", json!(["optimal", "optimal"]));
+    output.is("cases[].agrees", json!([true, true]));
+    output.says("cases[].outcome", &["no-load"]);
+    output.says("cases[].reason", &["no mass and no force"]);
+    output.is("bars[].bar", json!([1, 2]));
+    output.is("bars[].ends[]", json!(["A", "P", "B", "P"]));
+    output.is("bars[].least_n.value", json!([53.125, 37.5]));
+    output.is("bars[].least_n.case", json!(["west", "east"]));
+    output.is("bars[].most_n.value", json!([87.5, 103.125]));
+    output.is("bars[].most_n.case", json!(["east", "west"]));
+    output.is("bars[].utilisation.value", json!([0.5, 103.125 / 350.0]));
+    output.is("bars[].utilisation.case", json!(["east", "west"]));
+    output.is("supports[].joint", json!(["A", "B"]));
+    output.is("supports[].most_n.value", json!([87.5, 103.125]));
+    output.is("supports[].most_n.case", json!(["east", "west"]));
+    output.done();
+}
+
+/// A triangle on a roller folds without any of its bars; a bar that weighs leaves nothing behind.
+#[test]
+fn losses_after_which_nothing_hangs() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "plane = \"xz\"\njoints = { A = { at_m = [0, 0, 0] }, \
+                    B = { at_m = [2, 0, 0], free = \"x\" }, C = { near_m = [1, 0, 1], mass_kg = 100 } }\n\
+                    bars = [{ from = \"A\", to = \"B\", mass_kg = 0 }, { from = \"A\", to = \"C\", mass_kg = 0 }, \
+                    { from = \"B\", to = \"C\", mass_kg = 0 }]";
+    let alone = "joints = { A = { at_m = [0, 0, 0] }, P = {} }\n\
+                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1 }]";
+    for (text, outcome) in [(triangle, "leaves"), (alone, "no-load")] {
+        std::fs::write(folder.path().join("system.toml"), text).unwrap();
+        let text = good(folder.path(), &["solve", "system.toml", "--without", "each", "--json"]);
+        let mut output = Output::json("losses", "losses_after_which_nothing_hangs", &text);
+        output.says("losses[].outcome", &[outcome]);
+        output.done();
+    }
+}

@@ -1,0 +1,109 @@
+//! `solve --tolerances`: ranges, and why there are none.
+
+use serde_json::{Value, json};
+
+use super::output::{Output, good, run};
+
+/// 2 kg and half a kilogram more or less on a bar of 3 m, straight below an anchor that is known to 0.1 m: the
+/// force is that of the weight, 20 N and 5, and P moves with the anchor. Uniform draws deviate by the
+/// tolerance over the root of three.
+#[test]
+fn tolerances_of_a_plumb_bob() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0], at_tolerance_m = 0.1 }, \
+                P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }\n\
+                bars = [{ from = \"A\", to = \"P\", length_m = 3, mass_kg = 0, strength_n = 50 }]";
+    std::fs::write(folder.path().join("bob.toml"), text).unwrap();
+    let arguments =
+        ["solve", "bob.toml", "--tolerances", "--json", "--monte-carlo", "400", "--seed", "7"];
+    let text = good(folder.path(), &arguments);
+    let mut output = Output::json("solve", "tolerances_of_a_plumb_bob", &text);
+    output.is("tolerances.is_proved", true);
+    output.is("tolerances.is_stable", true);
+    output.is("tolerances.boxes", 1);
+    let [x, y, z, mass] =
+        ["A.at_m.x", "A.at_m.y", "A.at_m.z", "P.mass_kg"].map(|n| format!("joints.{n}"));
+    output.is("tolerances.numbers[].name", json!([x, y, z, mass]));
+    output.is("tolerances.numbers[].given", json!([0.0, 0.0, 0.0, 2.0]));
+    output.is("tolerances.numbers[].within", json!([0.1, 0.1, 0.1, 0.5]));
+    output.is("tolerances.joints[].name", json!(["A", "P"]));
+    // A bound of what vanishes is as wide as the rounding of all forces.
+    let rounding = 1e-10;
+    for (least, most) in [("least", "most"), ("least_reached", "most_reached")] {
+        let path = |of: &str, end: &str| format!("tolerances.{of}.{end}");
+        output.near(
+            &path("joints[].at_m[]", least),
+            rounding,
+            json!([-0.1, -0.1, -0.1, -0.1, -0.1, -3.1]),
+        );
+        output.near(
+            &path("joints[].at_m[]", most),
+            rounding,
+            json!([0.1, 0.1, 0.1, 0.1, 0.1, -2.9]),
+        );
+        output.near(&path("joints[].reaction_n[]", least), rounding, json!([0.0, 0.0, 15.0]));
+        output.near(&path("joints[].reaction_n[]", most), rounding, json!([0.0, 0.0, 25.0]));
+        output.near(&path("bars[].axial_n", least), rounding, 15.0);
+        output.near(&path("bars[].axial_n", most), rounding, 25.0);
+    }
+    output.each("tolerances.joints[].at_m[].is_hull", true);
+    output.each("tolerances.joints[].reaction_n[].is_hull", true);
+    output.each("tolerances.bars[].axial_n.is_hull", true);
+    // What no unknown moves depends on its own number alone, which is not named.
+    let none = Value::Null;
+    output.is("tolerances.joints[].at_m[].most_by", json!([none, none, none, x, y, z]));
+    output.is("tolerances.joints[].at_m[].most_change", json!([none, none, none, 0.1, 0.1, 0.1]));
+    output.is("tolerances.joints[].reaction_n[].most_by", json!([none, none, mass]));
+    output.is("tolerances.joints[].reaction_n[].most_change", json!([none, none, 5.0]));
+    // Nothing holds P but its bar.
+    output.is("tolerances.joints[].reaction_n", none);
+    output.is("tolerances.bars[].axial_n.most_by", mass);
+    output.is("tolerances.bars[].axial_n.most_change", 5.0);
+    output.is("tolerances.bars[].bar", 1);
+    output.is("tolerances.bars[].utilisation[]", json!([0.3, 0.5]));
+    output.is("tolerances.draws.count", 400);
+    output.is("tolerances.draws.solved", 400);
+    output.is("tolerances.draws.outside", 0);
+    output.is("tolerances.draws.seed", 7);
+    // Of 400 draws the mean is known to 1/20 of the deviation, and that to 1/40 of itself: four times that.
+    let third = 3.0_f64.sqrt().recip();
+    output.near("tolerances.bars[].drawn_n.mean", 0.03, 20.0);
+    output.near("tolerances.bars[].drawn_n.deviation", 0.1, 5.0 * third);
+    output.near(
+        "tolerances.joints[].drawn_m[].mean",
+        0.012,
+        json!([0.0, 0.0, 0.0, 0.0, 0.0, -3.0]),
+    );
+    output.near("tolerances.joints[].drawn_m[].deviation", 0.006, json!(vec![0.1 * third; 6]));
+    output.done();
+}
+
+/// A rope that may go slack within its tolerance, and one that may not reach: why nothing is proved.
+#[test]
+fn tolerances_without_a_proof() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = |within_m: f64, third_m: f64| {
+        format!(
+            "joints = {{ A = {{ at_m = [-3, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, C = {{ at_m = [0, 0, -5] }}, \
+             P = {{ mass_kg = 10 }} }}\nbars = [\
+             {{ from = 'A', to = 'P', length_m = 5, mass_kg = 0, length_tolerance_m = {within_m} }}, \
+             {{ from = 'B', to = 'P', length_m = 5, mass_kg = 0, length_tolerance_m = {within_m} }}, \
+             {{ from = 'C', to = 'P', length_m = {third_m}, mass_kg = 0, kind = 'cable', stiffness_n = 1e4 }}]"
+        )
+    };
+    for (within_m, third_m) in [(0.01, 1.001), (4.5, 9.0)] {
+        std::fs::write(folder.path().join("ropes.toml"), text(within_m, third_m)).unwrap();
+        let (code, said) = run(folder.path(), &["solve", "ropes.toml", "--tolerances", "--json"]);
+        assert_eq!(code, Some(3), "{said}");
+        let mut output = Output::json("solve", "tolerances_without_a_proof", &said);
+        output.is("tolerances.is_proved", false);
+        let words =
+            if third_m < 2.0 { "slack and taut: 3" } else { "times the tolerances it is proved" };
+        output.says("tolerances.reason", &[words]);
+        if third_m < 2.0 {
+            output.is("tolerances.may_change[]", 3);
+        } else {
+            output.within("tolerances.part", 1e-3..=0.5);
+        }
+    }
+}
