@@ -39,6 +39,9 @@ pub enum Error {
     #[cfg(feature = "branches")]
     #[error("a page follows a load path over a range alone, such as loads=0..1.2")]
     PageRange,
+    /// Occurs when a file format has no counterpart of a part of the system.
+    #[error(transparent)]
+    Export(#[from] formats::export::ExportError),
     /// Occurs when load cases are asked for, and the file of the system has none.
     #[error(
         "this system has no load cases: tables [[cases]] with a name, and factors of its [[loads]]"

@@ -173,6 +173,7 @@ pub use equilibria::system_of;
 pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
+pub use formats::export;
 pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
 pub use lagrange::network::Gradient;

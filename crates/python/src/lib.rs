@@ -50,6 +50,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::page, module)?)?;
     module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
     module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::export, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;
     module.add_function(wrap_pyfunction!(basins::basins, module)?)?;

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
+use funicular::export::{Shape, Target};
 use funicular::prelude::{Solve, SolveAnswer, Vector};
 use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
@@ -15,7 +16,7 @@ use serde::Serialize;
 use crate::arrays::{column, numbers, rows, vectors};
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{internal, raise, unwritten};
+use crate::raise::{bad_word, internal, raise, unwritten};
 use crate::{words, work};
 
 /// One equilibrium in arrays, in the order of joints and members.
@@ -245,6 +246,36 @@ fn solver_of(solver: &str, equations: &str, census: &str) -> PyResult<Solve> {
         .solvers(words::solvers(solver)?)
         .equations(words::equations(equations)?)
         .census(words::census(census)?))
+}
+
+/// The text of a file for another program, of the format that an ending stands for.
+#[pyfunction]
+pub fn export(
+    py: Python<'_>,
+    problem: &Problem,
+    joints_m: PyReadonlyArrayDyn<'_, f64>,
+    axial_n: PyReadonlyArrayDyn<'_, f64>,
+    reactions_n: PyReadonlyArrayDyn<'_, f64>,
+    used: Option<PyReadonlyArrayDyn<'_, f64>>,
+    ending: &str,
+) -> PyResult<String> {
+    let target = Target::of_ending(ending);
+    let target = target.ok_or_else(|| bad_word("ending", ending, &Target::ENDINGS))?;
+    let (joints_m, reactions_n) = (vectors(&joints_m)?, vectors(&reactions_n)?);
+    let (axial_n, used) = (numbers(&axial_n)?, used.as_ref().map(numbers).transpose()?);
+    // NaN stands for a member without strength.
+    let used = used.unwrap_or_default().into_iter();
+    let used: Vec<Option<f64>> =
+        used.map(|part| Some(part).filter(|part| !part.is_nan())).collect();
+    let system = problem.system();
+    let shape = Shape {
+        system: &system,
+        joints_m: &joints_m,
+        axial_n: &axial_n,
+        reactions_n: &reactions_n,
+        used: &used,
+    };
+    py.detach(|| shape.text(target)).map_err(|error| raise(&Error::from(error)))
 }
 
 /// A drawing of joints, axial forces and forces of the ground to scale, as SVG.

@@ -137,7 +137,7 @@ fn parts(error: &Error) -> Parts {
         Error::Motion(_) => ("MotionError", vec![]),
         Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
         Error::Continuation(_) | Error::Load(_) => ("TraceError", vec![]),
-        Error::Format(_) => ("InputError", vec![]),
+        Error::Format(_) | Error::Export(_) => ("InputError", vec![]),
         _ => ("Error", vec![]),
     }
 }

@@ -4,6 +4,7 @@
 
 mod answers;
 mod compas;
+mod export;
 mod forces;
 mod moordyn;
 mod nets;

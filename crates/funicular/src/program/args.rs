@@ -117,6 +117,9 @@ pub enum Command {
     /// along a load path
     #[command(after_help = ALL_OR_NOTHING)]
     Page(crate::page::Arguments),
+    /// Write the equilibrium as a file for ParaView, CAD, 3D programs, MuJoCo, MoorDyn or COMPAS
+    #[command(after_help = ALL_OR_NOTHING)]
+    Convert(crate::convert::Arguments),
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
     /// Find the frequencies and shapes of small oscillations, and how fast unstable equilibria are

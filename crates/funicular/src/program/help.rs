@@ -13,7 +13,7 @@ use crate::guide;
 
 /// The commands, by what they are for.
 const GROUPS: [(&str, &[&str]); 6] = [
-    ("Equilibria", &["solve", "census", "study", "derivatives", "trace", "page"]),
+    ("Equilibria", &["solve", "census", "study", "derivatives", "trace", "page", "convert"]),
     ("Motion", &["modes", "simulate"]),
     ("Answers of others", &["judge"]),
     ("Many starts", &["sweep", "basins", "merge"]),

@@ -8,6 +8,7 @@ mod basins;
 mod case_name;
 mod cases;
 mod census;
+mod convert;
 mod cost;
 mod derivatives;
 mod diagnostics;
@@ -67,6 +68,7 @@ fn main() -> std::process::ExitCode {
         Command::Derivatives(arguments) => derivatives::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Page(arguments) => page::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),

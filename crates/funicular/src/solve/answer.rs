@@ -3,11 +3,13 @@
 use std::io::{self, Write};
 use std::sync::Arc;
 
+use formats::export::{Shape, Target};
 use model::system::{System, SystemEquilibrium};
 use model::{Rung, SolverName, Vector};
 use validate::systems::{Near, SystemAgreement, SystemAnswer, SystemFailure};
 
 use crate::csv::{Numbers, quoted};
+use crate::error::Error;
 use crate::weakest::Weakest;
 
 /// What the solvers found for a [`Problem`](crate::Problem), and how far it is proved. A chain is here
@@ -110,6 +112,27 @@ impl SolveAnswer {
     pub fn is_strong(&self) -> Option<bool> {
         let weakest = self.equilibria().iter().filter_map(|e| Weakest::of(&self.system, e));
         weakest.map(|weakest| weakest.suffices()).reduce(|a, b| a && b)
+    }
+
+    /// The first equilibrium as a file for another program; no text where there is no equilibrium.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Export`] for what the format cannot hold.
+    ///
+    /// ```
+    /// use funicular::{export::Target, prelude::*};
+    /// let answer = Solve::new().run(&Problem::case("lamp")?)?;
+    /// let text = answer.export(Target::Vtu)?.unwrap();
+    /// assert!(text.contains("axial_n"));
+    /// // The cables of the lamp do not stretch, as lines of MoorDyn do.
+    /// assert!(answer.export(Target::MoorDyn).is_err());
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn export(&self, target: Target) -> Result<Option<String>, Error> {
+        let Some(found) = self.equilibria().first() else { return Ok(None) };
+        let used = found.utilisations(&self.system).unwrap_or_default();
+        Ok(Some(Shape::new(&self.system, found, &used).text(target)?))
     }
 
     /// Joints as CSV, a line per solver and joint: its place, and the force of the ground on it.

@@ -5,6 +5,7 @@ mod census;
 mod census_lists;
 mod census_systems;
 mod command_line;
+mod convert;
 mod derivatives;
 mod displayed;
 mod drawn;

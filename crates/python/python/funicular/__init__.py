@@ -17,6 +17,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the loss of each member | :func:`losses` |
 | load cases and their envelope | :func:`load_cases` |
 | a page to look at it | :func:`page` |
+| files for ParaView, CAD, MuJoCo, MoorDyn, COMPAS | :meth:`Answer.export` |
 | guaranteed ranges over tolerances | :func:`tolerances` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |

@@ -20,6 +20,7 @@ __all__ = [
     "census",
     "derivatives",
     "draw",
+    "export",
     "get_threads",
     "judge",
     "limit_work",
@@ -109,6 +110,9 @@ def solve(
     problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
 ) -> tuple[str, list[dict[str, Any]]]: ...
 def solve_text(problem: Problem, solver: str, equations: str, census: str) -> str: ...
+def export(
+    problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array, used: _Array | None, ending: str
+) -> str: ...
 def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array, view: str) -> str: ...
 def solve_many(
     chains: int,

@@ -214,6 +214,19 @@ class Equilibrium(Result):
         joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_max_n, self.reactions_n))
         return _native.draw(self.system._problem, joints, axial, ground, view)
 
+    def export(self, ending: str) -> str:
+        """The text of a file for another program, of the format that the ending of its name stands for.
+
+        ``vtu`` ParaView, ``dxf`` CAD, ``obj`` and ``gltf`` solids, ``xml`` MuJoCo, ``txt`` MoorDyn, ``json`` COMPAS.
+
+        >>> import funicular as fn
+        >>> text = fn.System.case("lamp").solve().export("vtu")
+        >>> text.startswith("<?xml"), "axial_n" in text
+        (True, True)
+        """
+        lists = map(np.ascontiguousarray, (self.joints_m, self.axial_n, self.reactions_n))
+        return _native.export(self.system._problem, *lists, self.utilisation, str(ending))
+
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
         return plot(self, ax, space=space, forces=forces, view=view)
@@ -417,6 +430,10 @@ class Answer(Result):
     def svg(self, view: str = "best") -> str:
         """The picture to scale; see :meth:`Equilibrium.svg`."""
         return self.equilibria[0].svg(view)
+
+    def export(self, ending: str) -> str:
+        """The text of a file for another program; see :meth:`Equilibrium.export`."""
+        return self.equilibria[0].export(ending)
 
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed."""

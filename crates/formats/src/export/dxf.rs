@@ -1,0 +1,61 @@
+//! DXF of AutoCAD R12 in ASCII: a layer for each kind of member, for the joints and for their names.
+//!
+//! # References
+//!
+//! AutoCAD R12 Customization Manual, "Drawing Interchange and File Formats".
+
+use std::fmt::Write as _;
+
+use model::Vector;
+use numerics::vector::{minus, norm};
+
+use super::{Shape, kind};
+
+/// Colours of AutoCAD: tension, compression, neither.
+const COLOURS: [u8; 3] = [5, 1, 8];
+/// Height of the names as a part of the structure's extent.
+const TEXT: f64 = 0.02;
+
+pub(super) fn write(shape: &Shape<'_>) -> String {
+    let mut text = "0\nSECTION\n2\nENTITIES\n".to_owned();
+    for line in shape.lines() {
+        let colour = match line.axial_n {
+            force if force > 0.0 => COLOURS[0],
+            force if force < 0.0 => COLOURS[1],
+            _ => COLOURS[2],
+        };
+        let _ = write!(text, "0\nLINE\n8\n{}s\n62\n{colour}\n", kind(line.member));
+        for (end, joint) in line.ends.into_iter().enumerate() {
+            place(&mut text, end, shape.joints_m[joint]);
+        }
+    }
+    let height = TEXT * extent(shape.joints_m);
+    for (joint, at_m) in shape.system.joints().iter().zip(shape.joints_m) {
+        let layer = if joint.support.at_m().is_some() { "supports" } else { "joints" };
+        let _ = write!(text, "0\nPOINT\n8\n{layer}\n");
+        place(&mut text, 0, *at_m);
+        // A line of its own for each value: a name cannot have another.
+        let name: String = joint.name.chars().filter(|c| !c.is_control()).collect();
+        let _ = write!(text, "0\nTEXT\n8\nnames\n");
+        place(&mut text, 0, *at_m);
+        let _ = write!(text, "40\n{height:?}\n1\n{name}\n");
+    }
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+/// The groups of a point: 10, 20, 30 of the first, 11, 21, 31 of the second.
+fn place(text: &mut String, number: usize, at_m: Vector) {
+    for (k, x) in at_m.into_iter().enumerate() {
+        let _ = write!(text, "{}\n{x:?}\n", 10 * (k + 1) + number);
+    }
+}
+
+/// The diagonal of the box around the joints, m.
+pub(super) fn extent(joints_m: &[Vector]) -> f64 {
+    let of = |pick: fn(f64, f64) -> f64, start: f64| -> Vector {
+        std::array::from_fn(|k| joints_m.iter().map(|at| at[k]).fold(start, pick))
+    };
+    let extent = norm(minus(of(f64::max, f64::NEG_INFINITY), of(f64::min, f64::INFINITY)));
+    if extent > 0.0 { extent } else { 1.0 }
+}

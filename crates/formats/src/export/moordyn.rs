@@ -1,0 +1,77 @@
+//! MoorDyn's input: what [`parse_moordyn`](crate::system::parse_moordyn) reads.
+
+use std::fmt::Write as _;
+
+use model::system::Kind;
+
+use super::{ExportError, Shape};
+
+/// Density of the lines' material, kg/m^3: only their volume follows from it, which weighs nothing in the file's water.
+const STEEL: f64 = 7850.0;
+
+/// A line of one segment for each member, in water of no density, so that masses are weights.
+pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
+    let refuse = |what| Err(ExportError::NoCounterpart { format: "MoorDyn", what });
+    let g = shape.system.gravity_m_s2();
+    let mut types = String::new();
+    let mut lines = String::new();
+    for (k, member) in shape.system.members().iter().enumerate() {
+        let number = k + 1;
+        let Some(stiffness_n) = member.stiffness_n else {
+            return refuse(format!("line that does not stretch (member {number})"));
+        };
+        if member.kind != Kind::Cable || member.rope.is_some() {
+            let what = if member.rope.is_some() { "over pulleys" } else { "in compression" };
+            return refuse(format!("line {what} (member {number})"));
+        }
+        let (length_m, mass_kg) = (member.body.length_m(), member.body.mass_kg());
+        if !member.loads.is_empty()
+            || (member.body.centre_m() - 0.5 * length_m).abs() > 1e-12 * length_m
+        {
+            return refuse(format!("line loaded unevenly (member {number})"));
+        }
+        let per_m = mass_kg / length_m;
+        let diameter_m =
+            (4.0 * per_m.max(f64::MIN_POSITIVE) / (STEEL * std::f64::consts::PI)).sqrt();
+        let _ = writeln!(
+            types,
+            "t{number}  {diameter_m:?}  {per_m:?}  {stiffness_n:?}  -1.0  0.0  1.0  1.0  0.0  0.0"
+        );
+        let [from, to] = [member.from + 1, member.to + 1];
+        let _ = writeln!(lines, "{number}  t{number}  {from}  {to}  {length_m:?}  1  -");
+    }
+    let mut points = String::new();
+    for (k, (joint, at_m)) in shape.system.joints().iter().zip(shape.joints_m).enumerate() {
+        let [fx, fy, fz] = joint.force_n;
+        if joint.support.at_m().is_some() && !joint.support.is_fixed() {
+            return refuse(format!("point that slides (joint {:?})", joint.name));
+        }
+        if fx.abs() + fy.abs() > 0.0 {
+            return refuse(format!("level force at rest (joint {:?})", joint.name));
+        }
+        let kind = if joint.support.is_fixed() { "Fixed" } else { "Free" };
+        let [x, y, z] = at_m;
+        let mass_kg = joint.mass_kg - fz / g;
+        let _ = writeln!(points, "{}  {kind}  {x:?}  {y:?}  {z:?}  {mass_kg:?}  0  0  0", k + 1);
+    }
+    let floor = shape.system.floor_m().map_or(Ok(String::new()), |floor_m| {
+        if floor_m < 0.0 {
+            Ok(format!("{:?}  WtrDpth\n", -floor_m))
+        } else {
+            refuse(format!("floor at or above the water's surface (z = {floor_m} m)"))
+        }
+    })?;
+    let name: String = shape.system.name().chars().filter(|c| !c.is_control()).collect();
+    Ok(format!(
+        "--------------------- MoorDyn Input File ---------------------\n{name}\n\
+         ---------------------- LINE TYPES ----------------------------\n\
+         TypeName  Diam  MassDen  EA  BA/-zeta  EI  Cd  Ca  CdAx  CaAx\n(name)  (m)  (kg/m)  (N)  (N-s/-)  (N-m^2)  (-)  (-)  (-)  (-)\n{types}\
+         ---------------------- POINTS --------------------------------\n\
+         ID  Type  X  Y  Z  M  V  CdA  CA\n(#)  (-)  (m)  (m)  (m)  (kg)  (m^3)  (m^2)  (-)\n{points}\
+         ---------------------- LINES ---------------------------------\n\
+         ID  LineType  AttachA  AttachB  UnstrLen  NumSegs  LineOutputs\n(#)  (name)  (#)  (#)  (m)  (-)  (-)\n{lines}\
+         ---------------------- OPTIONS -------------------------------\n\
+         {g:?}  g\n0.0  rhoW\n{floor}\
+         ---------------------- need this line ------------------------\n"
+    ))
+}

@@ -1,0 +1,68 @@
+//! `funicular convert`: the equilibrium as a file for another program.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use funicular::Solve;
+use funicular::export::Target;
+
+use crate::diagnostics::Diagnostic;
+use crate::exit::{Exit, Failure};
+use crate::input::{Drawn, Input};
+use crate::interrupt::end_on_interrupt;
+use crate::output;
+use crate::progress::Progress;
+use crate::solve;
+use crate::threads;
+
+/// What is written.
+const HELP: &str = "\
+The ending of the file says what is written, of the equilibrium that both solvers find:
+  .vtu         ParaView: lines with forces and utilisation, joints with reactions
+  .dxf         CAD: lines in a layer for each kind of member, joints with names
+  .obj .gltf   3D programs: members as prisms, coloured by tension and compression
+  .xml         MuJoCo: masses at the joints, members as tendons
+  .txt .dat    MoorDyn: lines of one segment between points; elastic cables
+  .json        COMPAS: a graph with force densities and loads
+Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may be a file of MoorDyn
+or COMPAS too.";
+
+/// `funicular convert`.
+#[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub input: Drawn,
+    /// Write this file; its ending says for which program (see --help)
+    #[arg(long, value_name = "FILE")]
+    pub to: PathBuf,
+    /// How many threads; 0 means one per processor. The file does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
+    pub threads: usize,
+}
+
+/// Run the command.
+pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
+    threads::install(arguments.threads)?;
+    let ending = arguments.to.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let target = Target::of_ending(ending).ok_or_else(|| {
+        let message = format!("no format has the ending of {}", arguments.to.display());
+        let help = format!("there are .{}", Target::ENDINGS.join(", ."));
+        Failure::bad_input(Diagnostic::from(message).with_help(help))
+    })?;
+    let Input { problem, files } = arguments.input.read()?;
+    output::check([arguments.to.as_path()], &files)?;
+    let progress = Progress::start();
+    progress.say("the equilibrium");
+    let found = Solve::new().run(&problem)?;
+    drop(progress);
+    let Some(text) = found.export(target)? else {
+        eprint!("{}", funicular::text::answer(&found, false, false));
+        return Ok(solve::verdict(&found));
+    };
+    output::write_whole(&arguments.to, &text)?;
+    let verdict = found.agreement().map_or_else(String::new, |both| format!("; {}", both.verdict));
+    output::print(&format!("{}: {}{verdict}\n", arguments.to.display(), target.describe()))?;
+    Ok(solve::verdict(&found))
+}
