@@ -224,8 +224,8 @@ class Equilibrium(Result):
         >>> text.startswith("<?xml"), "axial_n" in text
         (True, True)
         """
-        lists = map(np.ascontiguousarray, (self.joints_m, self.axial_n, self.reactions_n))
-        return _native.export(self.system._problem, *lists, self.utilisation, str(ending))
+        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_n, self.reactions_n))
+        return _native.export(self.system._problem, joints, axial, ground, self.utilisation, str(ending))
 
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
