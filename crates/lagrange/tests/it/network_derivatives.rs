@@ -50,7 +50,7 @@ fn roped() -> System {
         Joint::anchor("B", [2.0, -0.5, 0.0]),
         Joint::anchor("C", [0.2, 2.0, -0.2]),
         Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]),
-        Joint::free("Q").with_mass(0.7),
+        Joint::free("Q").with_mass(1.7).with_force([2.0, 3.0, 0.0]),
         Joint::free("R").with_mass(1.1).with_force([0.0, -0.2, 0.1]),
     ];
     let rope = |path: &[usize], length_m: f64| {
@@ -58,12 +58,12 @@ fn roped() -> System {
         Member::cable(path[0], path[last], body).over(path[1..last].to_vec())
     };
     let members = vec![
-        rope(&[0, 3, 1, 4, 3, 2], 12.0),
+        rope(&[0, 3, 1, 3, 4, 2], 10.5),
         rope(&[3, 1, 5], 5.0).with_stiffness(90.0),
-        rope(&[1, 0, 2], 8.0).with_stiffness(40.0),
-        cable(2, 4, 2.6, 0.4),
-        cable(0, 5, 3.2, 0.2).with_stiffness(150.0),
-        bar(4, 5, 2.0, 0.6),
+        rope(&[1, 0, 2], 6.5).with_stiffness(40.0),
+        cable(2, 4, 2.2, 0.4),
+        cable(0, 5, 3.0, 0.2).with_stiffness(150.0).with_prestress(4.0).unwrap(),
+        bar(4, 5, 2.4, 0.6),
     ];
     System::new("roped", 9.80665, joints, members).unwrap()
 }
