@@ -29,7 +29,7 @@ pub(crate) const CLOSED: f64 = 1e-12;
 /// One gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contact {
-    /// An inextensible cable or strut, by its number among the members, from 0.
+    /// An inextensible cable, rope or strut, by its number among the members, from 0.
     Member(usize),
     /// A joint above the floor, by its number, from 0.
     Floor(usize),

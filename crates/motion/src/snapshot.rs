@@ -23,7 +23,7 @@ pub struct Snapshot {
     /// Their accelerations, m/s².
     pub accelerations_m_s2: Vec<Vector>,
     /// Axial force of each member with weights, forces and inertia lumped to its joints, N, tension
-    /// positive.
+    /// positive; of a rope the same in all its spans.
     pub axial_n: Vec<f64>,
     /// For each member the force on it at the joint where it begins, world frame, N.
     pub start_forces_n: Vec<Vector>,
