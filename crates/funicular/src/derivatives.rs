@@ -126,7 +126,8 @@ pub enum DerivativesError {
     /// Occurs when derivatives by a parameter are not known.
     #[error(
         "there are no derivatives by `{text}`: there are some by `length_m`, `mass_kg`, \
-         `stiffness_n` and `prestress_n` of one bar, `mass_kg` and `force_n` of a joint, `at_m` of an anchor"
+         `stiffness_n` and `prestress_n` of one bar (of a rope no `mass_kg`), `mass_kg` and `force_n` of a joint, \
+         `at_m` of an anchor"
     )]
     NoParameter {
         /// The text.
@@ -147,7 +148,6 @@ impl Derivatives {
     ///
     /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
-        problem.without_ropes("derivatives")?;
         problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         system.refusal()?;
@@ -261,7 +261,9 @@ impl DerivativesAnswer {
         let bar = |k: usize, field| Number::Bar(Which::One(k + 1), field);
         for (k, member) in self.system.members().iter().enumerate() {
             add(bar(k, BarField::Length), gradient.by_length[k]);
-            add(bar(k, BarField::Mass), gradient.by_mass[k]);
+            if member.rope.is_none() {
+                add(bar(k, BarField::Mass), gradient.by_mass[k]);
+            }
             if member.stiffness_n.is_some() {
                 add(bar(k, BarField::Stiffness), gradient.by_stiffness[k]);
             }
@@ -317,11 +319,12 @@ impl DerivativesAnswer {
     fn parameter(&self, text: &str) -> Result<(Number, network::Parameter, f64), Error> {
         let number = self.checked(text)?;
         let joint = |name: &str| self.system.joint(name);
+        let is_rope = |member: usize| self.system.members()[member].rope.is_some();
         let (parameter, scale) = match &self.system.resolved(&number) {
             Number::Bar(Which::One(bar), BarField::Length) => {
                 (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
             }
-            Number::Bar(Which::One(bar), BarField::Mass) => {
+            Number::Bar(Which::One(bar), BarField::Mass) if !is_rope(bar - 1) => {
                 (Some(network::Parameter::Mass { member: bar - 1 }), 1.0)
             }
             Number::Bar(Which::One(bar), BarField::Prestress) => {

@@ -80,7 +80,6 @@ impl Ensemble {
     /// range; [`Error::Motion`] when the system cannot be moved; the errors of
     /// [`Solve`](crate::Solve).
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedEnsemble, Error> {
-        problem.without_ropes("simulate")?;
         let system = system_of(problem);
         let settings = self.simulate.settings;
         settings.validate()?;

@@ -106,7 +106,6 @@ impl Modes {
     pub fn run(&self, problem: &Problem) -> Result<ModesAnswer, Error> {
         threads::on(self.threads, || {
             let modes = self.lowest.unwrap_or(LOWEST) as u64;
-            problem.without_ropes("modes")?;
             problem.fits(BYTES_PER_MEMBER_IN_MODES + modes.saturating_mul(BYTES_PER_MODE))?;
             let found = equilibria::all(problem, self.max_bars)?;
             let system = system_of(problem);

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::contacts::Contacts;
 use crate::error::MotionError;
 use crate::force::Forces;
-use crate::mechanism::{MOTION, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::simulation::at_the_beginning;
 use crate::state::State;
@@ -40,7 +40,6 @@ const GUESSES: u64 = 50;
 /// # Ok::<(), motion::MotionError>(())
 /// ```
 pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
-    system.without_ropes(MOTION)?;
     let Some(mut contacts) = Contacts::of(system) else { return closed(system, guess_m) };
     // What cannot hold where it is has to hold, until all that does not has room.
     for _ in 0..=contacts.list.len() {
@@ -110,7 +109,7 @@ fn guess(system: &System, seed: u64, stream: u64) -> Vec<Vector> {
     let mut at: Vec<Option<Vector>> = joints.iter().map(|joint| joint.support.at_m()).collect();
     let mut members = vec![Vec::new(); joints.len()];
     for member in system.members() {
-        let length_m = member.body.length_m();
+        let length_m = member.body.length_m() / member.spans().count() as f64;
         // Slack by some part of the length, none more likely than another.
         let length_m = match (member.stiffness_n, member.kind) {
             (None, Kind::Cable) => length_m * random.random_range(0.0..1.0),

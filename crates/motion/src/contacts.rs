@@ -15,13 +15,13 @@
 //! opens again where its force would change its sign.
 
 use model::Vector;
-use model::system::{Joint, Kind, Support, System};
+use model::system::{Joint, Kind, Member, Support, System};
 
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::simulation::CLOSED_TOLERANCE;
-use crate::state::{State, half_excess};
-use numerics::vector::{dot, minus};
+use crate::state::{State, curvature, half_excess, rate, squared};
+use numerics::vector::minus;
 
 /// A gap that is less than this, in units of the length of its member or of all members, is closed.
 pub(crate) const CLOSED: f64 = 1e-12;
@@ -29,7 +29,7 @@ pub(crate) const CLOSED: f64 = 1e-12;
 /// One gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contact {
-    /// An inextensible cable or strut, by its number among the members, from 0.
+    /// An inextensible cable, rope or strut, by its number among the members, from 0.
     Member(usize),
     /// A joint above the floor, by its number, from 0.
     Floor(usize),
@@ -125,8 +125,8 @@ impl Contacts {
         match contact {
             Contact::Member(number) => {
                 let member = &self.system.members()[number];
-                let d = minus(joints_m[member.to], joints_m[member.from]);
-                let excess = half_excess(dot(d, d), member.body.length_m());
+                let spans = member.spans().map(|[a, b]| minus(joints_m[b], joints_m[a]));
+                let excess = half_excess(squared(spans), member.body.length_m());
                 if member.kind == Kind::Cable { -excess } else { excess }
             }
             Contact::Floor(joint) => {
@@ -136,13 +136,16 @@ impl Contacts {
         }
     }
 
-    /// The system with bars and supports for what holds, and nothing else in its place.
+    /// The system with bars and supports for what holds, and nothing else in its place; ropes that
+    /// hold stay, others are straight.
     pub(crate) fn held(&self) -> Result<System, MotionError> {
         let (mut joints, mut members) =
             (self.system.joints().to_vec(), self.system.members().to_vec());
-        for (contact, _) in self.list.iter().zip(&self.holds).filter(|(_, holds)| **holds) {
+        for (contact, holds) in self.list.iter().zip(&self.holds) {
             match *contact {
-                Contact::Member(number) => members[number].kind = Kind::Bar,
+                Contact::Member(number) if !holds => let_go(&mut members[number]),
+                Contact::Floor(_) if !holds => {}
+                Contact::Member(number) => hold(&mut members[number]),
                 Contact::Floor(number) => {
                     let at_m = [0.0, 0.0, self.system.floor_m().unwrap_or_default()];
                     let normal = [0.0, 0.0, 1.0];
@@ -167,9 +170,8 @@ impl Contacts {
         match contact {
             Contact::Member(number) => {
                 let member = &self.system.members()[number];
-                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
-                let d = state.between(a, b);
-                let excess = half_excess(dot(d, d), member.body.length_m());
+                let spans = slots(member, mechanism).map(|[a, b]| state.between(a, b));
+                let excess = half_excess(squared(spans), member.body.length_m());
                 if member.kind == Kind::Cable { -excess } else { excess }
             }
             Contact::Floor(joint) => {
@@ -184,9 +186,8 @@ impl Contacts {
         let rate = |contact: &Contact| match *contact {
             Contact::Member(number) => {
                 let member = &self.system.members()[number];
-                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
-                let w = minus(state.velocity[b], state.velocity[a]);
-                let rate = dot(state.between(a, b), w) / member.body.length_m();
+                let spans = changing(member, mechanism, state, &state.velocity);
+                let rate = rate(spans) / member.body.length_m();
                 if member.kind == Kind::Cable { -rate } else { rate }
             }
             Contact::Floor(joint) => state.velocity[mechanism.slot_of[joint]][2],
@@ -204,10 +205,9 @@ impl Contacts {
         let rate = |contact: &Contact| match *contact {
             Contact::Member(number) => {
                 let member = &self.system.members()[number];
-                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
-                let w = minus(state.velocity[b], state.velocity[a]);
-                let along = dot(state.between(a, b), minus(acceleration[b], acceleration[a]));
-                let rate = (along + dot(w, w)) / member.body.length_m();
+                let along = rate(changing(member, mechanism, state, acceleration));
+                let turning = curvature(changing(member, mechanism, state, &state.velocity));
+                let rate = (along + turning) / member.body.length_m();
                 if member.kind == Kind::Cable { -rate } else { rate }
             }
             Contact::Floor(joint) => acceleration[mechanism.slot_of[joint]][2],
@@ -220,8 +220,8 @@ impl Contacts {
     pub(crate) fn forces(&self, mechanism: &Mechanism, multipliers: &[f64]) -> Vec<f64> {
         let bars = mechanism.bars.iter().zip(multipliers);
         let mut by_member = vec![0.0; mechanism.system.members().len()];
-        for (link, multiplier) in bars {
-            by_member[link.member] = multiplier * link.length_m;
+        for (bar, multiplier) in bars {
+            by_member[bar.member] = multiplier * bar.length_m;
         }
         let mut by_slot = vec![0.0; mechanism.joint_at.len()];
         for (slide, multiplier) in mechanism.slides.iter().zip(&multipliers[mechanism.bars.len()..])
@@ -239,10 +239,41 @@ impl Contacts {
     }
 }
 
+/// A member that holds: a bar, or a rope as it is.
+pub(crate) fn hold(member: &mut Member) {
+    if member.rope.is_none() {
+        member.kind = Kind::Bar;
+    }
+}
+
+/// A member that is slack: of a rope, which has no mass, one span stays to stand in its place.
+pub(crate) fn let_go(member: &mut Member) {
+    if let Some(rope) = member.rope.take() {
+        member.to = rope.via[0];
+    }
+}
+
+/// The slots of the spans of a member.
+fn slots<'a>(
+    member: &'a Member,
+    mechanism: &'a Mechanism,
+) -> impl Iterator<Item = [usize; 2]> + Clone + 'a {
+    member.spans().map(|ends| ends.map(|joint| mechanism.slot_of[joint]))
+}
+
+/// The spans of a member, with the changes of them that vectors by slot make.
+fn changing<'a>(
+    member: &'a Member,
+    mechanism: &'a Mechanism,
+    state: &'a State,
+    v: &'a [Vector],
+) -> impl Iterator<Item = [Vector; 2]> + Clone + 'a {
+    slots(member, mechanism).map(|[a, b]| [state.between(a, b), minus(v[b], v[a])])
+}
+
 #[cfg(test)]
 mod tests {
     use model::Bar;
-    use model::system::{Joint, Member};
 
     use super::*;
 

@@ -42,13 +42,8 @@ impl Damping {
     }
 }
 
-/// The forces of the damping, told apart. `vectors` are those of the rigid bars.
-pub(crate) fn forces(
-    mechanism: &Mechanism,
-    settings: &Settings,
-    state: &State,
-    vectors: &[Vector],
-) -> Damping {
+/// The forces of the damping, told apart.
+pub(crate) fn forces(mechanism: &Mechanism, settings: &Settings, state: &State) -> Damping {
     let v = &state.velocity;
     let c = settings.damping_1_s;
     let joints = mechanism.system.joints();
@@ -57,10 +52,10 @@ pub(crate) fn forces(
             .map(|slot| times(-c * joints[mechanism.joint_at[slot]].mass_kg, v[slot]))
             .collect(),
         on_members: vec![[[0.0; 3]; 2]; mechanism.system.members().len()],
-        moments: moments(mechanism, settings, state, vectors),
+        moments: moments(mechanism, settings, state),
         ends: vec![(0, 0); mechanism.system.members().len()],
     };
-    for link in mechanism.links() {
+    for link in &mechanism.spans {
         let m = link.inertia;
         let couple = couple(
             plus(found.moments[link.member][0], found.moments[link.member][1]),
@@ -75,13 +70,8 @@ pub(crate) fn forces(
     found
 }
 
-/// Moments of the pins on the ends of the members.
-fn moments(
-    mechanism: &Mechanism,
-    settings: &Settings,
-    state: &State,
-    vectors: &[Vector],
-) -> Vec<[Vector; 2]> {
+/// Moments of the pins on the ends of the members; a rope bends without any.
+fn moments(mechanism: &Mechanism, settings: &Settings, state: &State) -> Vec<[Vector; 2]> {
     let k = settings.friction_n_m_s;
     let mut found = vec![[[0.0; 3]; 2]; mechanism.system.members().len()];
     if k <= 0.0 {
@@ -89,16 +79,14 @@ fn moments(
     }
     let v = &state.velocity;
     let [_, of_system] = mechanism.given();
+    let members = mechanism.system.members();
+    // A bar of a corner has no pins.
+    let pinned = |link: &&Link| link.member < of_system && members[link.member].rope.is_none();
     let mut turning = vec![[0.0; 3]; found.len()];
     let mut pins = vec![Pin::default(); v.len()];
-    for (number, link) in mechanism.links().enumerate() {
-        let d = vectors.get(number).filter(|_| number < mechanism.bars.len());
-        let d = d.copied().unwrap_or_else(|| vector(state, link));
+    for link in mechanism.spans.iter().filter(pinned) {
+        let d = vector(state, link);
         let omega = times(1.0 / dot(d, d), cross(d, minus(v[link.b], v[link.a])));
-        if link.member >= of_system {
-            // A bar of a corner has no pins.
-            continue;
-        }
         turning[link.member] = omega;
         for slot in [link.a, link.b] {
             pins[slot].add(d, omega);
@@ -107,7 +95,7 @@ fn moments(
     let pins: Vec<Vector> = (0..v.len())
         .map(|slot| if slot < mechanism.moving { pins[slot].turning() } else { [0.0; 3] })
         .collect();
-    for link in mechanism.links().filter(|link| link.member < of_system) {
+    for link in mechanism.spans.iter().filter(pinned) {
         let d = vector(state, link);
         let moment = |slot: usize| {
             let against = minus(turning[link.member], pins[slot]);
@@ -170,7 +158,7 @@ pub(crate) fn damp(
     // exp(h F) v to the fourth order: v + h F (v + h/2 F (v + h/3 F (v + h/4 F v))).
     let begin = state.velocity.clone();
     for part in [4.0, 3.0, 2.0, 1.0] {
-        let force = forces(mechanism, &only_friction, state, &stepper.vectors).total();
+        let force = forces(mechanism, &only_friction, state).total();
         let impulse: Vec<Vector> = force.iter().map(|f| times(h / part, *f)).collect();
         state.velocity.clone_from(&begin);
         stepper.push(mechanism, state, &impulse)?;

@@ -17,9 +17,20 @@ pub enum MotionError {
         /// `cable` or `strut`.
         kind: &'static str,
     },
-    /// Occurs when a member is a rope over rings or pulleys.
-    #[error(transparent)]
-    Rope(#[from] model::system::RopeNotTaken),
+    /// Occurs when a ring of a taut rope runs to the end of a span: a span of no length has no
+    /// direction for its force.
+    #[error(
+        "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
+         direction for its force"
+    )]
+    Jammed {
+        /// Number of the rope among the members, from 1.
+        member: usize,
+        /// Name of one joint.
+        from: String,
+        /// Name of the other.
+        to: String,
+    },
     /// Occurs when an inextensible cable or strut about whose equilibrium a system oscillates is
     /// neither taut, with a force that is more than rounding, nor slack: on one side it would hold
     /// its ends, on the other it would not, and no small motion is linear.

@@ -49,10 +49,13 @@ impl Forces {
         }
         force.copy_from_slice(&mechanism.load);
         for spring in &mechanism.springs {
-            let d = state.between(spring.link.a, spring.link.b);
-            let density = spring.force_density(norm(d));
-            force[spring.link.a] = add_times(force[spring.link.a], density, d);
-            force[spring.link.b] = add_times(force[spring.link.b], -density, d);
+            let spans = mechanism.of(&spring.spans);
+            let length_m = state.length_m(spans);
+            for span in spans {
+                let pull = spring.pull(length_m, state.between(span.a, span.b));
+                force[span.a] = plus(force[span.a], pull);
+                force[span.b] = minus(force[span.b], pull);
+            }
         }
         for (slot, of_time) in &self.of_time {
             force[*slot] = add_times(force[*slot], 1.0, of_time(time_s));
@@ -66,9 +69,9 @@ impl Forces {
 }
 
 impl Spring {
-    /// Elongation that the member resists, m.
-    fn elongation(&self, distance_m: f64) -> f64 {
-        let elongation = distance_m - self.link.length_m;
+    /// Elongation that the member resists, m, where its spans have this length together.
+    fn elongation(&self, length_m: f64) -> f64 {
+        let elongation = length_m - self.length_m;
         match self.kind {
             Kind::Bar => elongation,
             Kind::Cable => elongation.max(0.0),
@@ -76,26 +79,31 @@ impl Spring {
         }
     }
 
-    /// Axial force over the distance of the ends, N/m, tension positive. Zero where a slack member
-    /// has both ends in one place.
-    pub(crate) fn force_density(&self, distance_m: f64) -> f64 {
-        let elongation = self.elongation(distance_m);
+    /// Axial force over the length of a span, N/m, tension positive. Zero where the member is slack,
+    /// whose ends may be in one place.
+    pub(crate) fn force_density(&self, length_m: f64, span_m: f64) -> f64 {
+        let elongation = self.elongation(length_m);
         if elongation.abs() <= 0.0 {
             return 0.0;
         }
-        self.stiffness_n * elongation / self.link.length_m / distance_m
+        self.stiffness_n * elongation / self.length_m / span_m
     }
 
-    /// Derivative of the axial force by the distance of the ends, N/m.
-    pub(crate) fn slope(&self, distance_m: f64) -> f64 {
-        let pulls = self.kind == Kind::Bar || self.elongation(distance_m).abs() > 0.0;
-        if pulls { self.stiffness_n / self.link.length_m } else { 0.0 }
+    /// The force with which a span pulls where it begins, N.
+    pub(crate) fn pull(&self, length_m: f64, span: Vector) -> Vector {
+        times(self.force_density(length_m, norm(span)), span)
+    }
+
+    /// Derivative of the axial force by the length, N/m.
+    pub(crate) fn slope(&self, length_m: f64) -> f64 {
+        let pulls = self.kind == Kind::Bar || self.elongation(length_m).abs() > 0.0;
+        if pulls { self.stiffness_n / self.length_m } else { 0.0 }
     }
 
     /// Elastic energy `EA/(2l) e²`, J.
-    pub(crate) fn energy_j(&self, distance_m: f64) -> f64 {
-        let e = self.elongation(distance_m);
-        0.5 * self.stiffness_n / self.link.length_m * e * e
+    pub(crate) fn energy_j(&self, length_m: f64) -> f64 {
+        let e = self.elongation(length_m);
+        0.5 * self.stiffness_n / self.length_m * e * e
     }
 }
 
@@ -103,7 +111,8 @@ impl Spring {
 pub(crate) fn kinetic_j(mechanism: &Mechanism, state: &State) -> f64 {
     let v = &state.velocity;
     let own = mechanism.mass.iter().zip(v).map(|(m, v)| 0.5 * m * dot(*v, *v));
-    let between = mechanism.links().map(|link| link.inertia.between * dot(v[link.a], v[link.b]));
+    let spans = mechanism.spans.iter();
+    let between = spans.map(|link| link.inertia.between * dot(v[link.a], v[link.b]));
     model::sum(own.chain(between))
 }
 
@@ -113,6 +122,6 @@ pub(crate) fn potential_j(mechanism: &Mechanism, state: &State) -> f64 {
     let slots = 0..state.at.len();
     let loads = slots.map(|slot| -dot(mechanism.load[slot], state.at[slot]));
     let springs = mechanism.springs.iter();
-    let elastic = springs.map(|s| s.energy_j(norm(state.between(s.link.a, s.link.b))));
+    let elastic = springs.map(|s| s.energy_j(state.length_m(mechanism.of(&s.spans))));
     model::sum(loads.chain(elastic))
 }

@@ -240,12 +240,7 @@ impl Simulation {
             if !closed.contains(&true) {
                 return Ok(());
             }
-            let damping = damping::forces(
-                &self.mechanism,
-                &self.settings,
-                &self.state,
-                &self.stepper.vectors,
-            );
+            let damping = damping::forces(&self.mechanism, &self.settings, &self.state);
             let (acceleration, rho) =
                 self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());
             let forces = contacts.forces(&self.mechanism, &rho);

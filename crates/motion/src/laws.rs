@@ -9,11 +9,12 @@
 //!    \sum (x_k - x_C) \times F_k + M_a + M_b - c J \omega $$
 //!
 //! across the member (its spin is apart); where the moments across differ, in all directions with
-//! the rate of `Σ J_i (ω · e_i) e_i` on the left. For the whole system the rates of momentum and of
+//! the rate of `Σ J_i (ω · e_i) e_i` on the left. The forces on the ends of a rope are its tension
+//! along its first and its last span. For the whole system the rates of momentum and of
 //! angular momentum about the reference equal the forces and moments of the ground and the loads.
 
 use model::Vector;
-use model::system::System;
+use model::system::{Member, System};
 
 use crate::snapshot::Snapshot;
 use numerics::vector::{add_times, cross, dot, minus, norm, plus, times, worse};
@@ -76,6 +77,11 @@ pub(crate) fn judge(
     let mut found = Laws::default();
     let (mut needed, mut turning) = ([0.0; 3], [0.0; 3]);
     for (number, given) in moments.iter().enumerate() {
+        let member = &system.members()[number];
+        if member.rope.is_some() {
+            found.force = worse(found.force, rope_off(member, number, at));
+            continue;
+        }
         let balance = member_balance(system, number, at, damping_1_s, *given);
         found.force = worse(found.force, norm(balance.force));
         let along = if balance.spins { 0.0 } else { dot(balance.moment, balance.direction) };
@@ -114,6 +120,19 @@ pub(crate) fn judge(
         momentum: found.momentum / unit_n,
         angular_momentum: found.angular_momentum / unit_n_m,
     }
+}
+
+/// How far the forces on the ends of a rope are from its tension along its first and last span, N.
+fn rope_off(rope: &Member, number: usize, at: &Snapshot) -> f64 {
+    let pull = |span: Option<[usize; 2]>| {
+        let [a, b] = span.unwrap_or([rope.from, rope.to]);
+        let d = minus(at.joints_m[b], at.joints_m[a]);
+        let length = norm(d);
+        if length > 0.0 { times(at.axial_n[number] / length, d) } else { [0.0; 3] }
+    };
+    let start = plus(at.start_forces_n[number], pull(rope.spans().next()));
+    let end = minus(at.end_forces_n[number], pull(rope.spans().last()));
+    worse(norm(start), norm(end))
 }
 
 fn member_balance(

@@ -30,6 +30,18 @@
 //! The multiplier `ρ_e` is the force density of the bar: its axial force over its length, tension
 //! positive.
 //!
+//! A member is the case of one span of what a rope over rings and pulleys is with several, between
+//! joints that it slides over without friction: with the sum `s` of the spans `d_i`, along the unit
+//! vectors `u_i`,
+//!
+//! $$ g_e = \tfrac12 (s^2 - l_e^2), \qquad
+//!    \dot g_e = s \sum_i u_i \cdot \dot d_i, \qquad
+//!    R \ddot x = -\Bigl(\sum_i u_i \cdot \dot d_i\Bigr)^2
+//!    - s \sum_i \frac{|\dot d_i|^2 - (u_i \cdot \dot d_i)^2}{|d_i|}, $$
+//!
+//! with the tension `ρ_e s` in every span. Where a ring runs to the end of its span (a weight to its
+//! pulley) the span has no direction, and the motion ends with [`MotionError::Jammed`].
+//!
 //! | paper | code | shape | unit | equation |
 //! |---|---|---|---|---|
 //! | `{q}`: centres and angles | places of the joints, `at` | 3 per joint | m | (21) |
@@ -72,6 +84,7 @@
 //! | falls caught by cables, props and a floor; weights that catch each other | closed forms | times 1e-11 s, losses 1e-9 J (1e-6 where a step lets go) | `impacts` |
 //! | small oscillations of bars with three moments | motions of small amplitude; compound and bifilar pendulum | 2e-6 of the amplitude; 1e-12 | `unequal` |
 //! | of what taut cables and a floor hold | closed forms | 1e-13 | `held` |
+//! | ropes over rings and pulleys: weights, tackles, a ring on its ellipse, impacts; oscillations | closed forms, Runge and Kutta, second differences of lengths | 1e-9 m; 1e-12, 1e-7 | `ropes` |
 //! | small oscillations | closed forms and polynomials, in intervals | inside the enclosures, 1e-12 wide | `enclosed` |
 //! | open and closed chains, 3 to 300 bars | MuJoCo, Pinocchio, Exudyn | within their errors | `benches/peers/motion` |
 //!

@@ -1,5 +1,7 @@
 //! A system of bars as the mechanics of the places of its joints.
 
+use std::ops::Range;
+
 use model::Vector;
 use model::system::{Kind, Member, Support, System};
 
@@ -32,8 +34,10 @@ pub struct Mechanism {
     pub(crate) moving: usize,
     /// Whether the joints that move form trees.
     pub(crate) is_forest: bool,
-    /// Rigid bars; bar *k* has the row *k* of the constraints.
-    pub(crate) bars: Vec<Link>,
+    /// Spans of all members, those of rigid ones first.
+    pub(crate) spans: Vec<Link>,
+    /// Rigid members; member *k* of them has the row *k* of the constraints.
+    pub(crate) bars: Vec<Rigid>,
     /// Members with a stiffness.
     pub(crate) springs: Vec<Spring>,
     /// Supports of sliders; support *k* has the row `bars.len() + k`.
@@ -44,22 +48,37 @@ pub struct Mechanism {
     pub(crate) load: Vec<Vector>,
 }
 
-/// A member between two slots.
+/// A span of a member between two slots; but for ropes it is the member.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Link {
     /// Slots of its ends.
     pub a: usize,
     pub b: usize,
+    /// Length of the member over the number of its spans.
     pub length_m: f64,
-    /// Its number among the members.
+    /// Number of the member.
     pub member: usize,
     pub inertia: EndInertia,
 }
 
+/// A member whose length, the sum of its spans, does not change.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Rigid {
+    /// Where its spans stand among all.
+    pub spans: Range<usize>,
+    pub length_m: f64,
+    /// Its number among the members.
+    pub member: usize,
+}
+
 /// A member with a stiffness.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Spring {
-    pub link: Link,
+    /// Where its spans stand among all.
+    pub spans: Range<usize>,
+    pub length_m: f64,
+    /// Its number among the members.
+    pub member: usize,
     pub kind: Kind,
     /// `EA`, N; zero of an inextensible member that is slack.
     pub stiffness_n: f64,
@@ -73,9 +92,6 @@ pub(crate) struct Slide {
     /// A point of the support, relative to the reference, m.
     pub at: Vector,
 }
-
-/// What does not take ropes.
-pub(crate) const MOTION: &str = "motion";
 
 impl Mechanism {
     /// The mechanics of a system in small motions.
@@ -117,15 +133,12 @@ impl Mechanism {
         reference_m: Vector,
     ) -> Result<Self, MotionError> {
         let Expanded { system, inertia, cornered } = expanded;
-        system.without_ropes(MOTION)?;
         if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
         }
         let joints = system.joints();
         let moves: Vec<bool> = joints.iter().map(|joint| !joint.support.is_fixed()).collect();
-        let edges: Vec<_> = system.members().iter().map(|m| (m.from, m.to)).collect();
-        let between: Vec<_> =
-            edges.iter().copied().filter(|&(a, b)| moves[a] && moves[b]).collect();
+        let between = coupled(&system, &moves);
         let ordered = order(&moves, &between);
         let moving = ordered.joints.len();
         let mut joint_at = ordered.joints;
@@ -141,7 +154,8 @@ impl Mechanism {
             slot_of,
             joint_at,
             moving,
-            is_forest: ordered.is_forest,
+            is_forest: ordered.is_forest && !system.has_ropes(),
+            spans: Vec::new(),
             bars: Vec::new(),
             springs: Vec::new(),
             slides: Vec::new(),
@@ -151,8 +165,10 @@ impl Mechanism {
         };
         found.add_joints();
         found.add_members(&inertia);
-        if let Some(link) = found.bars.iter().find(|link| link.a.min(link.b) >= moving) {
-            return Err(MotionError::Redundant { joint: found.name(link.a), pivot: 0.0 });
+        let is_held = |bar: &&Rigid| found.of(&bar.spans).iter().all(|s| s.a.min(s.b) >= moving);
+        if let Some(bar) = found.bars.iter().find(is_held) {
+            let joint = found.name(found.spans[bar.spans.start].a);
+            return Err(MotionError::Redundant { joint, pivot: 0.0 });
         }
         Ok(found)
     }
@@ -163,7 +179,7 @@ impl Mechanism {
         self.given.as_ref().unwrap_or(&self.system)
     }
 
-    /// Number of constraints: rigid bars, and directions that supports of sliders take.
+    /// Number of constraints: rigid members, and directions that supports of sliders take.
     #[must_use]
     pub fn constraints(&self) -> usize {
         self.bars.len() + self.slides.len()
@@ -194,30 +210,48 @@ impl Mechanism {
     }
 
     fn add_members(&mut self, inertia: &[EndInertia]) {
-        for (number, member) in self.system.members().iter().enumerate() {
-            let link = Link {
-                a: self.slot_of[member.from],
-                b: self.slot_of[member.to],
-                length_m: member.body.length_m(),
-                member: number,
-                inertia: inertia[number],
-            };
-            self.mass[link.a] += link.inertia.from;
-            self.mass[link.b] += link.inertia.to;
+        let members = self.system.members();
+        let (mut rigid, mut elastic) = (Vec::new(), Vec::new());
+        for (number, member) in members.iter().enumerate() {
+            let [a, b] = [member.from, member.to].map(|joint| self.slot_of[joint]);
+            self.mass[a] += inertia[number].from;
+            self.mass[b] += inertia[number].to;
             let [at_a, at_b] = end_loads(member, self.system.gravity_m_s2());
-            self.load[link.a] = add_times(self.load[link.a], 1.0, at_a);
-            self.load[link.b] = add_times(self.load[link.b], 1.0, at_b);
-            match (member.stiffness_n, member.kind) {
-                (None, Kind::Bar) => self.bars.push(link),
-                (stiffness_n, kind) => {
-                    // Inextensible cables and struts that come here are slack.
-                    let stiffness_n = stiffness_n.unwrap_or(0.0);
-                    self.springs.push(Spring { link, kind, stiffness_n });
-                }
+            self.load[a] = add_times(self.load[a], 1.0, at_a);
+            self.load[b] = add_times(self.load[b], 1.0, at_b);
+            // Inextensible cables and struts that come here are slack, ropes are taut.
+            let is_rigid = member.kind == Kind::Bar || member.rope.is_some();
+            if is_rigid && member.stiffness_n.is_none() {
+                rigid.push((a.min(b), number));
+            } else {
+                elastic.push(number);
             }
         }
         // Bars in the order of their first slots are read one behind the other.
-        self.bars.sort_by_key(|link| link.a.min(link.b));
+        rigid.sort_by_key(|(slot, _)| *slot);
+        let mut spans = Vec::with_capacity(members.len());
+        let mut spanned = |member: usize| {
+            let first = spans.len();
+            let all = members[member].spans();
+            let length_m = members[member].body.length_m();
+            let part_m = length_m / all.clone().count() as f64;
+            spans.extend(all.map(|ends| {
+                let [a, b] = ends.map(|joint| self.slot_of[joint]);
+                Link { a, b, length_m: part_m, member, inertia: inertia[member] }
+            }));
+            (first..spans.len(), length_m)
+        };
+        for (_, member) in rigid {
+            let (spans, length_m) = spanned(member);
+            self.bars.push(Rigid { spans, length_m, member });
+        }
+        for member in elastic {
+            let (spans, length_m) = spanned(member);
+            let (kind, stiffness_n) = (members[member].kind, members[member].stiffness_n);
+            let stiffness_n = stiffness_n.unwrap_or(0.0);
+            self.springs.push(Spring { spans, length_m, member, kind, stiffness_n });
+        }
+        self.spans = spans;
     }
 
     /// Name of the joint in a slot.
@@ -225,9 +259,20 @@ impl Mechanism {
         self.system.joints()[self.joint_at[slot]].name.clone()
     }
 
-    /// All members, rigid ones first.
-    pub(crate) fn links(&self) -> impl Iterator<Item = &Link> {
-        self.bars.iter().chain(self.springs.iter().map(|spring| &spring.link))
+    /// The spans of a member.
+    pub(crate) fn of(&self, spans: &Range<usize>) -> &[Link] {
+        &self.spans[spans.clone()]
+    }
+
+    /// Number of spans of rigid members: so many of all have a vector in the rows.
+    pub(crate) fn rigid_spans(&self) -> usize {
+        self.bars.last().map_or(0, |bar| bar.spans.end)
+    }
+
+    /// Number of vectors that the rows are made of: one for each span and for each direction of a
+    /// slider.
+    pub(crate) fn vectors(&self) -> usize {
+        self.rigid_spans() + self.slides.len()
     }
 
     /// Number of joints and members of the system as given, without corners.
@@ -295,6 +340,18 @@ impl Mechanism {
     pub(crate) fn by_joint(&self, by_slot: &[Vector]) -> Vec<Vector> {
         self.slot_of[..self.given()[0]].iter().map(|&slot| by_slot[slot]).collect()
     }
+}
+
+/// Pairs of joints that move and that a member or the row of a rope has parts at.
+fn coupled(system: &System, moves: &[bool]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    for member in system.members() {
+        let path = member.path().filter(|&joint| moves[joint]);
+        for (k, a) in path.clone().enumerate() {
+            found.extend(path.clone().skip(k + 1).filter(|&b| b != a).map(|b| (a, b)));
+        }
+    }
+    found
 }
 
 /// Weight and forces of a member at its ends, N, by the lever rule.

@@ -15,10 +15,10 @@ use model::Vector;
 use crate::error::MotionError;
 use crate::force::Forces;
 use crate::krylov;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Link, Mechanism, Rigid};
 use crate::saddle::{Saddle, Singular};
-use crate::state::{State, half_excess};
-use numerics::vector::{dot, minus, plus, worse};
+use crate::state::{State, curvature, half_excess, squared};
+use numerics::vector::{dot, minus, norm, plus, worse};
 
 /// Largest relative violation of a length, and of its derivative in units of the largest speed,
 /// after any step.
@@ -37,10 +37,13 @@ const SLOW: f64 = 0.5;
 /// they would also find the positions that a motion does not lead to.
 const LARGEST_TURN: f64 = 0.5;
 
+/// A span of a rope that is shorter than this, in units of its mean span, has no direction.
+const NO_SPAN: f64 = 1e-9;
+
 /// What a step needs and keeps.
 pub(crate) struct Stepper {
     saddle: Saddle,
-    /// Vectors of the rows at the present places, factorised.
+    /// Vectors of the rows at the present places, factorised: one for each rigid span and slide.
     pub vectors: Vec<Vector>,
     /// Forces at the present places and time.
     pub force: Vec<Vector>,
@@ -58,7 +61,14 @@ pub(crate) struct Stepper {
 #[derive(Clone, Copy)]
 pub(crate) enum Failure {
     Singular(Singular),
-    NotMet { corrections: usize, off: f64 },
+    NotMet {
+        corrections: usize,
+        off: f64,
+    },
+    /// A span of a taut rope has no length.
+    Jammed {
+        span: Link,
+    },
 }
 
 impl Stepper {
@@ -67,7 +77,7 @@ impl Stepper {
         let slots = mechanism.joint_at.len();
         Ok(Self {
             saddle: Saddle::new(mechanism)?,
-            vectors: vec![[0.0; 3]; rows],
+            vectors: vec![[0.0; 3]; mechanism.vectors()],
             force: mechanism.load.clone(),
             by: vec![[0.0; 3]; slots],
             x: vec![[0.0; 3]; slots],
@@ -86,6 +96,7 @@ impl Stepper {
         time_s: f64,
     ) -> Result<(), Failure> {
         self.off[0] = state.rows(mechanism, &mut self.vectors);
+        no_jam(mechanism, state)?;
         forces.at(mechanism, state, time_s, &mut self.force);
         self.saddle.factor(&self.vectors).map_err(Failure::Singular)
     }
@@ -103,35 +114,15 @@ impl Stepper {
         for (by, v) in self.by.iter_mut().zip(&state.velocity) {
             *by = v.map(|v| h * v);
         }
-        let mut before = self.excess(mechanism);
+        let before = self.excess(mechanism, state);
         for (x, f) in self.x[..moving].iter_mut().zip(&self.force) {
             *x = f.map(|f| 0.5 * h * h * f);
         }
         self.correct(moving);
-        for corrections in 1.. {
-            self.corrections = corrections;
-            let off = self.excess(mechanism);
-            // Rounding may stay above its usual size; then corrections gain nothing.
-            let stalled = off <= 0.01 * CONSTRAINT_TOLERANCE && off >= 0.5 * before;
-            if off <= ROUNDING || stalled {
-                break;
-            }
-            if off.is_nan() || corrections > MOST_CORRECTIONS {
-                return Err(Failure::NotMet { corrections, off });
-            }
-            // The first one had the forces in it, and corrected what the velocities violate.
-            if corrections > 1 && off > SLOW * before {
-                if off > before {
-                    self.undo(moving);
-                    self.excess(mechanism);
-                }
-                self.newton(mechanism).map_err(|()| Failure::NotMet { corrections, off })?;
-            } else {
-                self.x[..moving].fill([0.0; 3]);
-                self.correct(moving);
-            }
-            before = off;
-        }
+        let met = self.meet(mechanism, state, before);
+        // A span that has turned round has passed the joint at its end.
+        jammed(mechanism, state, |s, d| dot(d, plus(d, minus(self.by[s.b], self.by[s.a]))) <= 0.0)?;
+        met?;
         state.displace(&self.by[..moving]);
         for (v, by) in state.velocity.iter_mut().zip(&self.by) {
             *v = by.map(|by| by / h);
@@ -147,14 +138,49 @@ impl Stepper {
         Ok(())
     }
 
+    /// Correct the displacement until the lengths are met.
+    fn meet(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &State,
+        mut before: f64,
+    ) -> Result<(), Failure> {
+        let moving = mechanism.moving;
+        for corrections in 1.. {
+            self.corrections = corrections;
+            let off = self.excess(mechanism, state);
+            // Rounding may stay above its usual size; then corrections gain nothing.
+            let stalled = off <= 0.01 * CONSTRAINT_TOLERANCE && off >= 0.5 * before;
+            if off <= ROUNDING || stalled {
+                break;
+            }
+            if off.is_nan() || corrections > MOST_CORRECTIONS {
+                return Err(Failure::NotMet { corrections, off });
+            }
+            // The first one had the forces in it, and corrected what the velocities violate.
+            if corrections > 1 && off > SLOW * before {
+                if off > before {
+                    self.undo(moving);
+                    self.excess(mechanism, state);
+                }
+                self.newton(mechanism, state).map_err(|()| Failure::NotMet { corrections, off })?;
+            } else {
+                self.x[..moving].fill([0.0; 3]);
+                self.correct(moving);
+            }
+            before = off;
+        }
+        Ok(())
+    }
+
     /// Right-hand sides `−g` at the displaced places; the largest violation.
-    fn excess(&mut self, mechanism: &Mechanism) -> f64 {
-        let mut off = 0.0;
-        let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
-        for ((link, d), row) in bars {
-            let d = plus(*d, minus(self.by[link.b], self.by[link.a]));
-            let excess = half_excess(dot(d, d), link.length_m);
-            *row = -excess * link.length_m * link.length_m;
+    fn excess(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
+        let (mut off, by) = (0.0, &self.by);
+        for (bar, row) in mechanism.bars.iter().zip(&mut self.rows) {
+            let spans = mechanism.of(&bar.spans).iter();
+            let spans = spans.map(|s| plus(state.between(s.a, s.b), minus(by[s.b], by[s.a])));
+            let excess = half_excess(squared(spans), bar.length_m);
+            *row = -excess * bar.length_m * bar.length_m;
             off = worse(off, excess.abs());
         }
         let rows = &mut self.rows[mechanism.bars.len()..];
@@ -186,19 +212,19 @@ impl Stepper {
     /// The equation `R₁ M⁻¹ R₀ᵀ ν = −g` is solved with the factors of `R₀ M⁻¹ R₀ᵀ` as
     /// preconditioner. The product of the two has its eigenvalues near 1 and, for the directions
     /// that lose their constraint at a distance `δ` from where they do, near `δ₁/δ₀`: two clusters.
-    fn newton(&mut self, mechanism: &Mechanism) -> Result<(), ()> {
+    fn newton(&mut self, mechanism: &Mechanism, state: &State) -> Result<(), ()> {
         let moving = mechanism.moving;
-        let bars = &mechanism.bars;
-        let mut ahead = self.vectors.clone();
-        for (link, d) in bars.iter().zip(&mut ahead) {
-            let turned = minus(self.by[link.b], self.by[link.a]);
-            if dot(turned, turned) > (LARGEST_TURN * link.length_m).powi(2) {
-                return Err(());
-            }
-            *d = plus(*d, turned);
+        let rigid = &mechanism.spans[..mechanism.rigid_spans()];
+        let turned = |span: &Link| norm(minus(self.by[span.b], self.by[span.a])) / span.length_m;
+        if rigid.iter().any(|span| turned(span) > LARGEST_TURN) {
+            return Err(());
         }
+        let (mut displaced, mut ahead) = (state.clone(), self.vectors.clone());
+        displaced.displace(&self.by[..moving]);
+        displaced.rows(mechanism, &mut ahead);
         let far = mechanism.system.total_length_m();
-        let mut unit: Vec<f64> = bars.iter().map(|link| link.length_m * link.length_m).collect();
+        let bars = mechanism.bars.iter();
+        let mut unit: Vec<f64> = bars.map(|bar| bar.length_m * bar.length_m).collect();
         unit.resize(self.rows.len(), far);
         let right: Vec<f64> = self.rows.iter().zip(&unit).map(|(row, unit)| row / unit).collect();
         let (saddle, x, rows) = (&mut self.saddle, &mut self.x, &mut self.rows);
@@ -209,8 +235,8 @@ impl Stepper {
             x[..moving].fill([0.0; 3]);
             saddle.solve(&mut x[..moving], rows);
             // Slots of anchors are never displaced.
-            let of_bars = bars.iter().zip(&ahead);
-            let mut out: Vec<f64> = of_bars.map(|(l, d)| dot(*d, minus(x[l.b], x[l.a]))).collect();
+            let bars = mechanism.bars.iter();
+            let mut out: Vec<f64> = bars.map(|bar| rate(mechanism, bar, &ahead, x)).collect();
             out.extend(mechanism.slides.iter().map(|slide| dot(slide.normal, x[slide.slot])));
             out.iter_mut().zip(&unit).for_each(|(out, unit)| *out /= unit);
             out
@@ -256,11 +282,10 @@ impl Stepper {
     fn rates(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
         let v = &state.velocity;
         let mut off = 0.0;
-        let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
-        for ((link, d), row) in bars {
-            let rate = dot(*d, minus(v[link.b], v[link.a]));
+        for (bar, row) in mechanism.bars.iter().zip(&mut self.rows) {
+            let rate = rate(mechanism, bar, &self.vectors, v);
             *row = -rate;
-            off = worse(off, rate.abs() / link.length_m);
+            off = worse(off, rate.abs() / bar.length_m);
         }
         let rows = &mut self.rows[mechanism.bars.len()..];
         for (slide, row) in mechanism.slides.iter().zip(rows) {
@@ -271,7 +296,7 @@ impl Stepper {
         off
     }
 
-    /// The multipliers of the rows that a push makes, N s/m: of a bar its axial impulse over its
+    /// The multipliers of the rows that a push makes, N s/m: of a member its axial impulse over its
     /// length, tension positive.
     pub(crate) fn impulses(
         &mut self,
@@ -301,7 +326,8 @@ impl Stepper {
     /// Accelerations by slot, m/s², and multipliers `ρ` of the rows: `M a + Rᵀ ρ = f`, `R a = −Ṙ
     /// v`.
     ///
-    /// For a bar `ρ` is the force density, its axial force over its length, tension positive.
+    /// Of a rigid member `ρ` is the force density, its axial force over its length, tension
+    /// positive.
     pub(crate) fn accelerations(
         &mut self,
         mechanism: &Mechanism,
@@ -312,9 +338,9 @@ impl Stepper {
         let mut a: Vec<Vector> =
             self.force.iter().zip(extra).map(|(force, extra)| plus(*force, *extra)).collect();
         let mut rho = vec![0.0; self.rows.len()];
-        for (link, row) in mechanism.bars.iter().zip(&mut rho) {
-            let w = minus(v[link.b], v[link.a]);
-            *row = -dot(w, w);
+        for (bar, row) in mechanism.bars.iter().zip(&mut rho) {
+            let spans = mechanism.of(&bar.spans).iter();
+            *row = -curvature(spans.map(|s| [state.between(s.a, s.b), minus(v[s.b], v[s.a])]));
         }
         self.saddle.solve(&mut a[..mechanism.moving], &mut rho);
         a[mechanism.moving..].fill([0.0; 3]);
@@ -341,10 +367,8 @@ impl Stepper {
                 return Err(Failure::NotMet { corrections, off });
             }
             self.saddle.factor(&self.vectors).map_err(Failure::Singular)?;
-            let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
-            for ((link, d), row) in bars {
-                *row = -half_excess(dot(*d, *d), link.length_m) * link.length_m * link.length_m;
-            }
+            self.by.fill([0.0; 3]);
+            self.excess(mechanism, state);
             let rows = &mut self.rows[mechanism.bars.len()..];
             for (slide, row) in mechanism.slides.iter().zip(rows) {
                 *row = -dot(slide.normal, minus(state.at[slide.slot], slide.at));
@@ -365,10 +389,42 @@ impl Stepper {
 
     /// How much of a correction is taken: the linear part of a length is good for a part of a bar.
     fn part_of_correction(&self, mechanism: &Mechanism) -> f64 {
-        let changes = mechanism.bars.iter().map(|link| {
+        let changes = mechanism.spans[..mechanism.rigid_spans()].iter().map(|link| {
             let change = minus(self.x[link.b], self.x[link.a]);
             dot(change, change).sqrt() / link.length_m
         });
         (Self::LARGEST_CORRECTION / changes.fold(0.0, worse)).min(1.0)
+    }
+}
+
+/// Half of the rate of the square of a length: its row times velocities by slot.
+#[inline]
+fn rate(mechanism: &Mechanism, bar: &Rigid, vectors: &[Vector], v: &[Vector]) -> f64 {
+    let spans = mechanism.of(&bar.spans).iter().zip(&vectors[bar.spans.clone()]);
+    spans.map(|(span, d)| dot(*d, minus(v[span.b], v[span.a]))).sum()
+}
+
+/// Whether every span of a taut rope has a direction.
+pub(crate) fn no_jam(mechanism: &Mechanism, state: &State) -> Result<(), Failure> {
+    jammed(mechanism, state, |span, d| norm(d) <= NO_SPAN * span.length_m)
+}
+
+/// The first span of a taut rope for which this is so, as a failure.
+fn jammed(
+    mechanism: &Mechanism,
+    state: &State,
+    is_lost: impl Fn(&Link, Vector) -> bool,
+) -> Result<(), Failure> {
+    if mechanism.spans.len() == mechanism.bars.len() + mechanism.springs.len() {
+        return Ok(());
+    }
+    let springs = mechanism.springs.iter().filter(|spring| spring.spans.len() > 1);
+    let taut = springs.filter(|s| s.slope(state.length_m(mechanism.of(&s.spans))) > 0.0);
+    let rigid = mechanism.bars.iter().map(|bar| &bar.spans).filter(|spans| spans.len() > 1);
+    let mut spans = rigid.chain(taut.map(|spring| &spring.spans)).flat_map(|s| mechanism.of(s));
+    let moves = |span: &Link| span.a.min(span.b) < mechanism.moving;
+    match spans.find(|span| moves(span) && is_lost(span, state.between(span.a, span.b))) {
+        Some(span) => Err(Failure::Jammed { span: *span }),
+        None => Ok(()),
     }
 }

@@ -25,8 +25,8 @@ pub struct Settings {
     pub damping_1_s: f64,
     /// Friction in the joints, N m s: each member turns against a pin with the moment `−k (ω_member
     /// − ω_pin)`, less its part along the member. The pin of an anchor stands still, the pin of any
-    /// other joint has no inertia and turns so that the moments on it cancel. At least zero;
-    /// default zero.
+    /// other joint has no inertia and turns so that the moments on it cancel. A rope over rings and
+    /// pulleys bends without any. At least zero; default zero.
     pub friction_n_m_s: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::contacts::{Contacts, Impact};
 use crate::damping;
 use crate::error::MotionError;
 use crate::force::{ForceOfTime, Forces, MomentOfTime, kinetic_j, potential_j};
-use crate::mechanism::{MOTION, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
 use crate::snapshot::Snapshot;
@@ -81,7 +81,6 @@ impl Simulation {
         settings: Settings,
     ) -> Result<Self, MotionError> {
         settings.validate()?;
-        system.without_ropes(MOTION)?;
         let mut contacts = Contacts::of(system);
         let held = match &mut contacts {
             Some(contacts) if joints_m.len() == system.joints().len() => {
@@ -141,14 +140,17 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`MotionError::Input`] when there is no such member, or its moments across differ: then its
-    /// spin is not apart.
+    /// [`MotionError::Input`] when there is no such member, it is a rope, or its moments across
+    /// differ: then its spin is not apart.
     pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
         let refused = |reason| MotionError::Input { what: "a moment of time", reason };
         let system = self.mechanism.system();
-        let Some(Member { from, to, .. }) = system.members().get(member) else {
+        let Some(Member { from, to, rope, .. }) = system.members().get(member) else {
             return Err(refused(format!("there is no member number {member}")));
         };
+        if rope.is_some() {
+            return Err(refused(format!("a rope, member number {member}, bears none")));
+        }
         if self.mechanism.cornered.iter().any(|cornered| cornered.member == member) {
             return Err(refused(format!("the moments across member number {member} differ")));
         }
@@ -291,13 +293,13 @@ impl Simulation {
 
     fn told(&self, failure: Failure, step_s: f64) -> MotionError {
         match failure {
-            Failure::Singular(failed) => singular(&self.mechanism, failed),
             Failure::NotMet { corrections, off } => MotionError::StepTooLong {
                 time_s: self.time_s,
                 step_s,
                 iterations: corrections,
                 off,
             },
+            failure => at_the_beginning(&self.mechanism, failure),
         }
     }
 
@@ -394,8 +396,7 @@ impl Simulation {
     /// Everything at the present time: places, velocities, accelerations, forces, energies.
     #[must_use]
     pub fn snapshot(&mut self) -> Snapshot {
-        let damping =
-            damping::forces(&self.mechanism, &self.settings, &self.state, &self.stepper.vectors);
+        let damping = damping::forces(&self.mechanism, &self.settings, &self.state);
         let solved = self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());
         Snapshot::new(self, &solved.0, &solved.1, &damping)
     }
@@ -433,6 +434,11 @@ pub(crate) fn at_the_beginning(mechanism: &Mechanism, failure: Failure) -> Motio
         Failure::NotMet { corrections, off } => {
             MotionError::NotClosed { iterations: corrections, off }
         }
+        Failure::Jammed { span } => MotionError::Jammed {
+            member: mechanism.owner(span.member) + 1,
+            from: mechanism.name(span.a),
+            to: mechanism.name(span.b),
+        },
     }
 }
 

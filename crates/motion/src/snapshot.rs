@@ -6,7 +6,7 @@ use crate::corners::Turning;
 use crate::damping::Damping;
 use crate::force::couple;
 use crate::laws::{self, Laws};
-use crate::mechanism::end_loads;
+use crate::mechanism::{Link, end_loads};
 use crate::simulation::Simulation;
 use numerics::vector::{add_times, dot, minus, norm, plus, times};
 
@@ -23,7 +23,7 @@ pub struct Snapshot {
     /// Their accelerations, m/s².
     pub accelerations_m_s2: Vec<Vector>,
     /// Axial force of each member with weights, forces and inertia lumped to its joints, N, tension
-    /// positive.
+    /// positive; of a rope the same in all its spans.
     pub axial_n: Vec<f64>,
     /// For each member the force on it at the joint where it begins, world frame, N.
     pub start_forces_n: Vec<Vector>,
@@ -66,12 +66,12 @@ impl Snapshot {
         let mut start_forces_n = vec![[0.0; 3]; members.len()];
         let mut end_forces_n = vec![[0.0; 3]; members.len()];
         let moments = simulation.moments_of_time();
-        for (k, link) in mechanism.links().enumerate() {
+        // Forces on ropes at the joints that they run over.
+        let mut between_n = vec![[0.0; 3]; mechanism.joint_at.len()];
+        let spans = &mechanism.spans;
+        for (k, (link, density)) in spans.iter().zip(densities(simulation, multipliers)).enumerate()
+        {
             let d = state.between(link.a, link.b);
-            let density = multipliers.get(k).filter(|_| k < mechanism.bars.len());
-            let density = density.copied().unwrap_or_else(|| {
-                mechanism.springs[k - mechanism.bars.len()].force_density(norm(d))
-            });
             let m = link.inertia;
             let number = mechanism.owner(link.member);
             let (a, b) = (accelerations[link.a], accelerations[link.b]);
@@ -85,9 +85,19 @@ impl Snapshot {
             if link.member == number {
                 let pull = couple(moments[number], d);
                 let (at_a, at_b) = (plus(at_a, pull), minus(at_b, pull));
-                axial_n[number] += density * norm(d);
-                start_forces_n[number] = plus(start_forces_n[number], at_a);
-                end_forces_n[number] = plus(end_forces_n[number], at_b);
+                let is_inside = |next: Option<&Link>| next.is_some_and(|s| s.member == number);
+                if is_inside(k.checked_sub(1).and_then(|k| spans.get(k))) {
+                    between_n[link.a] = plus(between_n[link.a], at_a);
+                } else {
+                    axial_n[number] += density * norm(d);
+                    start_forces_n[number] = plus(start_forces_n[number], at_a);
+                }
+                let at_end = if is_inside(spans.get(k + 1)) {
+                    &mut between_n[link.b]
+                } else {
+                    &mut end_forces_n[number]
+                };
+                *at_end = plus(*at_end, at_b);
                 continue;
             }
             // A bar of a corner: what it brings to an end of the member it belongs to.
@@ -121,7 +131,8 @@ impl Snapshot {
                 let data = &system.joints()[joint];
                 let weight = [0.0, 0.0, -data.mass_kg * system.gravity_m_s2()];
                 let given = plus(plus(data.force_n, weight), plus(of_time[joint], drag[joint]));
-                minus(times(data.mass_kg, accelerations_m_s2[joint]), given)
+                let own = minus(times(data.mass_kg, accelerations_m_s2[joint]), given);
+                plus(own, between_n[mechanism.slot_of[joint]])
             })
             .collect();
         for (number, member) in members.iter().enumerate() {
@@ -156,4 +167,22 @@ impl Snapshot {
     pub fn energy_j(&self) -> f64 {
         self.kinetic_j + self.potential_j
     }
+}
+
+/// Axial force over length of each span, N/m.
+fn densities(simulation: &Simulation, multipliers: &[f64]) -> Vec<f64> {
+    let (mechanism, state) = (simulation.mechanism(), simulation.state());
+    let mut found = Vec::with_capacity(mechanism.spans.len());
+    let span_m = |span: &Link| norm(state.between(span.a, span.b));
+    for (bar, rho) in mechanism.bars.iter().zip(multipliers) {
+        let spans = mechanism.of(&bar.spans);
+        let length_m = state.length_m(spans);
+        found.extend(spans.iter().map(|span| rho * (length_m / span_m(span))));
+    }
+    for spring in &mechanism.springs {
+        let spans = mechanism.of(&spring.spans);
+        let length_m = state.length_m(spans);
+        found.extend(spans.iter().map(|span| spring.force_density(length_m, span_m(span))));
+    }
+    found
 }

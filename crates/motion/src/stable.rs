@@ -6,7 +6,8 @@
 //!
 //! No position has an oscillation faster than this bound: a member of the stiffness `k = EA/l` along
 //! the unit vector `u` resists displacements of its ends with `k u uᵀ`, which is at most `k`
-//! whatever its direction; constraints only slow oscillations (Rayleigh); and the matrix of inertia
+//! whatever its direction; a rope resists the sum over `n` spans, which is at most `n k` in each of
+//! them; constraints only slow oscillations (Rayleigh); and the matrix of inertia
 //! is constant. What is left is one number for each joint, `K w = ω² M w`.
 
 use model::Vector;
@@ -61,12 +62,15 @@ fn pulls(mechanism: &Mechanism, x: &[Vector]) -> Vec<Vector> {
     let mut found = vec![[0.0; 3]; x.len()];
     let at = |slot: usize| x.get(slot).copied().unwrap_or_default();
     for spring in &mechanism.springs {
-        let [a, b] = [spring.link.a, spring.link.b];
-        let k = spring.stiffness_n / spring.link.length_m;
-        let pull = times(k, minus(at(b), at(a)));
-        for (slot, sign) in [(a, -1.0), (b, 1.0)] {
-            if let Some(found) = found.get_mut(slot) {
-                *found = add_times(*found, sign, pull);
+        let spans = mechanism.of(&spring.spans);
+        let moving = spans.iter().filter(|span| span.a.min(span.b) < x.len()).count();
+        let k = moving as f64 * spring.stiffness_n / spring.length_m;
+        for span in spans {
+            let pull = times(k, minus(at(span.b), at(span.a)));
+            for (slot, sign) in [(span.a, -1.0), (span.b, 1.0)] {
+                if let Some(found) = found.get_mut(slot) {
+                    *found = add_times(*found, sign, pull);
+                }
             }
         }
     }

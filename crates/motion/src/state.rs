@@ -3,8 +3,8 @@
 use model::Vector;
 use numerics::two_sum;
 
-use crate::mechanism::Mechanism;
-use numerics::vector::{dot, minus, plus, worse};
+use crate::mechanism::{Link, Mechanism};
+use numerics::vector::{dot, minus, norm, plus, times, worse};
 
 /// Places and velocities by slot.
 ///
@@ -41,16 +41,25 @@ impl State {
         plus(minus(self.at[b], self.at[a]), minus(self.rest[b], self.rest[a]))
     }
 
+    /// Sum of the lengths of spans, m.
+    pub(crate) fn length_m(&self, spans: &[Link]) -> f64 {
+        spans.iter().map(|span| norm(self.between(span.a, span.b))).sum()
+    }
+
     /// The vectors of the rows of the constraints; the largest violation, relative to the lengths.
     pub(crate) fn rows(&self, mechanism: &Mechanism, vectors: &mut [Vector]) -> f64 {
         let mut off = 0.0;
-        for (link, vector) in mechanism.bars.iter().zip(vectors.iter_mut()) {
-            let d = self.between(link.a, link.b);
-            *vector = d;
-            off = worse(off, half_excess(dot(d, d), link.length_m).abs());
+        for bar in &mechanism.bars {
+            let vectors = &mut vectors[bar.spans.clone()];
+            for (span, vector) in mechanism.of(&bar.spans).iter().zip(vectors.iter_mut()) {
+                *vector = self.between(span.a, span.b);
+            }
+            let squared = squared(vectors.iter().copied());
+            off = worse(off, half_excess(squared, bar.length_m).abs());
+            gradient(vectors, squared);
         }
         let length_m = mechanism.system.total_length_m();
-        let slides = mechanism.slides.iter().zip(&mut vectors[mechanism.bars.len()..]);
+        let slides = mechanism.slides.iter().zip(&mut vectors[mechanism.rigid_spans()..]);
         for (slide, vector) in slides {
             *vector = slide.normal;
             let from = minus(self.at[slide.slot], slide.at);
@@ -64,6 +73,57 @@ impl State {
     pub(crate) fn largest_speed(&self) -> f64 {
         self.velocity.iter().map(|v| dot(*v, *v)).fold(0.0, worse).sqrt()
     }
+}
+
+/// `s²` of the sum `s` of the lengths of spans.
+#[inline]
+pub(crate) fn squared(mut spans: impl Iterator<Item = Vector>) -> f64 {
+    let Some(first) = spans.next() else { return 0.0 };
+    let Some(second) = spans.next() else { return dot(first, first) };
+    let length = norm(first) + norm(second) + spans.map(norm).sum::<f64>();
+    length * length
+}
+
+/// The gradient of `s²/2` by each span: `s u`, which is the span itself where it is the only one.
+/// Zero of a span of no length.
+#[inline]
+pub(crate) fn gradient(spans: &mut [Vector], squared: f64) {
+    if spans.len() > 1 {
+        for d in spans {
+            let length = norm(*d);
+            let scale = if length > 0.0 { squared.sqrt() / length } else { 0.0 };
+            *d = times(scale, *d);
+        }
+    }
+}
+
+/// Rate of `s²/2` where the spans `d` change with the rates `w`: `s Σ u · w`.
+pub(crate) fn rate(spans: impl Iterator<Item = [Vector; 2]> + Clone) -> f64 {
+    let length: f64 = spans.clone().map(|[d, _]| norm(d)).sum();
+    let parts = spans.map(|[d, w]| [dot(d, w), norm(d)]);
+    parts.filter(|[_, size]| *size > 0.0).map(|[along, size]| along * (length / size)).sum()
+}
+
+/// Second derivative of `s²/2` where the spans `d` change with the rates `w`:
+///
+/// $$ (\sum_i u_i \cdot w_i)^2 + s \sum_i \frac{|w_i|^2 - (u_i \cdot w_i)^2}{|d_i|}, $$
+///
+/// `|w|²` where there is one span alone.
+#[inline]
+pub(crate) fn curvature(spans: impl Iterator<Item = [Vector; 2]> + Clone) -> f64 {
+    let mut rest = spans.clone();
+    if let (Some([_, w]), None) = (rest.next(), rest.next()) {
+        return dot(w, w);
+    }
+    let (mut length, mut rate, mut turning) = (0.0, 0.0, 0.0);
+    for [d, w] in spans {
+        let distance = norm(d);
+        let along = if distance > 0.0 { dot(d, w) / distance } else { 0.0 };
+        length += distance;
+        rate += along;
+        turning += if distance > 0.0 { (dot(w, w) - along * along) / distance } else { 0.0 };
+    }
+    rate * rate + length * turning
 }
 
 /// `(d² − l²) / (2 l²)`: the relative excess of a length, to first order.

@@ -89,5 +89,5 @@ pub(crate) fn excesses(mechanism: &Mechanism, state: &State) -> Vec<Excess> {
             axis: if jz > jy { second } else { third },
         })
     };
-    mechanism.bars.iter().filter_map(excess).collect()
+    mechanism.spans[..mechanism.rigid_spans()].iter().filter_map(excess).collect()
 }

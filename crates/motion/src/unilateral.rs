@@ -7,8 +7,9 @@
 
 use model::system::{Joint, Kind, Support, System};
 
+use crate::contacts::{hold, let_go};
 use crate::error::MotionError;
-use crate::mechanism::{MOTION, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::modes::LeftOver;
 use model::Vector;
 use numerics::vector::{minus, norm, worse};
@@ -38,13 +39,13 @@ pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
 }
 
 /// The system with bars in place of those inextensible cables and struts that are not slack at a
-/// position, world frame, m, and without a floor: joints that lie on it slide in its level.
+/// position, world frame, m, and without a floor: joints that lie on it slide in its level. Ropes
+/// that are not slack stay.
 ///
 /// # Errors
 ///
 /// [`MotionError::Input`] where there are not as many places as joints, or one is below the floor.
 pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System, MotionError> {
-    system.without_ropes(MOTION)?;
     let refused = |reason| MotionError::Input { what: "places of the joints", reason };
     if joints_m.len() != system.joints().len() {
         let (given, joints) = (joints_m.len(), system.joints().len());
@@ -59,7 +60,9 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
         let stretch = distance_m / member.body.length_m() - 1.0;
         let spare = if member.kind == Kind::Cable { -stretch } else { stretch };
         if spare <= LENGTHS || spare.is_nan() {
-            member.kind = Kind::Bar;
+            hold(member);
+        } else {
+            let_go(member);
         }
     }
     let mut joints = system.joints().to_vec();
@@ -117,7 +120,7 @@ pub(crate) fn check_pushes(
 
 fn distance(system: &System, number: usize, joints_m: &[Vector]) -> f64 {
     let member = &system.members()[number];
-    norm(minus(joints_m[member.to], joints_m[member.from]))
+    member.spans().map(|[a, b]| norm(minus(joints_m[b], joints_m[a]))).sum()
 }
 
 /// Refuse cables taken as bars that do not pull, and struts that do not push.
@@ -133,7 +136,7 @@ pub(crate) fn check_forces(
     joints_m: &[Vector],
     densities: &[f64],
 ) -> Result<(), MotionError> {
-    let axial = || mechanism.bars.iter().zip(densities).map(|(link, rho)| rho * link.length_m);
+    let axial = || mechanism.bars.iter().zip(densities).map(|(bar, rho)| rho * bar.length_m);
     let loads = mechanism.load.iter().map(|f| norm(*f));
     let unit_n = axial().map(f64::abs).chain(loads).fold(0.0, worse);
     for (link, axial_n) in mechanism.bars.iter().zip(axial()) {

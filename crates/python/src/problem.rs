@@ -253,6 +253,11 @@ impl Problem {
         self.system().members().iter().map(|member| (member.from, member.to)).collect()
     }
 
+    /// The joints that each member runs over between these, from 0: rings and pulleys of a rope.
+    fn member_via(&self) -> Vec<Vec<usize>> {
+        self.system().members().iter().map(|member| member.via().to_vec()).collect()
+    }
+
     /// The kind of each member.
     fn member_kinds(&self) -> Vec<&'static str> {
         let word = |member: &Member| match member.kind {

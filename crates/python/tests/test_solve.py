@@ -553,3 +553,30 @@ def test_derivatives_are_those_of_the_triangle():
     for wrong in (lambda: fn.gradient(v, "joints.P.at_m.w"), lambda: fn.change(v, "bars.1.color")):
         with pytest.raises(fn.errors.InputError):
             wrong()
+
+
+def test_a_ring_on_a_rope_swings_and_moves_and_has_derivatives():
+    # 10 kg on a rope of 5 m from the origin to 4 m aside and 1 m up: T = W / (2 cos a) with sin a = d / L.
+    ring = fn.System.from_dict(
+        {
+            "joints": {"A": {"at_m": [0, 0, 0]}, "B": {"at_m": [4, 0, 1]}, "P": {"mass_kg": 10}},
+            "bars": [{"from": "A", "via": ["P"], "to": "B", "length_m": 5, "kind": "cable"}],
+        }
+    )
+    assert ring.member_joints == [(0, 1)] and ring.member_via == [[2]] and list(ring.members["via"]) == ["P"]
+    weight = 10 * 9.80665
+    answer = ring.solve()
+    assert abs(answer.axial_n[0] - weight / 1.2) < 1e-9 and list(answer.bars["via"]) == ["P"]
+    # Along its ellipse, and about the line of its ends 4/3 m above it.
+    told = [9.80665 * 2.5 * 2**0.5 / (50 / 9) ** 1.5, 0.75 * 9.80665]
+    np.testing.assert_allclose(ring.modes()[0].omega2_s2, told, rtol=1e-9)
+    by_length = -weight * 16 / (250 * 0.216)
+    assert abs(fn.gradient(ring, "bars.1.axial_n")["bars.1.length_m"] - by_length) < 1e-6
+    back = fn.gradients.pullback(ring, {"lengths": [5]}, np.zeros((3, 3)), [1])
+    assert abs(back["lengths"][0] - by_length) < 1e-6
+    # Released 1 mm along the level of its rest, half a period later it is on the other side.
+    rest = answer.joints_m.copy()
+    rest[2, 0] += 1e-3
+    period = 2 * np.pi / told[0] ** 0.5
+    moved = ring.simulate(start=rest, time=period / 2, step=period / 2000)
+    assert abs(moved.joints_m[-1, 2, 0] - 4 / 3 + 1e-3) < 1e-5

@@ -182,7 +182,6 @@ impl Simulate {
         each: &mut dyn FnMut(&Snapshot) -> ControlFlow<()>,
     ) -> Result<Motion, Error> {
         let (steps, every) = self.steps()?;
-        problem.without_ropes("simulate")?;
         problem.fits(BYTES_PER_MEMBER)?;
         let system = system_of(problem);
         let at = self.start.position(problem, &system)?;

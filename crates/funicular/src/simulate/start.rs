@@ -124,7 +124,8 @@ fn at_angles(system: &System, angles_deg: &[f64]) -> Result<Vec<Vector>, Simulat
     let plus = |a: Vector, sign: f64, d: Vector| [0, 1, 2].map(|k| a[k] + sign * d[k]);
     loop {
         let before = at.iter().flatten().count();
-        for (member, along) in members.iter().zip(&along) {
+        // A rope bends where it likes.
+        for (member, along) in members.iter().zip(&along).filter(|(m, _)| m.rope.is_none()) {
             match [member.from, member.to].map(|joint| at[joint]) {
                 [Some(here), None] => at[member.to] = Some(plus(here, 1.0, *along)),
                 [None, Some(here)] => at[member.from] = Some(plus(here, -1.0, *along)),

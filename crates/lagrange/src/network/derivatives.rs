@@ -17,6 +17,9 @@
 //!    \frac{\partial D}{\partial k} = d\\,\frac{F - N}{(k + F)^2}, \qquad
 //!    \frac{\partial D}{\partial F} = -d\\,\frac{k + N}{(k + F)^2} . $$
 //!
+//! A rope is a member whose length $D$ is the sum of its spans, each of them a link with the numbers of the
+//! whole.
+//!
 //! There is no derivative where a motion meets no stiffness, where self-stresses leave the forces
 //! open, and where a member or the floor has just no force ([`Error`]).
 
@@ -58,7 +61,7 @@ pub enum Parameter {
         /// Number of the member.
         member: usize,
     },
-    /// Mass of a member, kg.
+    /// Mass of a member, kg. A rope, which has none, has the derivative zero.
     Mass {
         /// Number of the member.
         member: usize,
@@ -100,7 +103,7 @@ pub struct Gradient {
     pub by_stiffness: Vec<f64>,
     /// By the prestress at their lengths, 1/N; zero for inextensible members.
     pub by_prestress: Vec<f64>,
-    /// By their masses, 1/kg.
+    /// By their masses, 1/kg; zero for ropes.
     pub by_mass: Vec<f64>,
     /// By forces on the joints, 1/N.
     pub by_force: Vec<Vector>,
@@ -152,7 +155,6 @@ impl<'a> Derivatives<'a> {
     /// [`Error::FreeMotion`], [`Error::OpenForces`], [`Error::JustTaut`] and [`Error::JustTouches`]
     /// where the equilibrium has no derivatives.
     pub fn new(system: &'a System, solution: &Solution) -> Result<Self, Error> {
-        system.without_ropes("derivatives")?;
         let framework = Framework::of(system, solution);
         let state = State::of(&framework, solution);
         let residual = Residual::new(&framework, &state);
@@ -176,7 +178,8 @@ impl<'a> Derivatives<'a> {
     /// When the system has no such member, joint or axis.
     pub fn change(&mut self, parameter: Parameter) -> Result<Change, Error> {
         let mut change = self.none();
-        let (mut forces, mut lengths) = self.nothing();
+        let (mut forces, _) = self.nothing();
+        let mut lengths = vec![0.0; self.framework.members()];
         match parameter {
             Parameter::Length { member } => {
                 lengths[member] = self.by_length(member);
@@ -203,6 +206,7 @@ impl<'a> Derivatives<'a> {
                 self.stretch_held(&mut change)?;
             }
         }
+        let mut lengths = self.framework.by_link(lengths);
         self.release_held(&mut change, &mut lengths);
         let loads = forces.clone();
         (forces, lengths) = self.derivative.left(&change, &self.framework, &forces, &lengths);
@@ -213,6 +217,7 @@ impl<'a> Derivatives<'a> {
         let units = self.framework.units;
         let to_m = |place: &Vector3<f64>| (place * units.length_m).into();
         let nodes = self.framework.nodes.iter().zip(&left);
+        change.axial.truncate(self.framework.members());
         // The ground takes what the free directions leave.
         let grounds = nodes.map(|(node, left)| node.free.part(left) - left);
         Ok(Change {
@@ -255,17 +260,18 @@ impl<'a> Derivatives<'a> {
     pub fn gradient(&mut self, by_joints: &[Vector], by_axial: &[f64]) -> Result<Gradient, Error> {
         let units = self.framework.units;
         assert_eq!(by_joints.len(), self.framework.nodes.len(), "one derivative for each joint");
-        assert_eq!(by_axial.len(), self.framework.links.len(), "one derivative for each member");
+        assert_eq!(by_axial.len(), self.framework.members(), "one derivative for each member");
         let places: Vec<_> =
             by_joints.iter().map(|by| Vector3::from(*by) * units.length_m).collect();
-        let axial: Vec<_> = by_axial.iter().map(|by| by * units.force_n).collect();
+        let axial = by_axial.iter().map(|by| by * units.force_n).collect();
+        let axial = self.framework.by_link(axial);
         let mut adjoint = self.solved(&places, &axial)?;
         for (k, link) in self.framework.links.iter().enumerate() {
             if self.held(k) {
                 adjoint.axial[k] = -axial[k] / link.compliance;
             }
         }
-        let members = 0..self.framework.links.len();
+        let members = 0..self.framework.members();
         let nodes = self.framework.nodes.iter().zip(&adjoint.places);
         let by_force = nodes.map(|(_, place)| (place / units.force_n).into()).collect();
         let left = self.derivative.left(&adjoint, &self.framework, &places, &axial).0;
@@ -327,7 +333,9 @@ impl<'a> Derivatives<'a> {
     /// The members between anchors take the moves of these; an inextensible one cannot.
     fn stretch_held(&self, change: &mut Step) -> Result<(), Error> {
         for (k, link) in self.framework.links.iter().enumerate() {
-            let stretch = self.directions[k].dot(&link.span(&change.places));
+            let stretch = self.framework.whole(k, |span| {
+                self.directions[span].dot(&self.framework.links[span].span(&change.places))
+            });
             if self.framework.moves(link) || stretch == 0.0 {
                 continue;
             }
@@ -414,6 +422,9 @@ impl<'a> Derivatives<'a> {
 
     /// Vertical forces at its two joints from a unit of mass.
     fn by_mass(&self, member: usize) -> [f64; 2] {
+        if self.framework.links[member].rope.is_some() {
+            return [0.0; 2];
+        }
         let body = self.system.members()[member].given_body();
         let weight = -self.system.gravity_m_s2() / self.framework.units.force_n;
         let fraction = body.centre_m() / body.length_m();

@@ -55,12 +55,14 @@ fn just_taut(
     residual: &Residual,
     largest: f64,
 ) -> Option<usize> {
-    let mut links = framework.links.iter().zip(&residual.directions).zip(&state.axial);
-    links.position(|((link, (_, length)), axial)| {
+    let mut links = framework.links[..framework.members()].iter().zip(&state.axial).enumerate();
+    let length = |k: usize| framework.whole(k, |span| residual.directions[span].1);
+    let just = links.find(|(k, (link, axial))| {
         link.kind != Kind::Bar
             && axial.abs() <= NO_FORCE * largest
-            && (length - link.length).abs() <= NO_SLACK * link.length
-    })
+            && (length(*k) - link.length).abs() <= NO_SLACK * link.length
+    });
+    just.map(|(member, _)| member)
 }
 
 /// The first joint that lies on the floor, which does not push it.

@@ -42,6 +42,32 @@ fn bridle() -> System {
     System::new("bridle", 9.80665, joints, members).unwrap()
 }
 
+/// Ropes over rings and pulleys: one that keeps its length and meets a ring twice, an elastic one with both ends at
+/// joints that move, an elastic one along anchors alone. No two terms of one size.
+fn roped() -> System {
+    let joints = vec![
+        Joint::anchor("A", [-2.0, -1.0, 0.3]),
+        Joint::anchor("B", [2.0, -0.5, 0.0]),
+        Joint::anchor("C", [0.2, 2.0, -0.2]),
+        Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]),
+        Joint::free("Q").with_mass(1.7).with_force([2.0, 3.0, 0.0]),
+        Joint::free("R").with_mass(1.1).with_force([0.0, -0.2, 0.1]),
+    ];
+    let rope = |path: &[usize], length_m: f64| {
+        let (last, body) = (path.len() - 1, Bar::homogeneous(length_m, 0.0).unwrap());
+        Member::cable(path[0], path[last], body).over(path[1..last].to_vec())
+    };
+    let members = vec![
+        rope(&[0, 3, 1, 3, 4, 2], 10.5),
+        rope(&[3, 1, 5], 5.0).with_stiffness(90.0),
+        rope(&[1, 0, 2], 6.5).with_stiffness(40.0),
+        cable(2, 4, 2.2, 0.4),
+        cable(0, 5, 3.0, 0.2).with_stiffness(150.0).with_prestress(4.0).unwrap(),
+        bar(4, 5, 2.4, 0.6),
+    ];
+    System::new("roped", 9.80665, joints, members).unwrap()
+}
+
 /// The member that is described by its numbers larger by these: length, mass, stiffness, prestress.
 fn given(member: &mut Member, [length_m, mass_kg, stiffness_n, more_n]: [f64; 4]) {
     let prestress_n = member.prestress_n();
@@ -97,10 +123,13 @@ fn differences(system: &System, parameter: Parameter) -> [Vec<f64>; 3] {
 
 fn parameters(system: &System) -> Vec<Parameter> {
     let mut all = Vec::new();
-    for member in 0..system.members().len() {
-        all.extend([Parameter::Length { member }, Parameter::Mass { member }]);
-        if system.members()[member].stiffness_n.is_some() {
-            all.extend([Parameter::Stiffness { member }, Parameter::Prestress { member }]);
+    for (member, given) in system.members().iter().enumerate() {
+        all.push(Parameter::Length { member });
+        all.extend(given.stiffness_n.map(|_| Parameter::Stiffness { member }));
+        // A rope has neither.
+        if given.rope.is_none() {
+            all.push(Parameter::Mass { member });
+            all.extend(given.stiffness_n.map(|_| Parameter::Prestress { member }));
         }
     }
     for (joint, given) in system.joints().iter().enumerate() {
@@ -116,17 +145,18 @@ fn parameters(system: &System) -> Vec<Parameter> {
 
 #[test]
 fn by_every_parameter() {
-    let system = bridle();
-    let solution = hang(&system);
-    assert!(solution.slack.is_empty() && solution.limp.is_empty());
-    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
-    for parameter in parameters(&system) {
-        let exact = flat(&derivatives.change(parameter).unwrap());
-        let numeric = differences(&system, parameter);
-        for (exact, numeric) in exact.iter().zip(&numeric) {
-            let largest = exact.iter().fold(1e-3_f64, |most, d| most.max(d.abs()));
-            for (a, b) in exact.iter().zip(numeric) {
-                assert!((a - b).abs() <= AGREE * largest, "{parameter:?}: {a} against {b}");
+    for system in [bridle(), roped()] {
+        let solution = hang(&system);
+        assert!(solution.slack.is_empty() && solution.limp.is_empty(), "{solution:?}");
+        let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+        for parameter in parameters(&system) {
+            let exact = flat(&derivatives.change(parameter).unwrap());
+            let numeric = differences(&system, parameter);
+            for (exact, numeric) in exact.iter().zip(&numeric) {
+                let largest = exact.iter().fold(1e-3_f64, |most, d| most.max(d.abs()));
+                for (a, b) in exact.iter().zip(numeric) {
+                    assert!((a - b).abs() <= AGREE * largest, "{parameter:?}: {a} against {b}");
+                }
             }
         }
     }
@@ -135,32 +165,33 @@ fn by_every_parameter() {
 /// The adjoint gives the same numbers as the changes one by one.
 #[test]
 fn the_gradient_is_the_adjoint_of_the_changes() {
-    let system = bridle();
-    let solution = hang(&system);
-    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
-    // Any weights.
-    let by_joints: Vec<[f64; 3]> = (0..system.joints().len())
-        .map(|k| [0.3, -0.7, 1.1].map(|w| w * (k as f64 + 0.5).sin()))
-        .collect();
-    let by_axial: Vec<f64> =
-        (0..system.members().len()).map(|k| (1.7 * k as f64 + 0.2).cos()).collect();
-    let gradient = derivatives.gradient(&by_joints, &by_axial).unwrap();
-    for parameter in parameters(&system) {
-        let change = derivatives.change(parameter).unwrap();
-        let places = change.joints_m.iter().zip(&by_joints);
-        let places: f64 =
-            places.map(|(d, w)| d.iter().zip(w).map(|(d, w)| d * w).sum::<f64>()).sum();
-        let forces: f64 = change.axial_n.iter().zip(&by_axial).map(|(d, w)| d * w).sum();
-        let adjoint = match parameter {
-            Parameter::Length { member } => gradient.by_length[member],
-            Parameter::Stiffness { member } => gradient.by_stiffness[member],
-            Parameter::Prestress { member } => gradient.by_prestress[member],
-            Parameter::Mass { member } => gradient.by_mass[member],
-            Parameter::Force { joint, axis } => gradient.by_force[joint][axis],
-            Parameter::Anchor { joint, axis } => gradient.by_anchor[joint][axis],
-        };
-        let difference = (adjoint - places - forces).abs();
-        assert!(difference <= 1e-10 * adjoint.abs().max(1.0), "{parameter:?}: {difference:e}");
+    for system in [bridle(), roped()] {
+        let solution = hang(&system);
+        let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+        // Any weights.
+        let by_joints: Vec<[f64; 3]> = (0..system.joints().len())
+            .map(|k| [0.3, -0.7, 1.1].map(|w| w * (k as f64 + 0.5).sin()))
+            .collect();
+        let by_axial: Vec<f64> =
+            (0..system.members().len()).map(|k| (1.7 * k as f64 + 0.2).cos()).collect();
+        let gradient = derivatives.gradient(&by_joints, &by_axial).unwrap();
+        for parameter in parameters(&system) {
+            let change = derivatives.change(parameter).unwrap();
+            let places = change.joints_m.iter().zip(&by_joints);
+            let places: f64 =
+                places.map(|(d, w)| d.iter().zip(w).map(|(d, w)| d * w).sum::<f64>()).sum();
+            let forces: f64 = change.axial_n.iter().zip(&by_axial).map(|(d, w)| d * w).sum();
+            let adjoint = match parameter {
+                Parameter::Length { member } => gradient.by_length[member],
+                Parameter::Stiffness { member } => gradient.by_stiffness[member],
+                Parameter::Prestress { member } => gradient.by_prestress[member],
+                Parameter::Mass { member } => gradient.by_mass[member],
+                Parameter::Force { joint, axis } => gradient.by_force[joint][axis],
+                Parameter::Anchor { joint, axis } => gradient.by_anchor[joint][axis],
+            };
+            let difference = (adjoint - places - forces).abs();
+            assert!(difference <= 1e-10 * adjoint.abs().max(1.0), "{parameter:?}: {difference:e}");
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! Ropes over rings and pulleys against closed forms.
 
-use lagrange::network::{Derivatives, Error, Forces, Seed, Settings, Solution, solve, solve_from};
+use lagrange::network::{
+    Derivatives, Error, Forces, Parameter, Seed, Settings, Solution, solve, solve_from,
+};
 use model::Bar;
 use model::system::{Joint, Member, System};
 use samples::RopeSample;
@@ -76,7 +78,7 @@ fn unequal_weights_jam() {
     }
 }
 
-/// Two ropes on one way share as equally stiff ones, and derivatives of them are refused.
+/// Two ropes on one way share as equally stiff ones, and have no derivatives.
 #[test]
 fn ropes_side_by_side_are_a_family() {
     let joints = vec![
@@ -97,5 +99,28 @@ fn ropes_side_by_side_are_a_family() {
     let named = found.equilibrium.evidence.self_stresses.as_ref().unwrap();
     assert_eq!((named.dimension, named.basis[0].len()), (1, 2));
     let refused = Derivatives::new(&system, &found).err().unwrap();
-    assert!(matches!(refused, Error::Rope(rope) if rope.member == 1), "{refused}");
+    assert_eq!(refused, Error::OpenForces { dimension: 1 });
+}
+
+/// `T = W/(2 cos a)` with `sin a = d/L`: `dT/dL = −W d²/(2 L³ cos³ a)`, `dT/dd = W d/(2 L² cos³ a)`, and none by the
+/// height of an anchor.
+#[test]
+fn the_tension_of_a_rope_over_a_ring_by_its_length() {
+    let ring = &samples::ropes()[0].system;
+    let found = solve(ring, &Settings::default()).unwrap();
+    let mut derivatives = Derivatives::new(ring, &found).unwrap();
+    let [by_length, aside, up] = [
+        Parameter::Length { member: 0 },
+        Parameter::Anchor { joint: 1, axis: 0 },
+        Parameter::Anchor { joint: 1, axis: 2 },
+    ]
+    .map(|by| derivatives.change(by).unwrap().axial_n[0]);
+    let weight_n = 10.0 * 9.80665;
+    close(by_length, -weight_n * 16.0 / (250.0 * 0.216));
+    close(aside, weight_n * 4.0 / (50.0 * 0.216));
+    assert!(up.abs() < 1e-9, "{up}");
+    // The force follows the weight: 1/(2 cos a) for each newton down.
+    let by_force = derivatives.change(Parameter::Force { joint: 2, axis: 2 }).unwrap();
+    close(by_force.axial_n[0], -1.0 / 1.2);
+    assert_eq!(derivatives.change(Parameter::Mass { member: 0 }).unwrap().axial_n, [0.0]);
 }

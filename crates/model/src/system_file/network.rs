@@ -22,7 +22,8 @@ use super::tolerance::{self, Tolerances};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
-    Joint, Member, PointLoad, Support, System, SystemError, SystemRefusal, UNIT_TOLERANCE,
+    Joint, Member, PointLoad, RopeFault, Support, System, SystemError, SystemRefusal,
+    UNIT_TOLERANCE,
 };
 
 const ROOT_KEYS: &[&str] = &[
@@ -193,19 +194,16 @@ impl Reading<'_> {
         }
         let mut members = Vec::new();
         let number = |name: &str| self.number(name);
-        let is_drawn = self.drawn;
-        let drawn = |from: usize, to: usize| {
-            let (from, to) = (&self.joints[from], &self.joints[to]);
-            if is_drawn { drawing::length_m(from, to, 1) } else { Ok(None) }
-        };
+        let drawn = |path: &[usize]| self.drawn_m(path, 1);
         let budget = &self.root.source().budget;
         let mut take = |row: &Row<'_>| {
             budget.take_members(1).map_err(|error| (None, Kind::Memory(error)))?;
             let member = network_rows::member(row, &number, &drawn, self.safety)?;
+            self.rope(&member, row.number).map_err(|(key, kind)| (Some(key), kind))?;
             members.push(self.tolerances.member(member, row)?);
             Ok(())
         };
-        let known = if is_drawn { DRAWN_BARS } else { BARS };
+        let known = if self.drawn { DRAWN_BARS } else { BARS };
         let file = SheetFile::read(self.root, "bars_file", known, &mut take)?;
         self.bars_file = file;
         self.members = members;
@@ -238,14 +236,11 @@ impl Reading<'_> {
         let via = self.via(table)?;
         let drawn = || {
             let path = [&[from], via.as_slice(), &[to]].concat();
-            let length = if self.drawn { self.drawn_m(&path, count) } else { Ok(None) };
-            length.map_err(|kind| table.error(kind, "length_m"))
+            self.drawn_m(&path, count).map_err(|kind| table.error(kind, "length_m"))
         };
         let read = Member { from, to, ..member(table, &drawn, self.safety)? }.over(via);
-        if let Some(fault) = read.rope_fault(&self.joints) {
-            let (key, member) = (fault.key(), self.members.len() + 1);
-            return Err(table.error(Kind::System(SystemError::Rope { member, fault }), key));
-        }
+        let rope = self.rope(&read, self.members.len() + 1);
+        rope.map_err(|(key, kind)| table.error(kind, key))?;
         let model = self.tolerances.member(read, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
@@ -272,6 +267,13 @@ impl Reading<'_> {
         Ok(())
     }
 
+    /// Refuse a rope that is none, with the key that is wrong.
+    fn rope(&self, read: &Member, member: usize) -> Result<(), (&'static str, Kind)> {
+        let fault = read.rope_fault(&self.joints);
+        let wrong = |f: RopeFault| (f.key(), Kind::System(SystemError::Rope { member, fault: f }));
+        fault.map_or(Ok(()), |fault| Err(wrong(fault)))
+    }
+
     /// The joints that a rope runs over.
     fn via(&self, table: &Table<'_>) -> Result<Vec<usize>, SystemFileError> {
         const WANTED: &str = "one or more names of joints, such as [\"P\"]";
@@ -289,8 +291,11 @@ impl Reading<'_> {
         names.iter().map(joint).collect()
     }
 
-    /// The length of one of `count` members along these joints as they are drawn, m.
+    /// The length of one of `count` members along these joints as they are drawn, m, if they are.
     fn drawn_m(&self, path: &[usize], count: usize) -> Result<Option<f64>, Kind> {
+        if !self.drawn {
+            return Ok(None);
+        }
         let span =
             |pair: &[usize]| drawing::length_m(&self.joints[pair[0]], &self.joints[pair[1]], count);
         path.windows(2).map(span).sum()

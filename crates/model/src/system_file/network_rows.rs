@@ -40,6 +40,7 @@ pub(super) const JOINTS: Known = Known {
 pub(super) const BARS: Known = Known {
     columns: &[
         "from",
+        "via",
         "to",
         "length_m",
         "mass_kg",
@@ -163,23 +164,37 @@ pub(super) fn sliding(word: &str, at_m: Vector) -> Option<Support> {
     })
 }
 
-/// The member of a row, between joints whose numbers `number` knows, and their distance where they
-/// are drawn `drawn`; `safety` is wanted where the row says nothing else.
+/// The joints that the rope of a row runs over: names between blanks, or between semicolons.
+fn via(row: &Row<'_>, number: &dyn Fn(&str) -> Result<usize, Kind>) -> Result<Vec<usize>, Wrong> {
+    let Some(cell) = row.word("via")? else { return Ok(Vec::new()) };
+    let is_between = |c: char| if cell.contains(';') { c == ';' } else { c.is_whitespace() };
+    let names = cell.split(is_between).map(str::trim).filter(|name| !name.is_empty());
+    let joints: Result<Vec<_>, _> = names.map(number).collect();
+    let joints = joints.map_err(|kind| (Some("via"), kind))?;
+    if joints.is_empty() { Err((Some("via"), Kind::EmptyCell)) } else { Ok(joints) }
+}
+
+/// The member of a row, between joints whose numbers `number` knows, and the length of its path where
+/// they are drawn `drawn`; `safety` is wanted where the row says nothing else.
 pub(super) fn member(
     row: &Row<'_>,
     number: &dyn Fn(&str) -> Result<usize, Kind>,
-    drawn: &dyn Fn(usize, usize) -> Result<Option<f64>, Kind>,
+    drawn: &dyn Fn(&[usize]) -> Result<Option<f64>, Kind>,
     safety: f64,
 ) -> Result<Member, Wrong> {
     let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
-    let (from, to) = (joint("from")?, joint("to")?);
+    let (from, via, to) = (joint("from")?, via(row, number)?, joint("to")?);
+    let path = [&[from], via.as_slice(), &[to]].concat();
     let given = row.number("length_m")?;
-    let drawn = || drawn(from, to).map_err(|kind| (Some("length_m"), kind));
+    let drawn = || drawn(&path).map_err(|kind| (Some("length_m"), kind));
     let length_m = match given.map_or_else(drawn, |given| Ok(Some(given)))? {
         Some(length_m) => length_m,
         None => row.needed("length_m")?,
     };
-    let mass_kg = row.needed("mass_kg")?;
+    let mass_kg = match row.number("mass_kg")? {
+        None if via.is_empty() => row.needed("mass_kg")?,
+        given => given.unwrap_or(0.0),
+    };
     let body = Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
         let column = match error {
             BarError::Mass { .. } => "mass_kg",
@@ -193,7 +208,7 @@ pub(super) fn member(
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     let stiffness_n = row.number("stiffness_n")?;
     let loads = load(row, length_m)?;
-    let bar = Member::bar(from, to, body);
+    let bar = Member::bar(from, to, body).over(via);
     let strength = strength_of(row, safety)?;
     let member = Member { kind, stiffness_n, strength, loads, ..bar };
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))

@@ -72,6 +72,50 @@ fn every_column_arrives_where_it_belongs() {
     assert_eq!(found, System::new("unnamed", 9.80665, joints, members).unwrap());
 }
 
+/// Names between blanks, or between semicolons as one of them has a blank; written as a table they are read as the same.
+#[test]
+fn ropes_run_over_the_joints_of_a_cell() {
+    let bars = "from,via,to,length_m,mass_kg,kind,stiffness_n\n\
+                A,C A C,4,9,,cable,\n\
+                A,\"lamp, old; C\",4,7.5,0,cable,300\n\
+                A,\"lamp, old;\",C,4,,cable,\n\
+                C,,4,1,0.5,,\n";
+    let found = described("ropes", [SYSTEM, JOINTS, bars]).unwrap();
+    let rope = |to, length_m, via: &[usize]| {
+        Member::cable(0, to, Bar::homogeneous(length_m, 0.0).unwrap()).over(via.to_vec())
+    };
+    let told = [
+        rope(3, 9.0, &[2, 0, 2]),
+        rope(3, 7.5, &[1, 2]).with_stiffness(300.0),
+        rope(2, 4.0, &[1]),
+        Member::bar(2, 3, Bar::homogeneous(1.0, 0.5).unwrap()),
+    ];
+    assert_eq!(found.members(), told);
+    let text = model::system_file::write_network(&found);
+    assert_eq!(model::system_file::parse(&text, "x.toml").unwrap(), Described::System(found));
+    // Drawn, it is as long as its spans: 2, 1.5 and 2.5 m.
+    let joints = "name,x_m,y_m,z_m,mass_kg,near_x_m,near_y_m,near_z_m\nA,0,0,0,,,,\nB,2,0,0,,,,\n\
+                  P,,,,1,2,1.5,0\nQ,,,,1,2,1.5,-2.5\n";
+    let bars = "from,via,to,mass_kg,kind\nA,B P,Q,,cable\nP,,Q,1,cable\n";
+    let drawn = described("drawn-ropes", [SYSTEM, joints, bars]).unwrap();
+    assert!((drawn.members()[0].body.length_m() - 6.0).abs() < 1e-15);
+}
+
+#[test]
+fn what_is_no_rope_is_refused_in_its_cell() {
+    for (name, row, wanted) in [
+        ("strut", "A,C,4,9,,strut", ["only a cable runs over rings", ": kind: "]),
+        ("mass", "A,C,4,9,2,cable", ["has no mass here", ": mass_kg: "]),
+        ("nobody", "A,C X,4,9,,cable", ["\"X\"", ": via: "]),
+        ("nothing", "A,;,4,9,,cable", ["empty", ": via: "]),
+        ("itself", "A,C C,4,9,,cable", ["runs from joint \"C\" to itself", ": via: "]),
+    ] {
+        let bars = format!("from,via,to,length_m,mass_kg,kind\n{row}\n");
+        let text = described(name, [SYSTEM, JOINTS, &bars]).unwrap_err().to_string();
+        assert!(wanted.iter().all(|wanted| text.contains(wanted)), "{name}: {text}");
+    }
+}
+
 /// Anchors in the system file, a thousand joints by their numbers in one of their own.
 #[test]
 fn joints_may_stand_in_both_places_and_have_numbers_for_names() {

@@ -1,5 +1,7 @@
 //! Stiffness, inertia and constraints about an equilibrium in a box.
 
+use std::collections::BTreeMap;
+
 use model::Bar;
 use model::system::{Kind, Support, System};
 use nalgebra::DMatrix;
@@ -12,17 +14,21 @@ use crate::mechanism::{Link, Mechanism};
 
 pub(super) type Vector = [Interval; 3];
 
+/// Coordinates and values; zero elsewhere.
+pub(super) type Row = Vec<(usize, Interval)>;
+
 /// Relative rounding of `m l²/12` and of what a file makes of other moments: three roundings and
 /// one to spare.
 const MOMENT_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// A member between two slots with its stiffness `ρ I + (k' − ρ) u uᵀ` and its inertia.
+/// A span between two slots with its stiffness `ρ I + (k' − ρ) u uᵀ` and its inertia; in a rope `k'`
+/// is zero.
 struct Member {
     a: usize,
     b: usize,
-    /// `ρ`: axial force over distance, N/m.
+    /// `ρ`: axial force over the length of the span, N/m.
     density: Interval,
-    /// `k' − ρ`, N/m, and `u`; none for a rigid member.
+    /// `k' − ρ`, N/m, and `u`; none for a rigid bar.
     along: Option<(Interval, Vector)>,
     /// `b` of the matrix of inertia, kg.
     between: Interval,
@@ -46,8 +52,10 @@ pub(super) struct Pencil {
     mass: Vec<Interval>,
     members: Vec<Member>,
     excesses: Vec<Excess>,
+    /// Of elastic ropes `EA/L`, N/m, and the gradient of the length.
+    lengths: Vec<(Interval, Row)>,
     /// Rows of the constraints: coordinate and value.
-    pub rows: Vec<Vec<(usize, Interval)>>,
+    pub rows: Vec<Row>,
 }
 
 impl Pencil {
@@ -64,46 +72,76 @@ impl Pencil {
             mass: (0..joints.len()).map(|s| Interval::point(joints[by_slot(s)].mass_kg)).collect(),
             members: Vec::new(),
             excesses: Vec::new(),
+            lengths: Vec::new(),
             rows: Vec::new(),
         };
         let span = |link: &Link| minus(at.joints_m[by_slot(link.b)], at.joints_m[by_slot(link.a)]);
-        for link in &mechanism.bars {
-            let (d, axial) = (span(link), at.axial_n[link.member]);
-            let is_held = match system.members()[link.member].kind {
+        for bar in &mechanism.bars {
+            let axial = at.axial_n[bar.member];
+            let is_held = match system.members()[bar.member].kind {
                 Kind::Bar => true,
                 Kind::Cable => axial.sign() == Some(1),
                 Kind::Strut => axial.sign() == Some(-1),
             };
             if !is_held {
-                return Err(NotEnclosed::Undecided { member: link.member + 1 });
+                return Err(NotEnclosed::Undecided { member: bar.member + 1 });
             }
-            found.add_excess(&system.members()[link.member].body, link, d);
-            let density = axial / Interval::point(link.length_m);
-            found.add(mechanism, link, density, None);
-            let back = d.map(|x| -x);
-            found.rows.push(found.row(&[(link.a, back), (link.b, d)]));
+            let spans = mechanism.of(&bar.spans);
+            if let [link] = spans {
+                let d = span(link);
+                found.add_excess(&system.members()[bar.member].body, link, d);
+                found.add(mechanism, link, axial / Interval::point(bar.length_m), None);
+                found.rows.push(found.row(&[(link.a, d.map(|x| -x)), (link.b, d)]));
+            } else {
+                let row = found.add_spans(mechanism, spans, &span, axial, Interval::ZERO);
+                found.rows.push(row);
+            }
         }
         for spring in &mechanism.springs {
-            let (link, axial) = (&spring.link, at.axial_n[spring.link.member]);
-            let d = span(link);
-            let distance = dot(d, d).sqrt();
-            if is_slack(spring.kind, distance, link.length_m) && axial == Interval::ZERO {
-                found.add(mechanism, link, Interval::ZERO, None);
+            let (spans, axial) = (mechanism.of(&spring.spans), at.axial_n[spring.member]);
+            let length = spans.iter().map(|link| size(span(link))).sum();
+            if is_slack(spring.kind, length, spring.length_m) && axial == Interval::ZERO {
+                for link in spans {
+                    found.add(mechanism, link, Interval::ZERO, None);
+                }
                 continue;
             }
-            let density = axial / distance;
             let is_extensible = spring.stiffness_n > 0.0;
             let slope = match (spring.kind, axial.sign().filter(|_| is_extensible)) {
                 (Kind::Bar, _) | (Kind::Cable, Some(1)) | (Kind::Strut, Some(-1)) => {
-                    Interval::point(spring.stiffness_n) / Interval::point(link.length_m)
+                    Interval::point(spring.stiffness_n) / Interval::point(spring.length_m)
                 }
-                _ => return Err(NotEnclosed::Undecided { member: link.member + 1 }),
+                _ => return Err(NotEnclosed::Undecided { member: spring.member + 1 }),
             };
-            let u = d.map(|x| x / distance);
-            found.add(mechanism, link, density, Some((slope - density, u)));
+            let is_rope = spans.len() > 1;
+            let own = if is_rope { Interval::ZERO } else { slope };
+            let gradient = found.add_spans(mechanism, spans, &span, axial, own);
+            if is_rope {
+                found.lengths.push((slope, gradient));
+            }
         }
         found.add_supports(mechanism);
         Ok(found)
+    }
+
+    /// Spans of one axial force, each with a stiffness along it; the gradient of their length.
+    fn add_spans(
+        &mut self,
+        mechanism: &Mechanism,
+        spans: &[Link],
+        span: &dyn Fn(&Link) -> Vector,
+        axial: Interval,
+        along: Interval,
+    ) -> Row {
+        let mut parts = Vec::new();
+        for link in spans {
+            let d = span(link);
+            let distance = size(d);
+            let (density, u) = (axial / distance, d.map(|x| x / distance));
+            self.add(mechanism, link, density, Some((along - density, u)));
+            parts.extend([(link.a, u.map(|x| -x)), (link.b, u)]);
+        }
+        self.row(&parts)
     }
 
     fn add(
@@ -130,7 +168,7 @@ impl Pencil {
         let part = dot(near, d) / dot(d, d);
         let second: Vector = std::array::from_fn(|k| near[k] - part * d[k]);
         let across = if jz.mid() > jy.mid() { second } else { cross(d, second) };
-        let size = dot(across, across).sqrt();
+        let size = size(across);
         let l = Interval::point(link.length_m);
         self.excesses.push(Excess {
             a: link.a,
@@ -163,9 +201,15 @@ impl Pencil {
         }
     }
 
-    fn row(&self, parts: &[(usize, Vector)]) -> Vec<(usize, Interval)> {
-        let moving = parts.iter().filter(|(slot, _)| *slot < self.moving);
-        moving.flat_map(|(slot, v)| (0..3).map(move |k| (3 * slot + k, v[k]))).collect()
+    fn row(&self, parts: &[(usize, Vector)]) -> Row {
+        let mut sums = BTreeMap::new();
+        for (slot, v) in parts.iter().filter(|(slot, _)| *slot < self.moving) {
+            for (k, x) in v.iter().enumerate() {
+                let sum = sums.entry(3 * slot + k).or_insert(Interval::ZERO);
+                *sum = *sum + *x;
+            }
+        }
+        sums.into_iter().collect()
     }
 
     /// `Xᵀ K X` and `Xᵀ M X`.
@@ -198,6 +242,15 @@ impl Pencil {
                 }
             }
         }
+        for (slope, gradient) in &self.lengths {
+            let by = |c: usize| -> Interval { gradient.iter().map(|(k, g)| *g * x[(*k, c)]).sum() };
+            let by: Vec<_> = (0..count).map(by).collect();
+            for j in 0..count {
+                for i in 0..=j {
+                    stiffness[(i, j)] = stiffness[(i, j)] + *slope * (by[i] * by[j]);
+                }
+            }
+        }
         for excess in &self.excesses {
             let along = |c: usize| dot(excess.axis, minus(at(excess.b, c), at(excess.a, c)));
             let along: Vec<_> = (0..count).map(along).collect();
@@ -222,6 +275,11 @@ impl Pencil {
         }
         (stiffness, inertia)
     }
+}
+
+/// Length of a vector.
+fn size(d: Vector) -> Interval {
+    dot(d, d).sqrt()
 }
 
 /// Whether a member bears nothing at every distance of an interval and next to it: a member that is

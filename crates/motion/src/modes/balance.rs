@@ -3,7 +3,7 @@
 use model::Vector;
 
 use crate::error::MotionError;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
 use crate::unilateral::BALANCE;
 use numerics::vector::{add_times, dot, norm, plus, times, worse};
@@ -25,11 +25,15 @@ impl LeftOver {
     ) -> Self {
         let mut forces = mechanism.load.clone();
         let mut unit_n = forces.iter().map(|f| norm(*f)).fold(0.0, worse);
-        let rigid = mechanism.bars.iter().zip(vectors).zip(densities);
-        let rigid = rigid.map(|((link, d), rho)| (link, times(*rho, *d)));
-        let springs = mechanism.springs.iter().map(|spring| {
-            let d = state.between(spring.link.a, spring.link.b);
-            (&spring.link, times(spring.force_density(norm(d)), d))
+        let rigid = mechanism.bars.iter().zip(densities).flat_map(|(bar, rho)| {
+            let spans = mechanism.of(&bar.spans).iter().zip(&vectors[bar.spans.clone()]);
+            spans.map(|(span, d)| (span, times(*rho, *d)))
+        });
+        let springs = mechanism.springs.iter().flat_map(|spring| {
+            let spans = mechanism.of(&spring.spans);
+            let length_m = state.length_m(spans);
+            let pull = move |span: &Link| spring.pull(length_m, state.between(span.a, span.b));
+            spans.iter().map(move |span| (span, pull(span)))
         });
         for (link, pull) in rigid.chain(springs) {
             forces[link.a] = plus(forces[link.a], pull);

@@ -170,7 +170,7 @@ mod tests {
             ];
             let mechanism = Mechanism::for_small_motions(&system).unwrap();
             let state = State::at_rest(mechanism.places(&at).unwrap());
-            let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
+            let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
             state.rows(&mechanism, &mut vectors);
             let densities = vec![1.0; mechanism.bars.len()];
             let stiffness = Stiffness::new(&mechanism, &state, &vectors, densities);

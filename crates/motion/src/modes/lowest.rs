@@ -185,7 +185,7 @@ impl Root {
         for slot in 0..moving {
             put((slot, joints[mechanism.joint_at[slot]].mass_kg.sqrt()), (slot, 0.0));
         }
-        for link in mechanism.links() {
+        for link in &mechanism.spans {
             let m = link.inertia;
             match (link.a < moving, link.b < moving) {
                 (true, true) if m.from > 0.0 => {

@@ -8,6 +8,10 @@
 //!    K = \sum_e \begin{bmatrix} 1 & -1 \\\\ -1 & 1 \end{bmatrix} \otimes
 //!        \left( \rho_e I + k_e' u_e u_e^T \right) . $$
 //!
+//! Ropes do so in each span, `ρ_e` the tension over its length, less what is along it, and resist the
+//! change of the sum of their spans: where they are inextensible it is a row of `R`, elsewhere `K` has
+//! `EA/L` times the product of its gradient with itself.
+//!
 //! `ω² > 0` oscillates with the angular frequency `ω`; `ω² < 0` leaves the equilibrium like `exp(t
 //! √(−ω²))`; there are as many of these as the Morse index says.
 //!
@@ -32,7 +36,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::MotionError;
 use crate::force;
 use crate::mechanism::Mechanism;
-use crate::rattle::Stepper;
+use crate::rattle::{Stepper, no_jam};
+use crate::simulation::at_the_beginning;
 use crate::state::State;
 use crate::unilateral::{LENGTHS, check_forces, check_pushes, with_what_holds};
 use planes::Sector;
@@ -256,6 +261,13 @@ pub(crate) fn about_equilibrium(
     Mechanism::for_small_motions(&with_what_holds(system, joints_m)?)
 }
 
+/// At rest at places where every span of a taut rope has a direction.
+fn at_rest(mechanism: &Mechanism, joints_m: &[Vector]) -> Result<State, MotionError> {
+    let state = State::at_rest(mechanism.places(joints_m)?);
+    no_jam(mechanism, &state).map_err(|failure| at_the_beginning(mechanism, failure))?;
+    Ok(state)
+}
+
 /// The modes of an equilibrium, sector by sector.
 fn about(
     system: &System,
@@ -264,8 +276,8 @@ fn about(
     axial_n: Option<&[f64]>,
     solve: &dyn Fn(&Stiffness<'_>, &Sector) -> Result<Solved, MotionError>,
 ) -> Result<Modes, MotionError> {
-    let state = State::at_rest(mechanism.places(joints_m)?);
-    let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
+    let state = at_rest(mechanism, joints_m)?;
+    let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
     let off = state.rows(mechanism, &mut vectors);
     if off.is_nan() || off > LENGTHS {
         return Err(MotionError::NotClosed { iterations: 0, off });
@@ -294,11 +306,11 @@ pub(crate) fn approximate_modes(
     joints_m: &[Vector],
     axial_n: &[f64],
 ) -> Result<DMatrix<f64>, MotionError> {
-    let state = State::at_rest(mechanism.places(joints_m)?);
-    let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
+    let state = at_rest(mechanism, joints_m)?;
+    let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
     state.rows(mechanism, &mut vectors);
     let bars = mechanism.bars.iter();
-    let densities = bars.map(|link| axial_n[link.member] / link.length_m).collect();
+    let densities = bars.map(|bar| axial_n[bar.member] / bar.length_m).collect();
     let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
     let mut columns = Vec::new();
     for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
@@ -335,7 +347,7 @@ fn densities(
             Ok(rho)
         }
         Err(failure) => {
-            let refused = crate::simulation::at_the_beginning(mechanism, failure);
+            let refused = at_the_beginning(mechanism, failure);
             let axial_n = axial_n.ok_or(refused)?;
             if axial_n.len() != mechanism.system.members().len() {
                 let reason = format!(
@@ -346,7 +358,7 @@ fn densities(
                 return Err(MotionError::Input { what: "axial forces", reason });
             }
             let bars = mechanism.bars.iter();
-            Ok(bars.map(|link| axial_n[link.member] / link.length_m).collect())
+            Ok(bars.map(|bar| axial_n[bar.member] / bar.length_m).collect())
         }
     }
 }

@@ -105,7 +105,7 @@ fn inertia_times(stiffness: &Stiffness<'_>, sector: &Sector, y: &DVector<f64>) -
             product[slot * axes + k] += mechanism.mass[slot] * y[slot * axes + k];
         }
     }
-    for link in mechanism.links() {
+    for link in &mechanism.spans {
         if link.a < mechanism.moving && link.b < mechanism.moving {
             for k in 0..axes {
                 let (a, b) = (link.a * axes + k, link.b * axes + k);

@@ -13,11 +13,21 @@ use numerics::vector::{dot, norm, times};
 pub(super) struct Stiffness<'a> {
     pub mechanism: &'a Mechanism,
     vectors: &'a [Vector],
-    /// Each member with the 3 × 3 matrix of its stiffness, N/m.
+    /// Each span with the 3 × 3 matrix of its stiffness, N/m.
     members: Vec<(&'a Link, Matrix3<f64>)>,
+    /// What ropes resist in their lengths.
+    lengths: Vec<Length>,
     densities: Vec<f64>,
     /// What bars with different moments across have beyond the inertia of the mechanism.
     pub excesses: Vec<Excess>,
+}
+
+/// A stiffness against changes of the length of a rope.
+struct Length {
+    /// N/m.
+    stiffness: f64,
+    /// Derivatives of the length by slots, one for each end of a span.
+    gradient: Vec<(usize, Vector)>,
 }
 
 /// Row, column, value; equal places are added.
@@ -40,28 +50,43 @@ impl<'a> Stiffness<'a> {
         vectors: &'a [Vector],
         densities: Vec<f64>,
     ) -> Self {
-        let rigid = mechanism.bars.iter().zip(&densities);
-        let mut members: Vec<_> =
-            rigid.map(|(link, rho)| (link, Matrix3::identity() * *rho)).collect();
-        for spring in &mechanism.springs {
-            let d = state.between(spring.link.a, spring.link.b);
-            let length = norm(d);
-            let density = spring.force_density(length);
-            let slope = spring.slope(length);
-            let mut block = Matrix3::identity() * density;
-            // Slack members, whose ends may be in one place, have none.
-            if slope > 0.0 {
-                let u = Vector3::from(d) / length;
-                block += u * u.transpose() * (slope - density);
+        let (mut members, mut lengths) = (Vec::new(), Vec::new());
+        for (bar, rho) in mechanism.bars.iter().zip(&densities) {
+            let spans = mechanism.of(&bar.spans);
+            if let [span] = spans {
+                members.push((span, Matrix3::identity() * *rho));
+                continue;
             }
-            members.push((&spring.link, block));
+            for span in spans {
+                let d = state.between(span.a, span.b);
+                members.push((span, block(rho * bar.length_m / norm(d), d, 0.0)));
+            }
         }
-        Self { mechanism, vectors, members, densities, excesses: excesses(mechanism, state) }
+        for spring in &mechanism.springs {
+            let spans = mechanism.of(&spring.spans);
+            let length_m = state.length_m(spans);
+            // Slack members, whose ends may be in one place, have none.
+            let slope = spring.slope(length_m);
+            let own = if spans.len() == 1 { slope } else { 0.0 };
+            let mut gradient = Vec::new();
+            for span in spans {
+                let d = state.between(span.a, span.b);
+                let density = spring.force_density(length_m, norm(d));
+                members.push((span, block(density, d, own)));
+                let u = if slope > own { times(1.0 / norm(d), d) } else { [0.0; 3] };
+                gradient.extend([(span.a, times(-1.0, u)), (span.b, u)]);
+            }
+            if slope > own {
+                lengths.push(Length { stiffness: slope, gradient });
+            }
+        }
+        let excesses = excesses(mechanism, state);
+        Self { mechanism, vectors, members, lengths, densities, excesses }
     }
 
     /// Number of rows of the constraints, empty ones included.
     pub(super) fn row_count(&self) -> usize {
-        self.vectors.len()
+        self.mechanism.constraints()
     }
 
     /// Inertia, stiffness and constraints in the coordinates of a sector.
@@ -89,6 +114,14 @@ impl<'a> Stiffness<'a> {
                     inertia.push((a, b, link.inertia.between));
                     inertia.push((b, a, link.inertia.between));
                 }
+            }
+        }
+        for Length { stiffness: k, gradient } in &self.lengths {
+            let parts = gradient.iter().filter(|(slot, _)| *slot < moving).flat_map(|(slot, u)| {
+                axes.iter().enumerate().map(move |(i, a)| (slot * axes.len() + i, dot(*u, *a)))
+            });
+            for (row, u) in parts.clone() {
+                stiffness.extend(parts.clone().map(|(column, v)| (row, column, k * u * v)));
             }
         }
         for excess in &self.excesses {
@@ -126,15 +159,18 @@ impl<'a> Stiffness<'a> {
             }
         };
         if sector.direction != Direction::Across {
-            for (row, link) in self.mechanism.bars.iter().enumerate() {
-                let unit = times(1.0 / link.length_m, self.vectors[row]);
-                put(row, link.a, -1.0, unit);
-                put(row, link.b, 1.0, unit);
+            for (row, bar) in self.mechanism.bars.iter().enumerate() {
+                for span in bar.spans.clone() {
+                    let link = &self.mechanism.spans[span];
+                    let unit = times(1.0 / bar.length_m, self.vectors[span]);
+                    put(row, link.a, -1.0, unit);
+                    put(row, link.b, 1.0, unit);
+                }
             }
         }
         for (k, slide) in self.mechanism.slides.iter().enumerate() {
             let row = self.mechanism.bars.len() + k;
-            put(row, slide.slot, 1.0, self.vectors[row]);
+            put(row, slide.slot, 1.0, self.vectors[self.mechanism.rigid_spans() + k]);
         }
         rows
     }
@@ -148,6 +184,14 @@ impl<'a> Stiffness<'a> {
             if slot < moving { y[slot * axes.len() + k] } else { 0.0 }
         };
         let (mut sum, mut made_of) = (0.0, 0.0);
+        for Length { stiffness, gradient } in &self.lengths {
+            let along = |slot: usize, u: &Vector| -> f64 {
+                axes.iter().enumerate().map(|(k, axis)| dot(*u, *axis) * at(slot, k)).sum()
+            };
+            let by: f64 = gradient.iter().map(|(slot, u)| along(*slot, u)).sum();
+            sum += stiffness * by * by;
+            made_of += stiffness * by * by;
+        }
         for (link, block) in &self.members {
             let mut by = Vector3::zeros();
             for (k, axis) in axes.iter().enumerate() {
@@ -164,13 +208,13 @@ impl<'a> Stiffness<'a> {
     /// joint by joint.
     pub(super) fn largest_of_forces(&self) -> f64 {
         let mut around = vec![0.0; self.mechanism.joint_at.len()];
-        for (link, rho) in self.mechanism.bars.iter().zip(&self.densities) {
-            around[link.a] += 2.0 * rho.abs();
-            around[link.b] += 2.0 * rho.abs();
+        let rigid = self.mechanism.rigid_spans();
+        for (link, block) in &self.members[..rigid] {
+            around[link.a] += 2.0 * block.amax();
+            around[link.b] += 2.0 * block.amax();
         }
-        for spring in &self.mechanism.springs {
-            let weight = self.mechanism.load[spring.link.a];
-            around[spring.link.a] += norm(weight) / spring.link.length_m;
+        for link in &self.mechanism.spans[rigid..] {
+            around[link.a] += norm(self.mechanism.load[link.a]) / link.length_m;
         }
         let moving = around.iter().zip(&self.mechanism.mass).take(self.mechanism.moving);
         moving.map(|(k, m)| k / m).fold(0.0, f64::max)
@@ -182,10 +226,19 @@ impl<'a> Stiffness<'a> {
         let mechanism = self.mechanism;
         let loads: f64 = mechanism.load.iter().map(|f| norm(*f)).sum();
         let tension = mechanism.bars.iter().zip(&self.densities);
-        let tension = tension.map(|(link, rho)| rho.abs() * link.length_m).fold(0.0, f64::max);
+        let tension = tension.map(|(bar, rho)| rho.abs() * bar.length_m).fold(0.0, f64::max);
         let mass: f64 = mechanism.mass.iter().sum();
         (loads + tension) / (mass * mechanism.system.total_length_m())
     }
+}
+
+/// The stiffness of a span `d` with a force density, N/m, and another stiffness along it.
+fn block(density: f64, d: Vector, along: f64) -> Matrix3<f64> {
+    if density.abs() <= 0.0 && along <= 0.0 {
+        return Matrix3::zeros();
+    }
+    let u = Vector3::from(d) / norm(d);
+    Matrix3::identity() * density + u * u.transpose() * (along - density)
 }
 
 /// Put `value` times `[[1, −1], [−1, 1]]` at the coordinates of two ends; one that is held has

@@ -88,16 +88,17 @@ impl Forest {
         let mut up: Vec<Option<Up>> = vec![None; n];
         for edge in &layout.edges {
             let (child, parent) = (edge.a.min(edge.b), edge.a.max(edge.b));
-            if let Some(row) = edge.row {
+            if let Some([row, _]) = edge.row {
                 complete_at[parent].push(row);
             }
             let sign = if parent == edge.b { 1.0 } else { -1.0 };
-            let row = edge.row.unwrap_or(usize::MAX);
+            // Without ropes a row has the number of its vector.
+            let row = edge.row.map_or(usize::MAX, |[row, _]| row);
             let place = edge.row.map(|_| 0);
             up[child] = Some(Up { parent, between: edge.between, place, row, sign });
         }
         for own in &layout.own {
-            complete_at[own.slot].push(own.row);
+            complete_at[own.slot].push(own.row[0]);
         }
         let mut begin = vec![0];
         let mut square = vec![0];
@@ -115,7 +116,8 @@ impl Forest {
             up.place = up.place.map(|_| place_of[up.row]);
         }
         let own = layout.own.iter();
-        let own = own.map(|o| Own { place: place_of[o.row], row: o.row, sign: o.sign }).collect();
+        let own = own.map(|o| (o.row[0], o.sign));
+        let own = own.map(|(row, sign)| Own { place: place_of[row], row, sign }).collect();
         let squares = square[n];
         Self {
             up,

@@ -4,8 +4,8 @@
 //!    \begin{bmatrix} x \\\\ \rho \end{bmatrix} = \begin{bmatrix} f \\\\ \varphi \end{bmatrix} $$
 //!
 //! `M` has one number for each joint and each member, the same for all three axes; `R` has for each
-//! rigid bar the row `(−d, +d)` with `d` the vector from its first to its second joint, and for
-//! each support of a slider its normal. Since the inverse of `M` is full, nothing is eliminated
+//! rigid bar the row `(−d, +d)` with `d` the vector from its first to its second joint, for a rope
+//! the sum of such rows over its spans, and for each support of a slider its normal. Since the inverse of `M` is full, nothing is eliminated
 //! onto the rows alone.
 
 mod forest;
@@ -15,7 +15,7 @@ mod sparse;
 use model::Vector;
 
 use crate::error::MotionError;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Link, Mechanism};
 use forest::Forest;
 use sparse::Sparse;
 
@@ -24,28 +24,29 @@ use sparse::Sparse;
 pub(crate) struct Layout {
     /// Diagonal of `M` by slot that moves.
     pub mass: Vec<f64>,
-    /// Members between two slots that move.
+    /// Spans between two slots that move.
     pub edges: Vec<Edge>,
-    /// Rows that only one slot that moves has a part in.
+    /// Parts of rows that only one slot that moves has.
     pub own: Vec<OwnRow>,
 }
 
-/// A member between two slots that move.
+/// A span between two slots that move.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Edge {
     pub a: usize,
     pub b: usize,
     /// `M` between the two.
     pub between: f64,
-    /// Its row, if it is rigid.
-    pub row: Option<usize>,
+    /// Its row and its vector, if it is rigid: two equal numbers but for ropes.
+    pub row: Option<[usize; 2]>,
 }
 
-/// A row that only one slot has a part in: `sign` times its vector.
+/// A part of a row that only one slot has: `sign` times a vector.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OwnRow {
     pub slot: usize,
-    pub row: usize,
+    /// The row and the vector.
+    pub row: [usize; 2],
     pub sign: f64,
 }
 
@@ -62,27 +63,21 @@ impl Layout {
         let moving = mechanism.moving;
         let mut found =
             Self { mass: mechanism.mass[..moving].to_vec(), edges: Vec::new(), own: Vec::new() };
-        for (row, link) in mechanism.bars.iter().enumerate() {
-            match (link.a < moving, link.b < moving) {
-                (true, true) => found.edges.push(Edge {
-                    a: link.a,
-                    b: link.b,
-                    between: link.inertia.between,
-                    row: Some(row),
-                }),
-                (true, false) => found.own.push(OwnRow { slot: link.a, row, sign: -1.0 }),
-                (false, true) => found.own.push(OwnRow { slot: link.b, row, sign: 1.0 }),
-                (false, false) => {}
-            }
-        }
-        for link in mechanism.springs.iter().map(|spring| &spring.link) {
-            if link.a < moving && link.b < moving {
-                let between = link.inertia.between;
-                found.edges.push(Edge { a: link.a, b: link.b, between, row: None });
+        let rigid = mechanism.bars.iter().enumerate();
+        let mut rows = rigid.flat_map(|(row, bar)| bar.spans.clone().map(move |span| [row, span]));
+        for &Link { a, b, inertia, .. } in &mechanism.spans {
+            let row = rows.next();
+            match (a < moving, b < moving, row) {
+                (true, true, _) => {
+                    found.edges.push(Edge { a, b, between: inertia.between, row });
+                }
+                (true, false, Some(row)) => found.own.push(OwnRow { slot: a, row, sign: -1.0 }),
+                (false, true, Some(row)) => found.own.push(OwnRow { slot: b, row, sign: 1.0 }),
+                _ => {}
             }
         }
         for (k, slide) in mechanism.slides.iter().enumerate() {
-            let row = mechanism.bars.len() + k;
+            let row = [mechanism.bars.len() + k, mechanism.rigid_spans() + k];
             found.own.push(OwnRow { slot: slide.slot, row, sign: 1.0 });
         }
         found
@@ -91,7 +86,8 @@ impl Layout {
     /// Number of rows.
     fn rows(&self) -> usize {
         let of_edges = self.edges.iter().filter_map(|edge| edge.row);
-        of_edges.chain(self.own.iter().map(|own| own.row)).max().map_or(0, |row| row + 1)
+        let rows = of_edges.chain(self.own.iter().map(|own| own.row));
+        rows.map(|[row, _]| row + 1).max().unwrap_or(0)
     }
 }
 

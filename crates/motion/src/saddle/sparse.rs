@@ -1,14 +1,14 @@
 //! Elimination for any graph: a sparse `L D Lᵀ` without pivoting.
 //!
-//! The three coordinates of a joint are eliminated together, and the row of a bar right after its
-//! second joint. At that point all columns of the row are eliminated, so its pivot is `−(R A⁻¹ Rᵀ)`
+//! The three coordinates of a joint are eliminated together, and the row of a member right after
+//! the last of its joints. At that point all columns of the row are eliminated, so its pivot is `−(R A⁻¹ Rᵀ)`
 //! of independent rows: negative wherever the constraints are independent, whatever the order of
 //! the joints. The factorisation is Davis' up-looking one (ACM Trans. Math. Software 31 (2005)
 //! 587-591).
 
 use model::Vector;
 
-use super::{Layout, Singular};
+use super::{Layout, OwnRow, Singular};
 
 /// Least pivot relative to the numbers that were subtracted to get it: below it is rounding.
 const LEAST_PIVOT: f64 = 1e-13;
@@ -17,7 +17,7 @@ const LEAST_PIVOT: f64 = 1e-13;
 #[derive(Debug, Clone, Copy)]
 enum Source {
     Inertia(f64),
-    Row { row: usize, axis: usize, sign: f64 },
+    Row { vector: usize, axis: usize, sign: f64 },
 }
 
 #[derive(Debug, Clone)]
@@ -48,14 +48,18 @@ const NONE: usize = usize::MAX;
 impl Sparse {
     pub(super) fn new(layout: &Layout) -> Self {
         let n = layout.mass.len();
-        let mut complete_at: Vec<Vec<usize>> = vec![Vec::new(); n];
+        let mut last = vec![None; layout.rows()];
         for edge in &layout.edges {
-            if let Some(row) = edge.row {
-                complete_at[edge.a.max(edge.b)].push(row);
+            if let Some([row, _]) = edge.row {
+                last[row] = last[row].max(Some(edge.a.max(edge.b)));
             }
         }
-        for own in &layout.own {
-            complete_at[own.slot].push(own.row);
+        for OwnRow { slot, row: [row, _], .. } in &layout.own {
+            last[*row] = last[*row].max(Some(*slot));
+        }
+        let mut complete_at: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (row, slot) in last.into_iter().enumerate() {
+            complete_at[slot.unwrap_or_default()].push(row);
         }
         let (mut slot, mut sign) = (Vec::new(), Vec::new());
         let mut of_slot = vec![0; n];
@@ -135,7 +139,7 @@ impl Sparse {
             for &(row, source) in &self.entries[self.begin[k]..self.begin[k + 1]] {
                 self.work[row] += match source {
                     Source::Inertia(m) => m,
-                    Source::Row { row, axis, sign } => sign * vectors[row][axis],
+                    Source::Row { vector, axis, sign } => sign * vectors[vector][axis],
                 };
                 let (mut i, mut length) = (row, 0);
                 while self.flag[i] != k {
@@ -224,9 +228,9 @@ fn columns(
             columns[k].push((k, Source::Inertia(mass)));
         }
     }
-    let mut row_entries = |slot: usize, row: usize, sign: f64| {
+    let mut row_entries = |slot: usize, [row, vector]: [usize; 2], sign: f64| {
         for axis in 0..3 {
-            columns[of_row[row]].push((of_slot[slot] + axis, Source::Row { row, axis, sign }));
+            columns[of_row[row]].push((of_slot[slot] + axis, Source::Row { vector, axis, sign }));
         }
     };
     for edge in &layout.edges {

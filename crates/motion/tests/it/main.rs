@@ -21,6 +21,7 @@ mod paper;
 mod pendulum;
 mod positions;
 mod refused;
+mod ropes;
 mod scale;
 mod second_opinion;
 mod slack;

@@ -151,6 +151,7 @@ class Equilibrium(Result):
                 "member": np.arange(1, len(ends) + 1),
                 "from": [names[a] for a, _ in ends],
                 "to": [names[b] for _, b in ends],
+                **self.system._over(),
                 "axial_n": self.axial_n,
                 "axial_from_n": self.axial_from_n,
                 "axial_to_n": self.axial_to_n,

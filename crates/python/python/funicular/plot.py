@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .census import Census
     from .motion import Modes
     from .study import Study
+    from .system import System
     from .trace import Trace
 
 FLAT = 1e-9
@@ -70,8 +71,8 @@ def plot(
         ax = figure.add_subplot(projection="3d") if space else figure.add_subplot()
     places = joints if space else (joints - origin) @ seen
     largest = float(np.abs(equilibrium.axial_max_n).max(initial=0.0)) or 1.0
-    for (a, b), axial in zip(equilibrium.system.member_joints, equilibrium.axial_max_n):
-        line = places[[a, b]].T
+    for path, axial in zip(_paths(equilibrium.system), equilibrium.axial_max_n):
+        line = places[path].T
         if not forces:
             ax.plot(*line, color="black", linewidth=1.5)
             continue
@@ -87,6 +88,11 @@ def plot(
     ax.set_aspect("equal")
     ax.set_title(equilibrium.system.name.replace("$", r"\$"))
     return ax
+
+
+def _paths(system: System) -> list[list[int]]:
+    """The joints of each member, from its first to its last."""
+    return [[a, *via, b] for (a, b), via in zip(system.member_joints, system.member_via)]
 
 
 def _level(joints: Any) -> Any:
@@ -196,9 +202,9 @@ def plot_mode(modes: Modes, mode: int, equilibrium: int, ax: Any) -> Any:
     level = _level(found.joints_m)
     for scale, color in ((0.1, PULLS), (-0.1, PUSHES), (0.0, "black")):
         joints = found.joints_m + scale * size * found.shapes[mode]
-        for a, b in modes.system.member_joints:
-            ends = joints[[a, b]]
-            ax.plot(ends[:, :2] @ level, ends[:, 2], color=color, linewidth=1.5)
+        for path in _paths(modes.system):
+            line = joints[path]
+            ax.plot(line[:, :2] @ level, line[:, 2], color=color, linewidth=1.5)
     ax.set(xlabel="level / m", ylabel="z / m", title=f"{found.what[mode]}, omega^2 = {found.omega2_s2[mode]:.4g} 1/s^2")
     ax.set_aspect("equal")
     return ax

@@ -307,6 +307,21 @@ class System:
         return self._problem.member_joints()
 
     @property
+    def member_via(self) -> list[list[int]]:
+        """The numbers of the joints that each member runs over between its own, from 0: rings and pulleys of a rope.
+
+        >>> import funicular as fn
+        >>> tackle = fn.System.from_dict({
+        ...     "joints": {"beam": {"at_m": [0, 0, 0]}, "block": {"mass_kg": 40}, "winch": {"at_m": [1, 0, -3]}},
+        ...     "bars": [{"from": "beam", "via": ["block", "beam", "block", "beam"], "to": "winch", "length_m": 9,
+        ...               "kind": "cable"}],
+        ... })
+        >>> tackle.member_joints, tackle.member_via
+        ([(0, 2)], [[1, 0, 1, 0]])
+        """
+        return self._problem.member_via()
+
+    @property
     def lengths_m(self) -> Array:
         """(m,) Lengths of the members, m."""
         return self._problem.lengths_m()
@@ -323,7 +338,7 @@ class System:
 
     @property
     def members(self) -> Table:
-        """The members: their joints, kind, length and mass."""
+        """The members: their joints, kind, length and mass; where one is a rope also the joints that it runs over."""
         names = self.joint_names
         ends = self.member_joints
         return Table(
@@ -331,11 +346,18 @@ class System:
                 "member": np.arange(1, len(ends) + 1),
                 "from": [names[a] for a, _ in ends],
                 "to": [names[b] for _, b in ends],
+                **self._over(),
                 "kind": self._problem.member_kinds(),
                 "length_m": self.lengths_m,
                 "mass_kg": self.masses_kg,
             }
         )
+
+    def _over(self) -> dict[str, list[str]]:
+        """The column of what ropes run over, with blanks between, where there is a rope."""
+        names = self.joint_names
+        over = [" ".join(names[joint] for joint in via) for via in self.member_via]
+        return {"via": over} if any(over) else {}
 
     @property
     def joints(self) -> Table:

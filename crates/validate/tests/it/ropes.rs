@@ -2,7 +2,7 @@
 //! rope.
 
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
-use model::{Bar, NoBox, NoCensus, NoCertificate, Reason, Status, Vector};
+use model::{Bar, NoBox, NoCensus, NoCertificate, Reason, STANDARD_GRAVITY_M_S2, Status, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
@@ -174,4 +174,111 @@ fn answers_of_others_are_not_judged_with_ropes() {
     let answer = ForeignAnswer::in_order(&sample.system, "a table", places, None).unwrap();
     let found = judge_foreign(&sample.system, &answer, 1e-6, &|_| {});
     assert!(matches!(found, Err(NotJudged::Rope(rope)) if rope.member == 1), "{found:?}");
+}
+
+/// code_aster's SSNL100 (V6.02.100): one cable of 210 m over a pulley in the middle of two spans of 100 m.
+#[derive(serde::Deserialize)]
+struct OverAPulley {
+    span_m: f64,
+    free_length_m: f64,
+    weight_n_m: f64,
+    stiffness_n: f64,
+    elements: usize,
+    sag_m: String,
+}
+
+impl OverAPulley {
+    fn read() -> Self {
+        let text = include_str!("../../data/external/code-aster.toml");
+        let table: toml::Table = text.parse().unwrap();
+        table["cable_over_a_pulley"].clone().try_into().unwrap()
+    }
+
+    /// Sag of the middle of a span and tension at the pulley of the elastic catenary, m and N: the horizontal pull
+    /// `H` by bisection of `2H/w asinh(wl/2H) + Hl/EA = a`.
+    fn catenary(&self) -> [f64; 2] {
+        let (length, ea) = (0.5 * self.free_length_m, self.stiffness_n);
+        let half_n = 0.5 * self.weight_n_m * length;
+        let wide = |h: f64| {
+            2.0 * h / self.weight_n_m * (half_n / h).asinh() + h * length / ea > self.span_m
+        };
+        let (mut low, mut high) = (1.0, 1e6);
+        for _ in 0..200 {
+            let h = f64::midpoint(low, high);
+            *(if wide(h) { &mut high } else { &mut low }) = h;
+        }
+        let rise = (low.hypot(half_n) - low) / self.weight_n_m;
+        [rise + 0.25 * half_n * length / ea, low.hypot(half_n)]
+    }
+
+    /// Each span in `n` straight elements. The two beside the pulley are one rope without weight, which the joints at
+    /// its ends bear by the lever rule, as the pulley its other half.
+    fn system(&self, n: usize) -> System {
+        let element_m = 0.5 * self.free_length_m / n as f64;
+        let mass_kg = self.weight_n_m * element_m / STANDARD_GRAVITY_M_S2;
+        let body = Bar::homogeneous(element_m, mass_kg).unwrap();
+        let mut joints = vec![
+            Joint::anchor("O", [0.0; 3]),
+            Joint::anchor("P1", [self.span_m, 0.0, 0.0]),
+            Joint::anchor("P2", [2.0 * self.span_m, 0.0, 0.0]),
+        ];
+        let mut members = Vec::new();
+        let mut ends = [0, 2];
+        for end in &mut ends {
+            for k in 1..n {
+                let half_kg = if k == n - 1 { 0.5 * mass_kg } else { 0.0 };
+                joints.push(Joint::free(joints.len().to_string()).with_mass(half_kg));
+                let next = joints.len() - 1;
+                members.push(Member::cable(*end, next, body).with_stiffness(self.stiffness_n));
+                *end = next;
+            }
+        }
+        let rope = Bar::homogeneous(2.0 * element_m, 0.0).unwrap();
+        let rope = Member::cable(ends[0], ends[1], rope).over(vec![1]);
+        members.push(rope.with_stiffness(self.stiffness_n));
+        System::new("a cable over a pulley", STANDARD_GRAVITY_M_S2, joints, members).unwrap()
+    }
+
+    /// The lowest joint of each span, m below the supports, and the tension at the pulley, N, of `lagrange`.
+    fn found(&self, n: usize) -> [f64; 3] {
+        let system = self.system(n);
+        let answer = asked(&system);
+        assert!(answer.agrees(), "{n}: {answer:?}");
+        let found = &answer.equilibria[0];
+        let lowest = |from: usize| {
+            let joints = &found.joints_m[from..from + n - 1];
+            joints.iter().map(|at_m| -at_m[2]).fold(0.0, f64::max)
+        };
+        // The element at the pulley, with the half of its weight that the pulley bears.
+        let [x, _, z] = found.start_forces_n[system.members().len() - 1];
+        let half_n = 0.25 * self.weight_n_m * self.free_length_m / n as f64;
+        [lowest(3), lowest(3 + n - 1), x.hypot(z.abs() + half_n)]
+    }
+}
+
+#[test]
+fn a_cable_over_a_pulley_sags_as_in_code_aster() {
+    let case = OverAPulley::read();
+    let [sag_m, tension_n] = case.catenary();
+    assert!((sag_m - 13.939_193_351_6).abs() < 1e-9, "{sag_m}");
+    assert!((tension_n - 3_175.258_81).abs() < 1e-5, "{tension_n}");
+    let printed: f64 = case.sag_m.parse().unwrap();
+    let found = case.found(case.elements);
+    println!("{} elements: {found:?}", case.elements);
+    for sag in &found[..2] {
+        assert!((sag - printed).abs() < 5e-4, "{sag}, not {printed}");
+    }
+    // With more elements it comes nearer by the square of their length.
+    let off = |n: usize| {
+        let [first, second, tension] = case.found(n);
+        println!("{n} elements: {first} m, {second} m, {tension} N");
+        assert!((first - second).abs() < 1e-9 * sag_m);
+        [(first - sag_m).abs(), (tension - tension_n).abs()]
+    };
+    let (coarse, fine) = (off(20), off(80));
+    for (coarse, fine) in coarse.into_iter().zip(fine) {
+        let ratio = coarse / fine;
+        assert!((ratio - 16.0).abs() < 0.5, "{coarse:e} {fine:e}");
+    }
+    assert!(fine[0] < 2e-4 && fine[1] < 2e-2, "{fine:?}");
 }

@@ -1,0 +1,175 @@
+//! Ropes over rings and pulleys in modes, motions, derivatives, studies and losses.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use assert_cmd::Command;
+use funicular::prelude::*;
+use funicular::{DerivativesError, Outcome};
+use model::STANDARD_GRAVITY_M_S2 as G;
+use serde_json::{Value, json};
+
+use crate::edited;
+
+/// Ropes over rings and pulleys: one that keeps its length and meets a ring twice, an elastic one with both ends at
+/// joints that move, an elastic one along anchors alone. No two terms of one size.
+fn roped() -> Value {
+    let rope = |path: &[&str], length_m: f64, stiffness_n: Option<f64>| {
+        let last = path.len() - 1;
+        let mut rope = json!({ "from": path[0], "via": path[1..last], "to": path[last],
+            "length_m": length_m, "kind": "cable" });
+        if let Some(stiffness_n) = stiffness_n {
+            rope["stiffness_n"] = stiffness_n.into();
+        }
+        rope
+    };
+    json!({
+        "joints": {
+            "A": { "at_m": [-2, -1, 0.3] },
+            "B": { "at_m": [2, -0.5, 0.05] },
+            "C": { "at_m": [0.2, 2, -0.2] },
+            "P": { "mass_kg": 2, "force_n": [0.3, 0.1, 0] },
+            "Q": { "mass_kg": 1.7, "force_n": [2, 3, 0] },
+            "R": { "mass_kg": 1.1, "force_n": [0, -0.2, 0.1] },
+        },
+        "bars": [
+            rope(&["A", "P", "B", "P", "Q", "C"], 10.5, None),
+            rope(&["P", "B", "R"], 5.0, Some(90.0)),
+            rope(&["B", "A", "C"], 6.5, Some(40.0)),
+            { "from": "C", "to": "Q", "length_m": 2.2, "mass_kg": 0.4, "kind": "cable" },
+            { "from": "A", "to": "R", "length_m": 3, "mass_kg": 0.2, "kind": "cable",
+              "stiffness_n": 150, "prestress_n": 4 },
+            { "from": "Q", "to": "R", "length_m": 2.4, "mass_kg": 0.6 },
+        ],
+    })
+}
+
+#[test]
+fn derivatives_are_the_differences_of_the_other_solver() {
+    let derivatives = Derivatives::new().run(&edited::problem(&roped())).unwrap();
+    let height = derivatives.gradient("joints.Q.at_m.z").unwrap();
+    let tension = derivatives.gradient("bars.1.axial_n").unwrap();
+    let solved = |parameter: &str, value: f64| {
+        let problem = edited::edited(&roped(), parameter, value);
+        let answer = Solve::new().solvers(Solvers::Energy).run(&problem).unwrap();
+        let found = &answer.equilibria()[0];
+        (found.joints_m.concat(), found.axial_n.clone())
+    };
+    for (parameter, at) in [
+        ("bars.1.length_m", 10.5),
+        ("bars.2.length_m", 5.0),
+        ("bars.2.stiffness_n", 90.0),
+        ("bars.3.length_m", 6.5),
+        ("bars.3.stiffness_n", 40.0),
+        ("bars.6.mass_kg", 0.6),
+        ("joints.P.mass_kg", 2.0),
+        ("joints.Q.force_n.x", 2.0),
+        ("joints.B.at_m.z", 0.05),
+        ("joints.A.at_m.x", -2.0),
+    ] {
+        let step = 1e-3 * f64::max(at, 1.0);
+        let (above, below) = (solved(parameter, at + step), solved(parameter, at - step));
+        let change = derivatives.change(parameter).unwrap();
+        let places: Vec<f64> = change.joints_m.iter().flat_map(|(_, v)| *v).collect();
+        for (told, above, below) in
+            [(&places, &above.0, &below.0), (&change.axial_n, &above.1, &below.1)]
+        {
+            assert_eq!(told.len(), above.len());
+            let size = told.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            for (told, (above, below)) in told.iter().zip(above.iter().zip(below)) {
+                let difference = (above - below) / (2.0 * step);
+                let off = (told - difference).abs();
+                assert!(off < 1e-4 * size + 1e-8, "{parameter}: {told}, not {difference}");
+            }
+        }
+        for (gradient, wanted) in [(&height, places[3 * 4 + 2]), (&tension, change.axial_n[0])] {
+            let by = gradient.by(parameter).unwrap().value;
+            assert!((by - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{parameter}: {by}");
+        }
+    }
+    // A rope has no mass to vary.
+    assert!(height.by("bars.1.mass_kg").is_none() && height.by("bars.6.mass_kg").is_some());
+    let refused = derivatives.change("bars.1.mass_kg").unwrap_err();
+    assert!(
+        matches!(refused, Error::Derivatives(DerivativesError::NoParameter { .. })),
+        "{refused}"
+    );
+}
+
+/// A ring of 10 kg on a rope of 5 m from the origin to 4 m aside and 1 m up.
+const RING: &str = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 1] }, P = { mass_kg = 10 } }\n\
+                    bars = [{ from = 'A', via = ['P'], to = 'B', length_m = 5, kind = 'cable' }]";
+
+fn run(arguments: &[&str]) -> (Option<i32>, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ring.toml"), RING).unwrap();
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.current_dir(folder.path()).args(arguments).output().unwrap();
+    let json = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    (output.status.code(), json, String::from_utf8(output.stderr).unwrap())
+}
+
+/// `g κ` along the ellipse, and about the line of the anchors 4/3 m above.
+#[test]
+fn modes_of_a_ring() {
+    let (code, found, said) = run(&["modes", "ring.toml", "--json", "--html", "modes.html"]);
+    assert_eq!(code, Some(0), "{said}");
+    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
+    let told = [G * 2.5 * 2.0_f64.sqrt() / (50.0_f64 / 9.0).powf(1.5), 0.75 * G];
+    assert_eq!(modes.len(), 2);
+    for (mode, told) in modes.iter().zip(told) {
+        assert!((mode["omega2_s2"].as_f64().unwrap() - told).abs() < 1e-9, "{mode} {told}");
+    }
+}
+
+#[test]
+fn a_ring_comes_to_rest_wherever_it_is_let_go() {
+    let release = ["simulate", "ring.toml", "--seeds", "60", "--damping", "2", "--time", "30"];
+    let more = ["--step", "5e-3", "--json", "--out", "ends"];
+    let (code, told, said) = run(&[&release[..], &more[..]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let rows = told["solvers"]["motion"].as_array().unwrap();
+    assert_eq!((rows.len(), &rows[0]["outcome"], &rows[0]["count"]), (1, &0.into(), &60.into()));
+}
+
+/// 3 kg and 2 kg over a pulley for a second: a fifth of the fall.
+#[test]
+fn weights_over_a_pulley_in_motion() {
+    let text = "joints = { D = { at_m = [0, 0, 0] }, E = { at_m = [1, 0, 0] }, P = { mass_kg = 3 }, Q = { mass_kg = 2 } }\n\
+                bars = [{ from = 'P', via = ['D', 'E'], to = 'Q', length_m = 5, kind = 'cable' }]";
+    let problem = Problem::parse(text, "weights.toml").unwrap();
+    let at = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -1.5], [1.0, 0.0, -2.5]];
+    let moved = Simulate::new().start(Start::Joints(at)).time_s(1.0).run(&problem).unwrap();
+    let end = moved.stored.last().unwrap();
+    assert!((end.joints_m[2][2] + 1.5 + G / 10.0).abs() < 1e-9, "{:?}", end.joints_m);
+    assert!((end.axial_n[0] - 2.4 * G).abs() < 1e-9, "{:?}", end.axial_n);
+    // At rest nothing holds them.
+    let refused = Simulate::new().run(&problem).unwrap_err().to_string();
+    assert!(refused.contains("jams"), "{refused}");
+}
+
+/// `T = W/(2 cos a)` with `sin a = d/L`, over the length and over the place of an end; without the rope the ring
+/// falls.
+#[test]
+fn studies_and_losses_of_a_rope() {
+    for (vary, value, tension) in [
+        ("bars.1.length_m=4.5..6:4", &(|k: f64| 4.5 + 0.5 * k) as &dyn Fn(f64) -> f64, true),
+        ("joints.B.at_m.x=3..4.5:4", &|k: f64| 3.0 + 0.5 * k, false),
+    ] {
+        let arguments = ["study", "ring.toml", "--vary", vary, "--of", "bars.1.axial_n", "--json"];
+        let (code, found, said) = run(&arguments);
+        assert_eq!(code, Some(0), "{said}");
+        let points = found["points"].as_array().unwrap();
+        assert_eq!(points.len(), 4);
+        for (k, point) in points.iter().enumerate() {
+            let at = value(k as f64);
+            let sin = if tension { 4.0 / at } else { at / 5.0 };
+            let told = 10.0 * G / (2.0 * (1.0 - sin * sin).sqrt());
+            let found = point["of"][0].as_f64().unwrap();
+            assert!((found - told).abs() < 1e-9 * told, "{vary} {at}: {found}, not {told}");
+        }
+    }
+    let problem = Problem::parse(RING, "ring.toml").unwrap();
+    let found = Solve::new().without_each(&problem).unwrap();
+    let [loss] = found.losses() else { panic!("one") };
+    assert!(loss.left.as_ref().is_err_and(|reason| reason.outcome == Outcome::Falls));
+}
