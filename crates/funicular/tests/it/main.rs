@@ -31,6 +31,7 @@ mod program;
 mod promise;
 mod reached;
 mod replaced;
+mod ropes;
 mod slurm;
 mod small_files;
 mod starts;
