@@ -46,8 +46,8 @@ fn cables_without_force_act_at_their_length() {
 /// the post falls with N/h. Along the plane both keep their lengths.
 #[test]
 fn a_rope_holds_a_post_up_to_its_stiffness_across() {
-    let at = [[-3.0, 0.0, 0.5], [5.0, 0.0, 1.5], [0.0, 0.0, -5.0], [0.0, 0.0, -1.0]];
-    let [a, b] = [f64::hypot(3.0, 1.5), f64::hypot(5.0, 2.5)];
+    let at = [[-3.0, 0.0, 0.5], [5.0, 0.0, 2.5], [0.0, 0.0, -5.0], [0.0, 0.0, -1.0]];
+    let [a, b] = [f64::hypot(3.0, 1.5), f64::hypot(5.0, 3.5)];
     let mut joints: Vec<Joint> =
         at[..3].iter().zip(["A", "B", "foot"]).map(|(at, name)| Joint::anchor(name, *at)).collect();
     joints.push(Joint::free("top").with_mass(1.0));
