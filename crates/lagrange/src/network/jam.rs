@@ -119,7 +119,7 @@ fn unbalance(system: &System, joints_m: &[Vector], axial_n: &[f64]) -> Vec<(Vect
     let pulls =
         state.directions(&framework).into_iter().zip(&state.axial).map(|((u, _), n)| u * *n);
     let mut all: Vec<_> = framework.nodes.iter().map(|node| node.load * units.force_n).collect();
-    let mut most: Vec<f64> = all.iter().map(|load| load.norm()).collect();
+    let mut most: Vec<f64> = all.iter().map(Vector3::norm).collect();
     for (link, pull) in framework.links.iter().zip(pulls) {
         for (joint, pull) in [(link.from, pull), (link.to, -pull)] {
             all[joint] += pull;

@@ -114,8 +114,8 @@ pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Bes
                 (None, Kind::Cable) => (0.0, f64::INFINITY),
                 (None, Kind::Strut) => (f64::NEG_INFINITY, 0.0),
             };
-            let mut pulls = spans::gradient(member, joints_m);
-            pulls.iter_mut().for_each(|(_, pull)| *pull = times(-1.0, *pull));
+            let gradient = spans::gradient(member, joints_m).into_iter();
+            let pulls = gradient.map(|(joint, longer)| (joint, times(-1.0, longer))).collect();
             Column { pulls, lower, upper }
         })
         .collect();

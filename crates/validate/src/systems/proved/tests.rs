@@ -52,8 +52,7 @@ fn a_rope_holds_a_post_up_to_its_stiffness_across() {
         at[..3].iter().zip(["A", "B", "foot"]).map(|(at, name)| Joint::anchor(name, *at)).collect();
     joints.push(Joint::free("top").with_mass(1.0));
     let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-    let members =
-        vec![Member::cable(0, 1, body(a + b)).over(vec![3]), Member::bar(2, 3, body(4.0))];
+    let members = [Member::cable(0, 1, body(a + b)).over(vec![3]), Member::bar(2, 3, body(4.0))];
     let with = |more: &[Member]| {
         let members = [&members[..], more].concat();
         System::new("a post under a rope", 10.0, joints.clone(), members).unwrap()
