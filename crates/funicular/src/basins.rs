@@ -122,7 +122,6 @@ impl Basins {
         if let Some(chain) = problem.row() {
             return self.axes(chain.chain().bars().len()).map(|_| ());
         }
-        problem.without_ropes("basins")?;
         let system = equilibria::system_of(problem);
         system.refusal()?;
         self.moved(&system).map(|_| ())
@@ -197,7 +196,6 @@ impl Basins {
     /// Run all starts over the place of a joint.
     fn over_places(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
         threads::on(self.threads, || {
-            problem.without_ropes("basins")?;
             let known = equilibria::all(problem, CENSUS_BARS)?;
             let both = FromPlaces(validate::Solvers::Both);
             let starts = Followed::new(problem, &known, 1, both)?;
@@ -281,7 +279,7 @@ impl Basins {
 /// The longest member at a joint, m.
 fn longest_m(system: &System, joint: usize) -> f64 {
     let members = system.members().iter();
-    let at = members.filter(|member| member.from == joint || member.to == joint);
+    let at = members.filter(|member| member.path().any(|other| other == joint));
     at.map(|member| member.body.length_m()).fold(0.0, f64::max)
 }
 

@@ -212,13 +212,3 @@ impl Error {
 fn reasons(failures: &[impl ToString]) -> String {
     failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
-
-impl From<validate::foreign::NotJudged> for Error {
-    fn from(reason: validate::foreign::NotJudged) -> Self {
-        use validate::foreign::NotJudged;
-        match reason {
-            NotJudged::Tolerance(error) => error.into(),
-            NotJudged::Rope(error) => error.into(),
-        }
-    }
-}

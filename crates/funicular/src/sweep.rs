@@ -236,7 +236,6 @@ impl Sweep {
         if self.spread != Spread::Uniform || self.angles {
             return Err(Error::ChainsOnly { what: "a grid or a sequence of angles" });
         }
-        problem.without_ropes("sweep")?;
         let known = equilibria::all(problem, crate::simulate::CENSUS_BARS)?;
         let starts = threads::on(self.threads, || {
             Followed::new(problem, &known, self.number, FromPlaces(self.solvers))

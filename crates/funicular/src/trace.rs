@@ -232,7 +232,6 @@ impl Trace {
         problem: &Problem,
         watch: &(dyn Fn(usize, Progress) + Sync),
     ) -> Result<TraceAnswer, Error> {
-        problem.without_ropes("trace")?;
         if self.is_load_path(problem) {
             let variation = self.load_variation(problem)?;
             let most = self.max_points.unwrap_or(LOAD_POINTS);

@@ -61,8 +61,8 @@ pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Choices, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess,
-    ForceChoice, ForceRange, ForceUncertainty, ForcesFound, Ladder, LargeForce, NoAnswer, NoBox,
-    NoCensus, NoCertificate, Optimal, Place, Proved, Quantity, Reason, Rigidity, Room, Rung,
+    ForceChoice, ForceRange, ForceUncertainty, ForcesFound, Jam, Ladder, LargeForce, NoAnswer,
+    NoBox, NoCensus, NoCertificate, Optimal, Place, Proved, Quantity, Reason, Rigidity, Room, Rung,
     SelfStresses, Statement, Status, UncertaintyCause, Verified, VerifiedSystem,
 };
 pub use input::open_input;

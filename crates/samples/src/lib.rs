@@ -44,7 +44,7 @@ pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs};
 pub use root::root;
-pub use ropes::{RopeSample, ropes};
+pub use ropes::{RopeSample, jammed_ropes, ropes};
 pub use scaled::scaled;
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

@@ -12,6 +12,8 @@ pub struct RopeSample {
     pub axial_n: Vec<f64>,
     /// Some of the joints, and where they are, m.
     pub at_m: Vec<(usize, Vector)>,
+    /// The spans of the first member that have no length, and their pulls on their first joints, N.
+    pub jams: Vec<(usize, Vector)>,
 }
 
 /// What each weight of a kilogram bears, N.
@@ -130,7 +132,82 @@ fn known(
     at_m: &[(usize, Vector)],
 ) -> RopeSample {
     let system = System::new(name, G, joints, members).expect("a valid system");
-    RopeSample { system, axial_n: axial_n.to_vec(), at_m: at_m.to_vec() }
+    RopeSample { system, axial_n: axial_n.to_vec(), at_m: at_m.to_vec(), jams: vec![] }
+}
+
+/// Ropes with spans that have no length, for which the tension is enough.
+///
+/// | system | its law |
+/// |---|---|
+/// | two weights over two pulleys | the lighter one at its pulley, with its weight |
+/// | two rings on one rope | both in one place, where one ring would be |
+/// | a tackle closed block to block | each of n spans has a part of the block's weight |
+/// | a ring blown to the end of its rope | what the other span and the wind leave |
+///
+/// ```
+/// let weights = &samples::jammed_ropes()[0];
+/// assert_eq!(weights.jams, [(2, [0.0, 0.0, -2.0 * model::STANDARD_GRAVITY_M_S2])]);
+/// ```
+///
+/// # Panics
+///
+/// When a number is out of range.
+#[must_use]
+pub fn jammed_ropes() -> Vec<RopeSample> {
+    let free = |name: &str, mass_kg: f64| Joint::free(name).with_mass(mass_kg);
+    let leaning = 10.0 * G / (2.0 * 0.6);
+    let meet_m = [4.0 / 3.0, 0.0, -1.0];
+    let mut two = on_two([4.0, 0.0, 1.0]);
+    two[2].mass_kg = 4.0;
+    two.push(free("Q", 6.0));
+    let mut closed = tackle(30.0, [0.0; 3]);
+    closed[2] = free("weight", 10.0);
+    let mut blown = on_two([4.0, 0.0, 0.0]);
+    blown[2] = Joint::free("P").with_force([2.0, 0.0, -2.0]);
+    let one = |name, joints, member, tension_n, at_m: &[_], jams: &[_]| {
+        let known = known(name, joints, vec![member], &[tension_n], at_m);
+        RopeSample { jams: jams.to_vec(), ..known }
+    };
+    let part = |sign: f64| [0.0, 0.0, sign * 7.5 * G];
+    vec![
+        one(
+            "two weights over two pulleys",
+            vec![
+                Joint::anchor("D", [0.0; 3]),
+                Joint::anchor("E", [1.0, 0.0, 0.0]),
+                free("P", 3.0),
+                free("Q", 2.0),
+            ],
+            rope(&[2, 0, 1, 3], 6.0),
+            3.0 * G,
+            &[(2, [0.0, 0.0, -5.0]), (3, [1.0, 0.0, 0.0])],
+            &[(2, [0.0, 0.0, -2.0 * G])],
+        ),
+        one(
+            "two rings on one rope",
+            two,
+            rope(&[0, 2, 3, 1], 5.0),
+            leaning,
+            &[(2, meet_m), (3, meet_m)],
+            &[(1, [0.8 * leaning, 0.0, 4.0 * G - 0.6 * leaning])],
+        ),
+        one(
+            "a tackle closed block to block",
+            closed,
+            rope(&[0, 1, 0, 1, 0, 2], 5.0),
+            10.0 * G,
+            &[(1, [0.0; 3]), (2, [0.0, 0.0, -5.0])],
+            &[(0, part(-1.0)), (1, part(1.0)), (2, part(-1.0)), (3, part(1.0))],
+        ),
+        one(
+            "a ring blown to the end of its rope",
+            blown,
+            rope(&[0, 2, 1], 4.0 / 1.1).with_stiffness(100.0),
+            10.0,
+            &[(2, [4.0, 0.0, 0.0])],
+            &[(1, [8.0, 0.0, 2.0])],
+        ),
+    ]
 }
 
 /// Anchors at the origin and there, and 10 kg.

@@ -104,7 +104,7 @@ pub(super) fn end_loads_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
 }
 
 /// Load of each joint, what its members bring included, N.
-fn loads_n(system: &System) -> Vec<Vector> {
+pub(super) fn loads_n(system: &System) -> Vec<Vector> {
     let gravity = system.gravity_m_s2();
     let weight = |joint: &Joint| along(joint.force_n, joint.mass_kg * gravity, [0.0, 0.0, -1.0]);
     let mut loads: Vec<Vector> = system.joints().iter().map(weight).collect();

@@ -12,6 +12,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};
+use crate::network::jam::at_corners;
 use crate::network::limit::Limit;
 use crate::network::near::loaded;
 use crate::network::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
@@ -73,7 +74,8 @@ const GOLDEN: f64 = 0.618_033_988_75;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    within(system, settings, unguided)
+    let of = |system: &System| within(system, settings, unguided);
+    at_corners(system, of(system), |joined| of(&joined.system))
 }
 
 /// From no guess.
@@ -122,9 +124,11 @@ fn within(
     meter.judged(found.and_then(|found| Solution::new(system, &frame, found, settings, clock)))
 }
 
-/// Whether the lengths may be kept elsewhere, or with more weight on them.
+/// Whether the lengths may be kept elsewhere, or with more weight on them; and a corner that a search has run
+/// into may be none of the energy's minima.
 fn hard_to_close(error: &Error) -> bool {
-    matches!(error, Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. })
+    use Error::{Jammed, Misfit, NotClosed, Stalled};
+    matches!(error, NotClosed { .. } | Misfit { .. } | Stalled { .. } | Jammed { .. })
 }
 
 /// Whether lengths that overdetermine a shape may close elsewhere with less energy. Not where every
@@ -170,6 +174,14 @@ pub fn minimise_from(
     seed_m: &[Vector],
     settings: &Settings,
 ) -> Result<Solution, Error> {
+    let found = from_seed(system, seed_m, settings);
+    at_corners(system, found, |joined| {
+        from_seed(&joined.system, &joined.places_m(seed_m), settings)
+    })
+}
+
+/// With all joints for themselves.
+fn from_seed(system: &System, seed_m: &[Vector], settings: &Settings) -> Result<Solution, Error> {
     within(system, settings, |frame, settings| {
         let start = seeded(frame, seed_m)?;
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
@@ -214,6 +226,18 @@ pub fn minimise_from(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn minimise_near(
+    system: &System,
+    drawing_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    let found = near_drawing(system, drawing_m, settings);
+    at_corners(system, found, |joined| {
+        near_drawing(&joined.system, &joined.places_m(drawing_m), settings)
+    })
+}
+
+/// With all joints for themselves.
+fn near_drawing(
     system: &System,
     drawing_m: &[Vector],
     settings: &Settings,

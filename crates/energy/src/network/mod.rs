@@ -73,6 +73,7 @@ mod error;
 mod factor;
 mod frame;
 mod interior;
+mod jam;
 mod law;
 mod limit;
 mod minimise;

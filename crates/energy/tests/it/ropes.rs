@@ -1,7 +1,7 @@
 //! Ropes over rings and pulleys against closed forms.
 
 use energy::network::{
-    Error, Forces, Settings, Solution, critical, minimise, minimise_from, minimise_near,
+    Forces, Settings, Solution, critical, minimise, minimise_from, minimise_near,
 };
 use model::Bar;
 use model::system::{Joint, Member, System};
@@ -55,20 +55,47 @@ fn shapes_of_ropes_are_judged_by_their_energy() {
     assert!(!critical(&ring.system, &at_m).unwrap().unwrap().is_equilibrium());
 }
 
-/// Two weights over two pulleys: the lighter one is pulled up to its pulley.
+/// Rings at a corner of the energy, where it falls to no side: found from everywhere, with what holds them.
 #[test]
-fn unequal_weights_jam() {
-    for (masses_kg, light) in [([3.0, 2.0], 3), ([3.0, 2.99], 3), ([1.0, 5.0], 1)] {
-        let joints = vec![
-            Joint::anchor("D", [0.0; 3]),
-            Joint::anchor("E", [1.0, 0.0, 0.0]),
-            Joint::free("P").with_mass(masses_kg[0]),
-            Joint::free("Q").with_mass(masses_kg[1]),
-        ];
-        let rope = Member::cable(2, 3, Bar::homogeneous(6.0, 0.0).unwrap()).over(vec![0, 1]);
-        let system = System::new("two weights", 10.0, joints, vec![rope]).unwrap();
-        let error = minimise(&system, &Settings::default()).unwrap_err();
-        assert_eq!(error, Error::Jammed { member: 1, span: light });
+fn minima_at_corners_of_the_energy_are_found() {
+    for sample in samples::jammed_ropes() {
+        let name = sample.system.name();
+        let settings = Settings::default();
+        let found = minimise(&sample.system, &settings);
+        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let joints_m = &found.equilibrium.joints_m;
+        let moved: Vec<_> = joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]).collect();
+        let again = minimise_from(&sample.system, &moved, &settings);
+        for found in [&found, &again.unwrap_or_else(|error| panic!("{name}: {error}"))] {
+            holds(&sample, found);
+            let jams = &found.equilibrium.evidence.jams;
+            assert_eq!(jams.len(), sample.jams.len(), "{name}: {jams:?}");
+            for (jam, (span, pull_n)) in jams.iter().zip(&sample.jams) {
+                assert_eq!((jam.member, jam.span), (0, *span), "{name}");
+                let right = (0..3).all(|axis| near(jam.pull_n[axis], pull_n[axis]));
+                assert!(right, "{name}: {jam:?} is not {pull_n:?}");
+            }
+        }
+    }
+}
+
+/// Three rings of one rope run together two by two: each span bears what the rings before it leave.
+#[test]
+fn corners_may_meet_in_one_place() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [4.0, 0.0, 1.0]),
+        Joint::free("P").with_mass(1.0),
+        Joint::free("Q").with_mass(2.0),
+        Joint::free("R").with_mass(3.0),
+    ];
+    let rope = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()).over(vec![2, 3, 4]);
+    let system = System::new("rings", 10.0, joints, vec![rope]).unwrap();
+    let found = minimise(&system, &Settings::default()).unwrap().equilibrium;
+    assert!(near(found.axial_n[0], 50.0));
+    let [first, second] = &found.evidence.jams[..] else { panic!("{:?}", found.evidence.jams) };
+    for (jam, span, wanted) in [(first, 1, [40.0, 0.0, -20.0]), (second, 2, [40.0, 0.0, 0.0])] {
+        assert!(jam.span == span && (0..3).all(|k| near(jam.pull_n[k], wanted[k])), "{jam:?}");
     }
 }
 

@@ -52,6 +52,8 @@ struct Joint<'a> {
 struct Bar<'a> {
     from: &'a str,
     to: &'a str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    via: Vec<&'a str>,
     axial_n: f64,
 }
 
@@ -82,7 +84,12 @@ impl Serialize for Judged {
                 .map(|(k, (at_m, force))| Joint { name: name(k), at_m: *at_m, reaction_n: *force })
                 .collect(),
             bars: members
-                .map(|(m, axial)| Bar { from: name(m.from), to: name(m.to), axial_n: *axial })
+                .map(|(m, axial)| Bar {
+                    from: name(m.from),
+                    to: name(m.to),
+                    via: m.via().iter().map(|joint| name(*joint)).collect(),
+                    axial_n: *axial,
+                })
                 .collect(),
         }
         .serialize(serializer)

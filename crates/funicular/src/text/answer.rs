@@ -138,7 +138,8 @@ fn question(solution: &SolveAnswer) -> String {
 fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
     let stresses = evidence.self_stresses.as_ref().map(|some| ('!', "forces", some.to_string()));
     let rigidity = evidence.rigidity.as_ref().map(|some| (' ', "rigidity", some.to_string()));
-    stresses.into_iter().chain(rigidity).collect()
+    let jams = evidence.jams.iter().map(|some| ('!', "jam", some.to_string()));
+    stresses.into_iter().chain(jams).chain(rigidity).collect()
 }
 
 /// The rungs in a line; and, where a check was not passed or forces are not unique, how that is.

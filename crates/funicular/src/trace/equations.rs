@@ -63,7 +63,9 @@ impl<'a> Family<'a> {
                 if let Some(Near { joint, moved_m, .. }) = near.filter(|near| !near.is_neighbour) {
                     return Err(LoadError::NotNear { joint, moved_m });
                 }
-                if found.equilibrium.stability.neutral > 0 {
+                let answer = &found.equilibrium;
+                // No equation describes the corner of a rope that jams.
+                if answer.stability.neutral > 0 || !answer.evidence.jams.is_empty() {
                     return Err(LoadError::Singular);
                 }
                 equations.at(&system, &found)

@@ -439,3 +439,79 @@ fn where_no_path_begins_the_error_says_why() {
     assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
     assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
 }
+
+/// A ring of 10 kg on a rope between A and B, 4 m apart: both spans lean by `a` with `sin a = 4/L`.
+fn ring(more: &str) -> Problem {
+    Problem::parse(
+        &format!(
+            "gravity_m_s2 = 9.8\n[joints]\nA = {{ at_m = [0, 0, 0] }}\nB = {{ at_m = [4, 0, 1] }}\n\
+             P = {{ mass_kg = 10 }}\n{more}[[bars]]\nfrom = \"A\"\nto = \"B\"\nvia = [\"P\"]\n\
+             kind = \"cable\"\nlength_m = 5\n"
+        ),
+        "ring.toml",
+    )
+    .unwrap()
+}
+
+fn path_of(problem: &Problem, vary: &str) -> LoadPath {
+    let found = Trace::new().vary(vary).unwrap().run(problem).unwrap();
+    assert!(found.checks_agree() && found.checks_decided(), "{found}");
+    let path = found.load_paths().unwrap().paths()[0].clone();
+    assert_eq!((path.end, &path.events[..]), (LoadEnd::Range, &[][..]), "{found}");
+    assert!(path.points.len() > 2);
+    path
+}
+
+/// The ring, and the tension of its rope, at every point: over its length, its load, and the place of B.
+#[test]
+fn a_ring_follows_its_rope() {
+    let is_known = |path: &LoadPath, known: &dyn Fn(f64) -> (f64, f64, [f64; 2])| {
+        for point in &path.points {
+            let (length_m, load_n, [bx, bz]) = known(point.values[0]);
+            let sin = bx / length_m;
+            let cos = (1.0 - sin * sin).sqrt();
+            let z = 0.5 * (bz - length_m * cos);
+            near(point.axial_n[0], load_n / (2.0 * cos));
+            let [x, y, at_z] = point.joints_m[2];
+            near(at_z, z);
+            near(x, -z * sin / cos);
+            assert!(y.abs() < 1e-9 && point.index == 0);
+        }
+    };
+    let problem = ring("");
+    let path = path_of(&problem, "bars.1.length_m=4.5..9");
+    is_known(&path, &|length_m| (length_m, 98.0, [4.0, 1.0]));
+    assert_eq!(path.proved.because.as_deref(), Some("it has ropes over rings or pulleys"));
+    let path = path_of(&problem, "joints.P.mass_kg=10..1");
+    is_known(&path, &|mass_kg| (5.0, 9.8 * mass_kg, [4.0, 1.0]));
+    let path = path_of(&problem, "joints.B.at_m.x=4..1");
+    is_known(&path, &|x| (5.0, 98.0, [x, 1.0]));
+    let path = path_of(&problem, "joints.B.at_m.z=1..-2.5");
+    is_known(&path, &|z| (5.0, 98.0, [4.0, z]));
+}
+
+/// P hangs from C while the rope is slack. It is taut as soon as 1 m and 3 m level, and z down, are
+/// 9 m together: its first span is 73/18 m then.
+#[test]
+fn a_rope_becomes_taut_on_a_path() {
+    let problem = Problem::parse(
+        "gravity_m_s2 = 9.8\n[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [4, 0, 0] }\n\
+         C = { at_m = [1, 0, 1] }\nP = { mass_kg = 10 }\n\
+         [[bars]]\nfrom = \"C\"\nto = \"P\"\nkind = \"cable\"\nlength_m = 4\nmass_kg = 0\n\
+         [[bars]]\nfrom = \"A\"\nto = \"B\"\nvia = [\"P\"]\nkind = \"cable\"\nlength_m = 9\n",
+        "slack.toml",
+    )
+    .unwrap();
+    let found = Trace::new().vary("bars.1.length_m=4..5.2").unwrap().run(&problem).unwrap();
+    assert!(found.checks_agree() && found.checks_decided(), "{found}");
+    let path = &found.load_paths().unwrap().paths()[0];
+    let [event] = &path.events[..] else { panic!("{found}") };
+    let first_m: f64 = 73.0 / 18.0;
+    near(event.values[0], 1.0 + (first_m * first_m - 1.0).sqrt());
+    assert_eq!((event.kind, &event.taut[..]), (LoadEventKind::Kink, &[2][..]));
+    let last = path.points.last().unwrap();
+    let [x, _, z] = last.joints_m[3];
+    near(x.hypot(z) + (4.0 - x).hypot(z), 9.0);
+    near((x - 1.0).hypot(z - 1.0), 5.2);
+    assert!(last.axial_n[0] > 0.0 && last.axial_n[1] > 0.0);
+}

@@ -2,7 +2,7 @@
 //! any places and forces, for what follows equilibria over a parameter.
 //!
 //! The unknowns are $y = (x, N)$ in the units of one system: three coordinates of each joint, then
-//! the axial force of each member. With $G$ the balance of the joints along their free directions
+//! the axial force of each member: of a rope its tension, with the sum of its spans as length. With $G$ the balance of the joints along their free directions
 //! and the lengths of the taut members, $J = \partial G/\partial y$ is symmetric. Of a slack member
 //! and along held directions $G$ and $J$ are zero, and so is every step.
 
@@ -78,14 +78,13 @@ impl Equations {
     ///
     /// [`Error::Memory`] when the factor cannot be held.
     pub fn new(system: &System) -> Result<Self, Error> {
-        system.without_ropes("trace")?;
         let bare = Framework::new(system);
         Ok(Self {
             units: bare.units,
             floor: bare.floor(system),
             stiffness: Stiffness::new(&bare, false)?,
             derivative: None,
-            taut: vec![true; bare.links.len()],
+            taut: vec![true; bare.members()],
             lies: vec![false; bare.nodes.len()],
             framework: bare.clone(),
             bare,
@@ -133,7 +132,7 @@ impl Equations {
     /// of the equations from now on.
     pub fn at(&mut self, system: &System, solution: &Solution) -> Vec<f64> {
         let answer = &solution.equilibrium;
-        self.taut = vec![true; self.bare.links.len()];
+        self.taut = vec![true; self.bare.members()];
         for &member in &solution.slack {
             self.taut[member] = false;
         }
@@ -153,8 +152,10 @@ impl Equations {
         let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
         let places: Vec<_> = joints_m.iter().map(place).collect();
         let mut y: Vec<f64> = places.iter().flat_map(|place| [place.x, place.y, place.z]).collect();
-        for (k, link) in self.framework.links.iter().enumerate() {
-            let longer = link.span(&places).norm() - link.length;
+        let links = &self.framework.links;
+        for (k, link) in links.iter().enumerate().take(self.taut.len()) {
+            let long = self.framework.whole(k, |span| links[span].span(&places).norm());
+            let longer = long - link.length;
             let just = longer.abs() <= REACHES * link.length;
             self.taut[k] = just || link.bears(longer);
             let elastic = link.compliance > 0.0 && self.taut[k];
@@ -169,15 +170,16 @@ impl Equations {
             node.base + node.free.part(&(Vector3::from_column_slice(at) - node.base))
         };
         let places = self.framework.nodes.iter().zip(places.chunks_exact(3)).map(onto).collect();
-        State::new(places, axial.to_vec(), self.taut.clone())
+        let (axial, taut) = (axial.to_vec(), self.taut.clone());
+        State::new(places, self.framework.by_link(axial), self.framework.by_link(taut))
     }
 
     /// Places moved onto their supports, slack members without force.
     #[must_use]
     pub fn onto(&self, y: &[f64]) -> Vec<f64> {
         let state = with_held(&self.framework, self.state(y));
-        let axial =
-            state.axial.iter().zip(&state.taut).map(|(n, taut)| if *taut { *n } else { 0.0 });
+        let members = state.axial.iter().zip(&state.taut).take(self.taut.len());
+        let axial = members.map(|(n, taut)| if *taut { *n } else { 0.0 });
         state.places.iter().flat_map(|place| [place.x, place.y, place.z]).chain(axial).collect()
     }
 
@@ -195,16 +197,17 @@ impl Equations {
         (rows, size)
     }
 
-    /// Forces along the free directions, then lengths.
+    /// Forces along the free directions, then lengths of the members.
     fn flat(&self, forces: &[Vector3<f64>], lengths: &[f64]) -> Vec<f64> {
         let nodes = self.framework.nodes.iter().zip(forces).map(|(node, f)| node.free.part(f));
-        nodes.flat_map(|f| [f.x, f.y, f.z]).chain(lengths.iter().copied()).collect()
+        let lengths = lengths.iter().copied().take(self.taut.len());
+        nodes.flat_map(|f| [f.x, f.y, f.z]).chain(lengths).collect()
     }
 
     fn step(&self, y: &[f64]) -> Step {
         let (places, axial) = y.split_at(3 * self.framework.nodes.len());
         let places = places.chunks_exact(3).map(Vector3::from_column_slice).collect();
-        Step { places, axial: axial.to_vec() }
+        Step { places, axial: self.framework.by_link(axial.to_vec()) }
     }
 
     /// Factorise $J$ at these unknowns, with springs of a large stiffness in the place of lengths:
@@ -232,7 +235,8 @@ impl Equations {
         let lengths = derivative.of_taut(&axial).iter().map(|length| -length).collect::<Vec<_>>();
         let step =
             derivative.refined(&none, &self.framework, &mut self.stiffness, &forces, &lengths);
-        step.places.iter().flat_map(|at| [at.x, at.y, at.z]).chain(step.axial).collect()
+        let axial = step.axial.into_iter().take(self.taut.len());
+        step.places.iter().flat_map(|at| [at.x, at.y, at.z]).chain(axial).collect()
     }
 
     /// What $G$ changes by when a member becomes longer, along $\phi$: $\phi \cdot \partial G/\partial l$ for
@@ -254,6 +258,7 @@ impl Equations {
     pub fn by_place(&self, y: &[f64], phi: &[f64]) -> Vec<Vector3<f64>> {
         let state = self.state(y);
         let (places, along) = phi.split_at(3 * self.framework.nodes.len());
+        let along = self.framework.by_link(along.to_vec());
         let phi = |joint: usize| Vector3::from_column_slice(&places[3 * joint..3 * joint + 3]);
         let mut all = vec![Vector3::zeros(); self.framework.nodes.len()];
         let directions = state.directions(&self.framework);
@@ -284,7 +289,7 @@ impl Equations {
     #[must_use]
     pub fn apply(&self, y: &[f64]) -> Vec<f64> {
         let Some(derivative) = &self.derivative else { return vec![0.0; y.len()] };
-        let zero = (vec![Vector3::zeros(); self.lies.len()], vec![0.0; self.taut.len()]);
+        let zero = (vec![Vector3::zeros(); self.lies.len()], vec![0.0; self.framework.links.len()]);
         let (forces, lengths) = derivative.left(&self.step(y), &self.framework, &zero.0, &zero.1);
         self.flat(&forces, &lengths)
     }
@@ -296,7 +301,8 @@ impl Equations {
     pub fn sides(&self, y: &[f64]) -> Vec<(Side, f64)> {
         let state = self.state(y);
         let directions = state.directions(&self.framework);
-        let members = self.framework.links.iter().enumerate().filter_map(|(k, link)| {
+        let links = self.framework.links.iter().enumerate().take(self.taut.len());
+        let members = links.filter_map(|(k, link)| {
             let sign = match link.kind {
                 Kind::Bar => return None,
                 Kind::Cable => 1.0,
@@ -305,7 +311,8 @@ impl Equations {
             if !self.framework.moves(link) {
                 return None;
             }
-            let value = if self.taut[k] { state.axial[k] } else { link.length - directions[k].1 };
+            let length = || self.framework.whole(k, |span| directions[span].1);
+            let value = if self.taut[k] { state.axial[k] } else { link.length - length() };
             Some((Side::Member(k), sign * value))
         });
         let mut sides: Vec<_> = members.collect();

@@ -80,6 +80,7 @@ mod fitted;
 mod floor;
 mod framework;
 mod hanging;
+mod jam;
 mod law;
 mod newton;
 mod order;

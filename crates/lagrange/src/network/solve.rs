@@ -12,7 +12,8 @@ use super::fitted::fitted_forces;
 use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
-use super::newton::{Patience, Run};
+use super::jam::joined;
+use super::newton::{Patience, Run, with_held};
 use super::possible::{check, check_loaded, is_loaded, jammed, too_short};
 use super::readings::nearly;
 use super::second_order::SecondOrder;
@@ -46,6 +47,11 @@ const NO_STRAIN: f64 = 1e-12;
 ///
 /// [`Error`], with numbers: what falls, what does not reach, what did not converge.
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
+    joined(system, hanging(system, settings), |joined| hanging(&joined.system, settings))
+}
+
+/// With all joints for themselves.
+fn hanging(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
     let framework = Framework::new(system).within(settings.max_work);
@@ -77,6 +83,9 @@ fn hang(
     if !system.is_unloaded() && !is_loaded(&solver.framework) {
         // The floor bears every load.
         if let Some(run) = solver.without_forces(hanging.places()) {
+            // But not what is stretched between anchors.
+            let state = with_held(&solver.framework, run.state);
+            let run = Run { steps: run.steps, ..Run::at(&solver.framework, state) };
             let second_order = solver.second_order(&run.state);
             return Ok(solver.solution(run, second_order));
         }
@@ -148,6 +157,14 @@ fn from_densities(
 ///
 /// [`Error`], with numbers.
 pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
+    joined(system, reached(system, seed, settings), |joined| {
+        let joints_m = joined.places_m(&seed.joints_m);
+        reached(&joined.system, &Seed { joints_m, ..seed.clone() }, settings)
+    })
+}
+
+/// With all joints for themselves.
+fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     seed.check(system)?;
     let began = Instant::now();
@@ -163,7 +180,14 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
         // Without loads the lengths of the shape are all that says what the members bear.
         let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
         let start = if to_fit { solver.closed(start) } else { start };
-        let run = solver.with_signs(start, Patience::Full)?;
+        let run = match solver.with_signs(start.clone(), Patience::Full) {
+            Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
+                // Perhaps there is a corner where it would come to rest.
+                let rest = settle(&solver.framework, &mut solver.stiffness, start);
+                return Err(jammed(system, &solver.framework, &rest.state).unwrap_or(error));
+            }
+            result => result?,
+        };
         let second_order = solver.second_order(&run.state);
         Ok(solver.solution(run, second_order))
     });
@@ -236,7 +260,7 @@ impl<'a> Solver<'a> {
     /// saddle of the bars', with bars that have no length in it or lie in one line. Where the
     /// members do not fit from there, it is moved further.
     fn settled(&mut self, from: &State, kick: usize) -> Result<Run, Error> {
-        let mut result = Err(Error::Unloaded);
+        let (mut result, mut first_jam) = (Err(Error::Unloaded), None);
         for (tries, size) in KICKS.into_iter().enumerate() {
             let state = self.kicked(from, kick + tries, size);
             let rest = settle(&self.framework, &mut self.stiffness, state);
@@ -249,15 +273,19 @@ impl<'a> Solver<'a> {
             let fits = rest.fits;
             let jam = jammed(self.system, &self.framework, &rest.state);
             result = self.with_signs(rest.state, Patience::Full);
-            if let (Err(Error::NotConverged { .. }), Some(jam)) = (&result, jam) {
-                return Err(jam);
+            if let Err(Error::NotConverged { .. }) = &result {
+                first_jam = first_jam.or(jam);
             }
             let never_fits = matches!(&result, Err(Error::Misfit { misfits }) if nearly(&self.framework, misfits));
             if never_fits || (fits && result.is_ok()) {
                 break;
             }
         }
-        result
+        // From elsewhere it may not have run together.
+        match (result, first_jam) {
+            (Err(Error::NotConverged { .. }), Some(jam)) => Err(jam),
+            (result, _) => result,
+        }
     }
 
     /// The state with every joint moved along its free directions, by up to this size.

@@ -8,7 +8,7 @@ use rand::RngExt;
 use crate::common::stream;
 
 /// Every kind of member, rigid and elastic, none of the length of another, between anchors, free joints, a ring on
-/// an oblique wire and one on a level plate.
+/// an oblique wire and one on a level plate, and ropes over them, one twice over the same ring.
 fn rig(change: impl Fn(&mut Vec<Joint>, &mut Vec<Member>)) -> System {
     let wire = Support::Line { at_m: [2.0, 1.0, -1.5], direction: [0.6, 0.0, 0.8] };
     let plate = Support::Plane { at_m: [-1.0, 0.5, -2.0], normal: [0.0, 0.0, 1.0] };
@@ -33,6 +33,9 @@ fn rig(change: impl Fn(&mut Vec<Joint>, &mut Vec<Member>)) -> System {
         member(4, 1, Kind::Strut, 2.4, 0.5, None),
         member(4, 3, Kind::Strut, 2.9, 0.0, Some(40.0)),
         member(5, 3, Kind::Bar, 3.1, 0.6, Some(70.0)),
+        member(0, 3, Kind::Cable, 4.7, 0.0, Some(55.0)).over(vec![2, 5]),
+        member(5, 0, Kind::Cable, 6.3, 0.0, None).over(vec![1, 4, 2]),
+        member(0, 1, Kind::Cable, 5.2, 0.0, Some(35.0)).over(vec![3, 5, 3]),
     ];
     change(&mut joints, &mut members);
     System::new("rig", 9.81, joints, members).unwrap()
@@ -235,4 +238,27 @@ fn answers_are_where_nothing_is_left() {
     let [(side, value)] = equations.sides(&y)[..] else { panic!() };
     assert!(side == Side::Member(2) && (value * length_m - 1.0).abs() < 1e-12, "{value}");
     assert_eq!(equations.factorise(&y), Some(0));
+}
+
+/// Ropes over P, 3 m right of A and 4 m below B: drawn 7 m long, of 80 N and of 60 N a length of 6.4 and of 7.5 m.
+#[test]
+fn drawn_ropes_are_as_long_as_their_spans() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [3.0, 0.0, 4.0]),
+        Joint::free("P").with_mass(1.0),
+    ];
+    let rope = |length_m, stiffness_n| {
+        let body = Bar::homogeneous(length_m, 0.0).unwrap();
+        Member::cable(0, 1, body).over(vec![2]).with_stiffness(stiffness_n)
+    };
+    let system =
+        System::new("drawn", 9.81, joints, vec![rope(6.4, 80.0), rope(7.5, 60.0)]).unwrap();
+    let mut equations = Equations::new(&system).unwrap();
+    let [length_m, force_n] = equations.units();
+    let y = equations.drawn(&[[0.0; 3], [3.0, 0.0, 4.0], [3.0, 0.0, 0.0]]);
+    close(&y[9..], &[80.0 * 0.6 / 6.4 / force_n, 0.0], 1e-12);
+    let [(first, force), (second, slack)] = equations.sides(&y)[..] else { panic!() };
+    assert_eq!((first, second), (Side::Member(0), Side::Member(1)));
+    close(&[force * force_n, slack * length_m], &[7.5, 0.5], 1e-12);
 }

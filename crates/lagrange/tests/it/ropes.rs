@@ -56,29 +56,68 @@ fn rope(path: [usize; 4], length_m: f64) -> Member {
         .over(path[1..3].to_vec())
 }
 
-/// Two weights over two pulleys: the lighter one is pulled up to its pulley.
+/// Rings that have run to a pulley, to an end of the rope or to another ring, and what holds them there.
 #[test]
-fn unequal_weights_jam() {
-    for (masses_kg, light, pulley) in
-        [([3.0, 2.0], "Q", "E"), ([3.0, 2.99], "Q", "E"), ([1.0, 5.0], "P", "D")]
-    {
-        let joints = vec![
-            Joint::anchor("D", [0.0; 3]),
-            Joint::anchor("E", [1.0, 0.0, 0.0]),
-            Joint::free("P").with_mass(masses_kg[0]),
-            Joint::free("Q").with_mass(masses_kg[1]),
-        ];
-        let system =
-            System::new("two weights", 10.0, joints, vec![rope([2, 0, 1, 3], 6.0)]).unwrap();
-        let error = solve(&system, &Settings::default()).unwrap_err();
-        let Error::Jammed { member: 1, from, to } = &error else { panic!("{error}") };
-        assert!(
-            [from, to].contains(&&light.to_owned()) && [from, to].contains(&&pulley.to_owned())
-        );
+fn joints_that_run_together_are_held_by_less_than_the_tension() {
+    for sample in samples::jammed_ropes() {
+        let name = sample.system.name();
+        let found = solve(&sample.system, &Settings::default());
+        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+        holds(&sample, &found);
+        let jams = &found.equilibrium.evidence.jams;
+        assert_eq!(jams.len(), sample.jams.len(), "{name}");
+        for (jam, (span, pull_n)) in jams.iter().zip(&sample.jams) {
+            assert_eq!((jam.member, jam.span), (0, *span), "{name}");
+            near(jam.pull_n, *pull_n);
+        }
+        let drawn = found.equilibrium.joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]);
+        let near = solve_from(&sample.system, &Seed::at(drawn.collect()), &Settings::default());
+        holds(&sample, &near.unwrap_or_else(|error| panic!("{name}: {error}")));
     }
 }
 
-/// Two ropes on one way share as equally stiff ones, and have no derivatives.
+/// 100 N stretch 3.6 m to 4 m between anchors: 100 N (4/3.6 - 1), whatever loads the anchors.
+#[test]
+fn what_is_stretched_between_anchors_bears_it() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [4.0, 0.0, 0.0]).with_force([2.0, 0.0, -2.0]),
+    ];
+    let body = Bar::homogeneous(3.6, 0.0).unwrap();
+    let members = vec![Member::cable(0, 1, body).with_stiffness(100.0)];
+    let system = System::new("a stay", 10.0, joints, members).unwrap();
+    let found = solve(&system, &Settings::default()).unwrap().equilibrium;
+    close(found.axial_n[0], 100.0 * (4.0 / 3.6 - 1.0));
+    near(found.reactions_n[0], [-found.axial_n[0], 0.0, 0.0]);
+}
+
+/// Where three joints run together each span bears its own part: 1 kg, 2 kg and 3 kg as rings of one rope, with
+/// the whole load in its lowest point.
+#[test]
+fn three_rings_run_together() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [4.0, 0.0, 1.0]),
+        Joint::free("P").with_mass(1.0),
+        Joint::free("Q").with_mass(2.0),
+        Joint::free("R").with_mass(3.0),
+    ];
+    let body = Bar::homogeneous(5.0, 0.0).unwrap();
+    let system =
+        System::new("rings", 10.0, joints, vec![Member::cable(0, 1, body).over(vec![2, 3, 4])]);
+    let found = solve(&system.unwrap(), &Settings::default()).unwrap().equilibrium;
+    close(found.axial_n[0], 50.0);
+    for joint in [2, 3, 4] {
+        near(found.joints_m[joint], [4.0 / 3.0, 0.0, -1.0]);
+    }
+    // P to Q bears what the first span and 10 N leave at P, 40 N level and 20 N up; Q to R 20 N more of it.
+    let pulls: Vec<_> = found.evidence.jams.iter().map(|jam| (jam.span, jam.pull_n)).collect();
+    assert_eq!([pulls[0].0, pulls[1].0], [1, 2]);
+    near(pulls[0].1, [40.0, 0.0, -20.0]);
+    near(pulls[1].1, [40.0, 0.0, 0.0]);
+}
+
+/// Two ropes on one way share as equally stiff ones, and derivatives of them are refused.
 #[test]
 fn ropes_side_by_side_are_a_family() {
     let joints = vec![

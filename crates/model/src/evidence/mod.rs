@@ -26,6 +26,7 @@ mod convergence;
 mod finite;
 mod force_choice;
 mod from_one;
+mod jam;
 mod ladder;
 mod reason;
 mod rigidity;
@@ -46,6 +47,7 @@ pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, CompleteSystem, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};
 pub use force_choice::ForceChoice;
+pub use jam::Jam;
 pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
 pub use rigidity::Rigidity;
@@ -79,6 +81,9 @@ pub struct Evidence {
     /// In a system: how the lengths determine shape and forces, where the solver has counted that.
     #[serde(default)]
     pub rigidity: Option<Rigidity>,
+    /// In a system: spans of ropes without length, with their forces.
+    #[serde(default)]
+    pub jams: Vec<Jam>,
     /// The five rungs.
     pub ladder: Ladder,
 }
@@ -125,6 +130,7 @@ impl Evidence {
             solve_s: 0.0,
             self_stresses: None,
             rigidity: None,
+            jams: vec![],
             ladder: Ladder { converged: convergence.judged(), ..Ladder::default() },
         }
     }
@@ -168,6 +174,8 @@ struct Keys<'a> {
     self_stresses: Option<&'a SelfStresses>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rigidity: Option<Rigidity>,
+    #[serde(skip_serializing_if = "<[Jam]>::is_empty")]
+    jams: &'a [Jam],
     ladder: &'a Ladder,
 }
 
@@ -183,6 +191,7 @@ impl Serialize for Evidence {
             solve_s: self.solve_s,
             self_stresses: self.self_stresses.as_ref(),
             rigidity: self.rigidity,
+            jams: &self.jams,
             ladder: &self.ladder,
         }
         .serialize(serializer)

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::bounds::{Bounds, IMPLAUSIBLE};
 use super::least_squares::{Column, Found, Problem};
+use crate::systems::spans;
 use numerics::vector::{dot, minus, norm, plus, times};
 
 /// Forces found for positions that came without.
@@ -75,17 +76,6 @@ pub(super) fn free_part(support: &Support, vector: Vector) -> Vector {
     }
 }
 
-/// Distance of the ends of each member, m, and the direction from the first to the second; none
-/// where they meet.
-pub(super) fn spans(system: &System, joints_m: &[Vector]) -> Vec<(f64, Vector)> {
-    let span = |member: &model::system::Member| {
-        let along = minus(joints_m[member.to], joints_m[member.from]);
-        let distance = norm(along);
-        (distance, if distance > 0.0 { times(1.0 / distance, along) } else { [0.0; 3] })
-    };
-    system.members().iter().map(span).collect()
-}
-
 /// The force of an elastic member by its law, N.
 pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64) -> f64 {
     let force = stiffness_n * ((distance_m - length_m) / length_m);
@@ -102,18 +92,17 @@ pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64
 /// the positions decide it.
 #[must_use]
 pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> BestForces {
-    let spans = spans(system, joints_m);
     let columns: Vec<Column> = system
         .members()
         .iter()
-        .zip(&spans)
-        .map(|(member, (distance_m, unit))| {
-            let length_m = member.body.length_m();
-            let reach_m = bounds.distance_m();
+        .map(|member| {
+            let (distance_m, length_m) =
+                (spans::length_m(member, joints_m), member.body.length_m());
+            let reach_m = bounds.distance_m(member);
             let slack = match member.kind {
                 Kind::Bar => false,
-                Kind::Cable => *distance_m < length_m - reach_m,
-                Kind::Strut => *distance_m > length_m + reach_m,
+                Kind::Cable => distance_m < length_m - reach_m,
+                Kind::Strut => distance_m > length_m + reach_m,
             };
             let (lower, upper) = match (member.stiffness_n, member.kind) {
                 (Some(stiffness_n), kind) => (
@@ -125,7 +114,9 @@ pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Bes
                 (None, Kind::Cable) => (0.0, f64::INFINITY),
                 (None, Kind::Strut) => (f64::NEG_INFINITY, 0.0),
             };
-            Column { joints: [member.from, member.to], unit: *unit, lower, upper }
+            let gradient = spans::gradient(member, joints_m).into_iter();
+            let pulls = gradient.map(|(joint, longer)| (joint, times(-1.0, longer))).collect();
+            Column { pulls, lower, upper }
         })
         .collect();
     let loads = joint_loads(system);

@@ -1,6 +1,6 @@
 //! What the tolerance of an answer explains.
 
-use model::system::System;
+use model::system::{Member, System};
 use serde::Serialize;
 
 use numerics::vector::{minus, norm, worse};
@@ -57,9 +57,9 @@ impl Bounds {
         }
     }
 
-    /// How far the distance of two joints may change, m.
-    pub(super) fn distance_m(&self) -> f64 {
-        2.0 * self.position_m
+    /// How far the length of a member may change along its spans, m.
+    pub(super) fn distance_m(&self, member: &Member) -> f64 {
+        2.0 * self.position_m * member.spans().count() as f64
     }
 }
 

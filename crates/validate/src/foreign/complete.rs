@@ -3,7 +3,8 @@
 use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, InSpace, SolverName, Vector, sum};
 
-use super::best_forces::{free_part, joint_loads, law_n, shares_n, spans};
+use super::best_forces::{free_part, joint_loads, law_n, shares_n};
+use crate::systems::spans::{length_m, unit};
 use numerics::vector::{dot, minus, norm, plus, times};
 
 /// Positions and axial forces with end forces, reactions and energy by the lever rule and the
@@ -15,16 +16,18 @@ pub(super) fn complete(
     axial_n: &[f64],
 ) -> SystemEquilibrium {
     let loads = joint_loads(system);
-    let spans = spans(system, joints_m);
     let mut left: Vec<Vector> = loads.clone();
     let (mut start_forces_n, mut end_forces_n) = (vec![], vec![]);
     for (k, member) in system.members().iter().enumerate() {
-        let pull = times(axial_n[k], spans[k].1);
+        let pulls: Vec<Vector> =
+            member.spans().map(|span| times(axial_n[k], unit(span, joints_m))).collect();
         let [start, end] = shares_n(system, k);
-        start_forces_n.push(minus(times(-1.0, pull), start));
-        end_forces_n.push(minus(pull, end));
-        left[member.from] = plus(left[member.from], pull);
-        left[member.to] = minus(left[member.to], pull);
+        start_forces_n.push(minus(times(-1.0, pulls[0]), start));
+        end_forces_n.push(minus(pulls[pulls.len() - 1], end));
+        for ([a, b], pull) in member.spans().zip(pulls) {
+            left[a] = plus(left[a], pull);
+            left[b] = minus(left[b], pull);
+        }
     }
     let held = |(joint, left): (&model::system::Joint, Vector)| {
         let free = free_part(&joint.support, left);
@@ -33,7 +36,7 @@ pub(super) fn complete(
     let reactions_n = system.joints().iter().zip(left).map(held).collect();
     SystemEquilibrium {
         solver: source.clone(),
-        energy_j: energy_j(system, joints_m, &loads, &spans),
+        energy_j: energy_j(system, joints_m, &loads),
         joints_m: joints_m.to_vec(),
         start_forces_n,
         end_forces_n,
@@ -50,19 +53,14 @@ pub(super) fn complete(
 }
 
 /// Potential energy relative to the system's reference.
-fn energy_j(
-    system: &System,
-    joints_m: &[Vector],
-    loads: &[Vector],
-    spans: &[(f64, Vector)],
-) -> f64 {
+fn energy_j(system: &System, joints_m: &[Vector], loads: &[Vector]) -> f64 {
     let origin = system.reference_m();
     let works = joints_m.iter().zip(loads).map(|(at, load)| -dot(*load, minus(*at, origin)));
-    let elastic = system.members().iter().zip(spans).filter_map(|(member, (distance_m, _))| {
-        let (stiffness_n, length_m) = (member.stiffness_n?, member.body.length_m());
-        let force = law_n(member.kind, stiffness_n, length_m, *distance_m);
+    let elastic = system.members().iter().filter_map(|member| {
+        let (stiffness_n, unstretched_m) = (member.stiffness_n?, member.body.length_m());
+        let force = law_n(member.kind, stiffness_n, unstretched_m, length_m(member, joints_m));
         // F^2 / 2k, and with it none where the member is slack.
-        Some(0.5 * force * force * length_m / stiffness_n)
+        Some(0.5 * force * force * unstretched_m / stiffness_n)
     });
     sum(works.chain(elastic))
 }

@@ -1,8 +1,9 @@
 //! An answer from elsewhere, by the names of joints.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 
-use model::system::{Joint, System};
+use model::system::{Joint, Member, System};
 use model::{SolverName, Vector};
 
 /// Joint positions that somebody says are an equilibrium of a system, with forces if they were
@@ -16,6 +17,9 @@ pub struct ForeignAnswer {
     /// Axial force of each member, tension positive, N: of a member with loads along it the force
     /// with the loads lumped to its joints by the lever rule.
     pub axial_n: Option<Vec<f64>>,
+    /// Of ropes whose spans were given forces of their own these, by the number of the member from 0, N;
+    /// the axial force is their mean.
+    pub spans_n: BTreeMap<usize, Vec<f64>>,
     /// Force of the ground on each joint, N; zero at joints without support.
     pub reactions_n: Option<Vec<Vector>>,
 }
@@ -135,11 +139,13 @@ impl ForeignAnswer {
             source: SolverName::new(source.into()),
             joints_m: joints_m.into_iter().flatten().collect(),
             axial_n: None,
+            spans_n: BTreeMap::new(),
             reactions_n: None,
         })
     }
 
-    /// An answer whose lists are in the order of the system's joints and members.
+    /// An answer whose lists are in the order of the system's joints and members; of forces there is one
+    /// for each member, or one for each span of each member.
     ///
     /// # Errors
     ///
@@ -154,59 +160,99 @@ impl ForeignAnswer {
         if joints_m.len() != system.joints().len() {
             return Err(count("joints", system.joints().len(), joints_m.len()));
         }
-        let members = system.members();
-        if let Some(forces) = axial_n.as_ref().filter(|forces| forces.len() != members.len()) {
-            return Err(count("member forces", members.len(), forces.len()));
+        let members = system.members().len();
+        let spans: usize = system.members().iter().map(|member| member.spans().count()).sum();
+        let forces = axial_n.as_ref().map_or(members, Vec::len);
+        if forces != members && forces != spans {
+            return Err(count("member forces", members, forces));
         }
         if let Some(k) = joints_m.iter().position(|place| place.iter().any(|x| !x.is_finite())) {
             let what = format!("joint {:?}", system.joints()[k].name);
             return Err(GivenError::NotFinite { what });
         }
-        if let Some(k) = axial_n.iter().flatten().position(|force| !force.is_finite()) {
-            return Err(GivenError::NotFinite { what: member_name(system, k) });
-        }
         let source = SolverName::new(source.into());
-        Ok(Self { source, joints_m, axial_n, reactions_n: None })
+        let (spans_n, reactions_n) = (BTreeMap::new(), None);
+        let answer = Self { source, joints_m, axial_n: None, spans_n, reactions_n };
+        let Some(axial_n) = axial_n else { return Ok(answer) };
+        let mut left = axial_n.iter().copied();
+        let of_member = |member: &Member| {
+            let whole = if forces == members { left.next() } else { None };
+            member.spans().map_while(|_| whole.or_else(|| left.next())).collect()
+        };
+        answer.bearing(system, system.members().iter().map(of_member).collect())
     }
 
-    /// The same with axial forces, by the names of the two joints of each member in any order.
+    /// The same with the axial force of each span of each member.
+    fn bearing(mut self, system: &System, forces: Vec<Vec<f64>>) -> Result<Self, GivenError> {
+        if let Some(k) = forces.iter().position(|spans| spans.iter().any(|n| !n.is_finite())) {
+            return Err(GivenError::NotFinite { what: member_name(system, k) });
+        }
+        let mean = |spans: &Vec<f64>| {
+            let more = model::sum(spans.iter().map(|force| force - spans[0]));
+            spans[0] + more / spans.len() as f64
+        };
+        self.axial_n = Some(forces.iter().map(mean).collect());
+        self.spans_n =
+            forces.into_iter().enumerate().filter(|(_, spans)| spans.len() > 1).collect();
+        Ok(self)
+    }
+
+    /// The same with axial forces, by the names of the two joints of each member in any order. Of a rope
+    /// they are its ends, or those of each of its spans; forces between the same two joints are in the order
+    /// of the system.
     ///
     /// # Errors
     ///
     /// [`GivenError`]: members that the system has not, or that are missing or repeated; numbers
     /// that are not finite.
     pub fn with_forces(
-        mut self,
+        self,
         system: &System,
         forces: impl IntoIterator<Item = (String, String, f64)>,
     ) -> Result<Self, GivenError> {
-        let members = system.members().iter().enumerate();
-        let pair = |a: usize, b: usize| (a.min(b), a.max(b));
-        let numbers: HashMap<_, _> = members.map(|(k, m)| (pair(m.from, m.to), k)).collect();
         let joints = joint_numbers(system);
-        let mut axial_n = vec![None; system.members().len()];
+        let number = |name: &str| joints.get(name).copied().ok_or_else(|| unknown(system, name));
+        let mut places = between(system);
         for (from, to, force) in forces {
-            let number =
-                |name: &str| joints.get(name).copied().ok_or_else(|| unknown(system, name));
-            let (a, b) = (number(&from)?, number(&to)?);
-            let Some(k) = numbers.get(&pair(a, b)).copied() else {
+            let Some(place) = places.get_mut(&pair([number(&from)?, number(&to)?])) else {
                 return Err(GivenError::UnknownMember { from, to });
             };
-            if !force.is_finite() {
-                return Err(GivenError::NotFinite { what: member_name(system, k) });
-            }
-            if axial_n[k].replace(force).is_some() {
+            if place.forces.len() == place.members.len().max(place.spans.len()) {
                 return Err(GivenError::RepeatedMember { from, to });
             }
+            if !force.is_finite() {
+                let k = place.members.first().copied().unwrap_or(place.spans[0].0);
+                return Err(GivenError::NotFinite { what: member_name(system, k) });
+            }
+            place.forces.push(force);
         }
-        let missing = axial_n.iter().enumerate().filter(|(_, force)| force.is_none());
+        let count = |member: &Member| member.spans().count();
+        let mut found: Vec<Vec<Option<f64>>> =
+            system.members().iter().map(|member| vec![None; count(member)]).collect();
+        for Between { members, spans, forces } in places.into_values() {
+            let whole = |k: usize| (k, 0..count(&system.members()[k]));
+            let places: Vec<(usize, Range<usize>)> = if forces.len() == members.len() {
+                members.into_iter().map(whole).collect()
+            } else {
+                spans.into_iter().map(|(k, span)| (k, span..span + 1)).collect()
+            };
+            for ((k, spans), force) in places.into_iter().zip(forces) {
+                if found[k][spans.clone()].iter().any(Option::is_some) {
+                    let name = |joint: usize| system.joints()[joint].name.clone();
+                    let [from, to] = [system.members()[k].from, system.members()[k].to].map(name);
+                    return Err(GivenError::RepeatedMember { from, to });
+                }
+                found[k][spans].fill(Some(force));
+            }
+        }
+        let missing = found.iter().enumerate().filter(|(_, spans)| spans.contains(&None));
         let missing: Vec<_> = missing.map(|(k, _)| member_name(system, k)).collect();
         if !missing.is_empty() {
             let (count, names) = shortened(missing);
             return Err(GivenError::MissingForces { names, count });
         }
-        self.axial_n = Some(axial_n.into_iter().flatten().collect());
-        Ok(self)
+        let found = found.into_iter().map(|spans| spans.into_iter().flatten().collect());
+        self.bearing(system, found.collect())
     }
 
     /// The same with forces of the ground by the names of joints; those not named are zero.
@@ -224,6 +270,33 @@ impl ForeignAnswer {
         self.reactions_n = Some(found.into_iter().map(Option::unwrap_or_default).collect());
         Ok(self)
     }
+}
+
+/// What is between two joints, and the forces given there.
+#[derive(Default)]
+struct Between {
+    /// The members with these ends.
+    members: Vec<usize>,
+    /// The members with a span here, and its number.
+    spans: Vec<(usize, usize)>,
+    forces: Vec<f64>,
+}
+
+/// Two joints in an order that does not depend on the direction.
+fn pair([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// What is between each two joints.
+fn between(system: &System) -> BTreeMap<[usize; 2], Between> {
+    let mut all = BTreeMap::<_, Between>::new();
+    for (k, member) in system.members().iter().enumerate() {
+        all.entry(pair([member.from, member.to])).or_default().members.push(k);
+        for (number, span) in member.spans().enumerate() {
+            all.entry(pair(span)).or_default().spans.push((k, number));
+        }
+    }
+    all
 }
 
 fn joint_numbers(system: &System) -> HashMap<&str, usize> {

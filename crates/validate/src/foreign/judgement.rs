@@ -1,6 +1,6 @@
 //! The judgement of an answer from elsewhere.
 
-use model::system::{RopeNotTaken, System, SystemEquilibrium};
+use model::system::{System, SystemEquilibrium};
 use model::{
     Agreed, Convergence, Disagreement, Excess, Ladder, Place, Quantity, Reason, SolverName, Status,
     Vector,
@@ -15,7 +15,7 @@ use super::floor::{above_floor, laid};
 use super::given::ForeignAnswer;
 use super::nearest::{Nearest, NearestEquilibrium, nearest};
 use super::violation::{
-    Measured, Violation, balance_found, balance_given, geometry_and_laws, whole,
+    Measured, Violation, balance_found, balance_given, geometry_and_laws, tensions, whole,
 };
 use crate::systems::{ABSURD, Scale, SystemStatics, certify, judge};
 use numerics::vector::norm;
@@ -142,17 +142,6 @@ pub struct ToleranceError {
     pub tolerance: f64,
 }
 
-/// Why an answer is not judged.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum NotJudged {
-    /// The tolerance is out of range.
-    #[error(transparent)]
-    Tolerance(#[from] ToleranceError),
-    /// A member is a rope over rings or pulleys, whose laws this judge does not know yet.
-    #[error(transparent)]
-    Rope(#[from] RopeNotTaken),
-}
-
 /// Below this rounding decides.
 const LEAST: f64 = 1e-13;
 /// Above this every shape is an equilibrium.
@@ -165,7 +154,7 @@ const POWERS: [f64; 12] =
 ///
 /// # Errors
 ///
-/// [`NotJudged`] when the tolerance is out of range, or a member runs over rings or pulleys.
+/// [`ToleranceError`] when the tolerance is out of range.
 ///
 /// ```
 /// use model::system::{Joint, Member, System};
@@ -197,10 +186,9 @@ pub fn judge_foreign(
     answer: &ForeignAnswer,
     tolerance: f64,
     watch: &dyn Fn(&str),
-) -> Result<Judgement, NotJudged> {
-    system.without_ropes("judge")?;
+) -> Result<Judgement, ToleranceError> {
     if !(LEAST..=MOST).contains(&tolerance) {
-        return Err(ToleranceError { tolerance }.into());
+        return Err(ToleranceError { tolerance });
     }
     let Trial { bounds, forces, completed, measured, force_digits } =
         trial(system, answer, tolerance, watch);
@@ -307,6 +295,7 @@ fn measure(
     let reactions_n = answer.reactions_n.as_deref();
     match forces {
         ForcesJudged::Given => {
+            tensions(system, answer, bounds, &mut measured);
             balance_given(system, completed, reactions_n, bounds, &mut measured);
         }
         ForcesJudged::Found(best) => {
@@ -369,8 +358,9 @@ fn loads_hidden(
 /// How far the force of a member (from 1) may be off.
 fn allowed_n(system: &System, member: usize, bounds: &Bounds) -> f64 {
     let member = member.checked_sub(1).and_then(|k| system.members().get(k));
-    let elastic = member.and_then(|m| Some(m.stiffness_n? / m.body.length_m()));
-    bounds.force_n + elastic.unwrap_or_default() * bounds.distance_m()
+    let elastic =
+        member.and_then(|m| Some(m.stiffness_n? / m.body.length_m() * bounds.distance_m(m)));
+    bounds.force_n + elastic.unwrap_or_default()
 }
 
 /// The rungs of an answer that is confirmed are those of the equilibrium that it stands for.

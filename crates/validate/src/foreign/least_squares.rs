@@ -1,7 +1,7 @@
 //! Least squares of a sparse equilibrium matrix under bounds of the unknowns.
 //!
 //! Minimise $\\tfrac12 |A x + f|^2$ for $l \\le x \\le u$, where a column of $A$ is $\\pm u_e$ at
-//! the two ends of a member. Bertsekas's projected Newton method: unknowns at a bound that the
+//! the two ends of a member, and at each joint of a rope the sum of that over its spans there. Bertsekas's projected Newton method: unknowns at a bound that the
 //! gradient pushes outwards go there or stay, the others take a Newton step, and the path is bent at the
 //! bounds. With the slope $s = A_F^T r$ the step is
 //! $$ p = -(A_F^T A_F + \\varepsilon I)^{-1} s
@@ -20,7 +20,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 use model::{Vector, sum};
 
-use numerics::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, norm, plus, times};
 
 /// The ridge, in units of the diagonal (a member adds 1 to each end): its square root is far above
 /// the rounding, and itself far below what changes a residual.
@@ -39,11 +39,10 @@ const DESCENT: f64 = 1e-4;
 /// rounding, is the last.
 const PROGRESS: f64 = 1e-13;
 
-/// A column: the two joints, and the unit vector from the first to the second.
-#[derive(Debug, Clone, Copy)]
+/// A column: each joint of a member once, with its pull there when its force is 1.
+#[derive(Debug, Clone)]
 pub(super) struct Column {
-    pub(super) joints: [usize; 2],
-    pub(super) unit: Vector,
+    pub(super) pulls: Vec<(usize, Vector)>,
     pub(super) lower: f64,
     pub(super) upper: f64,
 }
@@ -126,10 +125,9 @@ impl Problem<'_> {
     /// `A x` and what is there before.
     fn pulls(&self, mut left: Vec<Vector>, x: &[f64]) -> Vec<Vector> {
         for (column, x) in self.columns.iter().zip(x) {
-            let [from, to] = column.joints;
-            let pull = times(*x, column.unit);
-            left[from] = plus(left[from], pull);
-            left[to] = minus(left[to], pull);
+            for (joint, pull) in &column.pulls {
+                left[*joint] = plus(left[*joint], times(*x, *pull));
+            }
         }
         self.freed(left)
     }
@@ -178,7 +176,7 @@ impl Problem<'_> {
         let band = self.pull(x, left).min(BAND * size(self.loads).sqrt());
         let slope: Vec<f64> = self.columns.iter().map(|c| along(c, left)).collect();
         let pushes = |k: usize| {
-            let Column { lower, upper, .. } = self.columns[k];
+            let Column { lower, upper, .. } = &self.columns[k];
             (x[k] <= lower + band && slope[k] > 0.0) || (x[k] >= upper - band && slope[k] < 0.0)
         };
         let moving: Vec<bool> = (0..x.len()).map(|k| !pushes(k)).collect();
@@ -198,18 +196,17 @@ impl Problem<'_> {
         let mut entries = Vec::with_capacity(15 * moving.len() + size);
         entries.extend((0..size).map(|k| Triplet::new(k, k, RIDGE)));
         for (column, _) in self.columns.iter().zip(moving).filter(|(_, moving)| **moving) {
-            let [from, to] = column.joints;
-            let ends = [(from, (self.free)(from, column.unit)), (to, (self.free)(to, column.unit))];
-            let blocks =
-                [(0, 0, 1.0), (1, 1, 1.0), if from < to { (1, 0, -1.0) } else { (0, 1, -1.0) }];
-            for (row, col, sign) in blocks {
-                let ((j, u), (k, v)) = (ends[row], ends[col]);
-                let lower = |a: usize, b: usize| j != k || a >= b;
-                let pairs = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));
+            let free =
+                column.pulls.iter().map(|(joint, pull)| (*joint, (self.free)(*joint, *pull)));
+            let free: Vec<(usize, Vector)> = free.collect();
+            let pairs =
+                free.iter().flat_map(|first| free.iter().map(move |second| (first, second)));
+            for ((j, u), (k, v)) in pairs.filter(|(first, second)| first.0 >= second.0) {
+                let pairs = (0..3).flat_map(|a| (0..3).map(move |b| (3 * j + a, 3 * k + b)));
                 entries.extend(
                     pairs
-                        .filter(|(a, b)| lower(*a, *b))
-                        .map(|(a, b)| Triplet::new(3 * j + a, 3 * k + b, sign * u[a] * v[b])),
+                        .filter(|(row, column)| row >= column)
+                        .map(|(row, column)| Triplet::new(row, column, u[row % 3] * v[column % 3])),
                 );
             }
         }
@@ -226,8 +223,7 @@ impl Problem<'_> {
 
 /// A column times a vector for each joint.
 fn along(column: &Column, vectors: &[Vector]) -> f64 {
-    let [from, to] = column.joints;
-    dot(column.unit, minus(vectors[from], vectors[to]))
+    sum(column.pulls.iter().map(|(joint, pull)| dot(*pull, vectors[*joint])))
 }
 
 /// Sum of the squares.

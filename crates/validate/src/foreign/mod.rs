@@ -15,6 +15,9 @@
 //!   $$ \\sum_{\\text{its members}} \\Big(\\tau + |N_e| \\frac{2\\delta}{d_e - \\delta}\\Big) ; $$
 //! * the force of an elastic member by $2\\delta\\, EA/l$.
 //!
+//! The length of a rope is the sum of its spans, each of which may be off by that of a member; its force is
+//! one, and two that are given on both sides of a ring differ by no more than $2\\tau$.
+//!
 //! Every violation is thus a proof that no equilibrium is within the tolerance of the answer.
 //!
 //! # Without forces
@@ -62,7 +65,7 @@ mod tests;
 mod violation;
 
 pub use given::{ForeignAnswer, GivenError};
-pub use judgement::{Finding, ForcesJudged, Judgement, NotJudged, ToleranceError, judge_foreign};
+pub use judgement::{Finding, ForcesJudged, Judgement, ToleranceError, judge_foreign};
 pub use nearest::{Nearest, NearestEquilibrium};
 pub use proved::ProvedError;
 pub use violation::{Law, Violation};

@@ -66,6 +66,7 @@ impl Law {
             Self::Elongation { .. } => "elongation",
             Self::Sign { .. } => "sign",
             Self::Slack { .. } => "slackness",
+            Self::Tension { .. } => "one tension",
             Self::Balance { .. } => "balance",
             Self::Reaction { .. } => "force of the ground",
             Self::Whole { .. } => "balance of the whole",
@@ -168,6 +169,11 @@ impl Violation {
                 Digits(force_n),
                 Digits(distance_m),
                 Digits(length_m)
+            ),
+            Law::Tension { member, sides_n: [before_n, after_n] } => format!(
+                "the rope (member {member}) pulls with {} N on one side and {} N on the other",
+                Digits(before_n),
+                Digits(after_n)
             ),
             Law::Balance { left_n } => format!("{} are left over", Force(left_n)),
             Law::Reaction { given_n, wanted_n } => format!(

@@ -2,6 +2,7 @@
 
 use model::system::{Joint, Kind, Member, PointLoad, System, SystemEquilibrium};
 use model::{Bar, Place, SolverName};
+use numerics::vector::times;
 
 use super::best_forces::{best_forces, joint_loads, shares_n};
 use super::bounds::{Bounds, TOLERANCE};
@@ -309,8 +310,7 @@ fn the_energy_of_a_spring_is_that_of_its_force() {
 #[test]
 fn a_force_at_its_bound_that_is_pushed_beyond_it_stays_there() {
     let column = |end: usize, unit: [f64; 3]| Column {
-        joints: [0, end],
-        unit,
+        pulls: vec![(0, unit), (end, times(-1.0, unit))],
         lower: 0.0,
         upper: f64::INFINITY,
     };
@@ -387,8 +387,7 @@ fn members_are_told_by_number_and_joints() {
 #[test]
 fn the_search_ends_with_nothing_left_or_nothing_gained() {
     let columns = [Column {
-        joints: [0, 1],
-        unit: [1.0, 0.0, 0.0],
+        pulls: vec![(0, [1.0, 0.0, 0.0]), (1, [-1.0, 0.0, 0.0])],
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
     }];
@@ -494,9 +493,8 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
 #[test]
 fn the_search_ends_where_rounding_is_left() {
     let (along, across) = (0.999_999_5_f64.sqrt(), 0.5e-6_f64.sqrt());
-    let column = |joints: [usize; 2], unit: [f64; 3]| Column {
-        joints,
-        unit,
+    let column = |[a, b]: [usize; 2], unit: [f64; 3]| Column {
+        pulls: vec![(a, unit), (b, times(-1.0, unit))],
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
     };

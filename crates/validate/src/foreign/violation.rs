@@ -4,8 +4,10 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector};
 use serde::Serialize;
 
-use super::best_forces::{BestForces, free_part, joint_loads, law_n, spans};
+use super::best_forces::{BestForces, free_part, joint_loads, law_n};
 use super::bounds::Bounds;
+use super::given::ForeignAnswer;
+use crate::systems::spans;
 use numerics::vector::{minus, norm, plus, times};
 
 /// A law that an answer breaks by more than its tolerance explains.
@@ -63,6 +65,13 @@ pub enum Law {
         length_m: f64,
         /// The distance of its joints, m.
         distance_m: f64,
+    },
+    /// A rope pulls with one tension on both sides of a ring or pulley, which is the joint; N.
+    Tension {
+        /// The rope among the members, from 1.
+        member: usize,
+        /// The forces of its spans before and behind the joint, N.
+        sides_n: [f64; 2],
     },
     /// The forces on a joint balance along the motions that its support leaves free; N.
     Balance {
@@ -133,9 +142,8 @@ pub(super) fn geometry_and_laws(
             found.note(Place::Joint(k), Law::Support, off_m, bounds.position_m);
         }
     }
-    for ((k, member), (distance_m, _)) in
-        system.members().iter().enumerate().zip(spans(system, &answer.joints_m))
-    {
+    for (k, member) in system.members().iter().enumerate() {
+        let distance_m = spans::length_m(member, &answer.joints_m);
         let force_n = given.then(|| answer.axial_n[k]);
         law(member, distance_m, force_n, bounds, Place::Member(k + 1), &mut found);
     }
@@ -164,7 +172,7 @@ fn law(
     found: &mut Measured,
 ) {
     let length_m = member.body.length_m();
-    let reach_m = bounds.distance_m();
+    let reach_m = bounds.distance_m(member);
     if let Some(stiffness_n) = member.stiffness_n {
         let Some(force_n) = force_n else { return };
         let elastic_n = law_n(member.kind, stiffness_n, length_m, distance_m);
@@ -188,6 +196,23 @@ fn law(
     }
 }
 
+/// The tension of each rope whose spans have forces of their own: on both sides of a joint each may be off.
+pub(super) fn tensions(
+    system: &System,
+    answer: &ForeignAnswer,
+    bounds: &Bounds,
+    found: &mut Measured,
+) {
+    for (k, spans_n) in &answer.spans_n {
+        for (joint, sides_n) in system.members()[*k].via().iter().zip(spans_n.windows(2)) {
+            let [before_n, after_n] = [sides_n[0], sides_n[1]];
+            let law = Law::Tension { member: k + 1, sides_n: [before_n, after_n] };
+            let off_n = (before_n - after_n).abs();
+            found.note(Place::Joint(*joint), law, off_n, 2.0 * bounds.force_n);
+        }
+    }
+}
+
 /// What is left over at every joint along its free motions, and what the bounds explain there when
 /// no force is larger than the answer's, or than `at_most_n` if that is given.
 pub(super) fn balances(
@@ -198,14 +223,16 @@ pub(super) fn balances(
 ) -> Vec<(Vector, f64)> {
     let mut left: Vec<(Vector, f64)> =
         joint_loads(system).into_iter().map(|load| (load, bounds.force_n)).collect();
-    for ((k, member), (distance_m, unit)) in
-        system.members().iter().enumerate().zip(spans(system, &answer.joints_m))
-    {
-        let force = answer.axial_n[k];
-        let pull = times(force, unit);
-        let explained = bounds.force_n + at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m);
-        left[member.from] = (plus(left[member.from].0, pull), left[member.from].1 + explained);
-        left[member.to] = (minus(left[member.to].0, pull), left[member.to].1 + explained);
+    let joints_m = &answer.joints_m;
+    for (member, force) in system.members().iter().zip(&answer.axial_n) {
+        for [a, b] in member.spans() {
+            let distance_m = norm(minus(joints_m[b], joints_m[a]));
+            let pull = times(*force, spans::unit([a, b], joints_m));
+            let explained =
+                bounds.force_n + at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m);
+            left[a] = (plus(left[a].0, pull), left[a].1 + explained);
+            left[b] = (minus(left[b].0, pull), left[b].1 + explained);
+        }
     }
     left
 }

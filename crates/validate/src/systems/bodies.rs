@@ -12,7 +12,7 @@
 //!
 //! R. Tarjan, SIAM J. Comput. 1 (1972) 146-160, doi:10.1137/0201010 (articulations).
 
-use model::system::{Support, System};
+use model::system::{Member, Support, System};
 
 use super::verticals::firsts;
 
@@ -56,10 +56,11 @@ struct Walk {
 const NONE: usize = usize::MAX;
 
 impl Bodies {
-    pub(super) fn new(system: &System) -> Self {
+    /// Those of the members that hold: one that is slack holds nothing.
+    pub(super) fn new(system: &System, holds: impl Fn(&Member) -> bool) -> Self {
         let joints = system.joints().len();
         let mut neighbours = vec![Vec::new(); joints];
-        for member in system.members() {
+        for member in system.members().iter().filter(|member| holds(member)) {
             for [a, b] in member.spans() {
                 neighbours[a].push(b);
                 neighbours[b].push(a);

@@ -6,7 +6,7 @@
 //! $$ V(x) \ge \sum_e \Big(\varphi_e(s_e) + T_e \big(\textstyle\sum_s u_s \cdot d_s - s_e\big)\Big)
 //!    - \sum_j f_j \cdot x_j $$
 //!
-//! in every configuration: an inextensible member is not longer than $s_e = l_e$, of an elastic one
+//! (where a span has no length any vectors of no more than unit length) in every configuration: an inextensible member is not longer than $s_e = l_e$, of an elastic one
 //! $T_e$ is the slope of $\varphi_e$ at $s_e = l_e (1 + T_e/EA_e)$, and $|d| \ge u \cdot d$. The right side
 //! is linear in the places. With its gradient $r$ at the answer $\tilde x$, where in no configuration with
 //! less energy a joint is further from its place than $D_j$,
@@ -25,7 +25,7 @@ use model::{NoCertificate, Vector, sum};
 use super::certificate::{
     TERM_ULPS, along_supports, joint_loads, pushed, size_m, total_load_n, works,
 };
-use super::spans::direction;
+use super::spans::pull_n;
 use numerics::vector::{dot, minus, norm, plus, times};
 
 /// More than rounding adds to a reach.
@@ -57,14 +57,16 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
     let mut terms = pushed(system, answer, &mut loads);
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
     let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
-    for (member, axial_n) in members() {
+    for (k, (member, axial_n)) in members().enumerate() {
         let tension_n = axial_n.max(0.0);
         if tension_n <= 0.0 {
             continue;
         }
         let (mut along_m, mut size_m) = (0.0, farthest_m);
-        for [a, b] in member.spans() {
-            let pull = times(tension_n, direction([a, b], &answer.joints_m));
+        for (n, [a, b]) in member.spans().enumerate() {
+            let pull = pull_n(k, n, [a, b], answer);
+            // Of a span without length no more than its tension.
+            let pull = times(tension_n / norm(pull).max(tension_n), pull);
             gradient[b] = plus(gradient[b], pull);
             gradient[a] = minus(gradient[a], pull);
             for joint in [a, b] {

@@ -15,7 +15,7 @@ use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, Syste
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
-use super::spans::{direction, length_m};
+use super::spans::{length_m, unit as unit_vector};
 use super::statics::rounding_m;
 use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
 
@@ -82,7 +82,7 @@ impl Family {
         let coordinates: usize = free.iter().map(Vec::len).sum();
         let (mut along, mut misfit_m, mut ropes) = (Vec::new(), Vec::new(), BTreeMap::new());
         for (k, member) in members.iter().enumerate() {
-            let mut spans = member.spans().map(|span| direction(span, &answer.joints_m));
+            let mut spans = member.spans().map(|span| unit_vector(span, &answer.joints_m));
             let first = spans.next().unwrap_or_default();
             if member.rope.is_some() {
                 let joints = member.spans().zip(std::iter::once(first).chain(spans));

@@ -12,9 +12,11 @@ use faer::Mat;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::{joint_loads, largest_force_n, total_load_n};
+use super::certificate::{along_supports, joint_loads, largest_force_n, total_load_n};
+use super::family::motions;
 use super::floor::{push_n, sliding};
-use numerics::vector::{cross, dot, minus, norm, times};
+use super::spans::{gradient, length_m};
+use numerics::vector::{cross, dot, norm};
 
 /// Slack by this part of the length: far above the rounding of places, far below what anybody calls
 /// slack.
@@ -112,30 +114,31 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
 fn members_of(system: &System) -> Vec<Vec<usize>> {
     let mut members_of = vec![Vec::new(); system.joints().len()];
     for (k, member) in system.members().iter().enumerate() {
-        members_of[member.from].push(k);
-        members_of[member.to].push(k);
+        for joint in member.path() {
+            if members_of[joint].last() != Some(&k) {
+                members_of[joint].push(k);
+            }
+        }
     }
     members_of
 }
 
-/// Joints without support, on which and on whose members nothing acts.
+/// Joints that can move, on which and on whose members nothing acts.
 fn unloaded(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
     let mut unloaded: Vec<bool> = system
         .joints()
         .iter()
-        .map(|j| j.support.at_m().is_none() && j.mass_kg <= 0.0 && still(j.force_n))
+        .map(|j| !j.support.is_fixed() && j.mass_kg <= 0.0 && still(j.force_n))
         .collect();
     for (k, unloaded) in unloaded.iter_mut().enumerate() {
         *unloaded &= answers.iter().all(|answer| push_n(system, answer, k) <= 0.0);
     }
     for member in system.members() {
         let light = member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
-        // What room a rope leaves its rings is not counted.
-        if !light || member.rope.is_some() {
-            for joint in member.path() {
-                unloaded[joint] = false;
-            }
+        if !light {
+            unloaded[member.from] = false;
+            unloaded[member.to] = false;
         }
     }
     unloaded
@@ -155,26 +158,28 @@ fn bearing(
     while let Some(joint) = open.pop() {
         let here: Vec<usize> = members_of[joint].iter().copied().filter(|k| bears[*k]).collect();
         let apart = |answer: &SystemEquilibrium| {
-            let along = here.iter().map(|k| direction(&members[*k], answer));
+            let along = here.iter().flat_map(|k| pulls(system, *k, answer));
+            let along = along.filter(|(end, _)| *end == joint).map(|(_, along)| along);
             independent(&along.collect::<Vec<_>>())
         };
         if !here.is_empty() && answers.iter().all(apart) {
             for k in here {
                 bears[k] = false;
-                let ends = [members[k].from, members[k].to];
-                open.extend(ends.into_iter().filter(|end| *end != joint && unloaded[*end]));
+                let others = members[k].path();
+                open.extend(others.filter(|other| *other != joint && unloaded[*other]));
             }
         }
     }
     bears
 }
 
-fn direction(member: &Member, answer: &SystemEquilibrium) -> Vector {
-    let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
-    times(1.0 / norm(along), along)
+/// The derivatives of the length of a member by the places of its joints, along what their supports leave free.
+fn pulls(system: &System, k: usize, answer: &SystemEquilibrium) -> Vec<(usize, Vector)> {
+    let all = gradient(&system.members()[k], &answer.joints_m).into_iter();
+    all.map(|(joint, pull)| (joint, along_supports(system, joint, pull))).collect()
 }
 
-/// Whether unit vectors are independent; NaN never is.
+/// Whether vectors are independent; NaN never is.
 fn independent(along: &[Vector]) -> bool {
     match *along {
         [one] => norm(one) > INDEPENDENT,
@@ -185,8 +190,8 @@ fn independent(along: &[Vector]) -> bool {
 }
 
 /// Whether a member is slack by more than any rounding.
-fn is_slack(member: &Member, answer: &SystemEquilibrium) -> bool {
-    let distance_m = norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
+pub(super) fn is_slack(member: &Member, answer: &SystemEquilibrium) -> bool {
+    let distance_m = length_m(member, &answer.joints_m);
     let length_m = member.body.length_m();
     match member.kind {
         Kind::Bar => false,
@@ -208,8 +213,7 @@ fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec
         while let Some(&joint) = part.get(next) {
             next += 1;
             for &k in &members_of[joint] {
-                let member = &system.members()[k];
-                for end in [member.from, member.to] {
+                for end in system.members()[k].path() {
                     if marked[end] && !std::mem::replace(&mut seen[end], true) {
                         part.push(end);
                     }
@@ -235,30 +239,36 @@ fn with_room(
     if taut.is_empty() {
         return vec![true; part.len()];
     }
-    if part.len() > TOGETHER || taut.len() >= 3 * part.len() {
+    // The coordinates of each joint along what its support leaves free.
+    let axes: Vec<(usize, Vector)> = part
+        .iter()
+        .enumerate()
+        .flat_map(|(at, joint)| {
+            motions(&system.joints()[*joint].support).into_iter().map(move |axis| (at, axis))
+        })
+        .collect();
+    let (rank, coordinates) = (taut.len(), axes.len());
+    if part.len() > TOGETHER || rank >= coordinates {
         return vec![false; part.len()];
     }
-    let mut rows = Mat::<f64>::zeros(taut.len(), 3 * part.len());
+    let mut rows = Mat::<f64>::zeros(rank, coordinates);
     for (row, k) in taut.iter().enumerate() {
-        let member = &system.members()[*k];
-        let along = direction(member, answer);
-        for (end, sign) in [(member.from, -1.0), (member.to, 1.0)] {
-            if let Some(at) = part.iter().position(|joint| *joint == end) {
-                for axis in 0..3 {
-                    rows[(row, 3 * at + axis)] = sign * along[axis];
+        for (joint, pull) in gradient(&system.members()[*k], &answer.joints_m) {
+            for (column, (at, axis)) in axes.iter().enumerate() {
+                if part[*at] == joint {
+                    rows[(row, column)] = dot(pull, *axis);
                 }
             }
         }
     }
     let Ok(svd) = rows.svd() else { return vec![false; part.len()] };
-    let rank = taut.len();
     let independent = svd.S()[rank - 1] > INDEPENDENT * svd.S()[0];
     if !independent {
         return vec![false; part.len()];
     }
     let moves = |at: usize| {
-        let of_motion = |motion: usize| (0..3).map(move |axis| (3 * at + axis, motion));
-        let entries = (rank..3 * part.len()).flat_map(of_motion);
+        let own = axes.iter().enumerate().filter(|(_, (joint, _))| *joint == at);
+        let entries = own.flat_map(|(k, _)| (rank..coordinates).map(move |motion| (k, motion)));
         entries.map(|entry| svd.V()[entry].powi(2)).sum::<f64>().sqrt() > INDEPENDENT
     };
     (0..part.len()).map(moves).collect()

@@ -23,7 +23,7 @@ mod near;
 mod prestress;
 mod proved;
 mod scale;
-mod spans;
+pub(crate) mod spans;
 mod statics;
 #[cfg(test)]
 mod tests;

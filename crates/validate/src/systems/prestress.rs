@@ -6,11 +6,13 @@
 //!
 //! $$ \tfrac12 \sum_e w_e\\,|v_b - v_a|^2, \qquad w_e = N_e/d_e , $$
 //!
-//! to second order, whatever the stiffnesses. A framework is *prestress stable* where a stress that
+//! to second order, whatever the stiffnesses; of a rope each of its spans adds that of its motion across
+//! itself, $|v|^2 - (u \cdot v)^2$. A framework is *prestress stable* where a stress that
 //! its members can bear (cables pull, struts push) makes this positive for every such motion. It is
 //! *super stable* where the stress matrix $\Omega = C^T \mathrm{diag}(w)\\,C$ over all joints is
 //! positive semidefinite with no more than the affine motions in its kernel, and no affine motion
-//! keeps all lengths: then no other shape of its members exists in any dimension.
+//! keeps all lengths: then no other shape of its members exists in any dimension. Of ropes over rings that does
+//! not follow, and is not claimed.
 //!
 //! R. Connelly and W. Whiteley, SIAM J. Discrete Math. 9 (1996) 453-491,
 //! doi:10.1137/S0895480192229236; R. Connelly, Invent. Math. 66 (1982) 11-33,
@@ -131,9 +133,10 @@ pub fn prestress_stability(
         }
         (None, _) => Held::NotFound,
     };
-    let super_stable = known.as_deref().is_some_and(|axial| {
-        bears(system, axial) && geometry.super_stable(system, axial) == Some(true)
-    });
+    let super_stable = !system.has_ropes()
+        && known.as_deref().is_some_and(|axial| {
+            bears(system, axial) && geometry.super_stable(system, axial) == Some(true)
+        });
     let (self_stresses, mechanisms) = (self_stresses.len(), form.motions);
     Some(PrestressStability { self_stresses, mechanisms, held, stress: known, super_stable })
 }
@@ -156,8 +159,8 @@ fn sign(kind: Kind) -> f64 {
 /// Members and motions at a configuration.
 struct Geometry<'a> {
     joints_m: &'a [Vector],
-    /// Unit vector and length of each member.
-    members: Vec<(usize, usize, Vector, f64)>,
+    /// The spans of each member: their joints, unit vectors and lengths.
+    members: Vec<Vec<([usize; 2], Vector, f64)>>,
     /// Directions of the coordinates: number of the joint, and axis.
     coordinates: Vec<(usize, Vector)>,
     standing: Standing,
@@ -165,7 +168,7 @@ struct Geometry<'a> {
 
 impl<'a> Geometry<'a> {
     fn new(system: &System, joints_m: &'a [Vector], standing: Standing) -> Option<Self> {
-        let finite = joints_m.iter().flatten().all(|x| x.is_finite()) && !system.has_ropes();
+        let finite = joints_m.iter().flatten().all(|x| x.is_finite());
         if joints_m.len() != system.joints().len() || !finite {
             return None;
         }
@@ -180,11 +183,12 @@ impl<'a> Geometry<'a> {
         if coordinates.is_empty() || coordinates.len() > COUNTED {
             return None;
         }
-        let members = system.members().iter().map(|member| {
-            let d = minus(joints_m[member.to], joints_m[member.from]);
+        let span = |[a, b]: [usize; 2]| {
+            let d = minus(joints_m[b], joints_m[a]);
             let length = norm(d);
-            (length > 0.0).then(|| (member.from, member.to, times(1.0 / length, d), length))
-        });
+            (length > 0.0).then(|| ([a, b], times(1.0 / length, d), length))
+        };
+        let members = system.members().iter().map(|member| member.spans().map(span).collect());
         Some(Self { joints_m, members: members.collect::<Option<_>>()?, coordinates, standing })
     }
 
@@ -192,10 +196,10 @@ impl<'a> Geometry<'a> {
     fn kernels(&self) -> Option<(Mat<f64>, Vec<Vec<f64>>)> {
         let (rows, columns) = (self.members.len(), self.coordinates.len());
         let entry = |row: usize, column: usize| {
-            let (from, to, along, _) = self.members[row];
             let (joint, axis) = self.coordinates[column];
-            dot(along, axis)
-                * (f64::from(u8::from(joint == to)) - f64::from(u8::from(joint == from)))
+            let is = |end: usize| f64::from(u8::from(joint == end));
+            let spans = self.members[row].iter();
+            spans.map(|([a, b], along, _)| dot(*along, axis) * (is(*b) - is(*a))).sum::<f64>()
         };
         let lengths = Mat::from_fn(rows, columns, entry);
         let stresses = null_columns(&lengths.transpose().to_owned())?;
@@ -230,7 +234,8 @@ impl<'a> Geometry<'a> {
         let joints = system.joints().len();
         let mut stress = Mat::<f64>::zeros(joints, joints);
         let mut largest: f64 = 0.0;
-        for ((from, to, _, length), axial) in self.members.iter().zip(axial) {
+        let spans = || self.members.iter().flatten();
+        for (([from, to], _, length), axial) in spans().zip(axial) {
             let density = axial / length;
             largest = largest.max(density.abs());
             stress[(*from, *from)] += density;
@@ -242,12 +247,13 @@ impl<'a> Geometry<'a> {
         let zero = ZERO * largest;
         let null = values.iter().filter(|value| value.abs() <= zero).count();
         // Affine functions of the places: the constant, and as many as the joints span directions.
-        let spans = Mat::from_fn(joints, 3, |k, c| self.joints_m[k][c] - self.joints_m[0][c]);
-        let span = rank(&spans)?;
+        let places = Mat::from_fn(joints, 3, |k, c| self.joints_m[k][c] - self.joints_m[0][c]);
+        let span = rank(&places)?;
         // An affine motion keeps a length if its quadratic form vanishes on the direction.
-        let conic = Mat::from_fn(self.members.len(), FORMS.len(), |row, k| {
+        let along: Vec<Vector> = spans().map(|(_, along, _)| *along).collect();
+        let conic = Mat::from_fn(along.len(), FORMS.len(), |row, k| {
             let (i, j) = FORMS[k];
-            self.members[row].2[i] * self.members[row].2[j]
+            along[row][i] * along[row][j]
         });
         let no_affine_motion = rank(&conic)? == span * (span + 1) / 2;
         let semidefinite = values.iter().all(|value| *value >= -zero);
@@ -258,7 +264,7 @@ impl<'a> Geometry<'a> {
 /// The second derivative of the energy by the motions that keep the lengths.
 struct Form {
     motions: usize,
-    /// Of each member, the matrix of its |v_b - v_a|² by these motions, over its length.
+    /// Of each member, the matrix of its |v_b - v_a|² across itself by these motions, over its length.
     by_force: Vec<Mat<f64>>,
     lengths: Vec<f64>,
 }
@@ -271,14 +277,22 @@ impl Form {
                 *place = std::array::from_fn(|c| place[c] + motions[(row, k)] * axis[c]);
             }
         }
-        let by_force = geometry.members.iter().map(|(from, to, _, length)| {
-            let relative: Vec<Vector> =
-                moves[*to].iter().zip(&moves[*from]).map(|(b, a)| minus(*b, *a)).collect();
-            Mat::from_fn(relative.len(), relative.len(), |i, k| {
-                dot(relative[i], relative[k]) / length
-            })
+        let of_span = |([from, to], along, length): &([usize; 2], Vector, f64)| {
+            let across = moves[*to].iter().zip(&moves[*from]).map(|(b, a)| {
+                let apart = minus(*b, *a);
+                minus(apart, times(dot(apart, *along), *along))
+            });
+            let across: Vec<Vector> = across.collect();
+            Mat::from_fn(across.len(), across.len(), |i, k| dot(across[i], across[k]) / length)
+        };
+        let by_force = geometry.members.iter().map(|spans| {
+            let zero = Mat::zeros(motions.ncols(), motions.ncols());
+            spans.iter().map(of_span).fold(zero, |sum, span| sum + span)
         });
-        let lengths = geometry.members.iter().map(|(_, _, _, length)| *length).collect();
+        let shortest = |spans: &Vec<([usize; 2], Vector, f64)>| {
+            spans.iter().map(|(.., length)| *length).fold(f64::INFINITY, f64::min)
+        };
+        let lengths = geometry.members.iter().map(shortest).collect();
         Self { motions: motions.ncols(), by_force: by_force.collect(), lengths }
     }
 

@@ -3,17 +3,43 @@
 use model::Vector;
 use model::system::{Member, SystemEquilibrium};
 
-use numerics::vector::{minus, norm, times};
+use numerics::vector::{minus, norm, plus, times};
 
 /// How long a member is with its joints there: the sum of its spans, m.
-pub(super) fn length_m(member: &Member, joints_m: &[Vector]) -> f64 {
+pub(crate) fn length_m(member: &Member, joints_m: &[Vector]) -> f64 {
     member.spans().map(|[a, b]| norm(minus(joints_m[b], joints_m[a]))).sum()
 }
 
-/// The unit vector of a span.
-pub(super) fn direction([a, b]: [usize; 2], joints_m: &[Vector]) -> Vector {
+/// The unit vector of a span; zero where its joints meet.
+pub(crate) fn unit([a, b]: [usize; 2], joints_m: &[Vector]) -> Vector {
     let along = minus(joints_m[b], joints_m[a]);
-    times(1.0 / norm(along), along)
+    let long_m = norm(along);
+    // Of NaN it is NaN.
+    if long_m <= 0.0 { [0.0; 3] } else { times(1.0 / long_m, along) }
+}
+
+/// The derivatives of the length of a member by the places of its joints, each joint once. A span whose
+/// joints meet adds nothing.
+pub(crate) fn gradient(member: &Member, joints_m: &[Vector]) -> Vec<(usize, Vector)> {
+    let mut all: Vec<(usize, Vector)> = Vec::with_capacity(2);
+    for span in member.spans() {
+        let unit = unit(span, joints_m);
+        for (joint, part) in [(span[0], times(-1.0, unit)), (span[1], unit)] {
+            match all.iter_mut().find(|(other, _)| *other == joint) {
+                Some((_, sum)) => *sum = plus(*sum, part),
+                None => all.push((joint, part)),
+            }
+        }
+    }
+    all
+}
+
+/// The pull of span `n` of member `k` on its first joint, N: of a span without length what the answer says, or
+/// nothing.
+pub(super) fn pull_n(k: usize, n: usize, span: [usize; 2], answer: &SystemEquilibrium) -> Vector {
+    let mut jams = answer.evidence.jams.iter();
+    let jam = jams.find(|jam| [jam.member, jam.span] == [k, n]);
+    jam.map_or_else(|| times(answer.axial_n[k], unit(span, &answer.joints_m)), |jam| jam.pull_n)
 }
 
 /// The joints of each span of member `k`, and the forces on the span there, N. What is stored are those at
@@ -25,11 +51,7 @@ pub(super) fn span_forces<'a>(
 ) -> impl Iterator<Item = ([usize; 2], [Vector; 2])> + 'a {
     let last = member.via().len();
     member.spans().enumerate().map(move |(n, span)| {
-        let inner = |sign: f64| match answer.axial_n[k] {
-            // A span without length has no direction, and needs none where the rope is slack.
-            axial_n if axial_n.abs() <= 0.0 => [0.0; 3],
-            axial_n => times(sign * axial_n, direction(span, &answer.joints_m)),
-        };
+        let inner = |sign: f64| times(sign, pull_n(k, n, span, answer));
         let start = if n == 0 { answer.start_forces_n[k] } else { inner(-1.0) };
         let end = if n == last { answer.end_forces_n[k] } else { inner(1.0) };
         (span, [start, end])

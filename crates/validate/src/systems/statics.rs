@@ -368,16 +368,21 @@ fn rope(
     let (member, place) = (&system.members()[k], Place::Member(k + 1));
     let joints: Vec<usize> = member.path().collect();
     let local = units.at(&joints);
-    let (axial_n, last) = (answer.axial_n[k], joints.len() - 1);
-    let ends = [
-        ([joints[0], joints[1]], -1.0, answer.start_forces_n[k]),
-        ([joints[last - 1], joints[last]], 1.0, answer.end_forces_n[k]),
-    ];
+    let (axial_n, last) = (answer.axial_n[k], joints.len() - 2);
+    let pull = |n: usize| spans::pull_n(k, n, [joints[n], joints[n + 1]], answer);
+    let ends = [(0, -1.0, answer.start_forces_n[k]), (last, 1.0, answer.end_forces_n[k])];
     let unit_n = local.unit_n(worse(norm(answer.start_forces_n[k]), norm(answer.end_forces_n[k])));
-    for (span, sign, force) in ends {
-        let pull = times(sign * axial_n, spans::direction(span, &answer.joints_m));
-        let off = if axial_n.abs() > 0.0 { minus(force, pull) } else { force };
+    for (n, sign, force) in ends {
+        let off = minus(force, times(sign, pull(n)));
         found.note(|s| &mut s.force, local.part(norm(off), unit_n), place);
+    }
+    for jam in answer.evidence.jams.iter().filter(|jam| jam.member == k && jam.span <= last) {
+        let [a, b] = [joints[jam.span], joints[jam.span + 1]];
+        let apart_m = norm(minus(answer.joints_m[b], answer.joints_m[a]));
+        let apart = beyond(apart_m, units.rounding_m) / units.size_m;
+        found.note(|s| &mut s.length, apart, place);
+        let excess_n = norm(jam.pull_n) - axial_n;
+        found.note(|s| &mut s.law, local.part(excess_n, unit_n), place);
     }
     law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
 }

@@ -5,9 +5,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use model::Vector;
-use model::system::{Support, System, SystemEquilibrium};
+use model::system::{Member, Support, System, SystemEquilibrium};
 
 use super::bodies::Bodies;
+use super::free::is_slack;
 use super::spans::span_forces;
 use super::statics::judge;
 use super::verticals::firsts;
@@ -62,7 +63,9 @@ pub(crate) fn turned_onto<'a>(
         return as_it_is;
     }
     let budget = Tolerances::project().statics.value;
-    let mut bodies = Bodies::new(system);
+    // What is slack in both holds nothing; the judge sees where a turn would make it taut.
+    let holds = |member: &Member| ![first, second].iter().all(|answer| is_slack(member, answer));
+    let mut bodies = Bodies::new(system, holds);
     let before = bodies.all.len();
     add_hinged(system, first, second, &mut bodies);
     if bodies.all.len() == 1 {
@@ -81,7 +84,7 @@ pub(crate) fn turned_onto<'a>(
         return as_it_is;
     }
     // What hangs on single joints, without what hinges on several.
-    let bodies = Bodies::new(system);
+    let bodies = Bodies::new(system, holds);
     let turned = self::turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
     if sound(&turned) { (Cow::Owned(turned), before - 1) } else { as_it_is }
 }
@@ -202,6 +205,10 @@ fn turned(
                     let reaction = plus(turned.reactions_n[joint], minus(after, before));
                     turned.reactions_n[joint] = reaction;
                 }
+            }
+            let jams = turned.evidence.jams.iter_mut();
+            for jam in jams.filter(|jam| [jam.member, jam.span] == [k, n]) {
+                jam.pull_n = turn.vector(jam.pull_n);
             }
             if n == 0 {
                 turned.start_forces_n[k] = after[0];

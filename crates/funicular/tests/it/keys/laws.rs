@@ -267,3 +267,36 @@ fn loads_hidden() {
     output.each(&reason("compressed"), 2);
     output.done();
 }
+
+/// A ring of 12 N on a rope of 5 m between anchors 4 m apart, 1.5 m below them: 10 N on both sides, not 9 N and 11 N.
+#[test]
+fn two_tensions() {
+    let folder = tempfile::tempdir().unwrap();
+    let ring = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 0] }, \
+                P = { mass_kg = 1.2 } }\n\
+                bars = [{ from = \"A\", to = \"B\", via = [\"P\"], length_m = 5, kind = \"cable\" }]\n";
+    std::fs::write(folder.path().join("ring.toml"), ring).unwrap();
+    let places = "joint,x_m,y_m,z_m\nA,0,0,0\nB,4,0,0\nP,2,0,-1.5\n";
+    std::fs::write(folder.path().join("places.csv"), places).unwrap();
+    std::fs::write(folder.path().join("forces.csv"), "from,to,axial_n\nA,P,9\nP,B,11\n").unwrap();
+    let arguments =
+        ["judge", "ring.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(1), "{text}");
+    let mut output = Output::json("judge", "two_tensions", &text);
+    for list in ["broken", "violations"] {
+        let at = |key: &str| format!("{list}[].{key}");
+        output.is(&at("law"), "tension");
+        output.is(&at("member"), 1);
+        output.is(&at("place.joint"), 2);
+        output.is(&at("sides_n[]"), json!([9.0, 11.0]));
+        output.is(&at("value"), 2.0);
+    }
+    output.says(
+        "broken[].says",
+        &["the rope (member 1) pulls with 9 N on one side and 11 N on the other"],
+    );
+    output.is("bars[].via[]", json!(["P"]));
+    output.is("bars[].axial_n", 10.0);
+    output.done();
+}

@@ -118,6 +118,30 @@ fn a_tackle() {
     output.done();
 }
 
+/// 30 N and 20 N on one rope over two pulleys: the lighter one is at its pulley, and pulls it down.
+#[test]
+fn a_weight_at_its_pulley() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\njoints = { D = { at_m = [0, 0, 0] }, E = { at_m = [1, 0, 0] }, \
+                P = { mass_kg = 3 }, Q = { mass_kg = 2 } }\nbars = [{ from = \"P\", to = \"Q\", length_m = 6, \
+                via = [\"D\", \"E\"], kind = \"cable\" }]";
+    std::fs::write(folder.path().join("two.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "two.toml", "--json"]);
+    let mut output = Output::json("solve", "a_weight_at_its_pulley", &text);
+    output.each("equilibria[].evidence.jams[].member", 1);
+    output.each("equilibria[].evidence.jams[].span", 3);
+    output.each("equilibria[].evidence.jams[].pull_n[]", json!([0.0, 0.0, -20.0]));
+    output.each("equilibria[].bars[].axial_n", 30.0);
+    output.each("equilibria[].bars[].force_at_end_n[]", json!([0.0, 0.0, -20.0]));
+    output.done();
+    let text = good(folder.path(), &["solve", "two.toml"]);
+    let said = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("span 3 of the rope (bar 1) has no length and bears 20.0000 N"),
+        "{text}"
+    );
+}
+
 /// The paper's chain in its own numbering, from 40 digits; it may turn about the line between its
 /// anchors, and both answers are turned onto each other.
 #[test]

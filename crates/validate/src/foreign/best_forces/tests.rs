@@ -78,8 +78,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
             member
         });
     }
-    let reach_m =
-        Bounds::of_positions(&system_of(&joints, &members), &places, TOLERANCE).distance_m();
+    let bounds = Bounds::of_positions(&system_of(&joints, &members), &places, TOLERANCE);
     if random.random_bool(0.5) {
         // Loads that forces within the bounds balance.
         for joint in &mut joints {
@@ -88,7 +87,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
         let mut left = joint_loads(&system_of(&joints, &members));
         for member in &members {
             let along = minus(places[member.to], places[member.from]);
-            let [low, high] = limits(member, norm(along), reach_m);
+            let [low, high] = limits(member, norm(along), bounds.distance_m(member));
             let force = random.random_range(-5.0..5.0_f64).clamp(low, high);
             let pull = times(force / norm(along), along);
             left[member.from] = plus(left[member.from], pull);
@@ -187,7 +186,7 @@ fn no_other_choice_of_members_at_their_bounds_leaves_less() {
         let bounds = Bounds::of_positions(&system, &places, TOLERANCE);
         let system = laid(&system, &places, &bounds);
         let best = best_forces(&system, &places, &bounds);
-        let wanted = least_of_all(&system, &places, bounds.distance_m());
+        let wanted = least_of_all(&system, &places, bounds.distance_m(&system.members()[0]));
         let scale = best.up_to_n / IMPLAUSIBLE;
         assert!(
             (best.residual_n - wanted).abs() < 1e-8 * scale,

@@ -12,7 +12,7 @@ fn a_direction_turns_by_what_its_ends_move() {
     for (distance_m, wanted) in [(0.0, 2.0), (0.25, 2.0), (0.5, 2.0), (0.75, 1.0), (2.25, 0.25)] {
         assert_eq!(turn(distance_m), f64::to_bits(wanted), "{distance_m}");
     }
-    assert_eq!(KNOWN.distance_m().to_bits(), 0.5_f64.to_bits());
+    assert_eq!(KNOWN.distance_m(&lamp().members()[0]).to_bits(), 0.5_f64.to_bits());
 }
 
 /// Moved by 2^40 m the lamp is as large as before, 6 m, and its places are stored to 2^-9 m.

@@ -19,7 +19,7 @@ fn tree(change: impl Fn(&mut Vec<Joint>, &mut Vec<Member>)) -> System {
 /// its neighbour on another branch or what hangs on it goes.
 #[test]
 fn a_joint_moves_with_its_body_and_the_pivots_above_it() {
-    let bodies = Bodies::new(&tree(|_, _| ()));
+    let bodies = Bodies::new(&tree(|_, _| ()), |_| true);
     let moving: Vec<(usize, usize)> = (0..4)
         .flat_map(|joint| (0..4).map(move |other| (joint, other)))
         .filter(|(joint, other)| bodies.moves_with(*joint, *other))
@@ -115,7 +115,8 @@ fn anchors_of_one_vertical_carry_one_body() {
             ends.push((3, 4));
         }
         let members = ends.into_iter().map(|(from, to)| Member::bar(from, to, bar)).collect();
-        let bodies = Bodies::new(&System::new("two anchors", 10.0, joints, members).unwrap());
+        let bodies =
+            Bodies::new(&System::new("two anchors", 10.0, joints, members).unwrap(), |_| true);
         let pivots: Vec<_> = bodies.all.iter().map(|body| body.pivot).collect();
         (bodies.of_joint, pivots)
     };

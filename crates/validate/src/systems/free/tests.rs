@@ -2,7 +2,9 @@
 
 use model::Bar;
 use model::system::Joint;
+use numerics::vector::minus;
 
+use super::super::spans::unit;
 use super::super::tests::lamp;
 use super::*;
 
@@ -245,13 +247,7 @@ fn members_in_independent_directions_bear_nothing() {
 /// half of a millionth of a radian; three by the volume between them.
 #[test]
 fn members_are_independent_by_their_directions() {
-    let (_, like) = lamp();
     for length in [7.0, 7e-3] {
-        let along = |joints_m: Vec<Vector>, to: usize| {
-            let body = Bar::homogeneous(1.0, 0.0).unwrap();
-            let answer = SystemEquilibrium { joints_m, ..like.clone() };
-            direction(&Member::bar(0, to, body), &answer)
-        };
         for (angle, wanted) in [(2.0 * INDEPENDENT, true), (0.5 * INDEPENDENT, false)] {
             let first = [2.0, 3.0, 6.0].map(|x| length / 7.0 * x);
             // Across it, of length 1.
@@ -259,8 +255,8 @@ fn members_are_independent_by_their_directions() {
             let second: Vector =
                 std::array::from_fn(|k| 3.0 * first[k] + 3.0 * length * angle * aside[k]);
             let third = [3.0, -6.0, 2.0].map(|x| 5.0 * length * x);
-            let places = vec![[0.0; 3], first, second, third];
-            let all = [1, 2, 3].map(|to| along(places.clone(), to));
+            let places = [[0.0; 3], first, second, third];
+            let all = [1, 2, 3].map(|to| unit([0, to], &places));
             assert!(all.iter().all(|one| (norm(*one) - 1.0).abs() < 1e-14), "{all:?}");
             assert_eq!(independent(&all[..2]), wanted, "{length} {angle}");
             assert_eq!(independent(&all), wanted, "{length} {angle}");

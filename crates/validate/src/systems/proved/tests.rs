@@ -3,6 +3,7 @@
 use model::system::{Joint, Member, System};
 use model::{Bar, Proved};
 
+use super::super::prestress::{Held, Standing, Stress, prestress_stability};
 use super::super::tests::{arch, four_legs, lamp, propped};
 use super::proved;
 
@@ -39,4 +40,46 @@ fn cables_without_force_act_at_their_length() {
         let roped = System::new("lamp", 10.0, joints, members).unwrap();
         assert_eq!(proved(&roped, &answer), Some(wanted), "{longer_m}");
     }
+}
+
+/// A post under a rope, whose spans are of two lengths: across their plane the rope resists with T (1/a + 1/b),
+/// the post falls with N/h. Along the plane both keep their lengths.
+#[test]
+fn a_rope_holds_a_post_up_to_its_stiffness_across() {
+    let at = [[-3.0, 0.0, 0.5], [5.0, 0.0, 2.5], [0.0, 0.0, -5.0], [0.0, 0.0, -1.0]];
+    let [a, b] = [f64::hypot(3.0, 1.5), f64::hypot(5.0, 3.5)];
+    let mut joints: Vec<Joint> =
+        at[..3].iter().zip(["A", "B", "foot"]).map(|(at, name)| Joint::anchor(name, *at)).collect();
+    joints.push(Joint::free("top").with_mass(1.0));
+    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members = [Member::cable(0, 1, body(a + b)).over(vec![3]), Member::bar(2, 3, body(4.0))];
+    let with = |more: &[Member]| {
+        let members = [&members[..], more].concat();
+        System::new("a post under a rope", 10.0, joints.clone(), members).unwrap()
+    };
+    let (system, (_, mut answer)) = (with(&[]), lamp());
+    answer.joints_m = at.to_vec();
+    let tension_n = 7.0;
+    let most_n = 4.0 * tension_n * (1.0 / a + 1.0 / b);
+    for (part, wanted) in [(0.999, Proved::RankAndStability), (1.001, Proved::Rank)] {
+        answer.axial_n = vec![tension_n, -part * most_n];
+        assert_eq!(proved(&system, &answer), Some(wanted));
+        let stress = Stress::Given(&answer.axial_n);
+        let found = prestress_stability(&system, &at, Standing::Supported, stress).unwrap();
+        assert_eq!((found.mechanisms, found.self_stresses, found.super_stable), (1, 0, false));
+        let (Held::ByStress { stiffness_n_m } | Held::NotByThis { stiffness_n_m }) = found.held
+        else {
+            panic!("{found:?}")
+        };
+        assert!((stiffness_n_m - (1.0 - part) * most_n / 4.0).abs() < 1e-12, "{stiffness_n_m}");
+        assert_eq!(matches!(found.held, Held::ByStress { .. }), part < 1.0);
+    }
+    // A second rope that does not run along the first leaves one length too many.
+    let stay = [Member::cable(0, 2, body(a + 4.0)).over(vec![3])];
+    answer.axial_n = vec![tension_n, -0.5 * most_n, 0.0];
+    assert_eq!(proved(&with(&stay), &answer), Some(Proved::Stability));
+    // A span without length is a corner, of which nothing is proved.
+    answer.joints_m[0] = at[3];
+    answer.axial_n.truncate(2);
+    assert_eq!(proved(&system, &answer), None);
 }
