@@ -41,7 +41,7 @@ pub(super) struct Hold {
     pub(super) number: usize,
 }
 
-/// As many equations as unknowns: coordinates of joints, force densities, forces that hold free
+/// As many equations as unknowns: coordinates of joints, forces or their densities, forces that hold free
 /// turns.
 #[derive(Debug, Clone)]
 pub(super) struct Equations {

@@ -72,6 +72,9 @@
 //! each box goes the list of the cells of pulls with which each strand reaches it (module
 //! `bridle`).
 //!
+//! Of cables and ropes alone the energy is convex, so that an equilibrium in a box is the only one
+//! ([`SystemCensus::of_cables`]).
+//!
 //! Other nets with more motions than [`Settings::max_motions`](crate::Settings::max_motions) are
 //! refused; what cannot be decided is listed.
 
