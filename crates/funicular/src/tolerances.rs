@@ -300,7 +300,8 @@ impl TolerancesAnswer {
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         let columns = ["", "reaction_"].into_iter().zip(["m", "n"]);
         let columns = columns.flat_map(|(what, unit)| {
-            let ends = move |axis| ["least", "most"].map(|end| format!(",{what}{axis}_{end}_{unit}"));
+            let ends =
+                move |axis| ["least", "most"].map(|end| format!(",{what}{axis}_{end}_{unit}"));
             AXES.into_iter().flat_map(ends)
         });
         writeln!(to, "joint{}", columns.collect::<String>())?;
