@@ -10,7 +10,9 @@ const ROUNDING: f64 = 1e-13;
 fn places(system: &System, known: &[(usize, Vector)]) -> Vec<Vector> {
     let held = |joint: &Joint| joint.support.at_m().unwrap_or_default();
     let mut places: Vec<Vector> = system.joints().iter().map(held).collect();
-    known.iter().for_each(|(joint, at_m)| places[*joint] = *at_m);
+    for (joint, at_m) in known {
+        places[*joint] = *at_m;
+    }
     places
 }
 

@@ -144,7 +144,7 @@ impl Region {
                 let middle = pull.map(|part| Interval::point(part.mid()));
                 add(a, middle, &mut rows);
                 add(b, middle.map(|part| -part), &mut rows);
-                rest.extend(pull.map(|part| part.rad()));
+                rest.extend(pull.map(Interval::rad));
             }
             rows[acting.force] = Interval::point(law.mid());
             rest.push(law.rad());
@@ -193,7 +193,7 @@ impl Change {
             let sizes = equations.acting.iter().flat_map(|acting| {
                 let ends = equations.ends[acting.spans.clone()].iter();
                 let pulls = ends.flat_map(|ends| pull(equations, row, *ends));
-                pulls.map(|part| part.mag()).chain([row[acting.force].abs()])
+                pulls.map(Interval::mag).chain([row[acting.force].abs()])
             });
             let sizes: Vec<f64> = sizes.collect();
             all.iter().map(|change| change.times(row, &sizes)).collect::<Vec<_>>()
