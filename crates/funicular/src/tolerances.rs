@@ -1,6 +1,8 @@
 //! What becomes of an equilibrium within the tolerances of its numbers.
 
-use census::network::{NoRanges, Range, ToleranceRanges, prove_ranges};
+use std::io::{self, Write};
+
+use census::network::{Depth, NoRanges, Range, ToleranceRanges, prove_ranges};
 use model::InSpace;
 use model::system::{
     MemberTolerances, Strength, System, SystemEquilibrium, Uncertain, UncertainNumber,
@@ -10,8 +12,10 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use validate::UseCensus;
 
+use crate::csv::{Numbers, quoted};
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::sag::Sag;
 use crate::solve::{Lists, Solve, SolveAnswer};
 
 /// Solvers agree to this part of lengths and forces: less is no draw outside of what is proved.
@@ -23,6 +27,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 #[derive(Debug)]
 pub struct TolerancesAnswer {
     answer: SolveAnswer,
+    sag: Option<Sag>,
     ranges: Result<ToleranceRanges, NoRanges>,
     draws: Option<Draws>,
 }
@@ -99,11 +104,13 @@ impl Solve {
     ) -> Result<TolerancesAnswer, Error> {
         let answer = self.run(problem)?;
         let (system, found) = (answer.system(), &answer.equilibria()[0]);
-        let prove = || prove_ranges(system, &found.joints_m, &found.axial_n);
+        let sag = Sag::largest(system, &found.joints_m);
+        let depth = sag.map(|Sag { joint, ends, .. }| Depth { joint, ends });
+        let prove = || prove_ranges(system, &found.joints_m, &found.axial_n, depth.as_slice());
         let ranges = self.on_threads(prove)?;
         let draw = || (draws > 0).then(|| Draws::new(self, system, &ranges, draws, seed));
         let draws = self.on_threads(draw)?;
-        Ok(TolerancesAnswer { answer, ranges, draws })
+        Ok(TolerancesAnswer { answer, sag, ranges, draws })
     }
 }
 
@@ -203,6 +210,12 @@ impl TolerancesAnswer {
         self.ranges.as_ref()
     }
 
+    /// The largest sag of the numbers given, and the range of how deep that joint is below that line, m.
+    #[must_use]
+    pub fn sag(&self) -> Option<(Sag, &Range)> {
+        Some((self.sag?, self.ranges.as_ref().ok()?.depths_m.first()?))
+    }
+
     /// What became of the draws.
     #[must_use]
     pub fn draws(&self) -> Option<&Draws> {
@@ -278,6 +291,83 @@ fn name(system: &System, number: UncertainNumber) -> String {
 }
 
 impl TolerancesAnswer {
+    /// The ranges of joints as CSV, a line per joint: least and largest value of each coordinate and of each
+    /// component of the force of the ground, empty where there is none; only the heads without a proof.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        let columns = ["", "reaction_"].into_iter().zip(["m", "n"]);
+        let columns = columns.flat_map(|(what, unit)| {
+            let ends =
+                move |axis| ["least", "most"].map(|end| format!(",{what}{axis}_{end}_{unit}"));
+            AXES.into_iter().flat_map(ends)
+        });
+        writeln!(to, "joint{}", columns.collect::<String>())?;
+        let Ok(ranges) = &self.ranges else { return Ok(()) };
+        let ends =
+            |all: &[[Range; 3]]| -> Vec<[f64; 6]> { all.iter().map(|of| ends(of)).collect() };
+        let forces: Vec<_> = ranges.reactions_n.iter().flatten().copied().collect();
+        let at = Numbers::of(ends(&ranges.joints_m).as_flattened());
+        let pulls = Numbers::of(ends(&forces).as_flattened());
+        let joints = self.answer.system().joints().iter().zip(&ranges.joints_m);
+        for ((joint, at_m), force_n) in joints.zip(&ranges.reactions_n) {
+            write!(to, "{}", quoted(&joint.name))?;
+            self::ends(at_m).iter().try_for_each(|x| write!(to, ",{}", at.cell(*x)))?;
+            match force_n {
+                Some(force_n) => {
+                    self::ends(force_n)
+                        .iter()
+                        .try_for_each(|x| write!(to, ",{}", pulls.cell(*x)))?;
+                }
+                None => write!(to, ",,,,,,")?,
+            }
+            writeln!(to)?;
+        }
+        Ok(())
+    }
+
+    /// The ranges of members as CSV, a line per member: its joints, the least and the largest axial force, how far both
+    /// are reached, whether that is the hull, and the number on which it depends most; the least and largest part of its
+    /// strength that is used, empty without one; only the heads without a proof.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(
+            to,
+            "bar,from,to,least_n,most_n,least_reached_n,most_reached_n,is_hull,most_by,most_change_n,least_utilisation,most_utilisation"
+        )?;
+        let Ok(ranges) = &self.ranges else { return Ok(()) };
+        let all = ranges.axial_n.iter().flat_map(|range| range.guaranteed);
+        let (numbers, system) = (Numbers::of(&all.collect::<Vec<_>>()), self.answer.system());
+        for (k, (member, range)) in system.members().iter().zip(&ranges.axial_n).enumerate() {
+            let [from, end] =
+                [member.from, member.to].map(|joint| quoted(&system.joints()[joint].name));
+            let forces = [range.guaranteed, range.reached];
+            let forces = forces.as_flattened().iter().map(|x| numbers.cell(*x).to_string());
+            let forces = forces.collect::<Vec<_>>().join(",");
+            let (number, by) = range.most_by.unzip();
+            let name = number.and_then(|number| self.number_name(number)).unwrap_or_default();
+            let by = by.map(|by| format!("{by:?}")).unwrap_or_default();
+            let used =
+                self.utilisation(k).map_or_else(|| ",".to_owned(), |[a, b]| format!("{a:?},{b:?}"));
+            let (bar, is_hull, name) = (k + 1, range.is_hull, quoted(&name));
+            writeln!(to, "{bar},{from},{end},{forces},{is_hull},{name},{by},{used}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Least and largest of each.
+fn ends(of: &[Range; 3]) -> [f64; 6] {
+    let [[a, b], [c, d], [e, f]] = of.map(|range| range.guaranteed);
+    [a, b, c, d, e, f]
+}
+
+impl TolerancesAnswer {
     /// As JSON has it under `tolerances`.
     fn object(&self) -> Value {
         let mut object = match &self.ranges {
@@ -315,6 +405,11 @@ impl TolerancesAnswer {
             }
             object
         });
+        let sag = self.sag().map(|(sag, depth_m)| {
+            let [from, to] = sag.ends.map(|end| &system.joints()[end].name);
+            let joint = &system.joints()[sag.joint].name;
+            json!({ "joint": joint, "from": from, "to": to, "depth_m": self.range(*depth_m) })
+        });
         json!({
             "is_proved": true,
             "boxes": ranges.boxes,
@@ -322,6 +417,7 @@ impl TolerancesAnswer {
             "numbers": numbers.collect::<Vec<_>>(),
             "joints": joints.collect::<Vec<_>>(),
             "bars": bars.collect::<Vec<_>>(),
+            "sag": sag,
         })
     }
 

@@ -29,16 +29,18 @@ pub(super) fn activities(
 ) -> Result<Vec<Activity>, NoBox> {
     let of_member = |(k, member): (usize, &Member)| {
         let held = |joint: usize| system.joints()[joint].support.is_fixed();
-        if held(member.from) && held(member.to) {
+        if member.path().all(held) {
             return Ok(Activity::Idle);
         }
         if member.kind == Kind::Bar {
             return Ok(Activity::Acts);
         }
-        let [x, y, z]: [f64; 3] =
-            std::array::from_fn(|i| joints_m[member.to][i] - joints_m[member.from][i]);
+        let span_m = |[a, b]: [usize; 2]| {
+            let [x, y, z] = std::array::from_fn(|i| joints_m[b][i] - joints_m[a][i]);
+            x.hypot(y).hypot(z)
+        };
         let length_m = member.body.length_m();
-        let stretch = x.hypot(y).hypot(z) / length_m - 1.0;
+        let stretch = member.spans().map(span_m).sum::<f64>() / length_m - 1.0;
         // How far the member is on the side on which it is slack, and how much it bears.
         let (spare, borne) = match member.kind {
             Kind::Bar | Kind::Cable => (-stretch, axial_n[k]),
@@ -51,7 +53,14 @@ pub(super) fn activities(
         if spare.max(borne) < DEGENERATE {
             return Err(NoBox::Degenerate { member: k + 1 });
         }
-        Ok(if borne > spare { Activity::Acts } else { Activity::Slack })
+        if borne <= spare {
+            return Ok(Activity::Slack);
+        }
+        let no_span = |ends: [usize; 2]| span_m(ends) < DEGENERATE * length_m;
+        if member.rope.is_some() && member.spans().any(no_span) {
+            return Err(NoBox::Rope { member: k + 1 });
+        }
+        Ok(Activity::Acts)
     };
     system.members().iter().enumerate().map(of_member).collect()
 }

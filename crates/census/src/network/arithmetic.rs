@@ -50,6 +50,11 @@ pub(super) fn times(c: Interval, a: Vector) -> Vector {
     a.map(|part| product(c, part))
 }
 
+/// `a/c`, without rounding where a part is 0.
+pub(super) fn over(a: Vector, c: Interval) -> Vector {
+    a.map(|part| if part == Interval::ZERO { part } else { part / c })
+}
+
 /// `a · b`.
 pub(super) fn dot(a: Vector, b: Vector) -> Interval {
     (0..3).fold(Interval::ZERO, |all, k| sum(all, product(a[k], b[k])))

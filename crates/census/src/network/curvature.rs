@@ -2,7 +2,7 @@
 
 use numerics::Interval;
 
-use super::arithmetic::{NOWHERE, Vector, dot, minus, norm, plus, product, sum, times};
+use super::arithmetic::{NOWHERE, Vector, dot, minus, plus, product, sum, times};
 use super::equations::{Entry, Equations};
 
 impl Equations {
@@ -19,36 +19,23 @@ impl Equations {
             })
             .collect();
         for member in acting {
-            let [a, b] = member.ends;
-            let (span, change) = (minus(places[b], places[a]), minus(moves[b], moves[a]));
-            let (w, of_force) = (y[member.density], mode[member.density]);
-            let row = member.density;
-            let (by_span, by_force) = if member.is_rigid() {
-                (change, Interval::ZERO)
-            } else {
-                let length = norm(span);
-                let unit =
-                    span.map(|part| if part == Interval::ZERO { part } else { part / length });
-                let stretch = dot(unit, change);
-                let across = minus(change, times(stretch, unit));
-                let across = times(member.shrink(w) / length, across);
-                let along = times(product(member.compliance, of_force), unit);
-                (minus(across, along), -product(member.compliance, stretch))
-            };
-            entries.push((row, member.density, by_force));
-            for (here, sign) in [(a, -Interval::ONE), (b, Interval::ONE)] {
-                let joint = &joints[here];
-                for (k, axis) in joint.axes.iter().enumerate() {
+            let (row, force, of_force) = (member.force, y[member.force], mode[member.force]);
+            for ends in &self.ends[member.spans.clone()] {
+                let [a, b] = *ends;
+                let (span, change) = (minus(places[b], places[a]), minus(moves[b], moves[a]));
+                let direction = member.direction(span);
+                let turned = direction.turned(Interval::ONE, change);
+                for (joint, k, axis, sign) in self.axes(*ends) {
                     let at = joint.first + k;
-                    entries.push((row, at, product(sign, dot(*axis, by_span))));
+                    let by = product(sign, dot(axis, turned));
                     // Balance: what pulls a pulls b the other way.
-                    entries.push((at, member.density, -product(sign, dot(*axis, change))));
-                    for (there, other_sign) in [(a, -Interval::ONE), (b, Interval::ONE)] {
-                        for (i, towards) in joints[there].axes.iter().enumerate() {
-                            let block = product(of_force, dot(*axis, *towards));
-                            let block = -product(product(sign, other_sign), block);
-                            entries.push((at, joints[there].first + i, block));
-                        }
+                    entries.extend([(row, at, by), (at, row, -by)]);
+                    for (other, i, towards, other_sign) in self.axes(*ends) {
+                        let more = direction.turned(of_force, towards);
+                        let bent = times(force, direction.bent(change, towards));
+                        let block = dot(axis, plus(more, bent));
+                        let block = -product(product(sign, other_sign), block);
+                        entries.push((at, other.first + i, block));
                     }
                 }
             }
@@ -78,7 +65,7 @@ mod tests {
     use crate::network::newton::dense;
     use crate::network::prove::Posed;
 
-    /// A bar and two springs to two joints.
+    /// A bar and two springs to two joints, and two ropes over them.
     #[test]
     fn the_curvature_is_the_difference_quotient_of_the_slope() {
         let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
@@ -91,10 +78,13 @@ mod tests {
             Member::bar(0, 1, light(1.0)),
             Member::bar(1, 2, light(1.3)).with_stiffness(7.0),
             Member::bar(2, 0, light(0.8)).with_stiffness(3.0),
+            Member::cable(0, 1, light(1.9)).over(vec![2]),
+            Member::cable(1, 2, light(2.4)).over(vec![0, 1, 0]).with_stiffness(4.0),
         ];
         let system = System::new("twin", 10.0, joints, members).unwrap();
         let at_m = [[0.0; 3], [0.6, 0.1, -0.7], [-0.3, 0.5, -0.9]];
-        let Posed { equations, .. } = Posed::new(&system, &at_m, &[1.0, 2.0, 3.0]).unwrap();
+        let Posed { equations, .. } =
+            Posed::new(&system, &at_m, &[1.0, 2.0, 3.0, 1.5, 0.7]).unwrap();
         let size = equations.size;
         let points = |at: &[f64]| at.iter().copied().map(Interval::point).collect::<Vec<_>>();
         let at: Vec<f64> = (0..size).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();

@@ -18,7 +18,7 @@ pub(super) fn diagnosed(equations: &Equations, at: &[f64], failure: NoBox) -> No
         .acting
         .iter()
         .filter(|acting| acting.is_rigid())
-        .map(|acting| acting.density)
+        .map(|acting| acting.force)
         .collect();
     let moving = equations.joints.iter().map(|joint| joint.axes.len()).sum();
     let mut rigidity = Mat::zeros(rigid.len(), moving);

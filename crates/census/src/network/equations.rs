@@ -1,11 +1,15 @@
 //! The equations (1)-(3) and their derivative, over boxes of unknowns.
 
+use std::ops::Range;
+
 use model::system::System;
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
 use super::activity::Activity;
-use super::arithmetic::{Vector, difference, dot, minus, norm, plus, product, squared, sum, times};
+use super::arithmetic::{
+    NOWHERE, Vector, difference, dot, minus, norm, over, plus, product, squared, sum, times,
+};
 use super::coordinates::Coordinates;
 use super::frame::Frame;
 use super::turns::Turn;
@@ -18,12 +22,13 @@ pub(super) type Entry = (usize, usize, Interval);
 pub(super) struct Acting {
     /// Its number in the system.
     pub(super) member: usize,
-    pub(super) ends: [usize; 2],
+    /// Numbers of its spans: one, or of a rope several.
+    pub(super) spans: Range<usize>,
     pub(super) length: Interval,
     /// 0 for an inextensible one.
     pub(super) compliance: Interval,
-    /// Number of its force density among the unknowns, and of its equation.
-    pub(super) density: usize,
+    /// Number of its force, or force density, among the unknowns, and of its equation.
+    pub(super) force: usize,
 }
 
 /// A coordinate that is fixed, and the force that holds it.
@@ -36,7 +41,7 @@ pub(super) struct Hold {
     pub(super) number: usize,
 }
 
-/// As many equations as unknowns: coordinates of joints, force densities, forces that hold free
+/// As many equations as unknowns: coordinates of joints, forces or their densities, forces that hold free
 /// turns.
 #[derive(Debug, Clone)]
 pub(super) struct Equations {
@@ -47,6 +52,10 @@ pub(super) struct Equations {
     pub(super) loads: Vec<Vector>,
     /// Lengths of all members.
     pub(super) lengths: Vec<Interval>,
+    /// The joints of the spans of all members.
+    pub(super) ends: Vec<[usize; 2]>,
+    /// Which of them are those of a member.
+    pub(super) spans: Vec<Range<usize>>,
     /// Number of unknowns.
     pub(super) size: usize,
 }
@@ -75,13 +84,15 @@ impl Equations {
         let lengths = system.members().iter();
         let lengths: Vec<Interval> =
             lengths.map(|member| frame.length(Interval::point(member.body.length_m()))).collect();
-        let mut acting = vec![];
+        let (mut ends, mut spans, mut acting) = (vec![], vec![], vec![]);
         for (k, member) in system.members().iter().enumerate() {
+            let first = ends.len();
+            ends.extend(member.spans());
+            spans.push(first..ends.len());
             if activities[k] == Activity::Acts {
-                let length = lengths[k];
-                let compliance = frame.compliance(member);
-                let ends = [member.from, member.to];
-                acting.push(Acting { member: k, ends, length, compliance, density: size });
+                let (length, compliance) = (lengths[k], frame.compliance(member));
+                let spans = spans[k].clone();
+                acting.push(Acting { member: k, spans, length, compliance, force: size });
                 size += 1;
             }
         }
@@ -93,7 +104,7 @@ impl Equations {
             size += 1;
         }
         let loads = frame.loads(system);
-        Self { frame, joints, acting, holds, loads, lengths, size }
+        Self { frame, joints, acting, holds, loads, lengths, ends, spans, size }
     }
 
     /// The same under other loads of the joints, in units.
@@ -104,16 +115,15 @@ impl Equations {
     /// The unknowns next to an answer; NaN where that is not finite.
     pub(super) fn start(&self, joints_m: &[Point], axial_n: &[f64]) -> Vec<f64> {
         let mut at = vec![0.0; self.size];
-        let place = |joint: usize| self.frame.place(joints_m[joint]);
         for (k, joint) in self.joints.iter().enumerate() {
-            for (slot, t) in at[joint.first..].iter_mut().zip(joint.of(place(k))) {
+            let place = self.frame.place(joints_m[k]);
+            for (slot, t) in at[joint.first..].iter_mut().zip(joint.of(place)) {
                 *slot = t;
             }
         }
         for acting in &self.acting {
-            let [a, b] = acting.ends.map(place);
             let axial = axial_n[acting.member] / self.frame.force_n;
-            at[acting.density] = axial / norm(minus(b, a)).mid();
+            at[acting.force] = axial / acting.axial(Interval::ONE).mid();
         }
         at
     }
@@ -133,12 +143,13 @@ impl Equations {
         let mut forces = self.loads.clone();
         let mut value = vec![Interval::ZERO; self.size];
         for acting in &self.acting {
-            let [a, b] = acting.ends;
-            let (span, density) = (minus(places[b], places[a]), unknowns[acting.density]);
-            let pull = times(density, span);
-            forces[a] = plus(forces[a], pull);
-            forces[b] = minus(forces[b], pull);
-            value[acting.density] = acting.misfit(span, density);
+            let (force, spans) = (unknowns[acting.force], self.spans_of(acting, &places));
+            for ([a, b], span) in self.ends[acting.spans.clone()].iter().zip(&spans) {
+                let pull = times(force, acting.direction(*span).along);
+                forces[*a] = plus(forces[*a], pull);
+                forces[*b] = minus(forces[*b], pull);
+            }
+            value[acting.force] = acting.misfit(&spans, force);
         }
         for hold in &self.holds {
             forces[hold.arm] = plus(forces[hold.arm], times(unknowns[hold.number], hold.across));
@@ -157,40 +168,49 @@ impl Equations {
     pub(super) fn slope(&self, unknowns: &[Interval]) -> Vec<Entry> {
         let places = self.places(unknowns);
         let mut entries = Vec::with_capacity(64 * self.acting.len());
-        let mut stiffness = vec![Interval::ZERO; self.joints.len()];
         for acting in &self.acting {
-            let [a, b] = acting.ends;
-            let (span, density) = (minus(places[b], places[a]), unknowns[acting.density]);
-            for (here, there, span) in [(a, b, span), (b, a, span.map(|part| -part))] {
-                stiffness[here] = sum(stiffness[here], density);
-                let (joint, other) = (&self.joints[here], &self.joints[there]);
-                let along = acting.gradient(span, density);
-                for (k, axis) in joint.axes.iter().enumerate() {
-                    let row = joint.first + k;
-                    entries.push((row, acting.density, dot(*axis, span)));
-                    entries.push((acting.density, row, -dot(*axis, along)));
-                    for (i, towards) in other.axes.iter().enumerate() {
-                        entries.push((
-                            row,
-                            other.first + i,
-                            product(density, dot(*axis, *towards)),
-                        ));
+            let (row, force) = (acting.force, unknowns[acting.force]);
+            for (ends, span) in
+                self.ends[acting.spans.clone()].iter().zip(self.spans_of(acting, &places))
+            {
+                let direction = acting.direction(span);
+                for (joint, k, axis, sign) in self.axes(*ends) {
+                    // What pulls one end pulls the other one the other way.
+                    entries.push((
+                        joint.first + k,
+                        row,
+                        -product(sign, dot(axis, direction.along)),
+                    ));
+                    entries.push((row, joint.first + k, product(sign, dot(axis, direction.along))));
+                    for (other, i, towards, other_sign) in self.axes(*ends) {
+                        let pull = dot(axis, direction.turned(force, towards));
+                        let pull = -product(product(sign, other_sign), pull);
+                        entries.push((joint.first + k, other.first + i, pull));
                     }
                 }
             }
-            entries.push((acting.density, acting.density, acting.give(span)));
-        }
-        for (joint, stiffness) in self.joints.iter().zip(stiffness) {
-            for (k, axis) in joint.axes.iter().enumerate() {
-                for (i, other) in joint.axes.iter().enumerate() {
-                    let entry = -product(stiffness, dot(*axis, *other));
-                    entries.push((joint.first + k, joint.first + i, entry));
-                }
-            }
+            entries.push((row, row, -acting.compliance));
         }
         self.slope_of_holds(&mut entries);
         entries.retain(|(_, _, value)| *value != Interval::ZERO);
         entries
+    }
+
+    /// The spans of a member that acts.
+    fn spans_of(&self, acting: &Acting, places: &[Vector]) -> Vec<Vector> {
+        let ends = self.ends[acting.spans.clone()].iter();
+        ends.map(|[a, b]| minus(places[*b], places[*a])).collect()
+    }
+
+    /// The coordinates of both ends of a span with their directions, and the sign with which they change it.
+    pub(super) fn axes(
+        &self,
+        [a, b]: [usize; 2],
+    ) -> impl Iterator<Item = (&Coordinates, usize, Vector, Interval)> {
+        [(a, -Interval::ONE), (b, Interval::ONE)].into_iter().flat_map(|(joint, sign)| {
+            let joint = &self.joints[joint];
+            joint.axes.iter().enumerate().map(move |(k, axis)| (joint, k, *axis, sign))
+        })
     }
 
     pub(super) fn slope_of_holds(&self, entries: &mut Vec<Entry>) {
@@ -214,34 +234,66 @@ impl Acting {
         self.compliance == Interval::ZERO
     }
 
+    /// Whether its unknown is its force density, and its equation (2), so that both are polynomials.
+    pub(super) fn is_squared(&self) -> bool {
+        self.is_rigid() && self.spans.len() == 1
+    }
+
+    /// What it pulls with for this unknown.
+    pub(super) fn axial(&self, force: Interval) -> Interval {
+        if self.is_squared() { product(force, self.length) } else { force }
+    }
+
     /// Left-hand side of (2) or (3).
-    fn misfit(&self, span: Vector, density: Interval) -> Interval {
-        if self.is_rigid() {
-            difference(squared(span), self.length.square()).scale(0.5)
-        } else {
-            self.shrink(density) * norm(span) - self.length
+    fn misfit(&self, spans: &[Vector], force: Interval) -> Interval {
+        match spans {
+            [span] if self.is_squared() => {
+                difference(squared(*span), self.length.square()).scale(0.5)
+            }
+            spans => {
+                let size = spans.iter().map(|span| norm(*span)).fold(Interval::ZERO, sum);
+                difference(difference(size, product(self.compliance, force)), self.length)
+            }
         }
     }
 
-    /// `1 − c w`.
-    pub(super) fn shrink(&self, density: Interval) -> Interval {
-        difference(Interval::ONE, product(self.compliance, density))
-    }
-
-    /// Derivative of the misfit by the span.
-    pub(super) fn gradient(&self, span: Vector, density: Interval) -> Vector {
-        if self.is_rigid() {
-            span
-        } else {
-            let size = norm(span);
-            let unit = span.map(|part| if part == Interval::ZERO { part } else { part / size });
-            times(self.shrink(density), unit)
+    /// The direction of a span in which it pulls.
+    pub(super) fn direction(&self, span: Vector) -> Direction {
+        if self.is_squared() {
+            return Direction { along: span, size: None };
         }
+        let size = norm(span);
+        Direction { along: over(span, size), size: Some(size) }
+    }
+}
+
+/// The pull on the first end of a span by a unit of the unknown, which is the derivative of the equation by the
+/// span too: the span $d$ itself or $u = d/|d|$.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Direction {
+    pub(super) along: Vector,
+    /// $|d|$ for $u$.
+    size: Option<Interval>,
+}
+
+impl Direction {
+    /// Its change with the span, times a force: $P a = a - u\\,(u \\cdot a)$ over $|d|$.
+    pub(super) fn turned(&self, force: Interval, change: Vector) -> Vector {
+        let Some(size) = self.size else { return times(force, change) };
+        times(force, over(self.across(change), size))
     }
 
-    /// Derivative of the misfit by the force density.
-    pub(super) fn give(&self, span: Vector) -> Interval {
-        if self.is_rigid() { Interval::ZERO } else { -(self.compliance * norm(span)) }
+    fn across(&self, change: Vector) -> Vector {
+        minus(change, times(dot(self.along, change), self.along))
+    }
+
+    /// Its second derivative by two changes of the span, $-((u \\cdot b) P a + (u \\cdot a) P b + (a
+    /// \\cdot P b)\\,u)/|d|^2$.
+    pub(super) fn bent(&self, a: Vector, b: Vector) -> Vector {
+        let Some(size) = self.size else { return NOWHERE };
+        let [across_a, across_b] = [a, b].map(|change| self.across(change));
+        let both = plus(times(dot(self.along, b), across_a), times(dot(self.along, a), across_b));
+        over(plus(both, times(dot(a, across_b), self.along)), size.square()).map(|part| -part)
     }
 }
 
@@ -254,7 +306,7 @@ mod tests {
     use crate::network::newton::dense;
 
     /// A string of two bars, a spring and a bar between an anchor and a joint on a slope, a bar
-    /// back, and the turn of a joint about one that moves.
+    /// back, the turn of a joint about one that moves, and two ropes over all of them.
     fn equations() -> Equations {
         let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
         let slope = Support::Plane { at_m: [1.0, 0.5, -1.0], normal: [0.6, 0.0, 0.8] };
@@ -269,19 +321,21 @@ mod tests {
             Member::bar(1, 2, light(1.3)).with_stiffness(7.0),
             Member::bar(2, 3, light(0.8)),
             Member::bar(3, 1, light(1.1)),
+            Member::cable(0, 1, light(4.3)).over(vec![2, 3, 2]).with_stiffness(5.0),
+            Member::cable(3, 2, light(2.9)).over(vec![0, 1]),
         ];
         let system = System::new("twin", 10.0, joints, members).unwrap();
         let turn = Turn { joints: vec![3], centre: 1, arm: 3, across: [0.6, 0.8] };
         let frame = Frame::new(&system, &[]);
         let held = [true, false, false, false];
-        Equations::new(&system, frame, &[Activity::Acts; 4], &[turn], &[[0.0; 3]; 4], &held)
+        Equations::new(&system, frame, &[Activity::Acts; 6], &[turn], &[[0.0; 3]; 4], &held)
     }
 
     #[test]
     fn the_slope_is_its_difference_quotient() {
         let equations = equations();
-        // Three coordinates, two, three; four densities; the force that holds the turn.
-        assert_eq!(equations.size, 3 + 2 + 3 + 4 + 1);
+        // Three coordinates, two, three; six forces; the force that holds the turn.
+        assert_eq!(equations.size, 3 + 2 + 3 + 6 + 1);
         let at: Vec<f64> =
             (0..equations.size).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();
         let points = |at: &[f64]| at.iter().copied().map(Interval::point).collect::<Vec<_>>();

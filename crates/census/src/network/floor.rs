@@ -28,22 +28,7 @@ pub(super) fn prove_above(
     joints_m: &[Point],
     axial_n: &[f64],
 ) -> Result<SystemBox, NoBox> {
-    let near_m = NEAR * system.total_length_m() / system.members().len() as f64;
-    let joints = || system.joints().iter().zip(joints_m);
-    let near = |at_m: &Point| at_m[2] <= floor_m + near_m;
-    let lies: Vec<bool> =
-        joints().map(|(joint, at_m)| joint.support == Support::Free && near(at_m)).collect();
-    let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
-        let support = if *lies {
-            Support::Plane { at_m: [at_m[0], at_m[1], floor_m], normal: [0.0, 0.0, 1.0] }
-        } else {
-            joint.support
-        };
-        Joint { support, ..joint.clone() }
-    });
-    let members = system.members().to_vec();
-    let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members)
-        .map_err(|_| NoBox::NotFinite)?;
+    let (laid, lies) = laid(system, floor_m, joints_m)?;
     let found = prove_without_floor(&laid, joints_m, axial_n)?;
     let pushes = pushes_n(system, &found, axial_n);
     for (k, joint) in system.joints().iter().enumerate() {
@@ -60,6 +45,30 @@ pub(super) fn prove_above(
     Ok(found)
 }
 
+/// The system whose joints slide on the floor where they lie on it, and which do.
+pub(super) fn laid(
+    system: &System,
+    floor_m: f64,
+    joints_m: &[Point],
+) -> Result<(System, Vec<bool>), NoBox> {
+    let near_m = NEAR * system.total_length_m() / system.members().len() as f64;
+    let joints = || system.joints().iter().zip(joints_m);
+    let near = |at_m: &Point| at_m[2] <= floor_m + near_m;
+    let lies: Vec<bool> =
+        joints().map(|(joint, at_m)| joint.support == Support::Free && near(at_m)).collect();
+    let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
+        let support = if *lies {
+            Support::Plane { at_m: [at_m[0], at_m[1], floor_m], normal: [0.0, 0.0, 1.0] }
+        } else {
+            joint.support
+        };
+        Joint { support, ..joint.clone() }
+    });
+    let members = system.members().to_vec();
+    let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members);
+    Ok((laid.map_err(|_| NoBox::NotFinite)?, lies))
+}
+
 /// What the members and loads of each joint leave for the floor to bear, up positive, N.
 fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval> {
     let frame = Frame::new(system, axial_n);
@@ -70,10 +79,12 @@ fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval
         if *axial == Interval::ZERO {
             continue;
         }
-        let span = minus(found.joints_m[member.to], found.joints_m[member.from]);
-        let rising = *axial * span[2] / norm(span);
-        pushes[member.from] = pushes[member.from] - rising;
-        pushes[member.to] = pushes[member.to] + rising;
+        for [a, b] in member.spans() {
+            let span = minus(found.joints_m[b], found.joints_m[a]);
+            let rising = *axial * span[2] / norm(span);
+            pushes[a] = pushes[a] - rising;
+            pushes[b] = pushes[b] + rising;
+        }
     }
     pushes
 }

@@ -4,16 +4,18 @@
 //!
 //! [`prove`] takes the answer of any solver and proves with Krawczyk's test that exactly one
 //! equilibrium, shape and forces, lies in a small box around it. With the places $x_j$ of the
-//! joints that move, the span $d_e = x_b - x_a$ of a member from joint a to joint b and its force
-//! density $w_e = N_e/|d_e|$, the equations are
+//! joints that move and the spans $d = x_b - x_a$ of a member, one or of a rope several, each from a joint a
+//! to a joint b, $u = d/|d|$, the equations are
 //!
-//! $$ f_j + \sum_e w_e (x_k - x_j) = 0 \qquad (1), \qquad
-//!    \tfrac12(|d_e|^2 - l_e^2) = 0 \qquad (2), \qquad
-//!    (1 - c_e w_e)|d_e| - l_e = 0 \qquad (3): $$
+//! $$ f_j + \sum_{\text{at } j} \pm N_e u = 0 \qquad (1), \qquad
+//!    \tfrac12(|d|^2 - l_e^2) = 0 \qquad (2), \qquad
+//!    \sum |d| - c_e N_e - l_e = 0 \qquad (3): $$
 //!
 //! balance of each joint along each direction in which it can move (1), the length of each
-//! inextensible member that acts (2), the law of each elastic one with the compliance $c_e =
-//! l_e/EA_e$ (3). As many equations as unknowns. A cable that is slack has no unknown; that it is
+//! inextensible member of one span that acts (2), the law of each other one with the compliance $c_e =
+//! l_e/EA_e$ (3), 0 for an inextensible rope. Unknowns are the force densities $w_e = N_e/|d|$ of members with (2), so
+//! that $N_e u = w_e d$ and all of their equations are polynomials, and the forces $N_e$ of the others. As many equations
+//! as unknowns. A cable that is slack has no unknown; that it is
 //! slack is proved of the whole box, and so is the sign of the force of each cable and strut that
 //! acts.
 //!
@@ -25,7 +27,8 @@
 //! |---|---|---|---|---|
 //! | $x_j = o_j + A_j t_j$ | `place` | 3 | length | $t_j$: as many coordinates as the support leaves |
 //! | $f_j$ | `loads` | 3 per joint | force | weights and forces, shared by the lever rule |
-//! | $w_e$ | `density` | members that act | force/length | tension positive |
+//! | $w_e$ or $N_e$ | `force` | members that act | force/length or force | tension positive |
+//! | $d$ or $u$ | `Direction` | 3 per span | length or 1 | derivative of the pull by the unknown |
 //! | $c_e$ | `compliance` | members | length/force | 0 for inextensible ones |
 //! | $\mu_i$ | | free turns | force | moment that holds a turn; proved to be zero |
 //! | Y | `inverse` | n × n | | approximate inverse of the derivative |
@@ -69,6 +72,9 @@
 //! each box goes the list of the cells of pulls with which each strand reaches it (module
 //! `bridle`).
 //!
+//! Of cables and ropes alone the energy is convex, so that an equilibrium in a box is the only one
+//! ([`SystemCensus::of_cables`]).
+//!
 //! Other nets with more motions than [`Settings::max_motions`](crate::Settings::max_motions) are
 //! refused; what cannot be decided is listed.
 
@@ -103,4 +109,4 @@ pub use limit::{MAX_LIMIT_UNKNOWNS, prove_singular};
 pub use path::{MAX_PATH_UNKNOWNS, PathProof, SingularKind, prove_path};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;
-pub use tolerances::{NoRanges, Range, ToleranceRanges, prove_ranges};
+pub use tolerances::{Depth, NoRanges, Range, ToleranceRanges, prove_ranges};

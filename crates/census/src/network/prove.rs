@@ -5,14 +5,14 @@ use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
 use super::activity::{Activity, activities};
-use super::arithmetic::{dot, minus, squared};
+use super::arithmetic::{dot, minus};
 use super::diagnosis::diagnosed;
 use super::equations::Equations;
 use super::floor::prove_above;
 use super::frame::Frame;
 use super::krawczyk::{Zero, prove_zero};
 use super::newton::refine;
-use super::proven::SystemBox;
+use super::proven::{SystemBox, reach};
 use super::turns::turns;
 
 /// Most unknowns that the proof takes: the dense inverse and its product grow with their cube. Some
@@ -98,10 +98,6 @@ impl Posed {
         axial_n: &[f64],
         limit: usize,
     ) -> Result<Self, NoBox> {
-        // Its equations are those of straight members.
-        if let Err(rope) = system.without_ropes("census") {
-            return Err(NoBox::Rope { member: rope.member });
-        }
         let activities = activities(system, &frame, joints_m, axial_n)?;
         let loose = loose_joints(system, &activities);
         let held: Vec<bool> = system
@@ -120,7 +116,7 @@ impl Posed {
     }
 }
 
-/// Coordinates of joints and force densities.
+/// Coordinates of joints and forces.
 fn unknowns(system: &System, activities: &[Activity], held: &[bool]) -> usize {
     let coordinates = |(joint, held): (&Joint, &bool)| match joint.support {
         _ if *held => 0,
@@ -146,8 +142,11 @@ fn loose_joints(system: &System, activities: &[Activity]) -> Vec<bool> {
         let unloaded =
             |far: f64| body.mass_kg() <= 0.0 || body.centre_m().to_bits() == far.to_bits();
         let slack = *activity == Activity::Slack && member.loads.is_empty();
-        loose[member.from] &= slack && unloaded(body.length_m());
-        loose[member.to] &= slack && unloaded(0.0);
+        for joint in member.path() {
+            loose[joint] &= slack;
+        }
+        loose[member.from] &= unloaded(body.length_m());
+        loose[member.to] &= unloaded(0.0);
     }
     loose
 }
@@ -162,7 +161,7 @@ pub(super) fn complementarity(
 ) -> Result<(), NoBox> {
     let places = equations.places(&zero.tight);
     for acting in &equations.acting {
-        let sign = zero.tight[acting.density].sign();
+        let sign = zero.tight[acting.force].sign();
         let right = match system.members()[acting.member].kind {
             Kind::Bar => true,
             Kind::Cable => sign == Some(1),
@@ -173,12 +172,11 @@ pub(super) fn complementarity(
         }
     }
     for (k, member) in system.members().iter().enumerate() {
-        let length = equations.lengths[k];
-        let distance = squared(minus(places[member.to], places[member.from]));
+        let (length, distance) = (equations.lengths[k], reach(member, &places));
         let slack = match member.kind {
             Kind::Bar => false,
-            Kind::Cable => distance.hi() < length.square().lo(),
-            Kind::Strut => distance.lo() > length.square().hi(),
+            Kind::Cable => distance.hi() < length.lo(),
+            Kind::Strut => distance.lo() > length.hi(),
         };
         match activities[k] {
             Activity::Slack if !slack => return Err(NoBox::NotSlack { member: k + 1 }),

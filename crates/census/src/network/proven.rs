@@ -5,7 +5,7 @@ use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use super::activity::Activity;
-use super::arithmetic::{Vector, minus, norm, product};
+use super::arithmetic::{Vector, minus, norm, sum};
 use super::equations::Equations;
 use super::krawczyk::Zero;
 
@@ -48,8 +48,7 @@ impl SystemBox {
         let mut axial_n: Vec<Interval> =
             activities.iter().zip(system.members()).map(of_idle).collect();
         for acting in &equations.acting {
-            let [a, b] = acting.ends.map(|joint| places[joint]);
-            let axial = product(zero.tight[acting.density], norm(minus(b, a)));
+            let axial = acting.axial(zero.tight[acting.force]);
             axial_n[acting.member] = axial.scale(frame.force_n);
         }
         let joints_m: Vec<_> = places.iter().map(|place| frame.place_m(*place)).collect();
@@ -85,11 +84,17 @@ impl SystemBox {
 /// The force of an elastic member between two anchors by its law alone, N; a rigid one there is
 /// slack.
 pub(super) fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
-    let distance_m = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
+    let distance_m = reach(member, places).scale(length_unit_m);
     let length_m = Interval::point(member.body.length_m());
     let spring =
         |stiffness_n| spring_n(member.kind, Interval::point(stiffness_n), distance_m, length_m);
     member.stiffness_n.map_or(Interval::ZERO, spring)
+}
+
+/// The length of all spans of a member together.
+pub(super) fn reach(member: &Member, places: &[Vector]) -> Interval {
+    let spans = member.spans().map(|[a, b]| norm(minus(places[b], places[a])));
+    spans.fold(Interval::ZERO, sum)
 }
 
 /// The force of an elastic member of a distance, N.

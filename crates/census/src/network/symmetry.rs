@@ -132,9 +132,8 @@ fn mirror(system: &System, joints_m: &[Point], centre_m: Point, axes: Axes) -> O
     let joints = matched(all.len(), image_of)?;
     let members = system.members();
     let image_of = |from: usize, taken: &[bool]| {
-        let ends = [members[from].from, members[from].to].map(|joint| joints[joint]);
-        (0..members.len())
-            .find(|to| !taken[*to] && member_maps(&members[from], &members[*to], ends, axes))
+        let image = members[from].clone().renumbered(|joint| joints[joint]);
+        (0..members.len()).find(|to| !taken[*to] && member_maps(&image, &members[*to], axes))
     };
     let members = matched(members.len(), image_of)?;
     let twice = |map: &[usize]| (0..map.len()).all(|k| map[map[k]] == k);
@@ -167,14 +166,14 @@ fn joint_maps(from: &Joint, to: &Joint, centre_m: Point, axes: Axes) -> bool {
     support && same(from.mass_kg, to.mass_kg) && maps(axes, from.force_n, to.force_n, &[1.0])
 }
 
-/// Whether a member whose ends are mapped to these joints is mapped to another one.
-fn member_maps(from: &Member, to: &Member, [a, b]: [usize; 2], axes: Axes) -> bool {
+/// Whether a member, its joints mapped already, is mapped to another one.
+fn member_maps(from: &Member, to: &Member, axes: Axes) -> bool {
     let (own, other) = (&from.body, &to.body);
     let alike = from.kind == to.kind
         && from.stiffness_n.map(f64::to_bits) == to.stiffness_n.map(f64::to_bits)
         && same(own.length_m(), other.length_m())
         && same(own.mass_kg(), other.mass_kg());
-    let straight = [a, b] == [to.from, to.to]
+    let straight = from.path().eq(to.path())
         && same(own.centre_m(), other.centre_m())
         && from.loads.len() == to.loads.len()
         && from.loads.iter().zip(&to.loads).all(|(from, to)| {
@@ -184,7 +183,8 @@ fn member_maps(from: &Member, to: &Member, [a, b]: [usize; 2], axes: Axes) -> bo
     let middle = |body: &model::Bar| {
         same(body.mass_kg(), 0.0) || same(2.0 * body.centre_m(), body.length_m())
     };
-    let reversed = [a, b] == [to.to, to.from]
+    let reversed = [from.from, from.to] == [to.to, to.from]
+        && from.via().iter().rev().eq(to.via())
         && middle(own)
         && middle(other)
         && from.loads.is_empty()
@@ -312,12 +312,12 @@ fn action(equations: &Equations, mirror: &Mirror) -> Option<Action> {
             action[from.first + k] = (to.first + i, sign);
         }
     }
-    let mut density = vec![None; mirror.members.len()];
+    let mut force = vec![None; mirror.members.len()];
     for acting in &equations.acting {
-        density[acting.member] = Some(acting.density);
+        force[acting.member] = Some(acting.force);
     }
     for (from, to) in mirror.members.iter().enumerate() {
-        match (density[from], density[*to]) {
+        match (force[from], force[*to]) {
             (Some(from), Some(to)) => action[from] = (to, 1.0),
             (None, None) => {}
             _ => return None,

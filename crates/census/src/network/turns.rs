@@ -124,8 +124,10 @@ impl<'a> Net<'a> {
                 level_loads[member.to] = true;
             }
             if *activity == Activity::Acts {
-                neighbours[member.from].push(member.to);
-                neighbours[member.to].push(member.from);
+                for [a, b] in member.spans() {
+                    neighbours[a].push(b);
+                    neighbours[b].push(a);
+                }
             }
         }
         Self { system, neighbours, held, level: level_loads }

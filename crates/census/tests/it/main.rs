@@ -15,6 +15,7 @@ mod mutations;
 mod nets;
 mod paper;
 mod random;
+mod ropes;
 mod singular_families;
 mod support;
 mod systems;

@@ -16,12 +16,14 @@ use std::io;
 
 use census::network::SystemCensus;
 use census::{CompactCensus, Progress, Settings};
-use model::system::{System, SystemEquilibrium};
+use model::system::{Kind, System, SystemEquilibrium};
 use serde::Serialize;
+use validate::UseCensus;
 
 use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::solve::Solve;
 use crate::threads;
 
 /// Finds every equilibrium, stable or not, and proves that there is no other.
@@ -86,13 +88,14 @@ impl Census {
     /// Take the census, and check it: of a chain, or of joints and members: trees, chains of bars
     /// between anchors with trees and weights at their joints, frames, nets of several closures whose
     /// joints move in few ways (one joint held by strands of one or two bars), three strands of any
-    /// number of bars under upright loads, and any number of such parts.
+    /// number of bars under upright loads, and any number of such parts. Of cables and ropes alone, elastic or not, an
+    /// equilibrium that is verified is the only one.
     ///
     /// # Errors
     ///
     /// [`Error::Census`] when a chain is too long, [`Error::SystemRefused`] when a system has no
     /// equilibrium, [`Error::SystemCensus`] when it has no census: nets that move in too many ways,
-    /// level loads on a chain, elastic members. What cannot be decided is no error: it is listed, and
+    /// level loads on a chain, elastic bars. What cannot be decided is no error: it is listed, and
     /// the census is not complete.
     pub fn run(&self, problem: &Problem) -> Result<CensusAnswer, Error> {
         self.run_watched(problem, &|_| {})
@@ -115,7 +118,7 @@ impl Census {
         system.refusal()?;
         threads::on(self.threads, || {
             let census = SystemCensus::take_watched(&system, &self.settings, watch)
-                .map_err(Error::SystemCensus)?;
+                .or_else(|because| of_cables(&system).ok_or(Error::SystemCensus(because)))?;
             Ok(CensusAnswer::System(SystemCensusAnswer::new(&system, census).into()))
         })?
     }
@@ -165,6 +168,16 @@ impl Census {
             Ok(LargeCensusAnswer::new(problem, census, verdict, made))
         })?
     }
+}
+
+/// Of cables and ropes alone the one equilibrium that a solver finds, if it is proved.
+fn of_cables(system: &System) -> Option<SystemCensus> {
+    if !system.members().iter().all(|member| member.kind == Kind::Cable) {
+        return None;
+    }
+    let answer = Solve::new().census(UseCensus::Never).run_here(&system.clone().into()).ok()?;
+    let mut found = answer.equilibria().iter();
+    found.find_map(|found| SystemCensus::of_cables(system, &found.joints_m, &found.axial_n))
 }
 
 /// What a census says of a chain, or of any other system.

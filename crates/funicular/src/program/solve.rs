@@ -79,7 +79,8 @@ pub struct Solve {
     /// Write joints, a line per joint, to this CSV file
     ///
     /// Columns: `solver`; `joint`, its name (of a chain its number, from 0); `x_m`, `y_m`, `z_m`,
-    /// its place; `reaction_x_n`, `reaction_y_n`, `reaction_z_n`, the force of the ground on it.
+    /// its place; `reaction_x_n`, `reaction_y_n`, `reaction_z_n`, the force of the ground on it. With
+    /// --tolerances the ends of each: `x_least_m`, `x_most_m` and the like.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Write bars, a line per bar, to this CSV file
@@ -88,7 +89,8 @@ pub struct Solve {
     /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
     /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
     /// is largest; `start_x_n` to `end_z_n`, the forces on it at both; `utilisation`, the part of its strength
-    /// that it uses, where bars have strengths.
+    /// that it uses, where bars have strengths. With --tolerances the ends of the axial force, `least_n` and
+    /// `most_n`, what of it is reached, and the number on which it depends most.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
     /// End with exit code 1 where a bar is weaker than wanted: its largest force times its `safety` more
@@ -111,7 +113,7 @@ pub struct Solve {
     ///
     /// The exit code is 3 where there is no proof for all values, with --check 1 where a bar may be weaker
     /// than wanted. The guide has an example, `funicular guide systems`.
-    #[arg(long, conflicts_with_all = ["batch", "without", "csv", "bars_csv", "svg", "columns", "summary", "evidence"])]
+    #[arg(long, conflicts_with_all = ["batch", "without", "svg", "columns", "summary", "evidence"])]
     pub tolerances: bool,
     /// Solve so many random values within the tolerances too, for standard deviations
     #[arg(long, value_name = "N", requires = "tolerances", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -260,11 +262,11 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
             None => each::load_case(arguments, &problem, progress),
         };
     }
+    let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
+    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     if arguments.tolerances {
         return tolerances::run(arguments, &problem, progress);
     }
-    let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
-    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve = arguments.question(UseCensus::Auto);
     let answer = solve.run_watched(&problem, &|what| progress.say(what));
     let answer = answer.or_else(|error| unsolved(arguments, error))?;

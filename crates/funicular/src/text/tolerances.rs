@@ -45,6 +45,17 @@ impl TolerancesAnswer {
         );
         writeln!(f, "{}\n\n{}", wrapped(&line, 0), self.bars(ranges))?;
         writeln!(f, "\n{}", self.causes(ranges))?;
+        if let Some((sag, depth_m)) = self.sag() {
+            let name = |joint: usize| Printable(&self.answer().system().joints()[joint].name);
+            let [least, most] = depth_m.guaranteed.map(short);
+            let (joint, ends) = (name(sag.joint), sag.ends.map(name));
+            let below = match sag.ends {
+                [a, b] if a == b => format!("the lowest support, {}", ends[0]),
+                _ => format!("the line from {} to {}", ends[0], ends[1]),
+            };
+            let line = format!("Sag: {least} to {most} m, of joint {joint} below {below}.");
+            writeln!(f, "\n{}", wrapped(&line, 0))?;
+        }
         let places = ranges.joints_m.iter().enumerate();
         let places = places.filter(|(_, at)| at.iter().any(|range| width(range) > 0.0));
         writeln!(f, "\n{}", self.vectors("m", ["x", "y", "z"], places))?;
@@ -55,7 +66,8 @@ impl TolerancesAnswer {
         if hidden {
             writeln!(f, "(the widest {PRINTED} of each; --json has all)")?;
         }
-        let line = "hull: both ends are reached; else how much wider than that the range may be, as part of it. \
+        let line = "hull: both ends are reached; else the range is an outer bound of it, and so much of the range may be too \
+                    much. \
                     most by: the number that changes the force most, and by how much over its tolerance.";
         writeln!(f, "\n{}", wrapped(line, 0))
     }
@@ -89,7 +101,10 @@ impl TolerancesAnswer {
             let number = number.map_or_else(String::new, |name| Printable(&name).to_string());
             let by = most_by.map_or_else(String::new, |(_, by)| significant(by, DIGITS));
             let mut row = vec![(k + 1).to_string(), number, by];
-            let used = || self.utilisation(k).map_or_else(String::new, |[_, most]| percent(most));
+            let used = || {
+                let used = self.utilisation(k).map(|ends| ends.map(percent).join(" .. "));
+                used.unwrap_or_default()
+            };
             row.extend(strong.then(used));
             let sd = |draws: &Draws| significant(draws.axial_n[k].deviation, DIGITS);
             row.extend(self.draws().map(sd));

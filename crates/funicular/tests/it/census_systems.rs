@@ -177,3 +177,37 @@ fn positions_of_a_system_are_drawn_and_written() {
     }
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
 }
+
+/// A ring on a rope with a weight over a pulley at its end, and a slack cable: of what pulls alone one equilibrium is all. Beside a strut there is no such list.
+#[test]
+fn of_cables_and_ropes_one_equilibrium_is_all() {
+    let path = folder("tackle").join("tackle.toml");
+    // Two strands of 3-4-5 hold 40 N at P, each with 25 N, as the weight of 2.5 kg at Q does.
+    let tackle = "gravity_m_s2 = 10\n\
+                  joints = { A = { at_m = [-3, 0, 0] }, D = { at_m = [3, 0, 0] }, P = { mass_kg = 4 }, \
+                  Q = { mass_kg = 2.5 }, E = { at_m = [3, 0, 1] } }\n\
+                  bars = [{ from = 'A', to = 'Q', via = ['P', 'D'], length_m = 12, mass_kg = 0, kind = 'cable' },\n\
+                  { from = 'E', to = 'Q', length_m = 5, mass_kg = 0, kind = 'cable' }]";
+    std::fs::write(&path, tackle).unwrap();
+    let found = json_of_system(path.to_str().unwrap());
+    let only = &found["equilibria"][0];
+    assert_eq!(
+        (&found["census"]["complete"], &found["census"]["count"]),
+        (&true.into(), &1.into())
+    );
+    for (bar, wanted) in [(0, 25.0), (1, 0.0)] {
+        let axial_n = only["bars"][bar]["axial_n"].as_f64().unwrap();
+        assert!((axial_n - wanted).abs() < ROUNDING * 25.0, "{axial_n}");
+    }
+    std::fs::write(
+        &path,
+        tackle.replace(
+            "length_m = 5, mass_kg = 0, kind = 'cable'",
+            "length_m = 1, mass_kg = 0, kind = 'strut'",
+        ),
+    )
+    .unwrap();
+    let refused = funicular(&[path.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(2), "{}", stdout(&refused));
+    assert!(stderr(&refused).contains("member 1 is a rope"), "{}", stderr(&refused));
+}

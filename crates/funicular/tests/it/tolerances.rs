@@ -87,9 +87,15 @@ fn the_program_prints_them_in_eighty_columns() {
     let (code, said, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(0), "{said}");
     assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
-    for words in
-        ["exactly one equilibrium", "hull", "most by", "sd / N", "Fx / N", "20 draws (seed 1)"]
-    {
+    for words in [
+        "exactly one equilibrium",
+        "hull",
+        "most by",
+        "sd / N",
+        "Fx / N",
+        "Sag: ",
+        "20 draws (seed 1)",
+    ] {
         assert!(said.contains(words), "{words}\n{said}");
     }
     // A strength that all forces stay below, and one that some do not.
@@ -110,11 +116,28 @@ fn what_has_no_ranges_says_why() {
         "exact.toml",
         &mast("").replace(", mass_tolerance_kg = 1", "").replace(", length_tolerance_m = 2e-2", ""),
     );
-    write("floor.toml", &mast("floor_m = -1"));
+    let bob = "floor_m = -3.05\ntolerances = { length_tolerance_m = 0.1 }\n\
+               joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2 } }\n\
+               bars = [{ from = 'A', to = 'P', length_m = 3, mass_kg = 0 }]";
+    write("floor.toml", bob);
+    write("deep.toml", &bob.replace("-3.05", "-3.2"));
+    let anchors = "A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, C = { at_m = [0, 0, -9] }";
+    let bars = ["A", "B", "C"].map(|from| {
+        format!(
+            "{{ from = '{from}', to = 'P', length_m = 5, mass_kg = 0, length_tolerance_m = 1e-3 }}"
+        )
+    });
+    let bars = bars.join(", ");
+    write(
+        "braced.toml",
+        &format!("joints = {{ {anchors}, P = {{ mass_kg = 2 }} }}\nbars = [{bars}]"),
+    );
     write("mast.toml", &mast(ALL));
     for (arguments, wanted, words) in [
         (&["exact.toml", "--tolerances"][..], 2, "no number of this system has a tolerance"),
-        (&["floor.toml", "--tolerances"], 3, "above a floor"),
+        (&["floor.toml", "--tolerances"], 3, "may come to lie on the floor or rise from it: 2"),
+        (&["deep.toml", "--tolerances"], 0, "-3.1"),
+        (&["braced.toml", "--tolerances"], 3, "overdetermine the shape 1-fold"),
         (&["mast.toml", "mast.toml", "--tolerances"], 2, "one system at a time"),
         (&["mast.toml", "--monte-carlo", "5"], 2, "--tolerances"),
         (&["mast.toml", "--tolerances", "--monte-carlo", "0"], 2, "1..=1000000"),

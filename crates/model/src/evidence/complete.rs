@@ -114,7 +114,8 @@ pub enum NoCensus {
         /// The joint, from 1.
         joint: usize,
     },
-    /// A member is a rope over rings or pulleys.
+    /// A member is a rope over rings or pulleys. Of cables and ropes alone an equilibrium that is verified is the
+    /// only one; there are other members, or none is verified.
     Rope {
         /// The member, from 1.
         member: usize,

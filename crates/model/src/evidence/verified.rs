@@ -66,7 +66,7 @@ pub enum NoBox {
         /// Number of independent ones.
         dimension: usize,
     },
-    /// Occurs when a member is a rope over rings or pulleys, whose equations are not enclosed.
+    /// Occurs when a rope that is taut has a span without a length, as where a ring runs to its end.
     Rope {
         /// The member, from 1.
         member: usize,

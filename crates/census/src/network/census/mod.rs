@@ -11,6 +11,7 @@
 
 mod bridle;
 mod choice;
+mod convex;
 mod core;
 mod net;
 mod parts;

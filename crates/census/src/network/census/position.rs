@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SystemCensus;
 use super::choice::Choice;
-use crate::network::arithmetic::{NOWHERE, dot, minus, norm, plus, product, sum, times};
+use crate::network::arithmetic::{NOWHERE, dot, minus, norm, over, plus, product, sum, times};
 use crate::network::frame::Frame;
 use crate::network::proven::idle_n;
 
@@ -22,7 +22,7 @@ pub struct SystemPosition {
     pub joints_m: Vec<[Interval; 3]>,
     /// Axial force of each member with its loads lumped to its joints, tension positive, N.
     pub axial_n: Vec<Interval>,
-    /// Force of the ground on each joint, N; zero at joints that move.
+    /// Force of the ground on each joint, N; zero at joints without a support.
     pub reactions_n: Vec<[Interval; 3]>,
     /// Energy relative to [`System::reference_m`], J.
     pub energy_j: Interval,
@@ -63,18 +63,17 @@ impl SystemPosition {
             energy = sum(energy, -dot(*place, *load));
         }
         for (member, axial) in system.members().iter().zip(&axial) {
-            let span = minus(places[member.to], places[member.from]);
-            let size = norm(span);
-            let pull = span.map(|part| {
-                product(*axial, if part == Interval::ZERO { part } else { part / size })
-            });
-            forces[member.from] = plus(forces[member.from], pull);
-            forces[member.to] = minus(forces[member.to], pull);
+            for [a, b] in member.spans() {
+                let span = minus(places[b], places[a]);
+                let pull = times(*axial, over(span, norm(span)));
+                forces[a] = plus(forces[a], pull);
+                forces[b] = minus(forces[b], pull);
+            }
             let stored = product(frame.compliance(member), axial.square()).scale(0.5);
             energy = sum(energy, stored);
         }
         let reactions = system.joints().iter().zip(forces).map(|(joint, force)| {
-            if joint.support.is_fixed() {
+            if joint.support.at_m().is_some() {
                 force.map(|part| (-part).scale(frame.force_n))
             } else {
                 NOWHERE
@@ -126,10 +125,9 @@ impl SystemCensus {
         let end = |is_start: bool| {
             let members = system.members().iter().zip(&position.axial_n);
             let forces = members.map(|(member, axial_n)| {
-                let [a, b] = [member.from, member.to].map(|joint| position.joints_m[joint]);
-                let span = minus(b, a);
-                let size = norm(span);
-                let pull = span.map(|part| product(*axial_n, part / size));
+                let ends = if is_start { member.spans().next() } else { member.spans().last() };
+                let [a, b] = ends.unwrap_or([member.from, member.to]).map(|k| position.joints_m[k]);
+                let pull = times(*axial_n, over(minus(b, a), norm(minus(b, a))));
                 let share = frame.share(system, member, is_start);
                 let share_n = share.map(|part| part.scale(frame.force_n));
                 let pull = if is_start { times(-Interval::ONE, pull) } else { pull };
@@ -166,6 +164,9 @@ impl SystemCensus {
         let mut evidence =
             Evidence::enclosed("width of the enclosures of joints and forces", width);
         evidence.solve_s = self.seconds;
+        let members = system.members().iter().zip(&position.axial_n);
+        let slack =
+            members.filter(|(m, force)| m.kind != Kind::Bar && **force == Interval::ZERO).count();
         let ladder = &mut evidence.ladder;
         ladder.verified = Status::Reached(Verified {
             box_width: width,
@@ -176,7 +177,7 @@ impl SystemCensus {
                 width_n,
                 distance_n: 0.0,
                 turns: usize::from(position.circle),
-                slack: 0,
+                slack,
                 loose_joints: 0,
             }),
         });

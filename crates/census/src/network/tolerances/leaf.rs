@@ -21,6 +21,11 @@ const WIDER: f64 = 1.2;
 /// Where the smaller end of a derivative is less than this part of the larger one, its sign is guessed: then
 /// the equilibrium at that end and what the other may add are a better bound than the middle.
 const LEANS: f64 = 1.0 / 3.0;
+/// The range of a force of which more than this part may be too much is bounded again on faces, and of all outputs where
+/// these are no more than boxes that may be tried.
+const LOOSE: f64 = 0.05;
+/// Of an output's negative, and of the output.
+const SIGNS: [f64; 2] = [-1.0, 1.0];
 /// A guess of the equilibrium in the middle of a half may be so far from it.
 const REACH: f64 = 0.3;
 /// What numbers that do nothing at all may add by rounding, as a part of what the others do.
@@ -38,6 +43,7 @@ const LEAST: f64 = 1e-12;
 const ROUNDS: usize = 8;
 
 /// What is proved over one box.
+#[derive(Clone)]
 pub(super) struct Leaf {
     parts: Vec<Interval>,
     middle: Vec<f64>,
@@ -62,6 +68,12 @@ pub(super) struct Bound {
 }
 
 impl Bound {
+    /// The better of two over one box.
+    fn and(self, other: Self) -> Self {
+        let least = if other.most < self.most { other } else { self };
+        Self { reached: self.reached.max(other.reached), ..least }
+    }
+
     /// Over two boxes.
     pub(super) fn or(self, other: Self) -> Self {
         let largest = if other.most > self.most { other } else { self };
@@ -73,6 +85,8 @@ impl Bound {
 struct Corner {
     at: Vec<i8>,
     more: f64,
+    /// The numbers that may add something.
+    open: Vec<usize>,
     /// What all numbers do together, about.
     all: f64,
 }
@@ -80,7 +94,8 @@ struct Corner {
 impl Corner {
     /// For an output with these derivatives, or, with the sign -1, for its negative.
     fn new(slopes: &[Interval], parts: &[Interval], sign: f64) -> Self {
-        let mut found = Self { at: Vec::with_capacity(slopes.len()), more: 0.0, all: 0.0 };
+        let mut found =
+            Self { at: Vec::with_capacity(slopes.len()), more: 0.0, open: vec![], all: 0.0 };
         for (slope, part) in slopes.iter().zip(parts) {
             let [lo, hi] =
                 if sign < 0.0 { [-slope.hi(), -slope.lo()] } else { [slope.lo(), slope.hi()] };
@@ -99,6 +114,7 @@ impl Corner {
             found.at.push(at);
             found.all += slope.mag() * radius;
             if more > 0.0 {
+                found.open.push(found.at.len() - 1);
                 found.more = up(found.more + up(more * radius));
             }
         }
@@ -120,9 +136,12 @@ impl From<NoBox> for Failure {
 }
 
 impl Corner {
-    /// Whether nothing is added but rounding.
-    fn is_hull(&self) -> bool {
-        self.more <= ROUNDING * self.all + NOTHING
+    /// The bound of an output, or of its negative, that has this value here.
+    fn bound(&self, value: Interval, sign: f64) -> Bound {
+        let value = if sign < 0.0 { -value } else { value };
+        // Nothing is added but rounding.
+        let is_hull = self.more <= ROUNDING * self.all + NOTHING;
+        Bound { most: up(value.hi() + self.more), reached: value.lo(), is_hull }
     }
 }
 
@@ -150,7 +169,11 @@ impl Leaf {
             steps,
         };
         let changes = leaf.settle(cover, &fixed, &all).ok_or_else(|| leaf.halves())?;
-        leaf.derive(cover, &fixed, &all, &changes).ok_or(NoBox::NotContracting)?;
+        let numbers: Vec<usize> = (0..leaf.parts.len()).collect();
+        let region = leaf.region(&fixed);
+        let over = Over { system: cover.system, equations: &all, region: &region };
+        let slopes = leaf.derive(cover, &over, &numbers, &changes, cover.outputs);
+        leaf.slopes = slopes.ok_or(NoBox::NotContracting)?;
         Ok(leaf)
     }
 
@@ -160,9 +183,9 @@ impl Leaf {
         pairs.map(|(part, middle)| *part - Interval::point(*middle)).collect()
     }
 
-    fn region(&self, cover: &Cover<'_>, fixed: &Equations) -> Region {
+    fn region(&self, fixed: &Equations) -> Region {
         let (middle, steps, offs) = (&self.at, &self.steps, &self.offs());
-        Region::around(fixed, &Plane { ends: &cover.ends, middle, steps, offs }, &self.room)
+        Region::around(fixed, &Plane { middle, steps, offs }, &self.room)
     }
 
     /// Find room around the plane that is mapped into itself.
@@ -174,9 +197,10 @@ impl Leaf {
     ) -> Option<Vec<Change>> {
         let off = self.inverse.apply(&fixed.value(&self.at).ok()?);
         for _ in 0..ROUNDS {
-            let region = self.region(cover, fixed);
+            let region = self.region(fixed);
             self.defect = region.defect(all, &self.inverse);
-            let changes = cover.changes(all, &region, &self.steps);
+            let numbers: Vec<usize> = (0..self.parts.len()).collect();
+            let changes = cover.changes(all, &region, &self.steps, &numbers);
             let total = [Change::total(&changes, &self.offs())];
             let [moved] = &Change::through(&total, all, &self.inverse)[..] else { return None };
             let off: Vec<Interval> = off.iter().zip(moved).map(|(a, b)| *a + *b).collect();
@@ -189,31 +213,31 @@ impl Leaf {
         None
     }
 
-    /// Enclose all derivatives: what the step of a number leaves is solved for.
+    /// Enclose the derivatives of outputs by these numbers, whose changes are given: what the step of a number leaves is
+    /// solved for.
     fn derive(
-        &mut self,
+        &self,
         cover: &Cover<'_>,
-        fixed: &Equations,
-        all: &Equations,
+        over: &Over<'_>,
+        numbers: &[usize],
         changes: &[Change],
-    ) -> Option<()> {
-        let region = self.region(cover, fixed);
-        let over = Over { system: cover.system, equations: all, region: &region };
-        let left = Change::through(changes, all, &self.inverse);
-        let slopes =
-            cover.numbers.par_iter().zip(&self.steps).zip(left).map(|((number, step), left)| {
-                let rest = self.defect.enclose(&left)?;
-                let exact = step.unknowns.iter().zip(rest).map(|(step, rest)| *step - rest);
-                let effect = Effect::new(all, cover.system, number, &region);
-                let exact = Step::new(all, &effect, exact.collect());
-                let slope = |output: &Output| over.slope(*output, &effect, &exact);
-                let slopes: Vec<Interval> = cover.outputs.iter().map(slope).collect();
-                slopes.iter().all(|slope| slope.mag().is_finite()).then_some(slopes)
-            });
+        outputs: &[Output],
+    ) -> Option<Vec<Vec<Interval>>> {
+        let left = Change::through(changes, over.equations, &self.inverse);
+        let slopes = numbers.par_iter().zip(left).map(|(number, left)| {
+            let rest = self.defect.enclose(&left)?;
+            let steps = self.steps[*number].unknowns.iter().zip(rest);
+            let exact = steps.map(|(step, rest)| *step - rest).collect();
+            let effect =
+                Effect::new(over.equations, cover.system, &cover.numbers[*number], over.region);
+            let exact = Step::new(over.equations, &effect, exact);
+            let slope = |output: &Output| over.slope(*output, &effect, &exact);
+            let slopes: Vec<Interval> = outputs.iter().map(slope).collect();
+            slopes.iter().all(|slope| slope.mag().is_finite()).then_some(slopes)
+        });
         let slopes: Vec<Vec<Interval>> = slopes.collect::<Option<_>>()?;
-        let outputs = 0..cover.outputs.len();
-        self.slopes = outputs.map(|k| slopes.iter().map(|slopes| slopes[k]).collect()).collect();
-        Some(())
+        let all = 0..outputs.len();
+        Some(all.map(|k| slopes.iter().map(|slopes| slopes[k]).collect()).collect())
     }
 
     /// Halve it by the number that moves an unknown most over its range.
@@ -290,7 +314,7 @@ impl Leaf {
         numbers: &[f64],
     ) -> Result<Vec<Interval>, NoBox> {
         let (zero, equations) = (self.at(cover, numbers)?, cover.at(numbers));
-        let region = Region::new(&equations, &cover.ends, zero);
+        let region = Region::new(&equations, zero);
         let over = Over { system: cover.system, equations: &equations, region: &region };
         Ok(cover.outputs.iter().map(|output| over.value(*output)).collect())
     }
@@ -300,7 +324,7 @@ impl Leaf {
         let corners: Vec<[Corner; 2]> = self
             .slopes
             .iter()
-            .map(|slopes| [-1.0, 1.0].map(|sign| Corner::new(slopes, &self.parts, sign)))
+            .map(|slopes| SIGNS.map(|sign| Corner::new(slopes, &self.parts, sign)))
             .collect();
         let mut wanted: HashMap<&[i8], Vec<usize>> = HashMap::new();
         for (output, corners) in corners.iter().enumerate() {
@@ -309,22 +333,69 @@ impl Leaf {
             }
         }
         let values = wanted.into_par_iter().map(|(corner, outputs)| {
-            let numbers: Vec<f64> = corner.iter().zip(&self.parts).map(end).collect();
-            let all = self.outputs(cover, &numbers)?;
+            let all = self.outputs(cover, &self.ends(corner))?;
             let values = outputs.iter().map(|k| (*k, all[*k]));
             Ok((corner, values.collect::<HashMap<_, _>>()))
         });
         let values = values.collect::<Result<HashMap<_, _>, NoBox>>()?;
-        let bound = |output: usize, corner: &Corner, sign: f64| {
-            let value = values[corner.at.as_slice()][&output];
-            let value = if sign < 0.0 { -value } else { value };
-            let most = up(value.hi() + corner.more);
-            Bound { most, reached: value.lo(), is_hull: corner.is_hull() }
+        let all_outputs = cover.outputs.len() <= cover.most_boxes();
+        let both = |(k, corners): (usize, &[Corner; 2])| {
+            let [least, most] =
+                [0, 1].map(|end| corners[end].bound(values[&corners[end].at[..]][&k], SIGNS[end]));
+            let width = least.most + most.most;
+            let asked = all_outputs || matches!(cover.outputs[k], Output::Axial(_));
+            if !asked || width - least.reached - most.reached <= LOOSE * width {
+                return [least, most];
+            }
+            [(least, 0), (most, 1)].map(|(bound, end)| {
+                let enough = 0.5 * LOOSE * width;
+                let inner = self.on_face(cover, k, SIGNS[end], &corners[end], enough);
+                inner.map_or(bound, |inner| bound.and(inner))
+            })
         };
-        let both = |(k, [least, most]): (usize, &[Corner; 2])| {
-            [bound(k, least, -1.0), bound(k, most, 1.0)]
-        };
-        Ok(corners.iter().enumerate().map(both).collect())
+        Ok(corners.par_iter().enumerate().map(both).collect())
+    }
+
+    /// The numbers of a corner.
+    fn ends(&self, corner: &[i8]) -> Vec<f64> {
+        corner.iter().zip(&self.parts).map(end).collect()
+    }
+
+    /// A bound of an output over the face of the box on which it is largest: the numbers with which it changes
+    /// in one direction are at their ends, and of the others the derivatives are enclosed over the face alone.
+    fn on_face(
+        &self,
+        cover: &Cover<'_>,
+        output: usize,
+        sign: f64,
+        corner: &Corner,
+        enough: f64,
+    ) -> Option<Bound> {
+        let varies = self.parts.iter().filter(|part| part.width() > 0.0).count();
+        if corner.open.is_empty() || corner.open.len() == varies {
+            return None;
+        }
+        let mut parts: Vec<Interval> =
+            self.ends(&corner.at).into_iter().map(Interval::point).collect();
+        corner.open.iter().for_each(|k| parts[*k] = self.parts[*k]);
+        let mut face = Self { parts, ..self.clone() };
+        let equations = within(&cover.posed.equations, cover.system, cover.numbers, &face.parts);
+        let region = face.region(&cover.at(&self.middle));
+        face.defect = region.defect(&equations, &face.inverse);
+        let over = Over { system: cover.system, equations: &equations, region: &region };
+        let changes = cover.changes(&equations, &region, &self.steps, &corner.open);
+        let asked = &cover.outputs[output..=output];
+        let found = face.derive(cover, &over, &corner.open, &changes, asked)?;
+        let mut slopes = vec![Interval::ZERO; face.parts.len()];
+        corner.open.iter().zip(&found[0]).for_each(|(k, slope)| slopes[*k] = *slope);
+        let corner = Corner::new(&slopes, &face.parts, sign);
+        let value = face.outputs(cover, &face.ends(&corner.at)).ok()?[output];
+        let bound = corner.bound(value, sign);
+        if bound.most - bound.reached <= enough {
+            return Some(bound);
+        }
+        let inner = face.on_face(cover, output, sign, &corner, enough);
+        Some(inner.map_or(bound, |inner| bound.and(inner)))
     }
 
     /// The derivative of an output by a number.
@@ -359,7 +430,7 @@ impl Cover<'_> {
 
     /// How an equilibrium moves with each number, per tolerance, in double precision.
     fn steps(&self, fixed: &Equations, at: &[Interval], inverse: &Inverse) -> Vec<Step> {
-        let region = Region::new(fixed, &self.ends, at.to_vec());
+        let region = Region::new(fixed, at.to_vec());
         let entries = fixed.slope(at);
         let step = |uncertain| {
             let effect = Effect::new(fixed, self.system, uncertain, &region);
@@ -373,11 +444,17 @@ impl Cover<'_> {
     }
 
     /// What each number and its step do to the left-hand sides over a region.
-    fn changes(&self, all: &Equations, region: &Region, steps: &[Step]) -> Vec<Change> {
-        let change = |(uncertain, step)| {
-            let effect = Effect::new(all, self.system, uncertain, region);
-            region.change(all, &effect, step)
+    fn changes(
+        &self,
+        all: &Equations,
+        region: &Region,
+        steps: &[Step],
+        numbers: &[usize],
+    ) -> Vec<Change> {
+        let change = |number: &usize| {
+            let effect = Effect::new(all, self.system, &self.numbers[*number], region);
+            region.change(all, &effect, &steps[*number])
         };
-        self.numbers.par_iter().zip(steps).map(change).collect()
+        numbers.par_iter().map(change).collect()
     }
 }

@@ -10,8 +10,13 @@
 //! it: the number of directions in which the energy falls is the same for all $c$. The derivatives
 //! $x_{c_j} = -F_x^{-1} F_{c_j}$ are enclosed over $C$. Where that of a force $t$ by $c_j$ has one sign, the
 //! extremes of $t$ are at the ends of $C_j$: where all have, the least and the largest value are
-//! those of two equilibria, each enclosed on its own, and the range is the hull. For others the mean
-//! value theorem bounds what they add. What is reached in these equilibria is stated with it.
+//! those of two equilibria, each enclosed on its own, and the range is the hull. Where some have, the extreme is on
+//! the face of $C$ with these $c_j$ at their ends: derivatives are enclosed again there, where more may have one
+//! sign, and so on, where ranges may be too wide. For what is left the mean value theorem bounds what they add. What is reached in these equilibria is
+//! stated with it.
+//!
+//! Above a floor a joint that lies on it slides in its level; that the floor pushes it, and that the others stay above, is
+//! proved of the ranges.
 //!
 //! Where the test fails $C$ is halved; the equilibria of two halves are proved to be the same where they meet.
 //!
@@ -32,10 +37,12 @@ use model::{NoBox, Vector};
 use numerics::Interval;
 
 use super::activity::Activity;
-use super::arithmetic::{minus, norm, sum};
+use super::arithmetic::sum;
+use super::diagnosis::diagnosed;
+use super::floor::laid;
 use super::newton::refine;
 use super::prove::Posed;
-use super::proven::spring_n;
+use super::proven::{reach, spring_n};
 use leaf::{Bound, Leaf};
 use outputs::{Output, outputs};
 
@@ -54,11 +61,21 @@ pub struct Range {
     pub guaranteed: [f64; 2],
     /// Values within the tolerances that reach at least so far down and up.
     pub reached: [f64; 2],
-    /// Whether it is the hull of all values, but for rounding: it changes in one direction with each uncertain
-    /// number.
+    /// Whether it is the hull of all values, but for rounding: both ends are proved to be those of some values at the
+    /// ends of their tolerances.
     pub is_hull: bool,
     /// The uncertain number on which it depends most, and what that changes over its tolerance.
     pub most_by: Option<(usize, f64)>,
+}
+
+/// A joint below the line between two others, above or below the point of it that has the same place in plan; below
+/// one joint, where both ends are that.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Depth {
+    /// The joint, from 0.
+    pub joint: usize,
+    /// The ends of the line.
+    pub ends: [usize; 2],
 }
 
 /// What is proved for all values of the uncertain numbers.
@@ -73,6 +90,8 @@ pub struct ToleranceRanges {
     /// Force of the ground on each joint that a support holds, N; none next to an elastic member
     /// between two anchors.
     pub reactions_n: Vec<Option<[Range; 3]>>,
+    /// The depths that were asked for, m.
+    pub depths_m: Vec<Range>,
     /// How many boxes of the numbers were needed.
     pub boxes: usize,
 }
@@ -84,9 +103,20 @@ pub enum NoRanges {
     /// Occurs when no number has a tolerance.
     #[error("no number of the system has a tolerance")]
     NothingUncertain,
-    /// Occurs above a floor, on which joints may come to lie.
-    #[error("above a floor there is no proof over tolerances")]
-    Floor,
+    /// Occurs when joints may come to lie on the floor, or rise from it.
+    #[error("within the tolerances joints may come to lie on the floor or rise from it: {}", listed(.joints))]
+    Floor {
+        /// The joints, from 0.
+        joints: Vec<usize>,
+    },
+    /// Occurs when rigid members are more than the shape needs.
+    #[error(
+        "lengths of rigid members overdetermine the shape {dimension}-fold: with tolerances no shape fits them all, and only a stiffness says how they would share the misfit"
+    )]
+    Overdetermined {
+        /// How many lengths are more than needed.
+        dimension: usize,
+    },
     /// Occurs when a part that turns freely about a vertical would be turned.
     #[error("a part turns freely about a vertical, and tolerances of places or forces turn it")]
     Turns,
@@ -126,8 +156,8 @@ fn listed(members: &[usize]) -> String {
     members.iter().map(|k| (k + 1).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Bound places, forces and reactions of the equilibrium next to an answer, for all values of the numbers of
-/// the system within their tolerances.
+/// Bound places, forces, reactions and some depths of the equilibrium next to an answer, for all values of the
+/// numbers of the system within their tolerances.
 ///
 /// # Errors
 ///
@@ -142,7 +172,7 @@ fn listed(members: &[usize]) -> String {
 /// let bar = Bar::homogeneous(5.0, 0.0)?;
 /// let system = System::new("lamp", 10.0, joints, vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)])?;
 /// let answer = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
-/// let ranges = census::network::prove_ranges(&system, &answer, &[1.25, 1.25])?;
+/// let ranges = census::network::prove_ranges(&system, &answer, &[1.25, 1.25], &[])?;
 /// // The force leans by 0.02 along x too: (0.02/2) 5/3 N more in one bar and less in the other.
 /// let [least, most] = ranges.axial_n[0].guaranteed;
 /// assert!(1.22 < least && least < 1.98 * 0.625 - 0.02 * 5.0 / 6.0 + 1e-12);
@@ -153,23 +183,43 @@ pub fn prove_ranges(
     system: &System,
     joints_m: &[Vector],
     axial_n: &[f64],
+    depths: &[Depth],
+) -> Result<ToleranceRanges, NoRanges> {
+    let Some(floor_m) = system.floor_m() else {
+        return without_floor(system, joints_m, axial_n, depths);
+    };
+    let (laid, lies) = laid(system, floor_m, joints_m).map_err(NoRanges::in_one_box)?;
+    let found = without_floor(&laid, joints_m, axial_n, depths)?;
+    let stays = |joint: &usize| match found.reactions_n[*joint] {
+        Some([_, _, push]) if lies[*joint] => push.guaranteed[0] > 0.0,
+        _ => {
+            let fixed = system.joints()[*joint].support.is_fixed();
+            fixed || found.joints_m[*joint][2].guaranteed[0] >= floor_m
+        }
+    };
+    let joints: Vec<usize> = (0..lies.len()).filter(|joint| !stays(joint)).collect();
+    if joints.is_empty() { Ok(found) } else { Err(NoRanges::Floor { joints }) }
+}
+
+/// The same for the joints and members alone.
+fn without_floor(
+    system: &System,
+    joints_m: &[Vector],
+    axial_n: &[f64],
+    depths: &[Depth],
 ) -> Result<ToleranceRanges, NoRanges> {
     let numbers = system.uncertain();
     if numbers.is_empty() {
         return Err(NoRanges::NothingUncertain);
     }
-    if system.floor_m().is_some() {
-        return Err(NoRanges::Floor);
-    }
-    let fails = |reason| NoRanges::NoBox { reason, boxes: 1, part: None };
-    let posed = Posed::new(system, joints_m, axial_n).map_err(fails)?;
+    let posed = Posed::new(system, joints_m, axial_n).map_err(NoRanges::in_one_box)?;
     refuse(&posed, &numbers)?;
-    let outputs = outputs(system, &posed.equations, &posed.activities);
+    let outputs = outputs(system, &posed.equations, &posed.activities, depths);
     let start = posed.equations.start(joints_m, axial_n);
-    let start = refine(&posed.equations, &start).map_err(fails)?.at;
-    let ends = system.members().iter().map(|member| [member.from, member.to]).collect();
+    let start = refine(&posed.equations, &start)
+        .map_err(|reason| NoRanges::in_one_box(diagnosed(&posed.equations, &start, reason)))?
+        .at;
     let cover = Cover {
-        ends,
         system,
         posed: &posed,
         numbers: &numbers,
@@ -179,6 +229,16 @@ pub fn prove_ranges(
     let whole = vec![Interval::new(-1.0, 1.0); numbers.len()];
     let leaves = cover.leaves(&whole, &start).map_err(|reason| cover.open(reason, &start))?;
     cover.gather(&leaves)
+}
+
+impl NoRanges {
+    /// Before any box was halved.
+    fn in_one_box(reason: NoBox) -> Self {
+        match reason {
+            NoBox::SelfStresses { dimension } => Self::Overdetermined { dimension },
+            reason => Self::NoBox { reason, boxes: 1, part: None },
+        }
+    }
 }
 
 /// Refuse what breaks the symmetry of parts that turn, or moves what nothing holds.
@@ -202,8 +262,6 @@ fn refuse(posed: &Posed, numbers: &[Uncertain]) -> Result<(), NoRanges> {
 struct Cover<'a> {
     system: &'a System,
     posed: &'a Posed,
-    /// The joints of each member.
-    ends: Vec<[usize; 2]>,
     numbers: &'a [Uncertain],
     outputs: &'a [Output],
     tried: AtomicUsize,
@@ -255,6 +313,10 @@ impl Cover<'_> {
 
     /// Why there is no proof, and for which part of the tolerances there is one.
     fn open(&self, reason: NoBox, start: &[f64]) -> NoRanges {
+        let reason = diagnosed(&self.posed.equations, start, reason);
+        if matches!(reason, NoBox::SelfStresses { .. }) {
+            return NoRanges::in_one_box(reason);
+        }
         let is_proved = |part: &f64| {
             let parts = vec![Interval::new(-part, *part); self.numbers.len()];
             Leaf::new(self, parts, start).is_ok()
@@ -329,7 +391,7 @@ impl Cover<'_> {
         let mut joints_m: Vec<[Range; 3]> =
             places.iter().map(|place| place.map(Range::of)).collect();
         let mut axial_n: Vec<Range> = self.idle(&places).into_iter().map(Range::of).collect();
-        let mut reactions_n = vec![None; joints_m.len()];
+        let (mut reactions_n, mut depths_m) = (vec![None; joints_m.len()], vec![]);
         for (output, range) in self.outputs.iter().zip(ranges) {
             match *output {
                 Output::Place(joint, axis) => {
@@ -343,15 +405,17 @@ impl Cover<'_> {
                     let all = reactions_n[joint].get_or_insert([Range::of(Interval::ZERO); 3]);
                     all[axis] = range.scaled(frame.force_n, 0.0);
                 }
+                Output::Depth(_) => depths_m.push(range.scaled(frame.length_m, 0.0)),
                 Output::Spare(_) => {}
             }
         }
         for (k, member) in self.system.members().iter().enumerate() {
             if self.posed.activities[k] == Activity::Idle && member.stiffness_n.is_some() {
-                (reactions_n[member.from], reactions_n[member.to]) = (None, None);
+                member.path().for_each(|joint| reactions_n[joint] = None);
             }
         }
-        ToleranceRanges { numbers: self.numbers.to_vec(), joints_m, axial_n, reactions_n, boxes }
+        let numbers = self.numbers.to_vec();
+        ToleranceRanges { numbers, joints_m, axial_n, reactions_n, depths_m, boxes }
     }
 
     /// Forces of elastic members between two anchors by their law alone, N, and 0 of all others. Each number is
@@ -362,7 +426,7 @@ impl Cover<'_> {
             let stiffness_n = member.stiffness_n?;
             let length_m = self.number(UncertainNumber::Length(k), member.body.length_m());
             let stiffness_n = self.number(UncertainNumber::Stiffness(k), stiffness_n);
-            let distance_m = norm(minus(places[member.to], places[member.from]));
+            let distance_m = reach(member, places);
             let idle = self.posed.activities[k] == Activity::Idle;
             idle.then(|| spring_n(member.kind, stiffness_n, distance_m, length_m))
         };

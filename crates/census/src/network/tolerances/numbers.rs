@@ -112,21 +112,20 @@ impl Effect {
     }
 
     /// What it does to the law of a member: $\partial/\partial l$ of (2) is $-l$, of (3) with $c = l/EA$
-    /// it is $-1 - c w |d|/l$, and a stiffness that is larger by a part takes that part off $c$.
+    /// it is $-1 - c N/l$, and a stiffness that is larger by a part takes that part off $c$.
     fn law(&self, acting: &Acting, region: &Region) -> Option<(usize, Interval)> {
         let own = |of: Option<(usize, Interval)>| of.filter(|(k, _)| *k == acting.member);
-        let give = acting.give(region.spans[acting.member]);
-        let through = product(give, region.unknowns[acting.density]);
+        let through = product(acting.compliance, region.unknowns[acting.force]);
         let longer = own(self.lengthened).map(|(_, by)| {
-            let change = if acting.is_rigid() {
+            let change = if acting.is_squared() {
                 acting.length
             } else {
-                Interval::ONE - through / acting.length
+                sum(Interval::ONE, product(through, Interval::ONE / acting.length))
             };
             -product(change, by)
         });
-        let stiffer = own(self.stiffened).map(|(_, part)| -product(through, part));
-        Some((acting.density, longer.or(stiffer)?))
+        let stiffer = own(self.stiffened).map(|(_, part)| product(through, part));
+        Some((acting.force, longer.or(stiffer)?))
     }
 
     /// The change of all left-hand sides, but for what moved supports do.

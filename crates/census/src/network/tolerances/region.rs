@@ -4,16 +4,18 @@
 //! of a member pulls its ends opposite ways, while the rows of an inverse hardly differ from joint to
 //! joint: what varies is therefore kept apart for each member.
 
+use std::ops::Range;
+
 use numerics::{Interval, up};
 
 use super::super::arithmetic::{
-    NOWHERE, Vector, difference, dot, minus, plus, product, sum, times,
+    NOWHERE, Vector, difference, dot, minus, norm, plus, product, sum, times,
 };
 use super::super::equations::{Acting, Equations};
 use super::super::inverse::{Defect, Inverse};
 use super::numbers::Effect;
 
-/// Ranges of unknowns, and of the spans of all members.
+/// Ranges of unknowns, and of all spans of all members.
 #[derive(Debug, Clone)]
 pub(super) struct Region {
     pub(super) unknowns: Vec<Interval>,
@@ -44,7 +46,6 @@ impl Step {
 
 /// All points $\tilde x + S \delta + r$ with each number in its part and $|r|$ within the room.
 pub(super) struct Plane<'a> {
-    pub(super) ends: &'a [[usize; 2]],
     pub(super) middle: &'a [Interval],
     pub(super) steps: &'a [Step],
     /// The numbers less those of the middle.
@@ -53,15 +54,15 @@ pub(super) struct Plane<'a> {
 
 impl Region {
     /// Of points that are independent of each other.
-    pub(super) fn new(equations: &Equations, ends: &[[usize; 2]], unknowns: Vec<Interval>) -> Self {
+    pub(super) fn new(equations: &Equations, unknowns: Vec<Interval>) -> Self {
         let places = equations.places(&unknowns);
-        let spans = ends.iter().map(|[a, b]| minus(places[*b], places[*a])).collect();
+        let spans = equations.ends.iter().map(|[a, b]| minus(places[*b], places[*a])).collect();
         Self { unknowns, places, spans }
     }
 
     /// Around a plane, whose middle has these equations.
     pub(super) fn around(fixed: &Equations, plane: &Plane<'_>, room: &[f64]) -> Self {
-        let mut found = Self::new(fixed, plane.ends, plane.middle.to_vec());
+        let mut found = Self::new(fixed, plane.middle.to_vec());
         let room = room.iter().map(|by| Interval::around(0.0, *by)).collect();
         let rest = Step::new(fixed, &Effect::default(), room);
         let all = plane.steps.iter().zip(plane.offs.iter().copied());
@@ -72,15 +73,28 @@ impl Region {
             };
             found.unknowns.iter_mut().zip(&step.unknowns).for_each(|(to, by)| add(to, by));
             found.places.iter_mut().zip(&step.moves).for_each(|(to, by)| add_all(to, *by));
-            let spans = found.spans.iter_mut().zip(plane.ends);
+            let spans = found.spans.iter_mut().zip(&fixed.ends);
             spans.for_each(|(to, ends)| add_all(to, step.stretch(*ends)));
         }
         found
     }
 
-    /// Span and force density of a member that acts.
-    fn of(&self, acting: &Acting) -> (Vector, Interval) {
-        (self.spans[acting.member], self.unknowns[acting.density])
+    /// The length of all spans of a member together.
+    pub(super) fn reach(&self, spans: Range<usize>) -> Interval {
+        self.spans[spans].iter().map(|span| norm(*span)).fold(Interval::ZERO, sum)
+    }
+
+    /// How the pull of a member changes in one of its spans.
+    pub(super) fn pull(
+        &self,
+        acting: &Acting,
+        span: usize,
+        step: &Step,
+        stretch: Vector,
+    ) -> Vector {
+        let direction = acting.direction(self.spans[span]);
+        let along = times(step.unknowns[acting.force], direction.along);
+        plus(along, direction.turned(self.unknowns[acting.force], stretch))
     }
 
     /// Bounds of $|I - Y F_x|$.
@@ -90,17 +104,17 @@ impl Region {
         inverse.defect_by(|row, rest| {
             let mut take =
                 |column: usize, by: Interval| rest[column] = difference(rest[column], by);
-            for (acting, pull) in equations.acting.iter().zip(pulls(equations, row)) {
-                let (span, density) = self.of(acting);
-                let law = row[acting.density];
-                let give = acting.give(span).times(law);
-                take(acting.density, sum(dot(pull, span), give));
-                let along = acting.gradient(span, density).map(|part| part.times(law));
-                let by_span = plus(times(density, pull), along);
-                for (joint, by) in acting.ends.into_iter().zip([by_span.map(|x| -x), by_span]) {
-                    let joint = &equations.joints[joint];
-                    for (k, axis) in joint.axes.iter().enumerate() {
-                        take(joint.first + k, dot(*axis, by));
+            for acting in &equations.acting {
+                let (force, law) = (self.unknowns[acting.force], row[acting.force]);
+                take(acting.force, -acting.compliance.times(law));
+                for k in acting.spans.clone() {
+                    let (ends, direction) = (equations.ends[k], acting.direction(self.spans[k]));
+                    let pull = pull(equations, row, ends);
+                    take(acting.force, dot(pull, direction.along));
+                    let along = direction.along.map(|part| part.times(law));
+                    let by_span = plus(along, direction.turned(force, pull));
+                    for (joint, k, axis, sign) in equations.axes(ends) {
+                        take(joint.first + k, product(sign, dot(axis, by_span)));
                     }
                 }
             }
@@ -113,7 +127,7 @@ impl Region {
     /// What a step and a number do together to the left-hand sides.
     pub(super) fn change(&self, equations: &Equations, effect: &Effect, step: &Step) -> Change {
         let mut rows = effect.column(equations);
-        let mut rest = Vec::with_capacity(equations.acting.len());
+        let mut rest = Vec::with_capacity(3 * self.spans.len() + equations.acting.len());
         let add = |joint: usize, force: Vector, rows: &mut Vec<Interval>| {
             let joint = &equations.joints[joint];
             for (k, axis) in joint.axes.iter().enumerate() {
@@ -121,16 +135,19 @@ impl Region {
             }
         };
         for acting in &equations.acting {
-            let (span, density) = self.of(acting);
-            let (by, stretch) = (step.unknowns[acting.density], step.stretch(acting.ends));
-            let pull = plus(times(by, span), times(density, stretch));
-            let law = dot(acting.gradient(span, density), stretch);
-            let law = sum(sum(law, product(acting.give(span), by)), rows[acting.density]);
-            let middle = pull.map(|part| Interval::point(part.mid()));
-            add(acting.ends[0], middle, &mut rows);
-            add(acting.ends[1], middle.map(|part| -part), &mut rows);
-            rows[acting.density] = Interval::point(law.mid());
-            rest.push([pull[0].rad(), pull[1].rad(), pull[2].rad(), law.rad()]);
+            let give = -product(acting.compliance, step.unknowns[acting.force]);
+            let mut law = sum(give, rows[acting.force]);
+            for k in acting.spans.clone() {
+                let ([a, b], stretch) = (equations.ends[k], step.stretch(equations.ends[k]));
+                law = sum(law, dot(acting.direction(self.spans[k]).along, stretch));
+                let pull = self.pull(acting, k, step, stretch);
+                let middle = pull.map(|part| Interval::point(part.mid()));
+                add(a, middle, &mut rows);
+                add(b, middle.map(|part| -part), &mut rows);
+                rest.extend(pull.map(Interval::rad));
+            }
+            rows[acting.force] = Interval::point(law.mid());
+            rest.push(law.rad());
         }
         for hold in &equations.holds {
             let force = times(step.unknowns[hold.number], hold.across);
@@ -142,24 +159,24 @@ impl Region {
     }
 }
 
-/// Changes of the left-hand sides: for each row, and what may be more or less in the pull and the law of each
+/// Changes of the left-hand sides: for each row, and what may be more or less in the pulls and the law of each
 /// member that acts.
 pub(super) struct Change {
     pub(super) rows: Vec<Interval>,
-    rest: Vec<[f64; 4]>,
+    rest: Vec<f64>,
 }
 
 impl Change {
     /// The size of each row and of the rest, of all changes times their numbers.
     pub(super) fn total(all: &[Self], offs: &[Interval]) -> Self {
         let size = all.first().map_or(0, |change| change.rows.len());
-        let members = all.first().map_or(0, |change| change.rest.len());
-        let (mut rows, mut rest) = (vec![Interval::ZERO; size], vec![[0.0; 4]; members]);
+        let rests = all.first().map_or(0, |change| change.rest.len());
+        let (mut rows, mut rest) = (vec![Interval::ZERO; size], vec![0.0; rests]);
         for (change, off) in all.iter().zip(offs) {
             for (to, by) in rows.iter_mut().zip(&change.rows) {
                 *to = sum(*to, Interval::around(0.0, product(*by, *off).mag()));
             }
-            for (to, by) in rest.iter_mut().flatten().zip(change.rest.iter().flatten()) {
+            for (to, by) in rest.iter_mut().zip(&change.rest) {
                 *to = up(*to + up(by * off.mag()));
             }
         }
@@ -173,28 +190,28 @@ impl Change {
         inverse: &Inverse,
     ) -> Vec<Vec<Interval>> {
         let by_row = inverse.of_rows(|row| {
-            let sizes: Vec<[f64; 4]> = equations
-                .acting
-                .iter()
-                .zip(pulls(equations, row))
-                .map(|(acting, [x, y, z])| [x.mag(), y.mag(), z.mag(), row[acting.density].abs()])
-                .collect();
+            let sizes = equations.acting.iter().flat_map(|acting| {
+                let ends = equations.ends[acting.spans.clone()].iter();
+                let pulls = ends.flat_map(|ends| pull(equations, row, *ends));
+                pulls.map(Interval::mag).chain([row[acting.force].abs()])
+            });
+            let sizes: Vec<f64> = sizes.collect();
             all.iter().map(|change| change.times(row, &sizes)).collect::<Vec<_>>()
         });
         let number = |k: usize| by_row.iter().map(|all| all[k]).collect();
         (0..all.len()).map(number).collect()
     }
 
-    fn times(&self, row: &[f64], sizes: &[[f64; 4]]) -> Interval {
+    fn times(&self, row: &[f64], sizes: &[f64]) -> Interval {
         let pairs = row.iter().zip(&self.rows).filter(|(_, part)| **part != Interval::ZERO);
         let exact: Interval = pairs.map(|(x, part)| part.times(*x)).sum();
-        let rest = sizes.iter().flatten().zip(self.rest.iter().flatten());
+        let rest = sizes.iter().zip(&self.rest);
         exact + Interval::around(0.0, rest.fold(0.0, |all, (size, by)| up(all + up(size * by))))
     }
 }
 
-/// A row of an inverse over the balances, for a unit of the pull of each member that acts.
-fn pulls(equations: &Equations, row: &[f64]) -> Vec<Vector> {
+/// A row of an inverse over the balances, for a unit of the pull of a span.
+fn pull(equations: &Equations, row: &[f64], [a, b]: [usize; 2]) -> Vector {
     let at = |joint: usize| {
         let joint = &equations.joints[joint];
         let axes = joint.axes.iter().enumerate();
@@ -202,5 +219,5 @@ fn pulls(equations: &Equations, row: &[f64]) -> Vec<Vector> {
             plus(all, times(Interval::point(row[joint.first + k]), *axis))
         })
     };
-    equations.acting.iter().map(|acting| minus(at(acting.ends[0]), at(acting.ends[1]))).collect()
+    minus(at(a), at(b))
 }

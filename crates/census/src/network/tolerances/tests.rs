@@ -64,12 +64,12 @@ fn slopes_are_difference_quotients() {
     ];
     assert!(kinds.iter().all(|kind| numbers.iter().any(|number| number.number == *kind)));
     let posed = Posed::new(&system, &places, &axial).unwrap();
-    let outputs = outputs(&system, &posed.equations, &posed.activities);
+    let depths = [[0, 2], [1, 4], [0, 0]].map(|ends| Depth { joint: 3, ends });
+    let outputs = outputs(&system, &posed.equations, &posed.activities, &depths);
     assert!(outputs.contains(&Output::Spare(5)));
-    let ends = system.members().iter().map(|member| [member.from, member.to]).collect();
     let tried = AtomicUsize::new(0);
     let (outputs, numbers) = (&outputs[..], &numbers[..]);
-    let cover = Cover { system: &system, posed: &posed, ends, numbers, outputs, tried };
+    let cover = Cover { system: &system, posed: &posed, numbers, outputs, tried };
     // From the guess to the equilibrium: a few plain steps.
     let start = relaxed(&posed, posed.equations.start(&places, &axial));
     let small = 1e-2;

@@ -23,6 +23,12 @@ pub fn run(
     let draws = arguments.monte_carlo.map_or(0, |count| count as usize);
     let found = solve.tolerances_drawn(problem, draws, arguments.seed);
     let found = found.or_else(|error| super::unsolved(arguments, error))?;
+    if let Some(path) = &arguments.csv {
+        output::write_stream(path, |file| found.write_csv(file))?;
+    }
+    if let Some(path) = &arguments.bars_csv {
+        output::write_stream(path, |file| found.write_bars_csv(file))?;
+    }
     drop(progress);
     if arguments.printed.is_json() {
         output::print_json(&found)?;

@@ -300,6 +300,23 @@ fn slack_bars_that_fit_into_a_line() {
     output.done();
 }
 
+/// A ring of 4 kg on a rope of 10 m between anchors 6 m apart, 3-4-5: 25 N by g = 10, and no other.
+#[test]
+fn census_of_a_ring() {
+    let ring = "gravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, ring = { mass_kg = 4 } }\n\
+                bars = [{ from = 'A', to = 'B', via = ['ring'], length_m = 10, mass_kg = 0, kind = 'cable' }]";
+    let mut output = census("census of a system", "census_of_a_ring", ring);
+    output.is("equilibria[].bars[].via[]", "ring");
+    output.is("equilibria[].bars[].axial_n", 25.0);
+    output
+        .is("equilibria[].joints[].at_m[]", json!([-3.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, -4.0]));
+    output.is("equilibria[].bars[].force_at_start_n[]", json!([-15.0, 0.0, 20.0]));
+    output.is("equilibria[].bars[].force_at_end_n[]", json!([15.0, 0.0, 20.0]));
+    output.is("census.complete", true);
+    output.is("census.count", 1);
+    output.done();
+}
+
 /// It hangs below its anchors or stands above them.
 #[test]
 fn census_of_the_lamp() {

@@ -103,7 +103,10 @@ fn reasons_without_a_census() {
             (reason(NoCensus::Flat { joint: 13 }), &["the 13th joint may lie flat"]),
             (reason(NoCensus::Floor), &["no census knows a floor"]),
             (reason(NoCensus::TooManyPositions { limit: 14 }), &["more than 14 equilibria"]),
-            (reason(NoCensus::Rope { member: 15 }), &["member 15 is a rope over rings or pulleys"]),
+            (
+                reason(NoCensus::Rope { member: 15 }),
+                &["member 15 is a rope, and other members may"],
+            ),
         ],
     );
     let because = [
@@ -168,7 +171,7 @@ fn reasons_without_a_box() {
                 &["is 1.2e-1 m and 3.8e-1 N away"],
             ),
             (reason(NoBox::NotFinite), &["incomplete or not finite"]),
-            (reason(NoBox::Rope { member: 12 }), &["member 12 is a rope over rings or pulleys"]),
+            (reason(NoBox::Rope { member: 12 }), &["the rope that is member 12 has no length"]),
         ],
     );
     let because = [

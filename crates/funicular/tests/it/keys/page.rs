@@ -7,10 +7,12 @@ use super::table;
 const PAGE: &str = include_str!("../../../guide/14-keys.md");
 
 /// The sections of the page, with the outputs that each describes.
-const SECTIONS: [(&str, &[&str]); 4] = [
+const SECTIONS: [(&str, &[&str]); 6] = [
     ("solve --json", &["solve"]),
     ("solve --csv", &["solve --csv"]),
     ("solve --bars-csv", &["solve --bars-csv"]),
+    ("solve --tolerances --csv", &["solve --tolerances --csv"]),
+    ("solve --tolerances --bars-csv", &["solve --tolerances --bars-csv"]),
     ("study --json", &["study of a chain", "study of a system"]),
 ];
 

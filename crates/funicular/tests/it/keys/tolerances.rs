@@ -1,5 +1,7 @@
 //! `solve --tolerances`: ranges, and why there are none.
 
+use std::path::Path;
+
 use serde_json::{Value, json};
 
 use super::output::{Output, good, run};
@@ -56,11 +58,21 @@ fn tolerances_of_a_plumb_bob() {
     output.is("tolerances.joints[].reaction_n[].most_by", json!([none, none, mass]));
     output.is("tolerances.joints[].reaction_n[].most_change", json!([none, none, 5.0]));
     // Nothing holds P but its bar.
-    output.is("tolerances.joints[].reaction_n", none);
+    output.is("tolerances.joints[].reaction_n", none.clone());
     output.is("tolerances.bars[].axial_n.most_by", mass);
     output.is("tolerances.bars[].axial_n.most_change", 5.0);
     output.is("tolerances.bars[].bar", 1);
     output.is("tolerances.bars[].utilisation[]", json!([0.3, 0.5]));
+    // P hangs as far below its anchor wherever that is.
+    for (end, name) in ["joint", "from", "to"].into_iter().zip(["P", "A", "A"]) {
+        output.is(&format!("tolerances.sag.{end}"), name);
+    }
+    for end in ["least", "most", "least_reached", "most_reached"] {
+        output.near(&format!("tolerances.sag.depth_m.{end}"), rounding, 3.0);
+    }
+    output.is("tolerances.sag.depth_m.is_hull", true);
+    output.is("tolerances.sag.depth_m.most_by", none.clone());
+    output.is("tolerances.sag.depth_m.most_change", none.clone());
     output.is("tolerances.draws.count", 400);
     output.is("tolerances.draws.solved", 400);
     output.is("tolerances.draws.outside", 0);
@@ -76,6 +88,41 @@ fn tolerances_of_a_plumb_bob() {
     );
     output.near("tolerances.joints[].drawn_m[].deviation", 0.006, json!(vec![0.1 * third; 6]));
     output.done();
+    columns_of_a_plumb_bob(folder.path());
+}
+
+fn columns_of_a_plumb_bob(folder: &Path) {
+    let files = ["--csv", "joints.csv", "--bars-csv", "bars.csv"];
+    good(folder, &[&["solve", "bob.toml", "--tolerances"][..], &files].concat());
+    let columns = |kind: &'static str, file: &str| {
+        let text = std::fs::read_to_string(folder.join(file)).unwrap();
+        Output::csv(kind, "tolerances_of_a_plumb_bob", &text)
+    };
+    let rounding = 1e-10;
+    let mut joints = columns("solve --tolerances --csv", "joints.csv");
+    joints.is("joint", json!(["A", "P"]));
+    for (axis, at, pull) in [("x", 0.0, [0.0; 2]), ("y", 0.0, [0.0; 2]), ("z", -3.0, [15.0, 25.0])]
+    {
+        let ends = ["least", "most"].into_iter().zip([-0.1, 0.1]).zip(pull);
+        for ((end, off), pull) in ends {
+            joints.near(&format!("{axis}_{end}_m"), rounding, json!([off, at + off]));
+            joints.near(&format!("reaction_{axis}_{end}_n"), rounding, json!([pull, ""]));
+        }
+    }
+    joints.done();
+    let mut bars = columns("solve --tolerances --bars-csv", "bars.csv");
+    bars.is("bar", 1);
+    bars.is("from", "A");
+    bars.is("to", "P");
+    for (end, wanted) in [("least", 15.0), ("most", 25.0)] {
+        bars.near(&format!("{end}_n"), rounding, wanted);
+        bars.near(&format!("{end}_reached_n"), rounding, wanted);
+        bars.near(&format!("{end}_utilisation"), rounding, wanted / 50.0);
+    }
+    bars.is("is_hull", true);
+    bars.is("most_by", "joints.P.mass_kg");
+    bars.is("most_change_n", 5.0);
+    bars.done();
 }
 
 /// A rope that may go slack within its tolerance, and one that may not reach: why nothing is proved.

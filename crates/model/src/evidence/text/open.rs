@@ -164,7 +164,7 @@ impl Display for NoCensus {
                 write!(f, "no census: the {} joint slides", ordinal(*joint))
             }
             Self::Rope { member } => {
-                write!(f, "no census: member {member} is a rope over rings or pulleys")
+                write!(f, "no census: member {member} is a rope, and other members may push or no equilibrium is verified")
             }
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")
@@ -230,7 +230,10 @@ impl Display for NoBox {
                 counted(*dimension, "independent motion")
             ),
             Self::Rope { member } => {
-                write!(f, "member {member} is a rope over rings or pulleys")
+                write!(
+                    f,
+                    "a span of the rope that is member {member} has no length, and no direction"
+                )
             }
             Self::Degenerate { member } => {
                 write!(

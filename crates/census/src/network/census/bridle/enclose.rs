@@ -98,8 +98,7 @@ pub(super) fn enclosed(core: &Core, bridle: &Bridle, found: &Found) -> Option<En
     let mut choice = Choice::default();
     choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
     for acting in &equations.acting {
-        let [a, b] = acting.ends.map(|joint| places[joint]);
-        let force = product(zero.tight[acting.density], norm(minus(b, a)));
+        let force = acting.axial(zero.tight[acting.force]);
         axial[acting.member] = force;
         choice.axial.push((acting.member, force));
     }

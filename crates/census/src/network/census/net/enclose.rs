@@ -12,7 +12,7 @@ use super::jet::values;
 use super::layout::Layout;
 use super::swing::{Swung, place};
 use crate::network::activity::Activity;
-use crate::network::arithmetic::{dot, minus, norm, product, sum};
+use crate::network::arithmetic::{dot, minus, sum};
 use crate::network::census::choice::Choice;
 use crate::network::equations::Equations;
 use crate::network::krawczyk::prove_zero;
@@ -53,7 +53,7 @@ pub(super) fn enclosed<const N: usize>(
             dot([-span[1], span[0], Interval::ZERO], arm).sign()
         } else {
             let of = |member: usize| equations.acting.iter().find(|acting| acting.member == member);
-            let densities = swing.members.map(|member| of(member).map(|a| zero.tight[a.density]));
+            let densities = swing.members.map(|member| of(member).map(|a| zero.tight[a.force]));
             densities.into_iter().flatten().fold(Interval::ZERO, sum).sign()
         };
         if f64::from(sign?) * cell::sign(found.pattern, s) < 0.5 {
@@ -63,9 +63,7 @@ pub(super) fn enclosed<const N: usize>(
     let mut choice = Choice::default();
     choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
     for acting in &equations.acting {
-        let [a, b] = acting.ends.map(|joint| places[joint]);
-        let axial = product(zero.tight[acting.density], norm(minus(b, a)));
-        choice.axial.push((acting.member, axial));
+        choice.axial.push((acting.member, acting.axial(zero.tight[acting.force])));
     }
     choice.index = [index(&equations, &zero.tight)?, 0];
     Some(Enclosed { choice, knots })

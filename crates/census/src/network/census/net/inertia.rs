@@ -28,7 +28,7 @@ pub(in crate::network::census) fn index(
     tight: &[Interval],
 ) -> Option<usize> {
     let size = equations.size;
-    let lengths: Vec<usize> = equations.acting.iter().map(|acting| acting.density).collect();
+    let lengths: Vec<usize> = equations.acting.iter().map(|acting| acting.force).collect();
     let mut matrix = Dense::filled(size, size, Interval::ZERO);
     for (row, column, value) in equations.slope(tight) {
         // Balance is minus the gradient of the Lagrangian.

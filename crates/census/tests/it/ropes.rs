@@ -1,0 +1,128 @@
+//! Ropes over rings and pulleys: one box, one equilibrium.
+
+use census::network::{SystemCensus, prove};
+use model::system::{Joint, Kind, Member, System};
+use model::{Bar, NoBox, Vector};
+
+/// Enclosures are so wide at most, in units of lengths and forces.
+const ROUNDING: f64 = 1e-13;
+
+fn places(system: &System, known: &[(usize, Vector)]) -> Vec<Vector> {
+    let held = |joint: &Joint| joint.support.at_m().unwrap_or_default();
+    let mut places: Vec<Vector> = system.joints().iter().map(held).collect();
+    for (joint, at_m) in known {
+        places[*joint] = *at_m;
+    }
+    places
+}
+
+#[test]
+fn known_ropes_are_enclosed_and_the_only_ones() {
+    for sample in samples::ropes() {
+        let (system, axial_n) = (&sample.system, &sample.axial_n);
+        let (name, at_m) = (system.name(), places(system, &sample.at_m));
+        let found = prove(system, &at_m, axial_n);
+        let census = SystemCensus::of_cables(system, &at_m, axial_n);
+        let found = found.unwrap_or_else(|because| panic!("{name}: {because}"));
+        let off = found.beyond_m(&at_m) / system.total_length_m();
+        let largest = axial_n.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let off_n = found.beyond_n(axial_n) / largest;
+        assert!(off < ROUNDING && off_n < ROUNDING, "{name}: {off} {off_n}");
+        let width = found.width_m / system.total_length_m();
+        assert!(width < ROUNDING && found.width_n / largest < ROUNDING, "{name}: {found:?}");
+        let census = census.unwrap();
+        let [only] = &census.equilibria[..] else { panic!("{name}") };
+        assert!(census.complete && only.index_in_space == 0);
+        // Weights on heights, and half of what stretches.
+        let heights = system.joints().iter().zip(&at_m);
+        let heights = heights.map(|(joint, at)| joint.mass_kg * (at[2] - system.reference_m()[2]));
+        let stretched = system.members().iter().zip(axial_n).map(|(member, force)| {
+            let soft = member.stiffness_n.map_or(0.0, f64::recip);
+            0.5 * force * force * member.body.length_m() * soft
+        });
+        let energy = system.gravity_m_s2() * heights.sum::<f64>() + stretched.sum::<f64>();
+        let size = largest * system.total_length_m();
+        assert!((only.energy_j.mid() - energy).abs() < ROUNDING * size, "{name}: {energy}");
+        // The ground bears all weights.
+        let up: f64 = only.reactions_n.iter().map(|force| force[2].mid()).sum();
+        let weight = system.total_mass_kg() * system.gravity_m_s2();
+        assert!((up - weight).abs() < 1e-12 * weight.max(largest), "{name}: {up} {weight}");
+    }
+}
+
+/// Two rings on one rope in space, built backwards: its spans run along (3, 0, -4)/5, (4, 3, 0)/5 and (0, -3, 4)/5 under
+/// 10 N, so that each ring bears the difference of two directions.
+fn two_rings() -> (System, Vec<Vector>) {
+    let at_m = [[0.0; 3], [3.0, 0.0, -4.0], [7.0, 3.0, -4.0], [7.0, -3.0, 4.0]];
+    let joints = vec![
+        Joint::anchor("A", at_m[0]),
+        Joint::free("P").with_force([-2.0, -6.0, -8.0]),
+        Joint::free("Q").with_force([8.0, 12.0, -8.0]),
+        Joint::anchor("B", at_m[3]),
+    ];
+    let rope = Member::cable(0, 3, Bar::homogeneous(20.0, 0.0).unwrap()).over(vec![1, 2]);
+    (System::new("two rings", 10.0, joints, vec![rope]).unwrap(), at_m.to_vec())
+}
+
+#[test]
+fn rings_that_are_drawn_apart_have_one_equilibrium() {
+    let (system, at_m) = two_rings();
+    let census = SystemCensus::of_cables(&system, &at_m, &[10.0]).unwrap();
+    let only = &census.equilibria[0];
+    assert!(only.axial_n[0].contains(10.0) && only.width_m() < 1e-13, "{only:?}");
+    let at = only.joints_m.iter().flatten().zip(at_m.iter().flatten());
+    assert!(at.into_iter().all(|(found, x)| found.contains(*x)));
+    // As answer of the census it has the forces of both ends.
+    let model = &census.to_model(&system)[0];
+    let near = |found: Vector, wanted: Vector| (0..3).all(|k| (found[k] - wanted[k]).abs() < 1e-12);
+    assert!(near(model.start_forces_n[0], [-6.0, 0.0, 8.0]), "{:?}", model.start_forces_n);
+    assert!(near(model.end_forces_n[0], [0.0, -6.0, 8.0]), "{:?}", model.end_forces_n);
+    // A bar beside them may push.
+    let mut members = system.members().to_vec();
+    let bar = Bar::homogeneous(9.0, 0.0).unwrap();
+    members.push(Member { kind: Kind::Strut, ..Member::bar(1, 3, bar) });
+    let beside = System::new("beside", 10.0, system.joints().to_vec(), members).unwrap();
+    assert_eq!(SystemCensus::of_cables(&beside, &at_m, &[10.0, 0.0]), None);
+    assert!(prove(&beside, &at_m, &[10.0, 0.0]).is_ok());
+}
+
+#[test]
+fn what_is_no_equilibrium_of_a_rope_is_not_proved() {
+    let sample = &samples::ropes()[0];
+    let at_m = places(&sample.system, &sample.at_m);
+    // The ring above, where the rope would have to push: 1 m above the line of its anchors' middle.
+    let (mut above, mut ended) = (at_m.clone(), at_m.clone());
+    above[2] = [4.0 - at_m[2][0], 0.0, 1.0 - at_m[2][2]];
+    let pushed = prove(&sample.system, &above, &[-sample.axial_n[0]]);
+    assert_eq!(pushed, Err(NoBox::WrongSign { member: 1 }));
+    let pulled = prove(&sample.system, &above, &sample.axial_n);
+    assert!(matches!(pulled, Err(NoBox::NotConverged | NoBox::NotContracting)), "{pulled:?}");
+    // A ring at the end of its rope has a span without a direction.
+    ended[2] = ended[0];
+    let found = prove(&sample.system, &ended, &sample.axial_n);
+    assert_eq!(found, Err(NoBox::Rope { member: 1 }));
+}
+
+/// A pulley on a vertical with an anchor: a weight that hangs aside by a second rope turns about it.
+#[test]
+fn what_hangs_on_ropes_below_one_anchor_turns() {
+    let at_m = [[0.0, 0.0, 0.0], [0.0, 0.0, -6.0], [4.0, 0.0, -3.0], [4.0, 0.0, -5.0]];
+    let joints = vec![
+        Joint::anchor("A", at_m[0]),
+        Joint::anchor("B", at_m[1]),
+        Joint::free("P"),
+        Joint::free("Q").with_mass(1.2),
+    ];
+    let body = |length_m: f64| Bar::homogeneous(length_m, 0.0).unwrap();
+    // A bar from A to P and one from B push P out; the rope of both hangs Q below P.
+    let members = vec![
+        Member::bar(0, 2, body(5.0)),
+        Member::bar(1, 2, body(5.0)),
+        Member::cable(2, 2, body(4.0)).over(vec![3]),
+    ];
+    let system = System::new("turns", 10.0, joints, members).unwrap();
+    // 12 N at P: 10 N in each bar by 3/5; two strands of 6 N.
+    let found = prove(&system, &at_m, &[10.0, -10.0, 6.0]).unwrap();
+    assert_eq!(found.turns, 1);
+    assert!(found.beyond_m(&at_m) < 1e-14 && found.axial_n[2].contains(6.0), "{found:?}");
+}
