@@ -54,9 +54,6 @@ pub enum Error {
         /// What was asked for.
         what: &'static str,
     },
-    /// Occurs when what was asked for does not know ropes, and a member of the problem is one.
-    #[error(transparent)]
-    Rope(#[from] model::system::RopeNotTaken),
     /// Occurs when fewer than two answers are to be compared.
     #[error("two answers can be compared, {answers} cannot")]
     NothingToCompare {

@@ -137,11 +137,6 @@ impl Problem {
         self.as_system().is_some_and(System::has_strengths)
     }
 
-    /// Refuse ropes over rings and pulleys for what does not know them.
-    pub(crate) fn without_ropes(&self, what: &'static str) -> Result<(), Error> {
-        Ok(self.as_system().map_or(Ok(()), |system| system.without_ropes(what))?)
-    }
-
     /// Refuse what would need more memory than readers may ask for, at so many bytes for each member.
     pub(crate) fn fits(&self, each: u64) -> Result<(), Error> {
         let members = match &self.0 {

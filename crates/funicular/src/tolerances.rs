@@ -306,8 +306,7 @@ impl TolerancesAnswer {
         });
         writeln!(to, "joint{}", columns.collect::<String>())?;
         let Ok(ranges) = &self.ranges else { return Ok(()) };
-        let ends =
-            |all: &[[Range; 3]]| -> Vec<[f64; 6]> { all.iter().map(|of| ends(of)).collect() };
+        let ends = |all: &[[Range; 3]]| -> Vec<[f64; 6]> { all.iter().map(ends).collect() };
         let forces: Vec<_> = ranges.reactions_n.iter().flatten().copied().collect();
         let at = Numbers::of(ends(&ranges.joints_m).as_flattened());
         let pulls = Numbers::of(ends(&forces).as_flattened());

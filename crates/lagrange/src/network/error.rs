@@ -13,9 +13,6 @@ pub enum Error {
     /// Occurs when a setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
-    /// Occurs when derivatives are asked for of a system with a rope over rings or pulleys.
-    #[error(transparent)]
-    Rope(#[from] model::system::RopeNotTaken),
     /// Occurs when the seed has not one place for each joint, or not one force for each member.
     #[error("the seed holds {got} {of}, the system has {expected}")]
     SeedLength {

@@ -55,7 +55,7 @@ pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibr
                 match asked.then(only).flatten() {
                     Some(census) => certify_by_census(system, &census, answer),
                     None => {
-                        answer.evidence.ladder.complete = Status::Open(Reason::NoCensus(*because))
+                        answer.evidence.ladder.complete = Status::Open(Reason::NoCensus(*because));
                     }
                 }
             }

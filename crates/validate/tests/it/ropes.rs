@@ -2,9 +2,7 @@
 //! rope.
 
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
-use model::{
-    Bar, NoBox, NoCensus, NoCertificate, Place, Proved, Reason, STANDARD_GRAVITY_M_S2, Status, Vector,
-};
+use model::{Bar, NoCertificate, Place, Proved, STANDARD_GRAVITY_M_S2, Status, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
