@@ -491,7 +491,8 @@ fn a_ring_follows_its_rope() {
 }
 
 /// P hangs from C while the rope is slack. It is taut as soon as 1 m and 3 m level, and z down, are
-/// 9 m together: its first span is 73/18 m then.
+/// 9 m together: its first span is 73/18 m then. In the lowest point of the rope, 4.5 m from A and B, it
+/// bears all.
 #[test]
 fn a_rope_becomes_taut_on_a_path() {
     let problem = Problem::parse(
@@ -505,13 +506,20 @@ fn a_rope_becomes_taut_on_a_path() {
     let found = Trace::new().vary("bars.1.length_m=4..5.2").unwrap().run(&problem).unwrap();
     assert!(found.checks_agree() && found.checks_decided(), "{found}");
     let path = &found.load_paths().unwrap().paths()[0];
-    let [event] = &path.events[..] else { panic!("{found}") };
+    let [event, lowest] = &path.events[..] else { panic!("{found}") };
     let first_m: f64 = 73.0 / 18.0;
     near(event.values[0], 1.0 + (first_m * first_m - 1.0).sqrt());
     assert_eq!((event.kind, &event.taut[..]), (LoadEventKind::Kink, &[2][..]));
-    let last = path.points.last().unwrap();
-    let [x, _, z] = last.joints_m[3];
-    near(x.hypot(z) + (4.0 - x).hypot(z), 9.0);
-    near((x - 1.0).hypot(z - 1.0), 5.2);
-    assert!(last.axial_n[0] > 0.0 && last.axial_n[1] > 0.0);
+    let deep_m = (4.5_f64 * 4.5 - 4.0).sqrt();
+    near(lowest.values[0], (1.0 + deep_m).hypot(1.0));
+    assert_eq!((lowest.kind, &lowest.slack[..]), (LoadEventKind::Kink, &[1][..]));
+    for point in &path.points {
+        let [x, _, z] = point.joints_m[3];
+        let (rope_m, length_m) = (x.hypot(z) + (4.0 - x).hypot(z), point.values[0]);
+        let off_m = (x - 1.0).hypot(z - 1.0) - length_m;
+        let both = (event.values[0]..=lowest.values[0]).contains(&length_m);
+        assert!(rope_m <= 9.0 + SHARP && off_m <= SHARP, "{rope_m} {off_m}");
+        assert!(!both || (rope_m - 9.0).abs() + off_m.abs() < 2.0 * SHARP, "{rope_m} {off_m}");
+    }
+    near(path.points.last().unwrap().axial_n[1], 49.0 * 4.5 / deep_m);
 }

@@ -182,9 +182,11 @@ fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution
         let start = if to_fit { solver.closed(start) } else { start };
         let run = match solver.with_signs(start.clone(), Patience::Full) {
             Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
-                // Perhaps there is a corner where it would come to rest.
+                // From where it comes to rest, unless that is a corner.
                 let rest = settle(&solver.framework, &mut solver.stiffness, start);
-                return Err(jammed(system, &solver.framework, &rest.state).unwrap_or(error));
+                let jam = jammed(system, &solver.framework, &rest.state);
+                let found = solver.with_signs(rest.state, Patience::Full);
+                found.map_err(|_| jam.unwrap_or(error))?
             }
             result => result?,
         };

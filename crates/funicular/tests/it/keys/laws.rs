@@ -288,7 +288,7 @@ fn two_tensions() {
         let at = |key: &str| format!("{list}[].{key}");
         output.is(&at("law"), "tension");
         output.is(&at("member"), 1);
-        output.is(&at("place.joint"), 2);
+        output.is(&at("place.joint"), 3);
         output.is(&at("sides_n[]"), json!([9.0, 11.0]));
         output.is(&at("value"), 2.0);
     }

@@ -137,7 +137,7 @@ fn a_weight_at_its_pulley() {
     let text = good(folder.path(), &["solve", "two.toml"]);
     let said = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        said.contains("span 3 of the rope (bar 1) has no length and bears 20.0000 N"),
+        said.contains("span 3 of the rope (bar 1) has no length and bears 20.000000 N"),
         "{text}"
     );
 }
