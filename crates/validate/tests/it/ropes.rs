@@ -2,7 +2,7 @@
 //! rope.
 
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
-use model::{Bar, NoBox, NoCensus, NoCertificate, Reason, Status, Vector};
+use model::{Bar, NoCertificate, Status, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
