@@ -321,10 +321,14 @@ impl Display for Complete {
             1 => write!(f, ", besides a family with slack bars")?,
             _ => write!(f, ", besides {families} families with slack bars")?,
         }
+        f.write_str(", and no other")?;
+        // Nothing had to be searched where the energy is convex.
+        if *cells == 0 && *patterns <= 1 {
+            return Ok(());
+        }
         write!(
             f,
-            ", and no other: {patterns} patterns of tension and compression excluded everywhere else, in {cells} cells \
-             of pulls"
+            ": {patterns} patterns of tension and compression excluded everywhere else, in {cells} cells of pulls"
         )
     }
 }
