@@ -296,6 +296,7 @@ fn two_tensions() {
         "broken[].says",
         &["the rope (member 1) pulls with 9 N on one side and 11 N on the other"],
     );
+    output.is("ladder[].reason.excesses[].place.joint", 3);
     output.is("bars[].via[]", json!(["P"]));
     output.is("bars[].axial_n", 10.0);
     output.done();
