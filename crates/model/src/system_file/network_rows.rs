@@ -174,12 +174,15 @@ fn via(row: &Row<'_>, number: &dyn Fn(&str) -> Result<usize, Kind>) -> Result<Ve
     if joints.is_empty() { Err((Some("via"), Kind::EmptyCell)) } else { Ok(joints) }
 }
 
+/// The length of a path over joints where they are drawn, m.
+pub(super) type Drawn<'a> = dyn Fn(&[usize]) -> Result<Option<f64>, Kind> + 'a;
+
 /// The member of a row, between joints whose numbers `number` knows, and the length of its path where
 /// they are drawn `drawn`; `safety` is wanted where the row says nothing else.
 pub(super) fn member(
     row: &Row<'_>,
     number: &dyn Fn(&str) -> Result<usize, Kind>,
-    drawn: &dyn Fn(&[usize]) -> Result<Option<f64>, Kind>,
+    drawn: &Drawn<'_>,
     safety: f64,
 ) -> Result<Member, Wrong> {
     let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
