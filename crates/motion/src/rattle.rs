@@ -176,10 +176,17 @@ impl Stepper {
     /// Right-hand sides `−g` at the displaced places; the largest violation.
     fn excess(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
         let (mut off, by) = (0.0, &self.by);
+        let moved = |s: &Link, d: Vector| plus(d, minus(by[s.b], by[s.a]));
         for (bar, row) in mechanism.bars.iter().zip(&mut self.rows) {
-            let spans = mechanism.of(&bar.spans).iter();
-            let spans = spans.map(|s| plus(state.between(s.a, s.b), minus(by[s.b], by[s.a])));
-            let excess = half_excess(squared(spans), bar.length_m);
+            let squared = match mechanism.of(&bar.spans) {
+                // The span is the vector of the row.
+                [span] => {
+                    let d = moved(span, self.vectors[bar.spans.start]);
+                    dot(d, d)
+                }
+                spans => squared(spans.iter().map(|s| moved(s, state.between(s.a, s.b)))),
+            };
+            let excess = half_excess(squared, bar.length_m);
             *row = -excess * bar.length_m * bar.length_m;
             off = worse(off, excess.abs());
         }
@@ -400,8 +407,11 @@ impl Stepper {
 /// Half of the rate of the square of a length: its row times velocities by slot.
 #[inline]
 fn rate(mechanism: &Mechanism, bar: &Rigid, vectors: &[Vector], v: &[Vector]) -> f64 {
-    let spans = mechanism.of(&bar.spans).iter().zip(&vectors[bar.spans.clone()]);
-    spans.map(|(span, d)| dot(*d, minus(v[span.b], v[span.a]))).sum()
+    let part = |(span, d): (&Link, &Vector)| dot(*d, minus(v[span.b], v[span.a]));
+    match mechanism.of(&bar.spans) {
+        [span] => part((span, &vectors[bar.spans.start])),
+        spans => spans.iter().zip(&vectors[bar.spans.clone()]).map(part).sum(),
+    }
 }
 
 /// Whether every span of a taut rope has a direction.

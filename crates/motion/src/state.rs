@@ -50,11 +50,14 @@ impl State {
     pub(crate) fn rows(&self, mechanism: &Mechanism, vectors: &mut [Vector]) -> f64 {
         let mut off = 0.0;
         for bar in &mechanism.bars {
-            let vectors = &mut vectors[bar.spans.clone()];
-            for (span, vector) in mechanism.of(&bar.spans).iter().zip(vectors.iter_mut()) {
+            let (spans, vectors) = (mechanism.of(&bar.spans), &mut vectors[bar.spans.clone()]);
+            for (span, vector) in spans.iter().zip(vectors.iter_mut()) {
                 *vector = self.between(span.a, span.b);
             }
-            let squared = squared(vectors.iter().copied());
+            let squared = match vectors {
+                [d] => dot(*d, *d),
+                _ => squared(vectors.iter().copied()),
+            };
             off = worse(off, half_excess(squared, bar.length_m).abs());
             gradient(vectors, squared);
         }
