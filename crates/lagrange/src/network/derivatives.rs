@@ -152,7 +152,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     ///
     /// [`Error::Memory`]; [`Error::NoDerivative`] when the factor is not finite;
-    /// [`Error::FreeMotion`], [`Error::OpenForces`], [`Error::JustTaut`] and [`Error::JustTouches`]
+    /// [`Error::FreeMotion`], [`Error::OpenForces`], [`Error::Jammed`], [`Error::JustTaut`] and [`Error::JustTouches`]
     /// where the equilibrium has no derivatives.
     pub fn new(system: &'a System, solution: &Solution) -> Result<Self, Error> {
         let framework = Framework::of(system, solution);

@@ -2,7 +2,8 @@
 //!
 //! The equations of module `derivatives` are smooth where every cable is either slack or bears a
 //! force, and every joint is either above the floor or pushed by it; and they fix the change where
-//! no motion is without stiffness and no self-stress is open. Elsewhere numbers that a
+//! no motion is without stiffness and no self-stress is open. A span of a rope without length is a corner of
+//! the sum of its spans. Elsewhere numbers that a
 //! factorisation may give all the same are one of many, or those of one side.
 
 use model::system::{Kind, System};
@@ -21,6 +22,12 @@ pub(super) fn check(
     residual: &Residual,
     solution: &Solution,
 ) -> Result<(), Error> {
+    if let Some(jam) = solution.equilibrium.evidence.jams.first() {
+        let mut spans = system.members()[jam.member].spans().skip(jam.span);
+        let joints = spans.next().unwrap_or_default();
+        let [from, to] = joints.map(|joint| system.joints()[joint].name.clone());
+        return Err(Error::Jammed { member: jam.member + 1, from, to });
+    }
     let motions = solution.equilibrium.stability.neutral;
     if motions > 0 {
         return Err(Error::FreeMotion { motions });
