@@ -1,17 +1,6 @@
 //! `funicular convert`: files that other programs, and this one, read.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-use std::path::Path;
-
-use assert_cmd::Command;
-
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
+use crate::run::run;
 
 /// A lamp of 40 N on two elastic cables of 2.5 and 3.2 m, stretched to the triangle 3, 4, 5: 32 and 24 N.
 const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n\

@@ -1,11 +1,8 @@
 //! Load cases: each by both solvers, and the envelope over them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-use std::path::Path;
-
-use assert_cmd::Command;
 use funicular::prelude::*;
+
+use crate::run::run;
 
 /// A pole of 2 m with 10 kg on its end that hangs from a ball joint, with gravity 10: under a side force F it
 /// leans by F / 100, and pulls by the size of both.
@@ -16,13 +13,6 @@ const POLE: &str = "name = \"pole\"\ngravity_m_s2 = 10\nsafety = 2\n\
     [[cases]]\nname = \"still\"\nfactors = { permanent = 1.2 }\n\
     [[cases]]\nname = \"storm\"\nfactors = { wind = 1 }\n\
     [[cases]]\nname = \"gale\"\nfactors = { wind = 2, permanent = 2 }\n";
-
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
 
 fn near(found: f64, wanted: f64) -> bool {
     (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0)

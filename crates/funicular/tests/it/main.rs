@@ -32,6 +32,7 @@ mod program;
 mod promise;
 mod replaced;
 mod ropes;
+mod run;
 mod slurm;
 mod small_files;
 mod starts;

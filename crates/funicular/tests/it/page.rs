@@ -2,18 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::Path;
-
-use assert_cmd::Command;
 use funicular::{Page, prelude::*};
 use serde_json::Value;
 
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
+use crate::run::run;
 
 fn data(page: &str) -> Value {
     let data = page.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();

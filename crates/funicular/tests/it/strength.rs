@@ -2,19 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::Path;
-
-use assert_cmd::Command;
 use funicular::{Loss, Outcome, Weakest, prelude::*};
 
-/// What the program prints and says, and how it ends.
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut program = Command::cargo_bin("funicular").unwrap();
-    let output = program.current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (output.status.code(), text(&output.stdout), text(&output.stderr))
-}
+use crate::run::run;
 
+/// What the program prints and says, and how it ends.
 /// 300 N hang on two threads of 5 m between anchors 8 m apart, 3 m below them: each pulls with 250 N.
 fn bridle(root: &str, first: &str, second: &str) -> String {
     format!(

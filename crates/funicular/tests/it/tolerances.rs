@@ -1,20 +1,10 @@
 //! Ranges over tolerances, against what both solvers find of systems within them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-use std::path::Path;
-
-use assert_cmd::Command;
 use funicular::prelude::*;
 
-/// What the program prints and says, and how it ends.
-fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut program = Command::cargo_bin("funicular").unwrap();
-    let output = program.current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (output.status.code(), text(&output.stdout), text(&output.stderr))
-}
+use crate::run::run;
 
+/// What the program prints and says, and how it ends.
 /// A mast on three elastic legs under a rope to a load, with tolerances of all kinds.
 fn mast(root: &str) -> String {
     format!(

@@ -58,20 +58,32 @@ fn known_jams_are_agreed_upon_and_proved_optimal() {
     }
 }
 
+/// A sample and the first answer to it.
+fn answered(sample: samples::RopeSample) -> (System, SystemEquilibrium) {
+    let answer = asked(&sample.system);
+    (sample.system, answer.equilibria[0].clone())
+}
+
+/// The judge finds an answer wrong in which this was changed.
+fn assert_seen(
+    name: &str,
+    system: &System,
+    found: &SystemEquilibrium,
+    change: &dyn Fn(&mut SystemEquilibrium),
+) {
+    let mut wrong = found.clone();
+    change(&mut wrong);
+    let largest = judge(system, &wrong).largest();
+    assert!(largest > 1e-7 || largest.is_nan(), "{name}: {largest:e}");
+}
+
 /// The lighter of two weights at its pulley, with one number changed by a part in a million.
 #[test]
 fn the_judge_sees_what_is_wrong_with_a_jam() {
-    let (system, found) = {
-        let sample = samples::jammed_ropes().swap_remove(0);
-        let answer = asked(&sample.system);
-        (sample.system, answer.equilibria[0].clone())
-    };
+    let (system, found) = answered(samples::jammed_ropes().swap_remove(0));
     let off = 1.0 + 1e-6;
     let seen = |name: &str, change: &dyn Fn(&mut SystemEquilibrium)| {
-        let mut wrong = found.clone();
-        change(&mut wrong);
-        let largest = judge(&system, &wrong).largest();
-        assert!(largest > 1e-7, "{name}: {largest:e}");
+        assert_seen(name, &system, &found, change);
     };
     seen("pull", &|a| a.evidence.jams[0].pull_n[2] *= off);
     seen("pull and end", &|a| {
@@ -115,17 +127,10 @@ fn ropes_beside_what_pushes_are_not_certified() {
 /// Everything that is stored of a rope, changed by a part in a million.
 #[test]
 fn the_judge_sees_what_is_wrong_with_a_rope() {
-    let (system, found) = {
-        let sample = samples::ropes().swap_remove(3);
-        let answer = asked(&sample.system);
-        (sample.system, answer.equilibria[0].clone())
-    };
+    let (system, found) = answered(samples::ropes().swap_remove(3));
     let off = 1.0 + 1e-6;
     let seen = |name: &str, change: &dyn Fn(&mut SystemEquilibrium)| {
-        let mut wrong = found.clone();
-        change(&mut wrong);
-        let largest = judge(&system, &wrong).largest();
-        assert!(largest > 1e-7 || largest.is_nan(), "{name}: {largest:e}");
+        assert_seen(name, &system, &found, change);
     };
     seen("tension", &|a| a.axial_n[0] *= off);
     seen("start", &|a| a.start_forces_n[0][2] *= off);
