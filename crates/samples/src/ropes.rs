@@ -28,6 +28,7 @@ const G: f64 = STANDARD_GRAVITY_M_S2;
 /// | a tackle, and one that begins at its own block | `T = W/n` for n strands at the block |
 /// | a weight over a pulley, rigid and elastic | `T = W`, `s = L (1 + T/EA)` |
 /// | a lighter weight that a cable holds down | `T` of the heavier, the rest in the cable |
+/// | a bridle over rings | each ring between the load and the middle of its anchors, `2 T₁ 4/5 = T₃` |
 /// | a slack rope | nothing |
 ///
 /// ```
@@ -121,7 +122,27 @@ pub fn ropes() -> Vec<RopeSample> {
             &[0.0, 10.0 * G],
             &[(2, [2.0, 0.0, -1.0])],
         ),
+        bridle(),
     ]
+}
+
+/// 12 kg by a ring on a rope of 1 m, whose ends are rings on two ropes of 5 m between anchors 3 m apart, 2 m
+/// to the left and to the right. Each ring on these is 2 m from the middle of its anchors, towards the load.
+fn bridle() -> RopeSample {
+    let anchors = [[-2.0, -1.5], [-2.0, 1.5], [2.0, -1.5], [2.0, 1.5]];
+    let anchors = anchors.into_iter().enumerate();
+    let mut joints: Vec<Joint> =
+        anchors.map(|(k, [x, y])| Joint::anchor(format!("{k}"), [x, y, 0.0])).collect();
+    joints.extend(["left", "right"].map(Joint::free));
+    joints.push(Joint::free("load").with_mass(12.0));
+    let upper = 12.0 * G / (2.0 * 0.6);
+    known(
+        "a bridle over rings",
+        joints,
+        vec![rope(&[0, 4, 1], 5.0), rope(&[2, 5, 3], 5.0), rope(&[4, 6, 5], 1.0)],
+        &[upper / 1.6, upper / 1.6, upper],
+        &[(4, [-0.4, 0.0, -1.2]), (5, [0.4, 0.0, -1.2]), (6, [0.0, 0.0, -1.5])],
+    )
 }
 
 fn known(

@@ -124,6 +124,35 @@ fn ropes_beside_what_pushes_are_not_certified() {
     assert_eq!(certify(&system, found), Err(NoCertificate::NotConvex { members: 1 }));
 }
 
+/// A boom of 3 m pushes against the mast, its end E held by three strands of a mainsheet of 7.5 m from T, 1.1 m
+/// along x: 4 kg at 10 m/s² and 30 N of wind turn E about the line of mast and T towards their resultant of 50 N,
+/// 2.4 m from it at x = 1.8 m. Along and across that line the balance of E gives both forces.
+#[test]
+fn a_mainsheet_holds_its_boom() {
+    let end = Joint::free("E").with_mass(4.0).with_force([0.0, 30.0, 0.0]);
+    let (mast, traveller) = (Joint::anchor("mast", [0.0; 3]), Joint::anchor("T", [1.1, 0.0, 0.0]));
+    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members =
+        vec![Member::bar(0, 2, body(3.0)), Member::cable(1, 2, body(7.5)).over(vec![2, 1])];
+    let system = System::new("a boom", 10.0, vec![mast, traveller, end], members).unwrap();
+    let answer = asked(&system);
+    assert!(answer.agrees() && answer.is_decided(), "{answer:?}");
+    let strands_n = 50.0 / (2.4 / 2.5 - (0.28 / 0.6) * 0.8);
+    for found in &answer.equilibria {
+        let wanted =
+            [(found.axial_n[0], -strands_n * 0.28 / 0.6), (found.axial_n[1], strands_n / 3.0)];
+        let places = found.joints_m[2].into_iter().zip([1.8, 1.44, -1.92]);
+        for (value, wanted) in wanted.into_iter().chain(places) {
+            assert!((value - wanted).abs() < 1e-9 * wanted.abs(), "{value} {wanted}");
+        }
+        assert!(
+            found.evidence.ladder.verified.is_reached(),
+            "{:?}",
+            found.evidence.ladder.verified
+        );
+    }
+}
+
 /// Everything that is stored of a rope, changed by a part in a million.
 #[test]
 fn the_judge_sees_what_is_wrong_with_a_rope() {
