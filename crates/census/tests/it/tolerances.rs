@@ -180,13 +180,24 @@ fn nets_have_nearly_their_hulls() {
     }
 }
 
+/// `NETS` random nets, and of each `DRAWS` draws (20 and 500 by night).
+fn families() -> [u64; 2] {
+    [("NETS", 1), ("DRAWS", 12)]
+        .map(|(name, day)| std::env::var(name).map_or(day, |n| n.parse().expect("a number")))
+}
+
 /// Draws of the numbers, at ends and between, each proved by itself: all are in the ranges.
 #[test]
 fn draws_stay_within_their_ranges() {
-    let (system, places, axial) = net(2, 5, 1e-6, 1e-4);
+    let [nets, draws] = families();
+    (5..5 + nets).for_each(|seed| draws_stay_within_ranges_of(seed, draws));
+}
+
+fn draws_stay_within_ranges_of(seed: u64, draws: u64) {
+    let (system, places, axial) = net(2, seed, 1e-6, 1e-4);
     let found = prove_ranges(&system, &places, &axial, &[]).unwrap();
     let mut rng = ChaCha8Rng::seed_from_u64(7);
-    for k in 0..12 {
+    for k in 0..draws {
         let values = found.numbers.iter().map(|number| {
             let part: f64 = rng.random_range(-1.0..1.0);
             number.given + number.within * if k % 2 == 0 { part } else { part.signum() }
@@ -205,7 +216,12 @@ fn draws_stay_within_their_ranges() {
 /// At all 256 corners of the numbers of four cables, each proved by itself: the hull of the forces there is the range.
 #[test]
 fn a_net_has_the_hull_of_its_corners() {
-    let (system, places, axial) = net(1, 9, 1e-6, 1e-4);
+    let [nets, _] = families();
+    (9..9 + nets).for_each(a_net_has_the_hull_of_corners);
+}
+
+fn a_net_has_the_hull_of_corners(seed: u64) {
+    let (system, places, axial) = net(1, seed, 1e-6, 1e-4);
     let found = prove_ranges(&system, &places, &axial, &[]).unwrap();
     assert_eq!(found.numbers.len(), 8);
     let corner = |corner: u32| {
