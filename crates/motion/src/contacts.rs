@@ -136,8 +136,8 @@ impl Contacts {
         }
     }
 
-    /// The system with bars and supports for what holds, and nothing else in its place; ropes that
-    /// hold stay, others are straight.
+    /// The system with bars and supports for what holds, and nothing else in its place; ropes stay,
+    /// those that do not hold without stiffness.
     pub(crate) fn held(&self) -> Result<System, MotionError> {
         let (mut joints, mut members) =
             (self.system.joints().to_vec(), self.system.members().to_vec());
@@ -246,10 +246,14 @@ pub(crate) fn hold(member: &mut Member) {
     }
 }
 
-/// A member that is slack: of a rope, which has no mass, one span stays to stand in its place.
+/// Axial stiffness of a rope that is slack, N: it bears nothing, and couples the same joints as while it holds, so that their
+/// order stays.
+const LOOSE_N: f64 = f64::MIN_POSITIVE;
+
+/// A member that is slack.
 pub(crate) fn let_go(member: &mut Member) {
-    if let Some(rope) = member.rope.take() {
-        member.to = rope.via[0];
+    if member.rope.is_some() {
+        member.stiffness_n = Some(LOOSE_N);
     }
 }
 

@@ -294,6 +294,48 @@ fn a_rope_that_becomes_taut_lifts_a_weight() {
     near(fall.joints_m()[3][2], -2.5 + down_m, 1e-9);
 }
 
+/// Three masses on a rope that is slack between impacts, whichever of them it runs over: every impact takes energy,
+/// what is left changes by the error of the steps alone, and the rope is never longer than it is.
+#[test]
+fn impacts_on_a_rope_take_energy() {
+    let mut impacts = 0;
+    for path in [[1, 3, 0, 2], [1, 2, 0, 3], [2, 1, 0, 3], [3, 2, 0, 1], [2, 3, 0, 1], [3, 0, 1, 2]]
+    {
+        let joints = vec![
+            Joint::anchor("A", [6.0, 0.0, 0.0]),
+            free("P", 4.7),
+            free("Q", 2.5),
+            free("M", 6.6),
+        ];
+        let at = [[6.0, 0.0, 0.0], [4.26, 2.02, -3.35], [7.67, 0.02, 1.63], [5.4, 1.82, -1.33]];
+        let length = |at: &[Vector]| -> f64 {
+            let span = |pair: &[usize]| {
+                (0..3).map(|k| (at[pair[1]][k] - at[pair[0]][k]).powi(2)).sum::<f64>()
+            };
+            path.windows(2).map(|pair| span(pair).sqrt()).sum()
+        };
+        let length_m = 15.0_f64.max(length(&at) + 0.4);
+        let system = system(joints, vec![rope(&path, length_m)]);
+        let mut thrown = Simulation::new(&system, &at, Settings::default()).unwrap();
+        let begin_j = thrown.energy_j();
+        for _ in 0..2000 {
+            if let Err(stop) = thrown.step(1e-3) {
+                assert!(matches!(stop, MotionError::Jammed { .. }), "{path:?}: {stop}");
+                break;
+            }
+            let now_m = length(&thrown.snapshot().joints_m);
+            assert!(now_m < length_m * (1.0 + 1e-9), "{path:?}: {now_m}");
+        }
+        impacts += thrown.impacts().len();
+        for impact in thrown.impacts() {
+            assert!(impact.lost_j > -1e-9 * begin_j.abs(), "{path:?}: {impact:?}");
+        }
+        let kept_j = thrown.energy_j() + thrown.lost_j() - begin_j;
+        assert!(kept_j.abs() < 1e-3 * begin_j.abs().max(thrown.lost_j()), "{path:?}: {kept_j}");
+    }
+    assert!(impacts >= 5, "{impacts}");
+}
+
 /// Two ropes over three joints of different masses at places and tensions that nothing is special of, with forces
 /// that hold them there.
 struct Tangle {

@@ -237,6 +237,50 @@ pub(super) fn balances(
     left
 }
 
+/// Joints that have run together on a rope: the span between them bears what one of them is out of balance by, up to its
+/// tension, but nothing of what all of them together are. The first joint of each such group that moves freely, what is left
+/// over at all, and what the bounds explain.
+fn balances_of_groups(
+    system: &System,
+    answer: &SystemEquilibrium,
+    bounds: &Bounds,
+) -> Vec<(usize, Vector, f64)> {
+    let at_m = &answer.joints_m;
+    let ropes = system.members().iter().filter(|member| member.rope.is_some());
+    let meet = |[a, b]: &[usize; 2]| norm(minus(at_m[*b], at_m[*a])) <= 2.0 * bounds.position_m;
+    let tied: Vec<[usize; 2]> = ropes.flat_map(Member::spans).filter(meet).collect();
+    if tied.is_empty() {
+        return Vec::new();
+    }
+    let mut group: Vec<usize> = (0..at_m.len()).collect();
+    for [a, b] in tied {
+        let (into, from) = (group[a], group[b]);
+        group.iter_mut().filter(|of| **of == from).for_each(|of| *of = into);
+    }
+    let mut left: Vec<(Vector, f64)> = vec![([0.0; 3], 0.0); at_m.len()];
+    for (load, of) in joint_loads(system).into_iter().zip(&group) {
+        left[*of] = (plus(left[*of].0, load), left[*of].1 + bounds.force_n);
+    }
+    for (member, force) in system.members().iter().zip(&answer.axial_n) {
+        for [a, b] in member.spans().filter(|[a, b]| group[*a] != group[*b]) {
+            let distance_m = norm(minus(at_m[b], at_m[a]));
+            let pull = times(*force, spans::unit([a, b], at_m));
+            let explained = bounds.force_n + force.abs() * bounds.turn(distance_m);
+            for (of, pull) in [(group[a], pull), (group[b], times(-1.0, pull))] {
+                left[of] = (plus(left[of].0, pull), left[of].1 + explained);
+            }
+        }
+    }
+    let mut joints: Vec<Vec<usize>> = vec![Vec::new(); at_m.len()];
+    for (joint, of) in group.into_iter().enumerate() {
+        joints[of].push(joint);
+    }
+    let is_free = |joint: &usize| system.joints()[*joint].support == Support::Free;
+    let groups = joints.into_iter().zip(left);
+    let groups = groups.filter(|(all, _)| all.len() > 1 && all.iter().all(is_free));
+    groups.map(|(all, (left_n, allowed))| (all[0], left_n, allowed)).collect()
+}
+
 /// The balance of joints whose forces are given.
 pub(super) fn balance_given(
     system: &System,
@@ -256,6 +300,9 @@ pub(super) fn balance_given(
             let off = norm(minus(given_n, wanted_n));
             found.note(Place::Joint(k), Law::Reaction { given_n, wanted_n }, off, allowed);
         }
+    }
+    for (first, left_n, allowed) in balances_of_groups(system, answer, bounds) {
+        found.note(Place::Joint(first), Law::Balance { left_n }, norm(left_n), allowed);
     }
 }
 

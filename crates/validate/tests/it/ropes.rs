@@ -343,6 +343,41 @@ fn what_is_wrong_with_a_rope_of_others_is_named() {
     assert_eq!(jumps, [Place::Joint(0), Place::Joint(1)]);
 }
 
+/// Two rings of 1 and 3 kg in one place, each of which its span could hold: both together hang by a tension that is
+/// known, and by no other.
+#[test]
+fn rings_in_one_place_are_in_balance_together() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [4.8, 0.0, 0.0]),
+        Joint::free("R").with_mass(1.0),
+        Joint::free("S").with_mass(3.0),
+    ];
+    // Two spans of 3 m, each 1.8 m deep: 3-4-5.
+    let rope = Member::cable(0, 1, Bar::homogeneous(6.0 / 1.001, 0.0).unwrap()).over(vec![2, 3]);
+    let tension_n = 40.0 / (2.0 * 0.6);
+    let rope = rope.with_stiffness(1e3 * tension_n);
+    let system = System::new("rings", 10.0, joints, vec![rope]).unwrap();
+    let place = [2.4, 0.0, -1.8];
+    let at = || vec![[0.0; 3], [4.8, 0.0, 0.0], place, place];
+    for (factor, finding) in [
+        (1.0, Finding::Confirmed),
+        (1.003, Finding::Refuted),
+        (0.7, Finding::Refuted),
+        (2.0, Finding::Refuted),
+    ] {
+        let found = judged(&system, at(), Some(vec![factor * tension_n]));
+        assert_eq!(found.finding, finding, "{factor}: {:?}", found.violations);
+        let left = found.violations.iter().find_map(|violation| match violation.law {
+            Law::Balance { left_n } => Some(left_n[2]),
+            _ => None,
+        });
+        assert_eq!(left.is_some(), finding == Finding::Refuted);
+        let wanted = 40.0 * (factor - 1.0);
+        assert!((left.unwrap_or_default() - wanted).abs() < 1e-6, "{left:?} {wanted}");
+    }
+}
+
 /// A slack rope bears nothing, and its spans may be as they are.
 #[test]
 fn a_slack_rope_of_others_bears_nothing() {
