@@ -41,7 +41,7 @@ pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
 pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
-pub use rope::{Rope, RopeFault, RopeNotTaken};
+pub use rope::{Rope, RopeFault};
 pub use row::Row;
 pub use strength::{Strength, StrengthError};
 pub use symmetry::Part;

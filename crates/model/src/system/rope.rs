@@ -52,16 +52,6 @@ impl RopeFault {
     }
 }
 
-/// Occurs when what is asked for does not know ropes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, thiserror::Error)]
-#[error("a rope over rings or pulleys (member {member}) is not taken by {what} yet")]
-pub struct RopeNotTaken {
-    /// Number of the first rope among the members, from 1.
-    pub member: usize,
-    /// What was asked for.
-    pub what: &'static str,
-}
-
 impl Member {
     /// The same member as a rope over these joints; without joints it is as it was.
     ///
@@ -123,22 +113,16 @@ impl Member {
 }
 
 impl System {
+    /// The first member that runs over rings or pulleys, from 0.
+    #[must_use]
+    pub fn first_rope(&self) -> Option<usize> {
+        self.members().iter().position(|member| member.rope.is_some())
+    }
+
     /// Whether a member runs over rings or pulleys.
     #[must_use]
     pub fn has_ropes(&self) -> bool {
-        self.members().iter().any(|member| member.rope.is_some())
-    }
-
-    /// Refuse a system with ropes, for what does not know them.
-    ///
-    /// # Errors
-    ///
-    /// [`RopeNotTaken`] if a member runs over rings or pulleys.
-    pub fn without_ropes(&self, what: &'static str) -> Result<(), RopeNotTaken> {
-        match self.members().iter().position(|member| member.rope.is_some()) {
-            Some(member) => Err(RopeNotTaken { member: member + 1, what }),
-            None => Ok(()),
-        }
+        self.first_rope().is_some()
     }
 }
 

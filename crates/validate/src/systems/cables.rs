@@ -72,7 +72,9 @@ struct Place {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
-    system.without_ropes("the cone programme")?;
+    if let Some(rope) = system.first_rope() {
+        return Err(ConeError::Rope { member: rope + 1 });
+    }
     let cables = as_cables(system)?;
     let loads_n = joint_loads(system);
     // Units in which all numbers of the programme are of size one.

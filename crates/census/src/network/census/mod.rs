@@ -143,8 +143,8 @@ impl SystemCensus {
         if system.floor_m().is_some() {
             return Err(NoCensus::Floor);
         }
-        if let Err(rope) = system.without_ropes("census") {
-            return Err(NoCensus::Rope { member: rope.member });
+        if let Some(rope) = system.first_rope() {
+            return Err(NoCensus::Rope { member: rope + 1 });
         }
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });

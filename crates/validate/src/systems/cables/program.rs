@@ -21,8 +21,11 @@ const TOLERANCE: f64 = 1e-9;
 #[non_exhaustive]
 pub enum ConeError {
     /// Occurs when a member is a rope over rings or pulleys.
-    #[error(transparent)]
-    Rope(#[from] model::system::RopeNotTaken),
+    #[error("member {member} is a rope over rings or pulleys, which this programme does not take")]
+    Rope {
+        /// Number of the member, from 1.
+        member: usize,
+    },
     /// Occurs when a system has a strut, which no convex programme knows.
     #[error("member {member} is a strut, and the least energy of struts is no convex problem")]
     Strut {
