@@ -7,7 +7,7 @@ use motion::Snapshot;
 use serde::Serialize;
 
 use crate::equilibria;
-use crate::moving_page::{self, eye, flat, six};
+use crate::moving_page::{self, Data, eye, flat, six};
 use crate::problem::Problem;
 use crate::resting::Resting;
 use crate::simulate::CENSUS_BARS;
@@ -139,7 +139,7 @@ impl Animation {
             ends: self.ends(),
             view: six(self.view_rad()),
         };
-        moving_page::data(&self.system, &moved)
+        moving_page::json(&Data::new(&self.system, &moved))
     }
 
     /// Where it comes to rest, or is at the end.

@@ -63,6 +63,7 @@
 //! | `columns` | bars from Parquet |
 //! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
 //! | `branches` | `Study`, `Derivatives`, `Trace` |
+//! | `live` | `live::Ask` |
 //! | `paper` | `Reproduce` |
 //! | `program` | the program `funicular` |
 //!
@@ -88,6 +89,8 @@ mod extremes;
 #[cfg(feature = "sweep")]
 mod followed;
 pub mod judge;
+#[cfg(feature = "live")]
+pub mod live;
 mod load_cases;
 mod losses;
 mod mode_pages;

@@ -24,25 +24,35 @@ pub(crate) fn filled(page: &str, title: &str, words: &str, data: &str) -> String
 }
 
 /// What a page shows of a system, behind its bars, the joints that are held (on a line or plane too) and
-/// their names: JSON in which nothing looks like the end of a script.
-pub(crate) fn data(system: &System, shown: &impl Serialize) -> String {
-    #[derive(Serialize)]
-    struct Data<'a, T> {
-        /// The joints of each, those that a rope runs over too.
-        bars: Vec<Vec<usize>>,
-        held: Vec<u8>,
-        names: Vec<String>,
-        #[serde(flatten)]
-        shown: &'a T,
+/// their names.
+#[derive(Serialize)]
+pub(crate) struct Data<'a, T> {
+    /// The joints of each, those that a rope runs over too.
+    bars: Vec<Vec<usize>>,
+    held: Vec<u8>,
+    names: Vec<String>,
+    /// Where places are counted from, m.
+    reference: Vector,
+    #[serde(flatten)]
+    shown: &'a T,
+}
+
+impl<'a, T: Serialize> Data<'a, T> {
+    pub fn new(system: &System, shown: &'a T) -> Self {
+        let (joints, members) = (system.joints(), system.members());
+        Self {
+            bars: members.iter().map(|member| member.path().collect()).collect(),
+            held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
+            names: joints.iter().map(|joint| plain(&joint.name)).collect(),
+            reference: system.reference_m(),
+            shown,
+        }
     }
-    let (joints, members) = (system.joints(), system.members());
-    let data = Data {
-        bars: members.iter().map(|member| member.path().collect()).collect(),
-        held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
-        names: joints.iter().map(|joint| plain(&joint.name)).collect(),
-        shown,
-    };
-    serde_json::to_string(&data).unwrap_or_default().replace('<', "\\u003c")
+}
+
+/// JSON in which nothing looks like the end of a script.
+pub(crate) fn json(data: &impl Serialize) -> String {
+    serde_json::to_string(data).unwrap_or_default().replace('<', "\\u003c")
 }
 
 /// A text that does not turn what stands around it.

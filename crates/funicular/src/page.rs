@@ -42,7 +42,12 @@ pub struct PageAnswer {
 
 impl Shape {
     /// An equilibrium with its forces and what is known of it.
-    fn of(system: &System, group: &'static str, label: &str, found: &SystemEquilibrium) -> Self {
+    pub fn of(
+        system: &System,
+        group: &'static str,
+        label: &str,
+        found: &SystemEquilibrium,
+    ) -> Self {
         let statements = found.evidence.ladder.statements();
         let rungs = statements.into_iter().map(|s| (s.reached, s.rung.to_string(), plain(&s.how)));
         let held = system.joints().iter().zip(&found.reactions_n);
@@ -82,6 +87,13 @@ impl Page {
     /// As [`Solve::run`], and [`Trace::run`] with a parameter; [`Error::PageRange`] for one that is no range alone.
     /// A system without modes, and a load case without an answer, are left out.
     pub fn run(&self, problem: &Problem) -> Result<PageAnswer, Error> {
+        let (answer, shown, contents) = self.shown(problem)?;
+        let html = shown.html(&system_of(problem), &text::answer(&answer, false, false));
+        Ok(PageAnswer { answer, html, contents })
+    }
+
+    /// What the page is made of, and what that is in words.
+    pub(crate) fn shown(&self, problem: &Problem) -> Result<(SolveAnswer, Shown, String), Error> {
         let system = system_of(problem);
         let traced = self.traced(problem)?;
         let answer = Solve::new().run(problem)?;
@@ -105,8 +117,7 @@ impl Page {
             plural(cases, "load case", "load cases"),
             plural(shown.paths.len(), "load path", "load paths"),
         );
-        let html = shown.html(&system, &text::answer(&answer, false, false));
-        Ok(PageAnswer { answer, html, contents })
+        Ok((answer, shown, contents))
     }
 
     fn traced(&self, problem: &Problem) -> Result<Option<TraceAnswer>, Error> {

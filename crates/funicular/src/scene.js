@@ -2,7 +2,7 @@
 // What the pages of motions, modes, load paths and systems share: a scene that is turned by dragging, played and paused.
 // A page adds `draw()` and `advance(seconds)`, and calls `begin()` at its end.
 const get = id => document.getElementById(id);
-const data = JSON.parse(get("data").textContent);
+let data = JSON.parse(get("data").textContent);
 const scene = get("scene"), play = get("play");
 let turn = 0, tilt = 0.12, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
 let before = null, middle = [0, 0, 0], reach = 1;

@@ -8,9 +8,12 @@ use serde_json::Value;
 
 use crate::mode_pages::heading;
 use crate::modes::Mode;
-use crate::moving_page::{self, flat, plain, six};
+use crate::moving_page::{self, Data, flat, plain, six};
 
 const PAGE: &str = include_str!("page.html");
+/// The file beside the picture, and what asks for what becomes of it.
+const PANEL: &str = include_str!("live/panel.html");
+const LIVE: &str = include_str!("live/live.js");
 
 /// What a page shows.
 #[derive(Debug, Default, Serialize)]
@@ -98,6 +101,22 @@ pub(crate) fn plain_lines(text: &str) -> String {
     text.lines().map(plain).collect::<Vec<_>>().join("\n")
 }
 
+/// What a page shows first that asks for more.
+#[derive(Serialize)]
+pub(crate) struct Start<'a> {
+    /// The file.
+    pub text: &'a str,
+    /// The answer in words.
+    #[serde(skip)]
+    pub words: &'a str,
+    /// Why there is none.
+    pub error: Option<&'a str>,
+    /// Whether it stands in another page, which passes its questions on.
+    pub embedded: bool,
+    #[serde(flatten)]
+    pub data: &'a Value,
+}
+
 impl Shown {
     /// The page, with the answer in words if there are some.
     pub fn html(&self, system: &System, words: &str) -> String {
@@ -105,15 +124,19 @@ impl Shown {
             "" => plain(system.name()),
             heading => format!("{}: {heading}", plain(system.name())),
         };
-        let words = match words {
-            "" => String::new(),
-            words => {
-                let words = Escaped(&plain_lines(words)).to_string().replace('@', "&#64;");
-                format!(
-                    "<details><summary>The answer in words and tables</summary>\n<pre>{words}</pre></details>"
-                )
-            }
-        };
-        moving_page::filled(PAGE, &name, &words, &moving_page::data(system, self))
+        page(["", ""], &name, words, &moving_page::json(&Data::new(system, self)))
     }
+}
+
+impl Start<'_> {
+    /// The page of a system that is changed beside its file.
+    pub fn html(&self) -> String {
+        page([PANEL, LIVE.trim_end()], "funicular", self.words, &moving_page::json(self))
+    }
+}
+
+fn page([panel, script]: [&str; 2], name: &str, words: &str, data: &str) -> String {
+    let words = Escaped(&plain_lines(words)).to_string().replace('@', "&#64;");
+    let page = PAGE.replace("@PANEL@", panel).replace("@LIVE@", script);
+    moving_page::filled(&page, name, &words, data)
 }

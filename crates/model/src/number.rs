@@ -101,6 +101,7 @@ impl Display for Number {
             Digits::Count if x.fract().abs() > 0.0 => f.write_str(&measured(x, COUNTED)),
             Digits::Count => f.write_str(&fixed(x, 0)),
             Digits::Size(decimals) if f.alternate() => f.write_str(&measured(x, decimals + 1)),
+            Digits::Size(_) if x.abs() <= 0.0 => f.write_str("0"),
             Digits::Size(decimals) => write!(f, "{x:.decimals$e}"),
         }
     }
@@ -200,6 +201,7 @@ mod tests {
         assert_eq!(Number::count(0.25).to_string(), "0.25");
         assert_eq!(Number::decimals(-1e-17, 3).to_string(), "0.000");
         assert_eq!(Number::decimals(1e-17, 3).in_words(), "0.000");
+        assert_eq!(Number::size(-0.0, 1).to_string(), "0");
         assert_eq!(format!("{:#}", Number::size(2e-3, 0)), "0.002");
         assert_eq!(format!("{:#}", Number::size(2e-5, 0)), "2×10⁻⁵");
     }

@@ -48,6 +48,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::losses, module)?)?;
     module.add_function(wrap_pyfunction!(solve::load_cases, module)?)?;
     module.add_function(wrap_pyfunction!(solve::page, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::live_page, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::live_answer, module)?)?;
     module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
     module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(solve::export, module)?)?;

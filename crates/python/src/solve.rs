@@ -4,11 +4,13 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use funicular::export::{Shape, Target};
+use funicular::live::Ask;
 use funicular::prelude::{Solve, SolveAnswer, Vector};
 use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict as _, PyDict, PyList};
 use serde::Serialize;
@@ -203,6 +205,19 @@ pub fn page<'py>(
         Ok::<_, Error>(page.run(&of)?.html().to_owned())
     })?;
     found.map_err(|error| raise(&error))
+}
+
+/// The page of a notebook in which a system file is changed.
+#[pyfunction]
+pub fn live_page(py: Python<'_>, text: String) -> String {
+    py.detach(|| Ask::new(text).page(true))
+}
+
+/// The answer to what the page asks.
+#[pyfunction]
+pub fn live_answer(py: Python<'_>, path: &str, question: &str) -> PyResult<String> {
+    let found = py.detach(|| Ask::answer(path, question.as_bytes()));
+    found.unwrap_or_else(|| Err(format!("no page {path:?}"))).map_err(PyValueError::new_err)
 }
 
 /// An answer as JSON and as text, and what else is said of it.

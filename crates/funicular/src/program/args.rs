@@ -117,6 +117,9 @@ pub enum Command {
     /// along a load path
     #[command(after_help = ALL_OR_NOTHING)]
     Page(crate::page::Arguments),
+    /// Change a system in the browser, its file and its shape side by side
+    #[command(after_help = ALL_OR_NOTHING)]
+    Serve(crate::serve::Arguments),
     /// Write the equilibrium as a file for ParaView, CAD, 3D programs, MuJoCo, MoorDyn or COMPAS
     #[command(after_help = ALL_OR_NOTHING)]
     Convert(crate::convert::Arguments),

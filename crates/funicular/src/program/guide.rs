@@ -32,7 +32,7 @@ pub fn chapter_of(command: &str) -> &'static str {
         "solve" => "evidence",
         "census" => "all-equilibria",
         "trace" => "load-paths",
-        "study" | "page" | "convert" => "systems",
+        "study" | "page" | "serve" | "convert" => "systems",
         "modes" | "simulate" => "motion",
         "judge" => "judging",
         "sweep" | "basins" | "merge" => "large-systems",

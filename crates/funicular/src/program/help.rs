@@ -13,7 +13,10 @@ use crate::guide;
 
 /// The commands, by what they are for.
 const GROUPS: [(&str, &[&str]); 6] = [
-    ("Equilibria", &["solve", "census", "study", "derivatives", "trace", "page", "convert"]),
+    (
+        "Equilibria",
+        &["solve", "census", "study", "derivatives", "trace", "page", "serve", "convert"],
+    ),
     ("Motion", &["modes", "simulate"]),
     ("Answers of others", &["judge"]),
     ("Many starts", &["sweep", "basins", "merge"]),

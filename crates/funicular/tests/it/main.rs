@@ -20,6 +20,7 @@ mod guide;
 mod judge;
 mod keys;
 mod library;
+mod live;
 mod load_cases;
 mod load_paths;
 mod material;

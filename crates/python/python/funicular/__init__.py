@@ -16,7 +16,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the equilibrium over a parameter | :meth:`System.study` |
 | the loss of each member | :func:`losses` |
 | load cases and their envelope | :func:`load_cases` |
-| a page to look at it | :func:`page` |
+| a page to look at it; a widget to change it | :func:`page`; :func:`live` |
 | files for ParaView, CAD, MuJoCo, MoorDyn, COMPAS | :meth:`Answer.export` |
 | guaranteed ranges over tolerances | :func:`tolerances` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
@@ -43,6 +43,7 @@ from .errors import *  # noqa: F403
 from .errors import __all__ as _errors
 from .evidence import Evidence, Proof, Proofs, Record
 from .judge import Judgement, judge
+from .live import live
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
 from .rows import SystemBatch
@@ -103,6 +104,7 @@ __all__ = [
     "gradients",
     "judge",
     "limit_work",
+    "live",
     "load_cases",
     "losses",
     "modes",
