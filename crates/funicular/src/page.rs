@@ -98,25 +98,27 @@ impl Page {
         let traced = self.traced(problem)?;
         let answer = Solve::new().run(problem)?;
         let modes = Modes::new().lowest(MODES).run(problem).ok();
-        let mut shapes = equilibria(problem, &system, &answer, modes.as_ref())?;
-        let count = shapes.len();
+        let (mut shapes, count) = equilibria(problem, &system, &answer, modes.as_ref())?;
+        let listed = shapes.len();
         for case in problem.load_cases() {
             let found = problem.in_case(case).and_then(|changed| Solve::new().run_here(&changed));
             let Some((system, first)) = found.ok().and_then(first) else { continue };
             shapes.push(Shape::of(&system, "Load cases", case, &first));
         }
-        let cases = shapes.len() - count;
+        let cases = shapes.len() - listed;
         let mut shown = Shown { shapes, ..Shown::default() };
         if let Some(paths) = traced.as_ref().and_then(|found| found.load_paths()) {
             shown = shown.with_paths(paths);
         }
-        let contents = format!(
-            "{}{}, {}, {}",
-            plural(count, "equilibrium", "equilibria"),
-            if modes.is_some() { " with modes" } else { "" },
-            plural(cases, "load case", "load cases"),
-            plural(shown.paths.len(), "load path", "load paths"),
-        );
+        let modes = if modes.is_some() { " with modes" } else { "" };
+        let mut contents = plural(count, "equilibrium", "equilibria") + modes;
+        for (count, one, several) in
+            [(cases, "load case", "load cases"), (shown.paths.len(), "load path", "load paths")]
+        {
+            if count > 0 {
+                contents = contents + ", " + &plural(count, one, several);
+            }
+        }
         Ok((answer, shown, contents))
     }
 
@@ -139,13 +141,13 @@ fn first(answer: SolveAnswer) -> Option<(Arc<System>, SystemEquilibrium)> {
     found.into_iter().next().map(|first| (system, first))
 }
 
-/// The answer, and all equilibria where a census knows them, with their modes.
+/// The answer, and all equilibria where a census knows them, with their modes; and how many there are.
 fn equilibria(
     problem: &Problem,
     system: &System,
     answer: &SolveAnswer,
     modes: Option<&ModesAnswer>,
-) -> Result<Vec<Shape>, Error> {
+) -> Result<(Vec<Shape>, usize), Error> {
     const GROUP: &str = "Equilibria";
     const ANSWER: &str = "the answer of both solvers";
     let found = equilibria::all(problem, census::Settings::UNASKED_BARS)?;
@@ -167,13 +169,13 @@ fn equilibria(
     if found.complete && found.list.len() > 1 {
         let own = answer.equilibria().first();
         let own = own.map(|first| Shape::of(system, GROUP, ANSWER, first));
-        return Ok(own.into_iter().chain(listed).collect());
+        return Ok((own.into_iter().chain(listed).collect(), found.list.len()));
     }
     let first = answer
         .equilibria()
         .first()
         .map(|first| with_modes(Shape::of(system, GROUP, ANSWER, first), "1"));
-    Ok(first.into_iter().collect())
+    Ok((first.into_iter().collect(), 1))
 }
 
 impl PageAnswer {

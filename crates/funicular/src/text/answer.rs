@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
+use model::number::Number;
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Anchors, Evidence, Rung, SolverName, Vector};
 
@@ -57,10 +58,13 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         let _ = writeln!(text, "No answer of {failure}");
     }
     if let Some(agreement) = solution.agreement() {
+        let [joints_m, forces_n, energy_j] =
+            [agreement.joints_m, agreement.forces_n, agreement.energy_j]
+                .map(|x| Number::size(x, 1));
         let _ = writeln!(
             text,
-            "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)",
-            agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
+            "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
+            agreement.verdict
         );
     }
     text
@@ -211,7 +215,7 @@ fn overview(equilibria: &[SystemEquilibrium]) -> String {
             e.solver.to_string(),
             long(e.energy_j),
             format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
-            format!("{:.1e}", e.evidence.residual),
+            Number::size(e.evidence.residual, 1).to_string(),
             e.evidence.iterations.to_string(),
             duration(e.evidence.solve_s),
         ]);

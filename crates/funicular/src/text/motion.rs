@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use model::number::Number;
 use model::system::System;
 use motion::Snapshot;
 
@@ -57,15 +58,15 @@ impl Summary {
         });
         fitted(&format!(
             "{}: {} s{ended}, {} stored times{parted}\n\
-             energy at the beginning {} J, largest change {:.1e} J{lost}\n\
-             lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
+             energy at the beginning {} J, largest change {} J{lost}\n\
+             lengths kept to {}, Newton's and Euler's laws to {} of the largest force\n",
             Printable(system.name()),
             short(self.last_s),
             self.stored,
             short(self.first_j),
-            self.energy_off_j,
-            self.lengths_off,
-            self.laws_off,
+            Number::size(self.energy_off_j, 1),
+            Number::size(self.lengths_off, 1),
+            Number::size(self.laws_off, 1),
         ))
     }
 }

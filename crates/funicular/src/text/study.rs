@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Write as _};
 
+use model::number::Number;
+
 use super::printable::Printable;
 use super::tables::{numbers_from, short, table, wrapped};
 use crate::study::{StudyAnswer, StudyPoint, StudyShape};
@@ -31,9 +33,10 @@ fn text(found: &StudyAnswer) -> String {
     let refused = found.points().len() - shapes;
     let agreed = found.shapes().filter(|shape| shape.agrees).count();
     let most = found.shapes().filter_map(|shape| shape.joints_differ_m).fold(0.0, f64::max);
+    let most = Number::size(most, 1);
     text += &wrapped(
         &format!(
-            "\n{shapes} shapes, of which both solvers agree on {agreed} (joints to {most:.1e} m at worst); \
+            "\n{shapes} shapes, of which both solvers agree on {agreed} (joints to {most} m at worst); \
              {refused} points without a shape"
         ),
         0,
