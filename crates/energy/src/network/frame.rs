@@ -126,7 +126,7 @@ fn across(direction: Vector) -> [Vector; 2] {
 }
 
 /// The directions that a support leaves free, and their number.
-fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
+pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
     let straight = |direction| {
         unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction })
     };

@@ -74,12 +74,31 @@ const GOLDEN: f64 = 0.618_033_988_75;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    let of = |system: &System| within(system, settings, unguided);
-    at_corners(system, of(system), |joined| of(&joined.system))
+    let from = |corners: Corners| {
+        let of = |system: &System| within(system, settings, |f, s| unguided(f, s, corners));
+        at_corners(system, of(system), |joined| of(&joined.system))
+    };
+    match from(Corners::Minima) {
+        Err(Error::Jammed { .. }) => from(Corners::Traps),
+        found => found,
+    }
+}
+
+/// What a search takes a corner for that it has run into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Corners {
+    /// A minimum, as most are.
+    Minima,
+    /// None of the minima: it begins elsewhere.
+    Traps,
 }
 
 /// From no guess.
-fn unguided(frame: &Arc<Frame>, settings: &Settings) -> Result<Minimum, Error> {
+fn unguided(
+    frame: &Arc<Frame>,
+    settings: &Settings,
+    corners: Corners,
+) -> Result<Minimum, Error> {
     let start = hanging(frame)?;
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut work = Effort::default();
@@ -96,6 +115,7 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings) -> Result<Minimum, Error> {
     for attempt in 1..=most.max(RESTARTS) {
         let again = match &found {
             Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
+            Err(Error::Jammed { .. }) if corners == Corners::Minima => false,
             Err(error) => hard_to_close(error),
         };
         if !again {

@@ -47,22 +47,19 @@ const NO_STRAIN: f64 = 1e-12;
 ///
 /// [`Error`], with numbers: what falls, what does not reach, what did not converge.
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    joined(system, hanging(system, settings), |joined| hanging(&joined.system, settings))
-}
-
-/// With all joints for themselves.
-fn hanging(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
     let framework = Framework::new(system).within(settings.max_work);
     let work = framework.work.clone();
     check_loaded(&framework)?;
     let solution = above(system, framework, None, settings, |framework| {
-        check(system, &framework)?;
-        match by_runs(system, &framework, settings, began) {
-            Some(solution) => Ok(solution),
-            None => hang(system, framework, settings, began),
-        }
+        joined(system, framework, |system, framework, _| {
+            check(system, &framework)?;
+            match by_runs(system, &framework, settings, began) {
+                Some(solution) => Ok(solution),
+                None => hang(system, framework, settings, began),
+            }
+        })
     });
     decided(system, work.judged(solution)?)
 }
@@ -157,14 +154,6 @@ fn from_densities(
 ///
 /// [`Error`], with numbers.
 pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
-    joined(system, reached(system, seed, settings), |joined| {
-        let joints_m = joined.places_m(&seed.joints_m);
-        reached(&joined.system, &Seed { joints_m, ..seed.clone() }, settings)
-    })
-}
-
-/// With all joints for themselves.
-fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     seed.check(system)?;
     let began = Instant::now();
@@ -173,27 +162,44 @@ fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution
     check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
     let solution = above(system, framework, Some(lies), settings, |framework| {
-        check(system, &framework)?;
-        let stiffness = Stiffness::new(&framework, false)?;
-        let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-        let start = solver.start(seed);
-        // Without loads the lengths of the shape are all that says what the members bear.
-        let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
-        let start = if to_fit { solver.closed(start) } else { start };
-        let run = match solver.with_signs(start.clone(), Patience::Full) {
-            Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
-                // From where it comes to rest, unless that is a corner.
-                let rest = settle(&solver.framework, &mut solver.stiffness, start);
-                let jam = jammed(system, &solver.framework, &rest.state);
-                let found = solver.with_signs(rest.state, Patience::Full);
-                found.map_err(|_| jam.unwrap_or(error))?
-            }
-            result => result?,
-        };
-        let second_order = solver.second_order(&run.state);
-        Ok(solver.solution(run, second_order))
+        joined(system, framework, |system, framework, joined| {
+            let seed = joined.map_or_else(
+                || seed.clone(),
+                |joined| Seed { joints_m: joined.places_m(&seed.joints_m), ..seed.clone() },
+            );
+            reached(system, framework, &seed, settings, began)
+        })
     });
     decided(system, work.judged(solution)?)
+}
+
+/// The same with these joints on the floor.
+fn reached(
+    system: &System,
+    framework: Framework,
+    seed: &Seed,
+    settings: &Settings,
+    began: Instant,
+) -> Result<Solution, Error> {
+    check(system, &framework)?;
+    let stiffness = Stiffness::new(&framework, false)?;
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let start = solver.start(seed);
+    // Without loads the lengths of the shape are all that says what the members bear.
+    let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
+    let start = if to_fit { solver.closed(start) } else { start };
+    let run = match solver.with_signs(start.clone(), Patience::Full) {
+        Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
+            // From where it comes to rest, unless that is a corner.
+            let rest = settle(&solver.framework, &mut solver.stiffness, start);
+            let jam = jammed(system, &solver.framework, &rest.state);
+            let found = solver.with_signs(rest.state, Patience::Full);
+            found.map_err(|_| jam.unwrap_or(error))?
+        }
+        result => result?,
+    };
+    let second_order = solver.second_order(&run.state);
+    Ok(solver.solution(run, second_order))
 }
 
 /// Refuse a rest without loads and without prestress: the shape is one of many.
