@@ -52,7 +52,8 @@ fn whole_again(system: &System, joined: &Joined, mut solution: Solution) -> Opti
     answer.joints_m = numbers().map(|number| answer.joints_m[*number]).collect();
     answer.reactions_n = numbers().map(|number| answer.reactions_n[*number]).collect();
     let frame = Frame::new(system).ok()?;
-    let scaled_down = |at_m: &Vector| scaled(1.0 / frame.length_m, along(*at_m, -1.0, frame.origin_m));
+    let scaled_down =
+        |at_m: &Vector| scaled(1.0 / frame.length_m, along(*at_m, -1.0, frame.origin_m));
     let force = frame.rods.iter().enumerate().map(|(e, rod)| {
         if rod.ground { 0.0 } else { answer.axial_n[frame.member_of(e)] / frame.force_n }
     });
@@ -130,15 +131,17 @@ fn corners(
         let jams = shared(system, joined, &tips, axial_n, most)?;
         let left = tips.iter().map(|tip| {
             let pulls = jams.iter().map(|(jam, [a, b])| {
-                let sign = f64::from(u8::from(*a == tip.joint)) - f64::from(u8::from(*b == tip.joint));
+                let sign =
+                    f64::from(u8::from(*a == tip.joint)) - f64::from(u8::from(*b == tip.joint));
                 scaled(sign, jam.pull_n)
             });
             pulls.fold(tip.force, |sum, pull| along(sum, 1.0, pull))
         });
         let left: Vec<Vector> = left.collect();
-        let pulled = tips.iter_mut().zip(&left).find(|(tip, left)| {
-            tip.rising.is_some_and(|up| dot(up, **left) > most)
-        });
+        let pulled = tips
+            .iter_mut()
+            .zip(&left)
+            .find(|(tip, left)| tip.rising.is_some_and(|up| dot(up, **left) > most));
         let Some((tip, _)) = pulled else {
             let ground = |(tip, left): (&Tip, &Vector)| {
                 let free = tip.level();
@@ -177,9 +180,9 @@ fn shared(
     most: f64,
 ) -> Option<Vec<(Jam, [usize; 2])>> {
     let moves = |joint: usize| !system.joints()[joint].support.is_fixed();
-    let spans = joined.spans(system).filter(|(member, _, [a, b])| {
-        axial_n[*member] > 0.0 && (moves(*a) || moves(*b))
-    });
+    let spans = joined
+        .spans(system)
+        .filter(|(member, _, [a, b])| axial_n[*member] > 0.0 && (moves(*a) || moves(*b)));
     let spans: Vec<(usize, usize, [usize; 2])> = spans.collect();
     let root = |span: usize| axial_n[spans[span].0].sqrt();
     let level: Vec<(&Tip, Vector)> =

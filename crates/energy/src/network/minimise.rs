@@ -94,11 +94,7 @@ enum Corners {
 }
 
 /// From no guess.
-fn unguided(
-    frame: &Arc<Frame>,
-    settings: &Settings,
-    corners: Corners,
-) -> Result<Minimum, Error> {
+fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result<Minimum, Error> {
     let start = hanging(frame)?;
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut work = Effort::default();

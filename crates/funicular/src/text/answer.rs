@@ -62,6 +62,14 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)",
             agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
         );
+        if !agreement.undetermined.is_empty() {
+            let names = Printable(&agreement.undetermined.join(", ")).to_string();
+            let sentence = format!(
+                "Not determined by equilibrium: the place of {names}, which slides freely."
+            );
+            text += &wrapped(&sentence, 0);
+            text.push('\n');
+        }
     }
     text
 }

@@ -77,7 +77,8 @@ fn apart(
     let spans: Vec<usize> = (0..framework.links.len())
         .filter(|k| {
             let link = &framework.links[*k];
-            let moves = [link.from, link.to].iter().any(|joint| framework.nodes[*joint].freedom() > 0);
+            let moves =
+                [link.from, link.to].iter().any(|joint| framework.nodes[*joint].freedom() > 0);
             let is_one = joined.numbers[link.from] == joined.numbers[link.to];
             link.rope.is_some() && is_one && moves && state.axial[*k] > 0.0
         })
@@ -142,7 +143,9 @@ fn pulls(
         balance.clone().svd(true, true).solve(&wanted, ROUNDING * balance.amax()).ok()?
     };
     let off = (&balance * &parts - wanted).amax();
-    let pull = |(k, weight): (usize, &f64)| Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight;
+    let pull = |(k, weight): (usize, &f64)| {
+        Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight
+    };
     (off <= ROUNDING * state.largest_force(framework))
         .then(|| weights.iter().enumerate().map(pull).collect())
 }

@@ -80,7 +80,8 @@ impl System {
         let kept: Vec<usize> = (0..stands.len()).filter(|joint| stands[*joint] == *joint).collect();
         let number = |joint: usize| kept.binary_search(&stands[joint]).unwrap_or_default();
         let numbers: Vec<usize> = (0..stands.len()).map(number).collect();
-        let support = |joint: usize| Joint { support: supports[joint], ..self.joints[joint].clone() };
+        let support =
+            |joint: usize| Joint { support: supports[joint], ..self.joints[joint].clone() };
         let mut joints: Vec<Joint> = kept.iter().map(|joint| support(*joint)).collect();
         for (joint, number) in
             numbers.iter().enumerate().filter(|(joint, _)| stands[*joint] != *joint)
@@ -102,7 +103,8 @@ impl System {
         let held = pairs.iter().flatten().filter(|joint| fixed(**joint));
         let same = |a: usize| {
             let all = (0..self.joints.len()).filter(move |b| *b != a);
-            all.filter(move |b| self.joints[*b].support == self.joints[a].support).map(move |b| [a, b])
+            all.filter(move |b| self.joints[*b].support == self.joints[a].support)
+                .map(move |b| [a, b])
         };
         held.flat_map(|joint| same(*joint)).collect()
     }
@@ -125,7 +127,8 @@ fn slack(cable: &Member, at: usize, joints: &mut Vec<Joint>) -> Option<Member> {
     let body = (cable.kind == Kind::Cable).then(|| Bar::homogeneous(cable.body.length_m(), 0.0))?;
     joints[at].mass_kg += cable.body.mass_kg();
     for load in &cable.loads {
-        joints[at].force_n = std::array::from_fn(|axis| joints[at].force_n[axis] + load.force_n[axis]);
+        joints[at].force_n =
+            std::array::from_fn(|axis| joints[at].force_n[axis] + load.force_n[axis]);
     }
     let at_m = joints.iter().find_map(|joint| joint.support.at_m()).unwrap_or_default();
     let [from, to] = [joints.len(), joints.len() + 1];

@@ -110,7 +110,8 @@ impl Support {
                 let size = dot(rest, rest).sqrt();
                 if size > ROUNDING.sqrt() {
                     let axis = rest.map(|x| x / size);
-                    let off_m = support.at_m().map_or(0.0, |to_m| dot(normal, to_m) - dot(normal, at_m));
+                    let off_m =
+                        support.at_m().map_or(0.0, |to_m| dot(normal, to_m) - dot(normal, at_m));
                     at_m = std::array::from_fn(|k| at_m[k] + off_m / dot(normal, axis) * axis[k]);
                     held.push(axis);
                 }
