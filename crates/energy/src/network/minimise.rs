@@ -112,6 +112,7 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result
         let again = match &found {
             Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
             Err(Error::Jammed { .. }) if corners == Corners::Minima => false,
+            Err(Error::IterationLimit { .. }) => attempt <= RESTARTS && !frame.ropes.is_empty(),
             Err(error) => hard_to_close(error),
         };
         if !again {
@@ -160,12 +161,14 @@ fn better(
     new: Result<Minimum, Error>,
     old: Result<Minimum, Error>,
 ) -> Result<Minimum, Error> {
+    use Error::{Jammed, Misfit, Work};
     match (new, old) {
         (Ok(new), Ok(old)) => {
             let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
             Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
         }
-        (new @ (Ok(_) | Err(Error::Misfit { .. } | Error::Work { .. })), Err(_)) => new,
+        // In a corner the two joints may be one.
+        (new @ (Ok(_) | Err(Misfit { .. } | Work { .. } | Jammed { .. })), Err(_)) => new,
         (_, old) => old,
     }
 }

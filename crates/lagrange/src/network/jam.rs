@@ -14,8 +14,11 @@ use super::framework::Framework;
 use super::solution::{Answer, Solution};
 use super::state::State;
 
-/// What a span bears may exceed its tension by this part of the largest force: rounding.
+/// Rounding of forces over the largest.
 const ROUNDING: f64 = 1e-9;
+/// What a span bears may exceed its tension by this part of it. What a light ring feels of a corner is only the
+/// square of its weight over the tension.
+const ABOVE: f64 = 1e-11;
 
 /// What was found; where a rope jams, with the joints that run together as one, as long as more do.
 pub(super) fn joined(
@@ -83,9 +86,8 @@ fn apart(
             link.rope.is_some() && is_one && moves && state.axial[*k] > 0.0
         })
         .collect();
-    let most = ROUNDING * state.largest_force(framework);
     for (span, pull) in spans.iter().zip(pulls(framework, joined, &state, &spans)?) {
-        if pull.norm() > state.axial[*span] + most {
+        if pull.norm() > state.axial[*span] * (1.0 + ABOVE) {
             return None;
         }
         directions[*span].0 = pull / state.axial[*span];
