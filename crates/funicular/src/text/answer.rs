@@ -64,9 +64,8 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         );
         if !agreement.undetermined.is_empty() {
             let names = Printable(&agreement.undetermined.join(", ")).to_string();
-            let sentence = format!(
-                "Not determined by equilibrium: the place of {names}, which slides freely."
-            );
+            let places = if agreement.undetermined.len() == 1 { "place" } else { "places" };
+            let sentence = format!("Not determined by equilibrium: the {places} of {names}.");
             text += &wrapped(&sentence, 0);
             text.push('\n');
         }

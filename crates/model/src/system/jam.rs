@@ -93,7 +93,8 @@ impl System {
         let members =
             self.members.iter().map(|member| without_spans(member, &numbers, &mut joints));
         let members = members.collect::<Option<_>>()?;
-        let system = Self::new(self.name.clone(), self.gravity_m_s2, joints, members).ok()?;
+        // Unchecked: two members may have the same two joints now, and the longer cable of both is slack.
+        let system = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);
         Some(Joined { system: Self { floor_m: self.floor_m, ..system }, numbers, kept })
     }
 
