@@ -1,5 +1,7 @@
 //! A system in the units and coordinates of the solver.
 
+use std::collections::BTreeSet;
+
 use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
@@ -126,7 +128,7 @@ fn across(direction: Vector) -> [Vector; 2] {
 }
 
 /// The directions that a support leaves free, and their number.
-fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
+pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
     let straight = |direction| {
         unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction })
     };
@@ -179,7 +181,8 @@ impl Frame {
             linear: false,
             rope: 0,
         });
-        let rods = with_strands(system, rods.collect());
+        let mut rods = with_strands(system, rods.collect());
+        beside_strands(&mut rods);
         let mut frame = Self {
             origin_m,
             length_m,
@@ -346,6 +349,16 @@ fn with_strands(system: &System, mut rods: Vec<Rod>) -> Vec<Rod> {
         }
     }
     rods
+}
+
+/// What keeps the two joints of a strand apart has a corner where they meet, as the strand has: without it the strand
+/// would hold them there.
+fn beside_strands(rods: &mut [Rod]) {
+    let ends = |rod: &Rod| [rod.from.min(rod.to), rod.from.max(rod.to)];
+    let strands: BTreeSet<[usize; 2]> = rods.iter().filter(|rod| rod.rope > 0).map(ends).collect();
+    for rod in rods.iter_mut().filter(|rod| rod.kind != Kind::Cable) {
+        rod.linear = strands.contains(&ends(rod));
+    }
 }
 
 /// The largest stiffness of a member, N.

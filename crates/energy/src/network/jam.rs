@@ -1,21 +1,29 @@
 //! Minima at a corner of the energy, where a span of a rope has no length.
 //!
 //! The energy of a rope with the tension `T` has the corner `T |d|` there. Moved apart by `v` the two joints
-//! gain `T |v|` and lose the work `g . v` of all that else acts on one of them: the corner is a minimum across
-//! if `|g| <= T`. Along, with both joints as one, it is an energy like any other, and that is minimised.
+//! gain `T |v|` and lose the work of all that else acts on them: the corner is a minimum across if spans that
+//! pull with no more than their tensions balance that. Along, with both joints as one, it is an energy like any
+//! other, and that is minimised.
 
-use std::collections::BTreeMap;
-
-use model::system::{Joined, Support, System};
+use faer::Mat;
+use model::system::{Joined, System};
 use model::{Jam, Vector};
 
 use crate::network::error::Error;
-use crate::network::frame::loads_n;
+use crate::network::frame::{Frame, end_loads_n, free_axes, loads_n};
+use crate::network::shape::Shape;
 use crate::network::solution::Solution;
-use crate::vector::{along, norm, scaled, unit};
+use crate::vector::{along, dot, norm, scaled, unit};
 
-/// Rounding of a force at a joint over the largest that acts there.
+/// Rounding of a force over the largest that acts.
 const ROUNDING: f64 = 1e-9;
+
+/// A pull may exceed its tension by this part of that: a ring that weighs little beside a taut rope is pulled out of
+/// its corner by a part of the tension that is the square of its own.
+const ABOVE: f64 = 1e-11;
+
+/// A direction that rises less than this is level.
+const LEVEL: f64 = 1e-9;
 
 /// The minimum of a system; where a span ends in a corner, of the one with its two joints as one, and so on.
 pub(super) fn at_corners(
@@ -44,21 +52,36 @@ pub(super) fn at_corners(
 /// The minimum with its joints apart, if the energy rises across every corner.
 fn whole_again(system: &System, joined: &Joined, mut solution: Solution) -> Option<Solution> {
     let answer = &mut solution.equilibrium;
-    let joints = 0..system.joints().len();
-    let number = |joint: usize| joined.numbers[joint];
-    let held = |joint: usize| joined.kept[number(joint)] == joint;
-    let reactions = joints
-        .clone()
-        .map(|joint| if held(joint) { answer.reactions_n[number(joint)] } else { [0.0; 3] });
-    answer.reactions_n = reactions.collect();
-    answer.joints_m = joints.map(|joint| answer.joints_m[number(joint)]).collect();
-    let jams = corners(system, joined, &answer.joints_m, &answer.axial_n)?;
+    let numbers = || joined.numbers.iter();
+    answer.joints_m = numbers().map(|number| answer.joints_m[*number]).collect();
+    answer.reactions_n = numbers().map(|number| answer.reactions_n[*number]).collect();
+    let frame = Frame::new(system).ok()?;
+    let scaled_down =
+        |at_m: &Vector| scaled(1.0 / frame.length_m, along(*at_m, -1.0, frame.origin_m));
+    let force = frame.rods.iter().enumerate().map(|(e, rod)| {
+        if rod.ground { 0.0 } else { answer.axial_n[frame.member_of(e)] / frame.force_n }
+    });
+    let mut x = frame.supports.clone();
+    x.iter_mut().zip(&answer.joints_m).for_each(|(x, at_m)| *x = scaled_down(at_m));
+    let shape = Shape { x, force: force.collect() };
+    answer.energy_j = frame.energy(&shape) * frame.force_n * frame.length_m;
+    let Corners { jams, reactions } = corners(system, joined, &answer.joints_m, &answer.axial_n)?;
+    for (joint, reaction) in reactions {
+        answer.reactions_n[joint] = reaction;
+    }
+    for (k, member) in system.members().iter().enumerate() {
+        let first = joined.numbers[member.from];
+        if member.path().all(|joint| joined.numbers[joint] == first) {
+            // Slack, and its loads at the joint.
+            let ends = end_loads_n(member, system.gravity_m_s2());
+            [answer.start_forces_n[k], answer.end_forces_n[k]] = ends.map(|end| scaled(-1.0, end));
+        }
+    }
     for jam in &jams {
-        let last = system.members()[jam.member].spans().count() - 1;
         if jam.span == 0 {
             answer.start_forces_n[jam.member] = scaled(-1.0, jam.pull_n);
         }
-        if jam.span == last {
+        if jam.span == system.members()[jam.member].via().len() {
             answer.end_forces_n[jam.member] = jam.pull_n;
         }
     }
@@ -66,67 +89,146 @@ fn whole_again(system: &System, joined: &Joined, mut solution: Solution) -> Opti
     Some(solution)
 }
 
-/// A joint in a corner: what acts on it besides the spans without length, and the largest part of that.
-#[derive(Clone, Copy)]
-struct Acting {
-    force: Vector,
-    largest: f64,
+/// What spans without length bear, and the forces of the ground on their joints.
+struct Corners {
+    jams: Vec<Jam>,
+    reactions: Vec<(usize, Vector)>,
 }
 
-/// The spans without length with their pulls; nothing where the energy falls across one.
+/// A joint in a corner.
+struct Tip {
+    joint: usize,
+    /// What acts on it besides the spans without length.
+    force: Vector,
+    /// Directions in which it can move, orthonormal.
+    free: Vec<Vector>,
+    /// What of a push straight up it follows, if the floor is under it.
+    rising: Option<Vector>,
+}
+
+/// The balance in the corners; nothing where the energy falls across one. A joint that the floor would have to pull
+/// is not held by it.
 fn corners(
     system: &System,
     joined: &Joined,
     joints_m: &[Vector],
     axial_n: &[f64],
-) -> Option<Vec<Jam>> {
-    let mut acting = acting(system, joined, joints_m, axial_n);
-    let mut found: Vec<(Jam, [usize; 2])> = joined
+) -> Option<Corners> {
+    let acting = acting(system, joined, joints_m, axial_n);
+    let largest = axial_n.iter().map(|n| n.abs()).chain(acting.iter().map(|f| norm(*f)));
+    let most = ROUNDING * largest.fold(0.0, f64::max);
+    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let far_m = joints_m.iter().flatten().fold(1.0, |far: f64, x| far.max(x.abs()));
+    let several = |joint: &usize| {
+        joined.numbers.iter().filter(|other| **other == joined.numbers[*joint]).count() > 1
+    };
+    let mut tips = vec![];
+    for joint in (0..acting.len()).filter(several) {
+        let (count, axes) = free_axes(&system.joints()[joint]).ok()?;
+        let lies = joints_m[joint][2] - floor_m <= ROUNDING * far_m;
+        let free = axes[..count].to_vec();
+        let rising = free.iter().fold([0.0; 3], |sum, axis| along(sum, axis[2], *axis));
+        let rising = unit(rising).filter(|_| lies && norm(rising) > LEVEL);
+        tips.push(Tip { joint, force: acting[joint], free, rising });
+    }
+    loop {
+        let jams = shared(system, joined, &tips, axial_n, most)?;
+        let left = tips.iter().map(|tip| {
+            let pulls = jams.iter().map(|(jam, [a, b])| {
+                let sign =
+                    f64::from(u8::from(*a == tip.joint)) - f64::from(u8::from(*b == tip.joint));
+                scaled(sign, jam.pull_n)
+            });
+            pulls.fold(tip.force, |sum, pull| along(sum, 1.0, pull))
+        });
+        let left: Vec<Vector> = left.collect();
+        let pulled = tips
+            .iter_mut()
+            .zip(&left)
+            .find(|(tip, left)| tip.rising.is_some_and(|up| dot(up, **left) > most));
+        let Some((tip, _)) = pulled else {
+            let ground = |(tip, left): (&Tip, &Vector)| {
+                let free = tip.level();
+                let moving = free.iter().fold([0.0; 3], |sum, e| along(sum, dot(*e, *left), *e));
+                (tip.joint, along(moving, -1.0, *left))
+            };
+            let reactions = tips.iter().zip(&left).map(ground).collect();
+            let jams = jams.into_iter().map(|(jam, _)| jam).collect();
+            return Some(Corners { jams, reactions });
+        };
+        tip.rising = None;
+    }
+}
+
+impl Tip {
+    /// The directions in which it moves on the floor, or where that is not under it.
+    fn level(&self) -> Vec<Vector> {
+        let Some(up) = self.rising else { return self.free.clone() };
+        let mut level: Vec<Vector> = vec![];
+        for axis in &self.free {
+            let others = level.iter().chain([&up]);
+            let rest = others.fold(*axis, |rest, other| along(rest, -dot(rest, *other), *other));
+            level.extend(unit(rest).filter(|_| norm(rest) > ROUNDING.sqrt()));
+        }
+        level
+    }
+}
+
+/// Pulls of the spans without length, each with its joints: the least `sum |pull|^2 / T` that balances every joint
+/// along its motions. Nothing where that needs more than a tension.
+fn shared(
+    system: &System,
+    joined: &Joined,
+    tips: &[Tip],
+    axial_n: &[f64],
+    most: f64,
+) -> Option<Vec<(Jam, [usize; 2])>> {
+    let moves = |joint: usize| !system.joints()[joint].support.is_fixed();
+    let spans = joined
         .spans(system)
-        .map(|(member, span, ends)| (Jam { member, span, pull_n: [0.0; 3] }, ends))
-        .collect();
-    // Tension between each two joints in one place.
-    let mut ties = BTreeMap::<[usize; 2], f64>::new();
-    for (jam, [a, b]) in &found {
-        *ties.entry([*a.min(b), *a.max(b)]).or_default() += axial_n[jam.member];
-    }
-    let free = |joint: usize| system.joints()[joint].support == Support::Free;
-    while let Some(any) = ties.keys().next().copied() {
-        let only = |joint: usize| ties.keys().filter(|tie| tie.contains(&joint)).count() == 1;
-        let tip = ties.keys().flatten().copied().find(|joint| free(*joint) && only(*joint));
-        // A closed ring of them holds without one of its spans.
-        let tie = tip.and_then(|tip| ties.keys().find(|tie| tie.contains(&tip)).copied());
-        let tension = ties.remove(&tie.unwrap_or(any))?;
-        let (Some(tip), Some([a, b])) = (tip, tie) else { continue };
-        let Acting { force, largest } = acting[tip];
-        if norm(force) > tension + ROUNDING * largest {
-            return None;
+        .filter(|(member, _, [a, b])| axial_n[*member] > 0.0 && (moves(*a) || moves(*b)));
+    let spans: Vec<(usize, usize, [usize; 2])> = spans.collect();
+    let root = |span: usize| axial_n[spans[span].0].sqrt();
+    let level: Vec<(&Tip, Vector)> =
+        tips.iter().flat_map(|tip| tip.level().into_iter().map(move |axis| (tip, axis))).collect();
+    let (rows, columns) = (level.len(), 3 * spans.len());
+    let balance = Mat::from_fn(rows, columns, |row, column| {
+        let (tip, axis) = level[row];
+        let [a, b] = spans[column / 3].2;
+        let sign = f64::from(u8::from(a == tip.joint)) - f64::from(u8::from(b == tip.joint));
+        sign * root(column / 3) * axis[column % 3]
+    });
+    let wanted = Mat::from_fn(rows, 1, |row, _| -dot(level[row].0.force, level[row].1));
+    let mut parts = Mat::<f64>::zeros(columns, 1);
+    if rows > 0 && columns > 0 {
+        let svd = balance.svd().ok()?;
+        let largest = svd.S()[0];
+        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > ROUNDING * largest) {
+            let (u, v) = (svd.U().col(k), svd.V().col(k));
+            let part = u.transpose() * wanted.col(0) / svd.S()[k];
+            (0..columns).for_each(|row| parts[(row, 0)] += part * v[row]);
         }
-        for (jam, [first, second]) in &mut found {
-            let part = if tension > 0.0 { axial_n[jam.member] / tension } else { 0.0 };
-            if [*first, *second] == [a, b] || [*first, *second] == [b, a] {
-                jam.pull_n = scaled(if *first == tip { -part } else { part }, force);
-            }
-        }
-        let root = if tip == a { b } else { a };
-        let Acting { force: there, largest: most } = acting[root];
-        acting[root] = Acting { force: along(there, 1.0, force), largest: most.max(largest) };
     }
-    Some(found.into_iter().map(|(jam, _)| jam).collect())
+    let off = &balance * &parts - &wanted;
+    if (0..rows).any(|row| off[(row, 0)].abs() > most) {
+        return None;
+    }
+    let jam = |(k, (member, span, joints)): (usize, &(usize, usize, [usize; 2]))| {
+        let pull_n = std::array::from_fn(|axis| root(k) * parts[(3 * k + axis, 0)]);
+        let holds = norm(pull_n) <= axial_n[*member] * (1.0 + ABOVE);
+        holds.then_some((Jam { member: *member, span: *span, pull_n }, *joints))
+    };
+    spans.iter().enumerate().map(jam).collect()
 }
 
 /// What loads and members of some length do at each joint.
-fn acting(system: &System, joined: &Joined, joints_m: &[Vector], axial_n: &[f64]) -> Vec<Acting> {
-    let mut all: Vec<Acting> =
-        loads_n(system).into_iter().map(|force| Acting { force, largest: norm(force) }).collect();
+fn acting(system: &System, joined: &Joined, joints_m: &[Vector], axial_n: &[f64]) -> Vec<Vector> {
+    let mut all = loads_n(system);
     for (member, force) in system.members().iter().zip(axial_n) {
         for [a, b] in member.spans().filter(|[a, b]| joined.numbers[*a] != joined.numbers[*b]) {
             let Some(direction) = unit(along(joints_m[b], -1.0, joints_m[a])) else { continue };
-            for (joint, sign) in [(a, 1.0), (b, -1.0)] {
-                let Acting { force: there, largest } = &mut all[joint];
-                *there = along(*there, sign * force, direction);
-                *largest = largest.max(force.abs());
-            }
+            all[a] = along(all[a], *force, direction);
+            all[b] = along(all[b], -force, direction);
         }
     }
     all

@@ -74,12 +74,27 @@ const GOLDEN: f64 = 0.618_033_988_75;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    let of = |system: &System| within(system, settings, unguided);
-    at_corners(system, of(system), |joined| of(&joined.system))
+    let from = |corners: Corners| {
+        let of = |system: &System| within(system, settings, |f, s| unguided(f, s, corners));
+        at_corners(system, of(system), |joined| of(&joined.system))
+    };
+    match from(Corners::Minima) {
+        Err(Error::Jammed { .. }) => from(Corners::Traps),
+        found => found,
+    }
+}
+
+/// What a search takes a corner for that it has run into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Corners {
+    /// A minimum, as most are.
+    Minima,
+    /// None of the minima: it begins elsewhere.
+    Traps,
 }
 
 /// From no guess.
-fn unguided(frame: &Arc<Frame>, settings: &Settings) -> Result<Minimum, Error> {
+fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result<Minimum, Error> {
     let start = hanging(frame)?;
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut work = Effort::default();
@@ -96,6 +111,8 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings) -> Result<Minimum, Error> {
     for attempt in 1..=most.max(RESTARTS) {
         let again = match &found {
             Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
+            Err(Error::Jammed { .. }) if corners == Corners::Minima => false,
+            Err(Error::IterationLimit { .. }) => attempt <= RESTARTS && !frame.ropes.is_empty(),
             Err(error) => hard_to_close(error),
         };
         if !again {
@@ -144,12 +161,14 @@ fn better(
     new: Result<Minimum, Error>,
     old: Result<Minimum, Error>,
 ) -> Result<Minimum, Error> {
+    use Error::{Jammed, Misfit, Work};
     match (new, old) {
         (Ok(new), Ok(old)) => {
             let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
             Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
         }
-        (new @ (Ok(_) | Err(Error::Misfit { .. } | Error::Work { .. })), Err(_)) => new,
+        // In a corner the two joints may be one.
+        (new @ (Ok(_) | Err(Misfit { .. } | Work { .. } | Jammed { .. })), Err(_)) => new,
         (_, old) => old,
     }
 }

@@ -37,6 +37,9 @@ pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
 
+/// What the springs of a rope leave along it, in units of their stiffness, where they cancel: rounding.
+const ALONG: f64 = 8.0 * f64::EPSILON;
+
 /// Steps of Newton's method for places and forces, and with one factorisation.
 const POLISH: usize = 12;
 const CHORDS: usize = 6;
@@ -109,10 +112,11 @@ impl Newton {
     /// The same with springs of one strain.
     fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
         let frame = Arc::clone(&self.frame);
-        let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
+        let (mut shape, mut active) = (shape.clone(), frame.active(shape));
         let stiffness = frame.force_scale(&shape.force) / strain;
+        release(&mut shape, &active);
+        let mut slope = frame.slope(&shape);
         let (mut steps, mut changes) = (POLISH, CHANGES);
-        let mut active = frame.active(&shape);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
@@ -185,12 +189,14 @@ impl Newton {
         let excess = frame.excesses(&shape.x);
         let largest = frame.largest_force(&shape.force);
         let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
+        let along = if frame.ropes.is_empty() { 0.0 } else { ALONG * stiffness / largest };
+        let neutral = NEUTRAL.max(along);
         let block = |e: usize| {
             let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
             excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
         };
         frame.fill(&mut self.factor, block, |joint| {
-            NEUTRAL * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
+            neutral * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
         });
         self.factor.cholesky()
     }

@@ -207,7 +207,10 @@ fn equilibrium(
         }
         start_forces_n.push(at_start);
         end_forces_n.push(at_end);
-        axial_n.push(shape.force[e].signum() * norm(pull));
+        // Of a rope it is the same in all strands, and the first one may have no length.
+        let size =
+            if strands.is_some() { frame.force_n * shape.force[e].abs() } else { norm(pull) };
+        axial_n.push(shape.force[e].signum() * size);
     }
     for (spot, reaction) in frame.spots.iter().zip(&mut reactions_n) {
         // The ground pushes across the free motions alone; what is along them is rounding.

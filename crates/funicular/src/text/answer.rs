@@ -66,6 +66,13 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
             agreement.verdict
         );
+        if !agreement.undetermined.is_empty() {
+            let names = Printable(&agreement.undetermined.join(", ")).to_string();
+            let places = if agreement.undetermined.len() == 1 { "place" } else { "places" };
+            let sentence = format!("Not determined by equilibrium: the {places} of {names}.");
+            text += &wrapped(&sentence, 0);
+            text.push('\n');
+        }
     }
     text
 }

@@ -139,9 +139,9 @@ fn with_open_pushes(
     settings: &Settings,
     solution: Solution,
 ) -> Result<Solution, Error> {
-    let Some(open) = open_pushes(system, framework, floor, lies, &solution) else {
-        return Ok(solution);
-    };
+    let jams = !solution.equilibrium.evidence.jams.is_empty();
+    let open = open_pushes(system, framework, floor, lies, &solution);
+    let Some(open) = open.filter(|_| !jams) else { return Ok(solution) };
     let laid = framework.with_laid(floor, &open);
     let state = State::of(&laid, &solution);
     let mut stiffness = Stiffness::new(&laid, false)?;
@@ -185,8 +185,8 @@ pub(super) fn above(
     for round in 0..ROUNDS {
         let mut solution = match solve(framework.with_laid(floor, &lies)) {
             Ok(solution) => solution,
-            // The floor may catch what falls without end: from all joints on it then.
-            Err(error @ Error::Escapes { .. }) if lost.is_none() => {
+            // The floor may catch what has no rest without it: from all joints on it then.
+            Err(error) if lost.is_none() && catches(&error) => {
                 lost = Some(error);
                 lies = framework.nodes.iter().map(|node| lift(node).is_some()).collect();
                 continue;
@@ -202,6 +202,12 @@ pub(super) fn above(
         lies = next;
     }
     Err(Error::Floor { rounds: ROUNDS })
+}
+
+/// Whether a floor may hold what this says of a system without one.
+fn catches(error: &Error) -> bool {
+    use Error::{Escapes, Jammed, NotConverged, Unstable};
+    matches!(error, Escapes { .. } | Jammed { .. } | NotConverged { .. } | Unstable { .. })
 }
 
 /// Which joints lie below the floor or on it, m.

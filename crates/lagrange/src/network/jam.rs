@@ -2,27 +2,33 @@
 //!
 //! Where a span of a rope has no length its direction is any vector $s$ with $|s| \\le 1$: a subgradient of
 //! $|d|$. The two joints are one in the balances then, and what each of them alone is out of balance by the
-//! span bears as $T s$. It is an equilibrium if that is no more than the tension.
+//! spans bear as $T s$. It is an equilibrium if that is no more than the tension. Where several spans may bear
+//! it, it is shared with the least $\sum T |s|^2$.
 
-use model::system::{Joined, Support, System};
-use model::{Jam, Vector};
-use nalgebra::Vector3;
+use model::Jam;
+use model::system::{Joined, System};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::error::Error;
 use super::framework::Framework;
-use super::solution::Solution;
+use super::solution::{Answer, Solution};
 use super::state::State;
 
-/// What a span bears may exceed its tension by this part of the forces at its joint: rounding.
+/// Rounding of forces over the largest.
 const ROUNDING: f64 = 1e-9;
+/// What a span bears may exceed its tension by this part of it. What a light ring feels of a corner is only the
+/// square of its weight over the tension.
+const ABOVE: f64 = 1e-11;
 
 /// What was found; where a rope jams, with the joints that run together as one, as long as more do.
 pub(super) fn joined(
     system: &System,
-    found: Result<Solution, Error>,
-    solve: impl Fn(&Joined) -> Result<Solution, Error>,
+    framework: Framework,
+    mut solve: impl FnMut(&System, Framework, Option<&Joined>) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
-    let Err(Error::Jammed { from, to, .. }) = &found else { return found };
+    let whole = (!framework.ropes.is_empty()).then(|| framework.clone());
+    let found = solve(system, framework, None);
+    let (Some(whole), Err(Error::Jammed { from, to, .. })) = (whole, &found) else { return found };
     let mut names = [from.clone(), to.clone()];
     let mut pairs = Vec::new();
     loop {
@@ -31,100 +37,117 @@ pub(super) fn joined(
         };
         pairs.push([a, b]);
         let Some(joined) = system.joined(&pairs) else { return found };
-        match solve(&joined) {
-            Ok(solution) => return apart(system, &joined, solution).map_or(found, Ok),
+        match solve(&joined.system, whole.joined(&joined), Some(&joined)) {
+            Ok(solution) => return apart(system, &whole, &joined, solution).map_or(found, Ok),
             Err(Error::Jammed { from, to, .. }) => names = [from, to],
             Err(_) => return found,
         }
     }
 }
 
-/// The answer with all joints of the whole system; nothing where a span would bear more than its tension.
-fn apart(system: &System, joined: &Joined, mut solution: Solution) -> Option<Solution> {
-    let answer = &mut solution.equilibrium;
-    answer.joints_m = joined.numbers.iter().map(|number| answer.joints_m[*number]).collect();
-    let reaction = |(joint, number): (usize, &usize)| {
-        if joined.kept[*number] == joint { answer.reactions_n[*number] } else { [0.0; 3] }
-    };
-    answer.reactions_n = joined.numbers.iter().enumerate().map(reaction).collect();
-    answer.evidence.jams = jams(system, joined, &answer.joints_m, &answer.axial_n)?;
-    for Jam { member, span, pull_n } in &answer.evidence.jams {
-        if *span == 0 {
-            answer.start_forces_n[*member] = pull_n.map(|n| -n);
+impl Framework {
+    /// That of the joined system, with what lies on the floor here.
+    fn joined(&self, joined: &Joined) -> Self {
+        let framework = Self { work: self.work.clone(), ..Self::new(&joined.system) };
+        let mut lies = vec![false; framework.nodes.len()];
+        for lying in &self.lying {
+            lies[joined.numbers[lying.joint]] = true;
         }
-        if *span == system.members()[*member].via().len() {
-            answer.end_forces_n[*member] = *pull_n;
+        match framework.floor(&joined.system) {
+            Some(floor) => framework.with_laid(floor, &lies),
+            None => framework,
         }
     }
+}
+
+/// The answer with all joints of the whole system; nothing where a span would bear more than its tension.
+fn apart(
+    system: &System,
+    framework: &Framework,
+    joined: &Joined,
+    mut solution: Solution,
+) -> Option<Solution> {
+    let units = framework.units;
+    let answer = &solution.equilibrium;
+    let place = |number: &usize| {
+        (Vector3::from(answer.joints_m[*number]) - units.origin_m) / units.length_m
+    };
+    let axial = answer.axial_n.iter().map(|axial_n| axial_n / units.force_n).collect();
+    let axial = framework.by_link(axial);
+    let taut = vec![true; axial.len()];
+    let state = State::new(joined.numbers.iter().map(place).collect(), axial, taut);
+    let mut directions = state.directions(framework);
+    let spans: Vec<usize> = (0..framework.links.len())
+        .filter(|k| {
+            let link = &framework.links[*k];
+            let moves =
+                [link.from, link.to].iter().any(|joint| framework.nodes[*joint].freedom() > 0);
+            let is_one = joined.numbers[link.from] == joined.numbers[link.to];
+            link.rope.is_some() && is_one && moves && state.axial[*k] > 0.0
+        })
+        .collect();
+    for (span, pull) in spans.iter().zip(pulls(framework, joined, &state, &spans)?) {
+        if pull.norm() > state.axial[*span] * (1.0 + ABOVE) {
+            return None;
+        }
+        directions[*span].0 = pull / state.axial[*span];
+    }
+    let left = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+    let left = framework.unbalance(left);
+    let jam = |span: &usize| {
+        let member = framework.member_of(*span);
+        let rope = framework.rope(&framework.links[*span])?;
+        let number = rope.spans.iter().position(|other| other == span)?;
+        let pull = directions[*span].0 * (state.axial[*span] * units.force_n);
+        Some(Jam { member, span: number, pull_n: pull.into() })
+    };
+    let mut jams: Vec<Jam> = spans.iter().filter_map(jam).collect();
+    jams.sort_by_key(|jam| [jam.member, jam.span]);
+    let (stability, mut evidence) = (answer.stability, answer.evidence.clone());
+    evidence.jams = jams;
+    solution.equilibrium =
+        Answer { system, framework, state, directions, left }.equilibrium(stability, evidence);
     Some(solution)
 }
 
-/// The spans without length and what they bear, from one joint to the next: each that is not held and has one
-/// neighbour left hands on to it what it is out of balance by.
-fn jams(
-    system: &System,
+/// What the spans without length bear, each at its first joint: with it every joint is in balance along its free
+/// directions. Nothing where none do that.
+fn pulls(
+    framework: &Framework,
     joined: &Joined,
-    joints_m: &[Vector],
-    axial_n: &[f64],
-) -> Option<Vec<Jam>> {
-    let mut left = unbalance(system, joints_m, axial_n);
-    let spans: Vec<_> = joined.spans(system).collect();
-    let mut pulls = vec![Vector3::zeros(); spans.len()];
-    let mut open: Vec<[usize; 2]> =
-        spans.iter().map(|(.., [a, b])| [*a.min(b), *a.max(b)]).collect();
-    open.sort_unstable();
-    open.dedup();
-    while let Some(last) = open.last().copied() {
-        let is_last = |joint: usize| {
-            system.joints()[joint].support == Support::Free
-                && open.iter().filter(|pair| pair.contains(&joint)).count() == 1
-        };
-        let ends = open.iter().flat_map(|[a, b]| [[*a, *b], [*b, *a]]);
-        let Some([end, next]) = ends.into_iter().find(|[end, _]| is_last(*end)) else {
-            // In a ring of such spans one more than needed bears nothing.
-            open.retain(|pair| *pair != last);
-            continue;
-        };
-        let between = |k: &usize| [[end, next], [next, end]].contains(&spans[*k].2);
-        let between: Vec<usize> = (0..spans.len()).filter(between).collect();
-        let most: f64 = between.iter().map(|k| axial_n[spans[*k].0]).sum();
-        let (force, size) = left[end];
-        if force.norm() > most + ROUNDING * size {
-            return None;
-        }
-        for k in between.into_iter().filter(|_| most > 0.0) {
-            let (member, _, [first, _]) = spans[k];
-            let sign = if first == end { -1.0 } else { 1.0 };
-            pulls[k] = force * (sign * axial_n[member] / most);
-        }
-        left[next] = (left[next].0 + force, left[next].1.max(size));
-        open.retain(|pair| !(pair.contains(&end) && pair.contains(&next)));
-    }
-    let jam = |((member, span, _), pull): (&(usize, usize, _), &Vector3<f64>)| Jam {
-        member: *member,
-        span: *span,
-        pull_n: (*pull).into(),
+    state: &State,
+    spans: &[usize],
+) -> Option<Vec<Vector3<f64>>> {
+    let numbers = &joined.numbers;
+    let shared = |joint: &usize| numbers.iter().filter(|other| **other == numbers[*joint]).count();
+    let joints = (0..numbers.len()).filter(|joint| shared(joint) > 1);
+    let rows: Vec<(usize, Vector3<f64>)> = joints
+        .flat_map(|joint| {
+            let free = &framework.nodes[joint].free;
+            let axes = free.axes();
+            (0..free.count()).map(move |k| (joint, axes.column(k).into()))
+        })
+        .collect();
+    let directions = state.directions(framework);
+    let left = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+    let left = framework.unbalance(left);
+    let wanted = DVector::from_iterator(rows.len(), rows.iter().map(|(at, e)| -e.dot(&left[*at])));
+    let weights: Vec<f64> = spans.iter().map(|span| state.axial[*span].sqrt()).collect();
+    let balance = DMatrix::from_fn(rows.len(), 3 * spans.len(), |row, column| {
+        let (at, along) = rows[row];
+        let link = &framework.links[spans[column / 3]];
+        let sign = f64::from(u8::from(link.from == at)) - f64::from(u8::from(link.to == at));
+        sign * weights[column / 3] * along[column % 3]
+    });
+    let parts = if rows.is_empty() || spans.is_empty() {
+        DVector::zeros(3 * spans.len())
+    } else {
+        balance.clone().svd(true, true).solve(&wanted, ROUNDING * balance.amax()).ok()?
     };
-    Some(spans.iter().zip(&pulls).map(jam).collect())
-}
-
-/// What loads and spans that have a length leave at each joint, N, and the largest of these forces.
-fn unbalance(system: &System, joints_m: &[Vector], axial_n: &[f64]) -> Vec<(Vector3<f64>, f64)> {
-    let framework = Framework::new(system);
-    let units = framework.units;
-    let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-    let axial = framework.by_link(axial_n.to_vec());
-    let taut = vec![true; axial.len()];
-    let state = State::new(joints_m.iter().map(place).collect(), axial, taut);
-    let pulls =
-        state.directions(&framework).into_iter().zip(&state.axial).map(|((u, _), n)| u * *n);
-    let mut all: Vec<_> = framework.nodes.iter().map(|node| node.load * units.force_n).collect();
-    let mut most: Vec<f64> = all.iter().map(Vector3::norm).collect();
-    for (link, pull) in framework.links.iter().zip(pulls) {
-        for (joint, pull) in [(link.from, pull), (link.to, -pull)] {
-            all[joint] += pull;
-            most[joint] = most[joint].max(pull.norm());
-        }
-    }
-    all.into_iter().zip(most).collect()
+    let off = (&balance * &parts - wanted).amax();
+    let pull = |(k, weight): (usize, &f64)| {
+        Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight
+    };
+    (off <= ROUNDING * state.largest_force(framework))
+        .then(|| weights.iter().enumerate().map(pull).collect())
 }

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
 use super::error::Error;
-use super::framework::Framework;
+use super::framework::{Framework, Link};
 use super::state::State;
 
 /// A component falls when its supports leave it this part of its load.
@@ -150,8 +150,14 @@ const JAMMED: f64 = 1e-2;
 /// a corner that no equation of the others describes.
 pub(super) fn jammed(system: &System, framework: &Framework, state: &State) -> Option<Error> {
     let directions = state.directions(framework);
-    let is_short = |span: &&usize| directions[**span].1 <= JAMMED * framework.links[**span].length;
-    let span = *framework.ropes.iter().flat_map(|rope| &rope.spans).find(is_short)?;
+    let spans = framework.ropes.iter().flat_map(|rope| rope.spans.iter().copied());
+    let moves = |span: &usize| {
+        let Link { from, to, .. } = framework.links[*span];
+        [from, to].iter().any(|joint| framework.nodes[*joint].freedom() > 0)
+    };
+    let part = |span: usize| directions[span].1 / framework.links[span].length;
+    let short = spans.filter(|span| moves(span) && part(*span) <= JAMMED);
+    let span = short.min_by(|a, b| part(*a).total_cmp(&part(*b)))?;
     let link = &framework.links[span];
     let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.clone());
     Some(Error::Jammed { member: framework.member_of(span) + 1, from, to })

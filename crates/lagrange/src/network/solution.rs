@@ -126,7 +126,7 @@ impl Solution {
         Self {
             residual: size,
             equilibrium: Answer { system, framework, state, directions, left }
-                .equilibrium(&second_order, evidence),
+                .equilibrium(stability(&second_order), evidence),
             factorisations,
             mechanisms: second_order.mechanisms,
             self_stresses: second_order.self_stresses.map(|basis| of_members(framework, basis)),
@@ -281,18 +281,18 @@ fn admissible(
 }
 
 /// What the observables follow from.
-struct Answer<'a> {
-    system: &'a System,
-    framework: &'a Framework,
-    state: State,
+pub(super) struct Answer<'a> {
+    pub system: &'a System,
+    pub framework: &'a Framework,
+    pub state: State,
     /// Directions of the members, and their lengths.
-    directions: Vec<(Vector3<f64>, f64)>,
+    pub directions: Vec<(Vector3<f64>, f64)>,
     /// Sum of the pulls of the members and of the load at each joint.
-    left: Vec<Vector3<f64>>,
+    pub left: Vec<Vector3<f64>>,
 }
 
 impl Answer<'_> {
-    fn equilibrium(self, second_order: &SecondOrder, evidence: Evidence) -> SystemEquilibrium {
+    pub fn equilibrium(self, stability: SystemStability, evidence: Evidence) -> SystemEquilibrium {
         let Self { system, framework, mut state, directions, left } = self;
         let units = framework.units;
         let energy_j = energy(framework, &state) * units.force_n * units.length_m;
@@ -322,7 +322,7 @@ impl Answer<'_> {
             end_forces_n,
             axial_n: state.axial,
             reactions_n: reactions.map(|reaction| (reaction * units.force_n).into()).collect(),
-            stability: stability(second_order),
+            stability,
             evidence,
         }
     }

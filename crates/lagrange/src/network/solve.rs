@@ -47,22 +47,19 @@ const NO_STRAIN: f64 = 1e-12;
 ///
 /// [`Error`], with numbers: what falls, what does not reach, what did not converge.
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    joined(system, hanging(system, settings), |joined| hanging(&joined.system, settings))
-}
-
-/// With all joints for themselves.
-fn hanging(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
     let framework = Framework::new(system).within(settings.max_work);
     let work = framework.work.clone();
     check_loaded(&framework)?;
     let solution = above(system, framework, None, settings, |framework| {
-        check(system, &framework)?;
-        match by_runs(system, &framework, settings, began) {
-            Some(solution) => Ok(solution),
-            None => hang(system, framework, settings, began),
-        }
+        joined(system, framework, |system, framework, _| {
+            check(system, &framework)?;
+            match by_runs(system, &framework, settings, began) {
+                Some(solution) => Ok(solution),
+                None => hang(system, framework, settings, began),
+            }
+        })
     });
     decided(system, work.judged(solution)?)
 }
@@ -80,15 +77,8 @@ fn hang(
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-    if !system.is_unloaded() && !is_loaded(&solver.framework) {
-        // The floor bears every load.
-        if let Some(run) = solver.without_forces(hanging.places()) {
-            // But not what is stretched between anchors.
-            let state = with_held(&solver.framework, run.state);
-            let run = Run { steps: run.steps, ..Run::at(&solver.framework, state) };
-            let second_order = solver.second_order(&run.state);
-            return Ok(solver.solution(run, second_order));
-        }
+    if let Some((run, second_order)) = solver.lying(hanging.places()) {
+        return Ok(solver.solution(run, second_order));
     }
     let mut too_far = false;
     for (end, patience) in
@@ -146,6 +136,9 @@ fn from_densities(
     let axial = framework.by_link(axial[..framework.members()].to_vec());
     let start = State::new(places, axial, taut);
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    if let Some((run, second_order)) = solver.lying(&start.places) {
+        return Ok(solver.solution(run, second_order));
+    }
     let run = solver.settled(&start, 0)?;
     let run = solver.lowest(&start, run);
     solver.stable(run)
@@ -157,14 +150,6 @@ fn from_densities(
 ///
 /// [`Error`], with numbers.
 pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
-    joined(system, reached(system, seed, settings), |joined| {
-        let joints_m = joined.places_m(&seed.joints_m);
-        reached(&joined.system, &Seed { joints_m, ..seed.clone() }, settings)
-    })
-}
-
-/// With all joints for themselves.
-fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     seed.check(system)?;
     let began = Instant::now();
@@ -173,27 +158,44 @@ fn reached(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution
     check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
     let solution = above(system, framework, Some(lies), settings, |framework| {
-        check(system, &framework)?;
-        let stiffness = Stiffness::new(&framework, false)?;
-        let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-        let start = solver.start(seed);
-        // Without loads the lengths of the shape are all that says what the members bear.
-        let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
-        let start = if to_fit { solver.closed(start) } else { start };
-        let run = match solver.with_signs(start.clone(), Patience::Full) {
-            Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
-                // From where it comes to rest, unless that is a corner.
-                let rest = settle(&solver.framework, &mut solver.stiffness, start);
-                let jam = jammed(system, &solver.framework, &rest.state);
-                let found = solver.with_signs(rest.state, Patience::Full);
-                found.map_err(|_| jam.unwrap_or(error))?
-            }
-            result => result?,
-        };
-        let second_order = solver.second_order(&run.state);
-        Ok(solver.solution(run, second_order))
+        joined(system, framework, |system, framework, joined| {
+            let seed = joined.map_or_else(
+                || seed.clone(),
+                |joined| Seed { joints_m: joined.places_m(&seed.joints_m), ..seed.clone() },
+            );
+            reached(system, framework, &seed, settings, began)
+        })
     });
     decided(system, work.judged(solution)?)
+}
+
+/// The same with these joints on the floor.
+fn reached(
+    system: &System,
+    framework: Framework,
+    seed: &Seed,
+    settings: &Settings,
+    began: Instant,
+) -> Result<Solution, Error> {
+    check(system, &framework)?;
+    let stiffness = Stiffness::new(&framework, false)?;
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let start = solver.start(seed);
+    // Without loads the lengths of the shape are all that says what the members bear.
+    let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
+    let start = if to_fit { solver.closed(start) } else { start };
+    let run = match solver.with_signs(start.clone(), Patience::Full) {
+        Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
+            // From where it comes to rest, unless that is a corner.
+            let rest = settle(&solver.framework, &mut solver.stiffness, start);
+            let jam = jammed(system, &solver.framework, &rest.state);
+            let found = solver.with_signs(rest.state, Patience::Full);
+            found.map_err(|_| jam.unwrap_or(error))?
+        }
+        result => result?,
+    };
+    let second_order = solver.second_order(&run.state);
+    Ok(solver.solution(run, second_order))
 }
 
 /// Refuse a rest without loads and without prestress: the shape is one of many.
@@ -258,36 +260,50 @@ impl<'a> Solver<'a> {
         Self { system, settings, framework, stiffness, factorisations: 0, began }
     }
 
+    /// An equilibrium near some places in which no member need bear anything, where the floor bears every load.
+    fn lying(&mut self, places: &[Vector3<f64>]) -> Option<(Run, SecondOrder)> {
+        if self.system.is_unloaded() || is_loaded(&self.framework) {
+            return None;
+        }
+        let run = self.without_forces(places)?;
+        // But not what is stretched between anchors.
+        let state = with_held(&self.framework, run.state);
+        let run = Run { steps: run.steps, ..Run::at(&self.framework, state) };
+        let second_order = self.second_order(&run.state);
+        Some((run, second_order))
+    }
+
     /// A rest of the true members near a state, moved a little: the shape as cables is often a
     /// saddle of the bars', with bars that have no length in it or lie in one line. Where the
     /// members do not fit from there, it is moved further.
     fn settled(&mut self, from: &State, kick: usize) -> Result<Run, Error> {
-        let (mut result, mut first_jam) = (Err(Error::Unloaded), None);
+        let mut found = Err(Error::Unloaded);
         for (tries, size) in KICKS.into_iter().enumerate() {
             let state = self.kicked(from, kick + tries, size);
             let rest = settle(&self.framework, &mut self.stiffness, state);
             self.factorisations += rest.factorisations;
-            if let Some(joint) = rest.lost {
+            if let (Some(joint), Err(_)) = (rest.lost, &found) {
                 let distance_m = rest.state.places[joint].norm() * self.framework.units.length_m;
                 let joint = self.system.joints()[joint].name.clone();
                 return Err(Error::Escapes { joint, distance_m });
             }
             let fits = rest.fits;
             let jam = jammed(self.system, &self.framework, &rest.state);
-            result = self.with_signs(rest.state, Patience::Full);
-            if let Err(Error::NotConverged { .. }) = &result {
-                first_jam = first_jam.or(jam);
-            }
+            let result = self.with_signs(rest.state, Patience::Full);
             let never_fits = matches!(&result, Err(Error::Misfit { misfits }) if nearly(&self.framework, misfits));
             if never_fits || (fits && result.is_ok()) {
-                break;
+                return result;
             }
+            found = match (result, found) {
+                // An equilibrium, if not where it came to rest.
+                (Ok(run), _) | (Err(_), Ok(run)) => Ok(run),
+                // From elsewhere it may not have run together.
+                (Err(_), Err(first @ Error::Jammed { .. })) => Err(first),
+                (Err(error @ Error::NotConverged { .. }), _) => Err(jam.unwrap_or(error)),
+                (Err(error), _) => Err(error),
+            };
         }
-        // From elsewhere it may not have run together.
-        match (result, first_jam) {
-            (Err(Error::NotConverged { .. }), Some(jam)) => Err(jam),
-            (result, _) => result,
-        }
+        found
     }
 
     /// The state with every joint moved along its free directions, by up to this size.

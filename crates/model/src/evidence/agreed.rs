@@ -112,7 +112,7 @@ impl Proved {
 }
 
 /// What the equilibrium of a system leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Room {
     /// Parts that turn freely about verticals: they are turned onto each other before answers are
     /// compared.
@@ -120,13 +120,18 @@ pub struct Room {
     /// Joints without load whose members are proved to bear no force, and which the lengths of
     /// these let move: they are not compared.
     pub free_joints: usize,
+    /// Names of the joints that slide from their place in one answer to that in another through equilibria with
+    /// the same forces: they are not compared.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub undetermined: Vec<String>,
 }
 
 impl Room {
     /// Nothing where nothing is open.
     #[must_use]
-    pub fn of(turning_parts: usize, free_joints: usize) -> Option<Self> {
-        (turning_parts + free_joints > 0).then_some(Self { turning_parts, free_joints })
+    pub fn of(turning_parts: usize, free_joints: usize, undetermined: Vec<String>) -> Option<Self> {
+        let is_open = turning_parts + free_joints + undetermined.len() > 0;
+        is_open.then_some(Self { turning_parts, free_joints, undetermined })
     }
 }
 

@@ -4,7 +4,7 @@
 //! joints then are as one, and the span pulls at them with any force up to the tension ([`Jam`](crate::Jam)).
 
 use super::{Joint, Kind, Member, Support, System};
-use crate::Vector;
+use crate::{Bar, Vector};
 
 /// A system in which some joints are one.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +42,11 @@ impl Joined {
 
 impl System {
     /// The same system where each of these pairs of joints is one joint, with the loads of both; ropes have no
-    /// spans between them. It has the name and the support of the one that is held, else of the first.
+    /// spans between them. It has the name of the one that is held, else of the first, and moves where the supports
+    /// of both let it. Anchors in the place of one of them are one with it.
     ///
-    /// A cable between them is slack. Without value where two joints of it are held, over a floor, and where
-    /// another member had no two joints left.
+    /// A cable between them is slack, and its loads act at the joint. Without value where two supports have no place
+    /// in common, and where another member had no two joints left.
     ///
     /// ```
     /// use model::{Bar, system::{Joint, Member, System}};
@@ -66,21 +67,22 @@ impl System {
     /// ```
     #[must_use]
     pub fn joined(&self, pairs: &[[usize; 2]]) -> Option<Joined> {
-        let held = |joint: usize| self.joints[joint].support != Support::Free;
-        // Of each joint the one that stands for it.
+        // Of each joint the one that stands for it, and what holds that.
         let mut stands: Vec<usize> = (0..self.joints.len()).collect();
-        for [a, b] in pairs {
-            let [a, b] = [stands[*a], stands[*b]];
-            let [kept, gone] = if held(b) || (b < a && !held(a)) { [b, a] } else { [a, b] };
-            if held(gone) && kept != gone || self.floor_m.is_some() {
-                return None;
-            }
+        let mut supports: Vec<Support> = self.joints.iter().map(|joint| joint.support).collect();
+        for [a, b] in pairs.iter().copied().chain(self.anchors_of(pairs)) {
+            let [a, b] = [stands[a], stands[b]];
+            let first = |joint: usize| (supports[joint] == Support::Free, joint);
+            let [kept, gone] = if first(a) <= first(b) { [a, b] } else { [b, a] };
+            supports[kept] = supports[kept].meeting(&supports[gone])?;
             stands.iter_mut().filter(|joint| **joint == gone).for_each(|joint| *joint = kept);
         }
         let kept: Vec<usize> = (0..stands.len()).filter(|joint| stands[*joint] == *joint).collect();
         let number = |joint: usize| kept.binary_search(&stands[joint]).unwrap_or_default();
         let numbers: Vec<usize> = (0..stands.len()).map(number).collect();
-        let mut joints: Vec<Joint> = kept.iter().map(|joint| self.joints[*joint].clone()).collect();
+        let support =
+            |joint: usize| Joint { support: supports[joint], ..self.joints[joint].clone() };
+        let mut joints: Vec<Joint> = kept.iter().map(|joint| support(*joint)).collect();
         for (joint, number) in
             numbers.iter().enumerate().filter(|(joint, _)| stands[*joint] != *joint)
         {
@@ -91,8 +93,21 @@ impl System {
         let members =
             self.members.iter().map(|member| without_spans(member, &numbers, &mut joints));
         let members = members.collect::<Option<_>>()?;
-        let system = Self::new(self.name.clone(), self.gravity_m_s2, joints, members).ok()?;
-        Some(Joined { system, numbers, kept })
+        // Unchecked: two members may have the same two joints now, and the longer cable of both is slack.
+        let system = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);
+        Some(Joined { system: Self { floor_m: self.floor_m, ..system }, numbers, kept })
+    }
+
+    /// The anchors in the place of a joint of these pairs, each with that joint.
+    fn anchors_of(&self, pairs: &[[usize; 2]]) -> Vec<[usize; 2]> {
+        let fixed = |joint: usize| self.joints[joint].support.is_fixed();
+        let held = pairs.iter().flatten().filter(|joint| fixed(**joint));
+        let same = |a: usize| {
+            let all = (0..self.joints.len()).filter(move |b| *b != a);
+            all.filter(move |b| self.joints[*b].support == self.joints[a].support)
+                .map(move |b| [a, b])
+        };
+        held.flat_map(|joint| same(*joint)).collect()
     }
 }
 
@@ -100,21 +115,27 @@ impl System {
 fn without_spans(member: &Member, numbers: &[usize], joints: &mut Vec<Joint>) -> Option<Member> {
     let mut path: Vec<usize> = member.path().map(|joint| numbers[joint]).collect();
     path.dedup();
-    if path.len() == 1 && member.kind == Kind::Cable {
-        path = slack(member, joints)?;
+    if path.len() == 1 {
+        return slack(member, path[0], joints);
     }
     let [from, via @ .., to] = &path[..] else { return None };
     let straight = Member { from: *from, to: *to, rope: None, ..member.clone() };
     Some(straight.over(via.to_vec()))
 }
 
-/// Two anchors in one place, between which a cable without loads is slack.
-fn slack(cable: &Member, joints: &mut Vec<Joint>) -> Option<Vec<usize>> {
-    let is_light = cable.body.mass_kg() <= 0.0 && cable.loads.is_empty();
-    let at_m = joints.iter().find_map(|joint| joint.support.at_m())?;
-    let first = joints.len();
+/// A cable from a joint to itself, slack between two anchors in one place, its loads at the joint.
+fn slack(cable: &Member, at: usize, joints: &mut Vec<Joint>) -> Option<Member> {
+    let body = (cable.kind == Kind::Cable).then(|| Bar::homogeneous(cable.body.length_m(), 0.0))?;
+    joints[at].mass_kg += cable.body.mass_kg();
+    for load in &cable.loads {
+        joints[at].force_n =
+            std::array::from_fn(|axis| joints[at].force_n[axis] + load.force_n[axis]);
+    }
+    let at_m = joints.iter().find_map(|joint| joint.support.at_m()).unwrap_or_default();
+    let [from, to] = [joints.len(), joints.len() + 1];
     let name = |number: usize| format!("{} apart {number}", joints[0].name);
-    let anchors = [first, first + 1].map(|number| Joint::anchor(name(number), at_m));
+    let anchors = [from, to].map(|number| Joint::anchor(name(number), at_m));
     joints.extend(anchors);
-    is_light.then(|| vec![first, first + 1])
+    let light = Member { from, to, rope: None, loads: vec![], prestress: None, ..cable.clone() };
+    Some(Member { body: body.ok()?, ..light })
 }

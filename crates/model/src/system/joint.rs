@@ -91,6 +91,64 @@ impl Support {
         }
     }
 
+    /// What holds a joint that both supports hold; nothing where they have no place in common.
+    pub(super) fn meeting(&self, other: &Self) -> Option<Self> {
+        /// Rounding of directions, and of places over the largest coordinate.
+        const ROUNDING: f64 = 1e-12;
+        let dot = |a: Vector, b: Vector| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
+        let mut at_m = other.at_m().or(self.at_m()).unwrap_or_default();
+        let far_m = [self, other].map(|support| support.at_m().unwrap_or_default());
+        let far_m = far_m.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut held: Vec<Vector> = vec![];
+        for support in [self, other] {
+            for normal in support.normals() {
+                let mut rest = normal;
+                for axis in &held {
+                    let part = dot(rest, *axis);
+                    rest = std::array::from_fn(|k| rest[k] - part * axis[k]);
+                }
+                let size = dot(rest, rest).sqrt();
+                if size > ROUNDING.sqrt() {
+                    let axis = rest.map(|x| x / size);
+                    let off_m =
+                        support.at_m().map_or(0.0, |to_m| dot(normal, to_m) - dot(normal, at_m));
+                    at_m = std::array::from_fn(|k| at_m[k] + off_m / dot(normal, axis) * axis[k]);
+                    held.push(axis);
+                }
+            }
+        }
+        let fixed = [self, other].into_iter().find(|support| support.is_fixed());
+        let meeting = match held[..] {
+            [] => Self::Free,
+            [normal] => Self::Plane { at_m, normal },
+            [[a, b, c], [x, y, z]] => {
+                Self::Line { at_m, direction: [b * z - c * y, c * x - a * z, a * y - b * x] }
+            }
+            _ => *fixed.unwrap_or(&Self::Fixed { at_m }),
+        };
+        let at_m = meeting.at_m().unwrap_or_default();
+        let off_m = |support: &Self| {
+            let away: Vector = std::array::from_fn(|k| support.nearest_m(at_m)[k] - at_m[k]);
+            dot(away, away).sqrt()
+        };
+        (off_m(self).max(off_m(other)) <= ROUNDING * far_m).then_some(meeting)
+    }
+
+    /// Directions that span those in which the joint cannot move, of unit length.
+    fn normals(&self) -> Vec<Vector> {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        match *self {
+            Self::Free => vec![],
+            Self::Fixed { .. } => axes.to_vec(),
+            Self::Plane { normal, .. } => vec![normal],
+            Self::Line { direction: [a, b, c], .. } => {
+                let across = [[0.0, c, -b], [-c, 0.0, a], [b, -a, 0.0]];
+                let size = |v: &Vector| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+                across.iter().filter(|v| size(v) > 0.5).map(|v| v.map(|x| x / size(v))).collect()
+            }
+        }
+    }
+
     /// Whether it takes all of a force: none of it is along a way that the joint can move. No rounding is
     /// allowed for.
     ///

@@ -5,11 +5,22 @@ use model::{Rung, SolverName};
 
 #[test]
 fn room_is_told_where_there_is_some() {
-    assert_eq!(Room::of(0, 0), None);
-    for (turning_parts, free_joints) in [(1, 0), (0, 1), (1, 1), (2, 3)] {
-        let room = Room { turning_parts, free_joints };
-        assert_eq!(Room::of(turning_parts, free_joints), Some(room));
+    assert_eq!(Room::of(0, 0, vec![]), None);
+    for (turning_parts, free_joints, names) in
+        [(1, 0, ""), (0, 1, ""), (1, 1, "P"), (2, 3, "P Q"), (0, 0, "Q")]
+    {
+        let undetermined: Vec<String> = names.split_whitespace().map(str::to_owned).collect();
+        let room = Room { turning_parts, free_joints, undetermined: undetermined.clone() };
+        assert_eq!(Room::of(turning_parts, free_joints, undetermined), Some(room));
     }
+    let said = |turning_parts, free_joints, names: &[&str]| {
+        let names = names.iter().map(|name| (*name).to_owned()).collect();
+        Room::of(turning_parts, free_joints, names).map(|room| room.to_string())
+    };
+    assert_eq!(said(0, 0, &["P"]).unwrap(), "P slides through equilibria with the same forces");
+    let all = said(1, 2, &["P", "Q"]).unwrap();
+    assert!(all.starts_with("one part turns freely") && all.contains("first; 2 joints without"));
+    assert!(all.ends_with("compared; P, Q slide through equilibria with the same forces"));
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn agreed() -> Agreed {
         forces_n: 2e-12,
         energy_j: 0.0,
         statics: 3e-16,
-        room: Room::of(0, 2),
+        room: Room::of(0, 2, vec![]),
         shape_only: true,
         forces_found: None,
     }

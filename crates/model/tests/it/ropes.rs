@@ -1,7 +1,7 @@
 //! Ropes over rings and pulleys: read, written, and refused where they are none.
 
 use model::Bar;
-use model::system::{Joint, Member, System, SystemError, SystemRefusal};
+use model::system::{Joint, Kind, Member, PointLoad, Support, System, SystemError, SystemRefusal};
 use model::system_file::{Described, parse, write_network};
 
 /// A ring on a rope between two anchors, with more keys of the rope.
@@ -110,6 +110,86 @@ fn ropes_that_do_not_reach_past_their_pulleys_are_refused() {
     }
     // The ends alone are too far apart.
     assert!(matches!(over_pulleys(6.0).refusal(), Err(SystemRefusal::OutOfReach { .. })));
+}
+
+/// Two joints on these supports as one.
+fn joined(first: Support, second: Support) -> Option<Support> {
+    let on = |name: &str, support| Joint { support, ..Joint::free(name).with_mass(1.0) };
+    let joints = vec![on("P", first), on("Q", second), Joint::anchor("A", [9.0, 0.0, 0.0])];
+    let rope = Member::cable(0, 2, Bar::homogeneous(50.0, 0.0).unwrap()).over(vec![1]);
+    let system = System::new("", 10.0, joints, vec![rope]).unwrap().with_floor(-50.0).unwrap();
+    let joined = system.joined(&[[0, 1]])?;
+    assert_eq!(
+        (joined.system.floor_m(), &joined.numbers[1..]),
+        (Some(-50.0), &[joined.numbers[0], 1][..])
+    );
+    assert!((joined.system.joints()[0].mass_kg - 2.0).abs() < 1e-15);
+    Some(joined.system.joints()[0].support)
+}
+
+/// By hand: where two supports hold one joint.
+#[test]
+fn joints_that_are_one_move_where_both_supports_let_them() {
+    let plane = |at_m, normal| Support::Plane { at_m, normal };
+    let line = |at_m, direction| Support::Line { at_m, direction };
+    let level = plane([5.0, -7.0, 2.0], [0.0, 0.0, 1.0]);
+    let upright = plane([1.0, 3.0, -4.0], [0.6, 0.8, 0.0]);
+    let slope = line([0.0, 1.0, 0.0], [2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0]);
+    let at = |support: Support, at_m: [f64; 3]| {
+        let off = support.nearest_m(at_m);
+        (0..3).map(|k| (off[k] - at_m[k]).abs()).fold(0.0, f64::max) < 1e-12
+    };
+    let Some(Support::Line { direction, .. }) = joined(Support::Free, slope) else { panic!() };
+    assert!((direction[0] * 2.0 + direction[1] + direction[2] * 2.0).abs() > 3.0 - 1e-15);
+    // 3 on: the slope is at (2, 2, 2) in the level plane.
+    let Some(Support::Fixed { at_m }) = joined(slope, level) else { panic!() };
+    assert!(at(Support::Fixed { at_m }, [2.0, 2.0, 2.0]), "{at_m:?}");
+    // 0.6 x + 0.8 y = 3 at the height of 2.
+    let both = joined(level, upright).unwrap();
+    assert!(matches!(both, Support::Line { .. }) && at(both, [5.0, 0.0, 2.0]));
+    assert!(at(both, [1.0, 3.0, 2.0]) && !at(both, [1.0, 3.0, 2.1]) && !at(both, [1.1, 3.0, 2.0]));
+    let same = joined(level, plane([0.0, 0.0, 2.0], [0.0, 0.0, -1.0])).unwrap();
+    assert!(matches!(same, Support::Plane { .. }) && at(same, [8.0, 9.0, 2.0]));
+    let crossing = line([2.0, 5.0, 2.0], [0.0, 1.0, 0.0]);
+    let Some(Support::Fixed { at_m }) = joined(crossing, slope) else { panic!() };
+    assert!(at(Support::Fixed { at_m }, [2.0, 2.0, 2.0]), "{at_m:?}");
+    let anchor = Support::Fixed { at_m: [2.0, 2.0, 2.0] };
+    assert_eq!(joined(slope, anchor), Some(anchor));
+    // Parallel planes, lines past each other, an anchor beside.
+    assert_eq!(joined(level, plane([0.0, 0.0, 2.5], [0.0, 0.0, 1.0])), None);
+    assert_eq!(joined(line([2.0, 5.0, 2.1], [0.0, 1.0, 0.0]), slope), None);
+    assert_eq!(joined(slope, Support::Fixed { at_m: [2.0, 2.0, 2.1] }), None);
+}
+
+/// What a cable between two joints weighs and bears acts at the joint that they are; a strut cannot be there.
+#[test]
+fn a_slack_cable_hangs_in_the_joint_that_its_ends_are() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("D", [0.0; 3]),
+        Joint::free("P").with_mass(1.0),
+        Joint::free("Q").with_mass(2.0),
+    ];
+    let body = |mass_kg| Bar::homogeneous(2.0, mass_kg).unwrap();
+    let load = PointLoad { at_m: 0.5, force_n: [0.0, 3.0, 0.0] };
+    let cable = Member { loads: vec![load], ..Member::cable(2, 3, body(0.5)) };
+    let ropes = [0, 1].map(|anchor| Member::cable(anchor, 2, body(0.0)).over(vec![3]));
+    let with = |member: Member| {
+        let members = ropes.iter().cloned().chain([member]).collect();
+        System::new("", 10.0, joints.clone(), members).unwrap()
+    };
+    let one = with(cable.clone()).joined(&[[3, 2]]).unwrap();
+    assert_eq!(one.numbers, [0, 1, 2, 2]);
+    let joint = &one.system.joints()[2];
+    assert!((joint.mass_kg - 3.5).abs() < 1e-15 && (joint.force_n[1] - 3.0).abs() < 1e-15);
+    assert_eq!(joint.name, "P");
+    let slack = &one.system.members()[2];
+    assert!(slack.loads.is_empty() && slack.body.mass_kg() <= 0.0 && slack.from >= 3);
+    // At A the other anchor in its place is one with it.
+    let held = with(cable).joined(&[[0, 3]]).unwrap();
+    assert_eq!((held.numbers, held.kept), (vec![0, 0, 1, 0], vec![0, 2]));
+    let strut = Member { kind: Kind::Strut, ..Member::cable(2, 3, body(0.0)) };
+    assert!(with(strut).joined(&[[2, 3]]).is_none());
 }
 
 #[test]

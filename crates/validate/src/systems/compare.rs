@@ -16,6 +16,7 @@ use super::forces::{ABSURD, Pair, large};
 use super::free::free_joints;
 use super::proved::proved;
 use super::scale::Scale;
+use super::sliding::sliding;
 use super::statics::{SystemStatics, judge, judge_by};
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
@@ -41,6 +42,11 @@ pub struct SystemAgreement {
     /// Parts that turn freely about verticals and were turned onto each other before the answers
     /// were compared; a part may hang on another one that turns.
     pub turned_parts: usize,
+    /// Names of the joints whose places equilibrium does not determine, as that of a ring without load on a taut
+    /// rope: these slide from their place in one answer to that in another through equilibria with the same
+    /// forces, and are not compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub undetermined: Vec<String>,
     /// Independent self-stresses of the shape: with any, the forces are one of a family, and that
     /// both answers name the same of them is no evidence. Without value where the system is too large
     /// to count them and no answer names any.
@@ -109,7 +115,11 @@ pub fn compare(
             forces_n: agreement.forces_n,
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
-            room: Room::of(agreement.turned_parts, agreement.free_joints),
+            room: Room::of(
+                agreement.turned_parts,
+                agreement.free_joints,
+                agreement.undetermined.clone(),
+            ),
             shape_only,
             forces_found: forces_found.into_option(),
         })
@@ -243,6 +253,7 @@ impl<'a> Judgement<'a> {
                 energy_j: 0.0,
                 free_joints: 0,
                 turned_parts: 0,
+                undetermined: vec![],
                 self_stresses: None,
                 statics: Vec::new(),
                 verdict: Verdict::Agreed,
@@ -357,7 +368,17 @@ impl<'a> Judgement<'a> {
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
         let (turned, parts) = turned_onto(self.system, first, second, &self.free);
-        let joints_m = self.joints_apart_m(first, &turned);
+        let budget_m = self.tolerances.joints.value * self.scale.size_m + self.scale.stored_m;
+        let mut joints_m = self.joints_apart_m(first, &turned);
+        if joints_m > budget_m {
+            for joint in sliding(self.system, [first, &turned], self.scale.total_n, budget_m) {
+                if !self.free[joint] {
+                    self.free[joint] = true;
+                    self.agreement.undetermined.push(self.system.joints()[joint].name.clone());
+                }
+            }
+            joints_m = self.joints_apart_m(first, &turned);
+        }
         let pair = Pair {
             system: self.system,
             answers: [first, &turned],
@@ -377,8 +398,7 @@ impl<'a> Judgement<'a> {
         agreement.turned_parts = agreement.turned_parts.max(parts);
         let between = [&first.solver, &second.solver].map(SolverName::clone);
         let tolerances = self.tolerances;
-        let budget = tolerances.joints.value * self.scale.size_m + self.scale.stored_m;
-        self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget);
+        self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget_m);
         let forces = Quantity::Forces { between: between.clone() };
         self.hold(forces, apart.value_n, apart.budget_n);
         if let Some(named) = named {

@@ -23,6 +23,7 @@ mod near;
 mod prestress;
 mod proved;
 mod scale;
+mod sliding;
 pub(crate) mod spans;
 mod statics;
 #[cfg(test)]

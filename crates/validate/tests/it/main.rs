@@ -29,6 +29,7 @@ mod networks_census;
 mod paper;
 mod prescribed;
 mod ropes;
+mod ropes_corners;
 mod rows;
 mod statics;
 mod tensegrities;

@@ -142,6 +142,25 @@ fn a_weight_at_its_pulley() {
     );
 }
 
+/// 4 kg in the middle of a rope over two pulleys, 3 kg at each of its ends: the ends slide against each other.
+#[test]
+fn equal_weights() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0] }, \
+                P = { mass_kg = 3 }, Q = { mass_kg = 3 }, R = { mass_kg = 4 } }\nbars = [{ from = \"P\", \
+                to = \"Q\", length_m = 8, via = [\"A\", \"R\", \"B\"], kind = \"cable\" }]";
+    std::fs::write(folder.path().join("three.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "three.toml", "--json"]);
+    let mut output = Output::json("solve", "equal_weights", &text);
+    output.is("agreement.undetermined[]", json!(["P", "Q"]));
+    output.each("equilibria[].evidence.ladder[].proof.room.undetermined[]", json!(["P", "Q"]));
+    output.each("equilibria[].bars[].axial_n", 30.0);
+    output.done();
+    let text = good(folder.path(), &["solve", "three.toml"]);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert!(text.contains("Not determined by equilibrium: the places of P, Q"), "{text}");
+}
+
 /// The paper's chain in its own numbering, from 40 digits; it may turn about the line between its
 /// anchors, and both answers are turned onto each other.
 #[test]

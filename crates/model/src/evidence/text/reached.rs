@@ -86,7 +86,7 @@ impl Display for Agreed {
             f,
             " differ by {joints} m, {forces} N, {energy} J; the statics judge finds every bar in balance to {statics}"
         )?;
-        if let Some(room) = self.room {
+        if let Some(room) = &self.room {
             write!(f, "; {room}")?;
         }
         if self.shape_only {
@@ -148,29 +148,34 @@ impl Display for Proved {
 
 impl Display for Room {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { turning_parts, free_joints } = *self;
-        match turning_parts {
-            0 => {}
-            1 => f.write_str("one part turns freely about a vertical and was turned first")?,
-            _ => write!(
-                f,
+        let Self { turning_parts, free_joints, undetermined } = self;
+        let turning = match turning_parts {
+            0 => None,
+            1 => Some("one part turns freely about a vertical and was turned first".to_owned()),
+            _ => Some(format!(
                 "{turning_parts} parts turn freely about verticals and were turned onto each other first"
-            )?,
-        }
-        if turning_parts > 0 && free_joints > 0 {
-            f.write_str("; ")?;
-        }
-        match free_joints {
-            0 => Ok(()),
-            1 => f.write_str(
-                "one joint without load, whose members bear no force, is free to move and not compared",
+            )),
+        };
+        let free = match free_joints {
+            0 => None,
+            1 => Some(
+                "one joint without load, whose members bear no force, is free to move and not compared"
+                    .to_owned(),
             ),
-            _ => write!(
-                f,
+            _ => Some(format!(
                 "{free_joints} joints without load, whose members bear no force, are free to move and not \
                  compared"
-            ),
-        }
+            )),
+        };
+        let sliding = match &undetermined[..] {
+            [] => None,
+            [one] => Some(format!("{one} slides through equilibria with the same forces")),
+            names => {
+                Some(format!("{} slide through equilibria with the same forces", names.join(", ")))
+            }
+        };
+        let parts: Vec<String> = [turning, free, sliding].into_iter().flatten().collect();
+        f.write_str(&parts.join("; "))
     }
 }
 
