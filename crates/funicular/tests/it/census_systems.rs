@@ -178,7 +178,8 @@ fn positions_of_a_system_are_drawn_and_written() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
 }
 
-/// A ring on a rope with a weight over a pulley at its end, and a slack cable: of what pulls alone one equilibrium is all. Beside a strut there is no such list.
+/// A ring on a rope with a weight over a pulley at its end, and a slack cable: of what pulls alone one equilibrium is
+/// all. Beside a strut both joints move in too many ways for a list.
 #[test]
 fn of_cables_and_ropes_one_equilibrium_is_all() {
     let path = folder("tackle").join("tackle.toml");
@@ -209,5 +210,31 @@ fn of_cables_and_ropes_one_equilibrium_is_all() {
     .unwrap();
     let refused = funicular(&[path.to_str().unwrap()]);
     assert_eq!(refused.status.code(), Some(2), "{}", stdout(&refused));
-    assert!(stderr(&refused).contains("member 1 is a rope"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("4 independent ways"), "{}", stderr(&refused));
+}
+
+/// A bar of 3 m and 20 N, whose end a counterweight of 12 N draws to a pulley, as `a_bar_over_a_pulley_with_its_counterweight_is_scanned` has it.
+#[test]
+fn a_bar_over_a_pulley_has_its_list() {
+    let path = folder("counterweight").join("counterweight.toml");
+    let bar = "gravity_m_s2 = 10\n\
+               joints = { A = { at_m = [0, 0, 0] }, Q = { mass_kg = 2 }, D = { at_m = [1.6, 1.2, 4] }, \
+               E = { mass_kg = 1.2 } }\n\
+               bars = [{ from = 'A', to = 'Q', length_m = 3, mass_kg = 0 },\n\
+               { from = 'E', to = 'Q', via = ['D'], length_m = LENGTH, mass_kg = 0, kind = 'cable' }]";
+    std::fs::write(&path, bar.replace("LENGTH", "9")).unwrap();
+    let path = path.to_str().unwrap();
+    let found = json_of_system(path);
+    assert_eq!(found["census"]["complete"], true);
+    for e in found["equilibria"].as_array().unwrap() {
+        assert!((e["bars"][1]["axial_n"].as_f64().unwrap() - 12.0).abs() < ROUNDING * 12.0);
+    }
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("The net of 0 closures: all places of Q"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    // Short ropes draw the counterweight up to the pulley, which is told.
+    std::fs::write(path, bar.replace("LENGTH", "5")).unwrap();
+    let open = funicular(&[path]);
+    assert_eq!(open.status.code(), Some(3), "{}", stderr(&open));
+    assert!(stdout(&open).contains("to the end of a span"), "{}", stdout(&open));
 }
