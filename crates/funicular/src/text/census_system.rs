@@ -168,10 +168,13 @@ fn nets(answer: &SystemCensusAnswer) -> String {
         let Some(net) = &part.net else { continue };
         let _ = write!(
             text,
-            "{} net of {}: all places of {}",
+            "{} net of {}: {}",
             the(&part.slack),
             counted(net.closures, "closure"),
-            names(&net.knots)
+            match &net.knots[..] {
+                [] => "no place to be searched".to_owned(),
+                knots => format!("all places of {}", names(knots)),
+            }
         );
         if !net.swings.is_empty() {
             let _ = write!(text, "; {} by closed forms", names(&net.swings));

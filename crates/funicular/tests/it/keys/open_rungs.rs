@@ -129,10 +129,10 @@ fn reasons_without_a_census() {
     output.is("because", because.as_slice());
     output.is("closures", json!([3, 8]));
     output.is("motions", 4);
-    output.is("limit", json!([5, 14]));
+    output.is("limit", json!([5, 14, 15]));
     output.is("boxes", 6);
-    output.is("joint", json!([7, 9, 13]));
-    output.is("member", json!([10, 11, 12, 15]));
+    output.is("joint", json!([7, 9, 13, 16]));
+    output.is("member", json!([10, 12]));
     output.done();
 }
 

@@ -237,3 +237,102 @@ impl<'a, const N: usize> Cell<'a, N> {
         from_fn(|k| if k < self.layout.dim { forces[row + k] } else { Interval::ZERO })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::{Hanging, Link, Swing};
+    use super::*;
+    use crate::network::arithmetic::points;
+    use crate::network::equations::Acting;
+
+    fn link(ends: &[[End; 2]], spans: usize, length: f64, compliance: f64) -> Link {
+        let [length, compliance] = [length, compliance].map(Interval::point);
+        let acting = Acting { member: 0, spans: 0..spans, length, compliance, force: 0 };
+        Link { acting, ends: ends.to_vec(), range: Interval::LINE, hanging: None }
+    }
+
+    /// Two knots and a swing between one of them and a held place; a bar between the knots, a rope over both and
+    /// twice over one, an elastic bar, an elastic rope, and a rope with a weight at its end. No two terms of one size.
+    fn layout() -> Layout {
+        let [p, q] = [End::Knot(0), End::Knot(1)];
+        let [a, b] = [[0.1, -1.3, 0.4], [2.3, 0.7, 1.9]].map(|at| End::Held(points(at)));
+        let swing = Swing {
+            joint: 2,
+            members: [0, 1],
+            ends: [a, q],
+            lengths: [1.7, 2.2].map(Interval::point),
+            load: points([0.2, 0.1, -0.9]),
+        };
+        let hanging = Hanging {
+            joint: 3,
+            from: 0,
+            load: points([0.0, 0.0, -0.8]),
+            tension: Interval::point(0.8),
+        };
+        let links = vec![
+            link(&[[p, q]], 1, 1.1, 0.0),
+            link(&[[a, p], [p, b], [b, p], [p, q], [q, a]], 5, 9.0, 0.0),
+            link(&[[q, b]], 1, 1.9, 0.7),
+            link(&[[p, b], [b, q]], 2, 3.1, 0.3),
+            Link { hanging: Some(hanging), ..link(&[[q, b]], 2, 5.0, 0.0) },
+        ];
+        let loads = vec![points([0.3, -0.2, -1.1]), points([-0.1, 0.5, -0.7])];
+        let (axes, knots) = ([0, 1, 2], vec![0, 1]);
+        Layout { dim: 3, axes, axis: None, knots, loads, swings: vec![swing], links }
+    }
+
+    #[test]
+    fn the_derivative_is_the_difference_quotient_of_the_residual() {
+        let layout = layout();
+        let forces = [0.9, 1.7, -0.6, 2.3, 1.2];
+        let at: [f64; 6] = [0.7, -0.4, 0.2, 1.2, 0.6, -0.8];
+        let unknowns: Vec<f64> = at.iter().copied().chain(forces).collect();
+        let cell = |unknowns: &[f64]| {
+            Cell::<6>::over(&layout, from_fn(|k| Interval::point(unknowns[k]))).unwrap()
+        };
+        let points = |unknowns: &[f64]| -> Vec<Interval> {
+            unknowns[6..].iter().copied().map(Interval::point).collect()
+        };
+        assert!(cell(&unknowns).smooth() && !cell(&unknowns).jams());
+        for pattern in 0..2 {
+            let slope = cell(&unknowns).derivative(pattern, &points(&unknowns));
+            for column in 0..unknowns.len() {
+                let moved = |step: f64| {
+                    let mut unknowns = unknowns.clone();
+                    unknowns[column] += step;
+                    cell(&unknowns).residual(pattern, &points(&unknowns))
+                };
+                let (more, less) = (moved(1e-5), moved(-1e-5));
+                for row in 0..unknowns.len() {
+                    let quotient = (more[row].mid() - less[row].mid()) / 2e-5;
+                    let found = slope.at(row, column).mid();
+                    assert!((found - quotient).abs() < 1e-8, "{row} {column}: {found} {quotient}");
+                }
+            }
+        }
+        // Where the tension is told by the places the residual of its law vanishes.
+        let here = cell(&unknowns);
+        for (k, known) in here.known.iter().enumerate() {
+            let Some(known) = known else { continue };
+            let mut forces = points(&unknowns);
+            forces[k] = *known;
+            assert!(here.residual(0, &forces)[6 + k].contains(0.0), "{k}");
+        }
+        assert_eq!(
+            here.known.iter().map(Option::is_some).collect::<Vec<_>>(),
+            [false, false, true, true, true]
+        );
+    }
+
+    /// Knots on each other, and the one on a pulley: what a span there pulls with is any vector up to its tension.
+    #[test]
+    fn a_span_without_length_pulls_anywhere() {
+        let layout = layout();
+        let at: [Interval; 6] = [0.7, -0.4, 0.2, 0.7, -0.4, 0.2].map(|x| Interval::around(x, 1e-3));
+        let cell = Cell::over(&layout, at).unwrap();
+        assert!(cell.jams() && !cell.smooth());
+        let anywhere = Interval::new(-1.0, 1.0);
+        assert_eq!(cell.along[1][3], [anywhere; 3]);
+        assert!(cell.along[1][0].iter().all(|part| part.width() < 1e-2));
+    }
+}
