@@ -307,7 +307,7 @@ fn a_boom_on_an_elastic_tackle_is_scanned() {
 }
 
 /// Bars from A over P and Q to B, a rope from P over a pulley to Q, and weights with side winds.
-fn linkage(random: &mut ChaCha8Rng, winds: bool) -> System {
+fn linkage(random: &mut ChaCha8Rng, winds: bool, stiffness_n: Option<f64>) -> System {
     let mut near = |at: Vector| at.map(|x| x + random.random_range(-0.2..0.2));
     let [a, b, d] = [near([0.0; 3]), near([3.0, 0.0, 0.3]), near([1.4, 0.3, 1.9])];
     let mut range = |low: f64, high: f64| random.random_range(low..high);
@@ -324,7 +324,7 @@ fn linkage(random: &mut ChaCha8Rng, winds: bool) -> System {
         Member::bar(1, 2, light(range(1.1, 1.4))),
         Member::bar(2, 3, light(range(1.4, 1.7))),
     ];
-    members.push(rope(&[1, 4, 2], range(3.0, 3.4)));
+    members.push(Member { stiffness_n, ..rope(&[1, 4, 2], range(3.0, 3.4)) });
     system(joints, members)
 }
 
@@ -386,7 +386,12 @@ impl<'a> Acting<'a> {
                 forces[b] = plus(forces[b], -force / norm(span), span);
             }
         }
-        let lengths = self.members.iter().map(|member| self.beyond(unknowns, *member));
+        let forces_n = self.members.iter().zip(&unknowns[3 * self.free.len()..]);
+        let lengths = forces_n.map(|(member, force)| {
+            let own = &self.system.members()[*member];
+            let softness = own.stiffness_n.map_or(0.0, |stiff| own.body.length_m() / stiff);
+            self.beyond(unknowns, *member) - softness * force
+        });
         self.free.iter().flat_map(|k| forces[*k]).chain(lengths).collect()
     }
 
@@ -507,23 +512,21 @@ fn masts_on_bridles_are_listed_as_newton_finds_them() {
 fn linkages_with_a_rope_are_listed_as_newton_finds_them() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut sums = [0; 3];
-    for _ in 0..3 {
-        let drawn = linkage(&mut random, false);
+    // Wind, and ropes that stretch.
+    for (winds, stiffness_n) in [(false, None), (true, None), (false, Some(40.0)), (true, None)] {
+        let drawn = linkage(&mut random, winds, stiffness_n);
         let start = std::time::Instant::now();
         let counts = compared(&drawn, &mut random, 300);
         println!("{counts:?} {:?}", start.elapsed());
         (0..3).for_each(|k| sums[k] += counts[k]);
     }
     println!("{sums:?}");
-    assert!(10 * sums[1] >= 9 * sums[0] && sums[2] > 3, "{sums:?}");
+    assert!(sums[0] == sums[1] && sums[2] > 12, "{sums:?}");
 }
 
-/// Wind on a chain that is left where the rope is slack, cables alone, and more ropes than are tried.
+/// Cables alone, more ropes than are tried, a ring without a load, and a rope that may be slack and taut.
 #[test]
 fn what_has_no_list_is_told_why() {
-    let mut random = ChaCha8Rng::seed_from_u64(3);
-    let windy = linkage(&mut random, true);
-    assert!(matches!(refusal(&windy), NoCensus::LoadsNotDown { .. }), "{:?}", refusal(&windy));
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint::anchor("B", [3.0, 0.0, 0.0]),

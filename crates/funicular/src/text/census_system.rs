@@ -57,7 +57,7 @@ fn headline(answer: &SystemCensusAnswer) -> String {
     let count = answer.equilibria().len();
     let mut text = format!("{count} {}", if count == 1 { "equilibrium" } else { "equilibria" });
     if census.equilibria.iter().any(|position| position.circle) {
-        text += ", each with all its turns about the vertical through the anchors of a chain";
+        text += ", each with all its turns about the vertical through its anchors";
     }
     if census.parts.len() > 1 && census.parts.iter().all(|part| part.slack.is_empty()) {
         let parts: Vec<_> = census.parts.iter().map(|part| part.positions.to_string()).collect();

@@ -117,7 +117,7 @@ pub enum NoCensus {
         /// The joint, from 1.
         joint: usize,
     },
-    /// More sets of cables, struts and ropes may be slack than are tried.
+    /// More sets of cables, struts and ropes may be slack, or of ropes jam, than are tried.
     SlackSets {
         /// The limit.
         limit: usize,

@@ -10,7 +10,8 @@ use model::system::{Kind, System};
 use numerics::Interval;
 
 use super::choice::Choice;
-use super::parts::{Part, parts};
+use super::core::LoadedChain;
+use super::parts::{Core, Part, parts};
 use crate::network::arithmetic::{NOWHERE, Vector, plus};
 use crate::network::frame::Frame;
 use crate::network::proven::reach;
@@ -44,6 +45,7 @@ pub(super) fn branches(
             let slack: Vec<usize> = before.iter().copied().chain([*member]).collect();
             let mut parts = parts(system, &slack);
             parts.retain(|part| joints.contains(&part.joints[0]));
+            let parts: Vec<Part> = parts.into_iter().map(|part| searched(system, part)).collect();
             if !parts.iter().any(|part| falls(part, &loads)) {
                 found.push(Branch { slack, parts });
             }
@@ -53,6 +55,19 @@ pub(super) fn branches(
         }
     }
     Ok(found)
+}
+
+/// The same, with a chain that is elastic or under level loads as a net: the census of chains does not take it.
+fn searched(system: &System, part: Part) -> Part {
+    let Core::Chain { joints, members } = &part.core else { return part };
+    match LoadedChain::new(system, joints, members, &part.hanging) {
+        Err(NoCensus::Elastic { .. } | NoCensus::LoadsNotDown { .. }) => {
+            let joints = joints[1..joints.len() - 1].to_vec();
+            let core = Core::Net { joints, members: members.clone() };
+            Part { core, ..part }
+        }
+        _ => part,
+    }
 }
 
 /// Whether nothing holds what bears a load.

@@ -169,8 +169,12 @@ impl SystemCensus {
             for part in branches[1..].iter().flat_map(|branch| &branch.parts) {
                 refusal(system, &frame, part, settings)?;
             }
+            // The searches of all sets take no longer together than one.
+            let nets = branches.iter().flat_map(|branch| &branch.parts).filter(|part| is_net(part));
+            let tests = settings.max_tests_per_pattern / nets.count().max(1) as u64;
+            let shared = Settings { max_tests_per_pattern: tests.max(1), ..*settings };
             for branch in branches {
-                own.extend(of_branch(system, &frame, &branch, settings, watch, &mut found)?);
+                own.extend(of_branch(system, &frame, &branch, &shared, watch, &mut found)?);
             }
             positions = combined(&positions, &own)?;
         }

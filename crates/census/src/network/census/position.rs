@@ -31,7 +31,7 @@ pub struct SystemPosition {
     /// The same among the motions in the vertical plane of the one chain; nothing where there is no
     /// such plane.
     pub index_in_plane: Option<usize>,
-    /// Whether a chain turns freely about the vertical through its anchors.
+    /// Whether a part turns freely about the vertical through its anchors.
     pub circle: bool,
 }
 

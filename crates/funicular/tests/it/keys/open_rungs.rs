@@ -103,7 +103,7 @@ fn reasons_without_a_census() {
             (reason(NoCensus::Floor), &["no census knows a floor"]),
             (reason(NoCensus::TooManyPositions { limit: 14 }), &["more than 14 equilibria"]),
             (reason(NoCensus::Cables), &["of cables and ropes alone"]),
-            (reason(NoCensus::SlackSets { limit: 15 }), &["slack in more than 15 ways"]),
+            (reason(NoCensus::SlackSets { limit: 15 }), &["slack or jam in more than 15 ways"]),
             (reason(NoCensus::Loose { joint: 16 }), &["nothing holds the 16th joint"]),
         ],
     );

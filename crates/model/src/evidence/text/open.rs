@@ -175,7 +175,7 @@ impl Display for NoCensus {
             ),
             Self::SlackSets { limit } => write!(
                 f,
-                "no census: its cables, struts and ropes may be slack in more than {limit} ways"
+                "no census: its cables, struts and ropes may be slack or jam in more than {limit} ways"
             ),
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")

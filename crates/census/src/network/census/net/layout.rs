@@ -9,6 +9,9 @@ use super::core::Core;
 use crate::network::arithmetic::{NOWHERE, Vector, difference, norm, plus, product, sum};
 use crate::network::equations::Acting;
 
+/// Most ropes at whose ends something hangs: each doubles what is searched for jams.
+const MOST_HANGING: usize = 6;
+
 /// Where a span or a swing ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum End {
@@ -84,29 +87,35 @@ impl Layout {
         };
         layout.loads = layout.knots.iter().map(|knot| layout.turned(borne(knot))).collect();
         for joint in swinging.iter().copied() {
-            let [(first, a), (second, b)] = core.meeting(joint)[..] else { continue };
-            let load = layout.turned(core.loads[joint]);
-            // Two bars that nothing turns can fold or lie straight under any force.
-            if load.iter().all(|part| part.contains(0.0)) {
-                return Err(NoCensus::Limp { member: first + 1 });
-            }
-            layout.swings.push(Swing {
-                joint,
-                members: [first, second],
-                ends: [layout.end(core, a), layout.end(core, b)],
-                lengths: [core.length(first), core.length(second)],
-                load,
-            });
+            layout.swings.extend(layout.swing(core, joint)?);
         }
         for (member, hanging) in core.members.iter().copied().zip(hanging) {
             if core.system.members()[member].path().all(|joint| !swinging.contains(&joint)) {
                 layout.links.push(layout.link(core, member, hanging));
             }
         }
-        match layout.unbounded() {
+        let jams = layout.links.iter().filter(|link| link.hanging.is_some()).count();
+        if jams > MOST_HANGING {
+            return Err(NoCensus::SlackSets { limit: 1 << MOST_HANGING });
+        }
+        let jammed = layout.jammed();
+        let unbounded = std::iter::once(&layout).chain(&jammed).find_map(Self::unbounded);
+        match unbounded {
             Some(member) => Err(NoCensus::Elastic { member: member + 1 }),
             None => Ok(layout),
         }
+    }
+
+    fn swing(&self, core: &Core, joint: usize) -> Result<Option<Swing>, NoCensus> {
+        let [(first, a), (second, b)] = core.meeting(joint)[..] else { return Ok(None) };
+        let load = self.turned(core.loads[joint]);
+        // Two bars that nothing turns can fold or lie straight under any force.
+        if load.iter().all(|part| part.contains(0.0)) {
+            return Err(NoCensus::Limp { member: first + 1 });
+        }
+        let ends = [self.end(core, a), self.end(core, b)];
+        let lengths = [core.length(first), core.length(second)];
+        Ok(Some(Swing { joint, members: [first, second], ends, lengths, load }))
     }
 
     /// The same where what hangs at the ends of some of the ropes has run up to the next joint: the tension is then
