@@ -22,7 +22,8 @@ pub struct Settings {
     /// errors decide.
     pub min_width: f64,
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are
-    /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹.
+    /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹. A net whose members
+    /// may be slack shares them among the sets of slack members.
     pub max_tests_per_pattern: u64,
     /// Nets of several closures whose knots have more independent motions than this are refused,
     /// bridles of three strands excepted: the cost grows with the power of their number. Default 3,

@@ -81,6 +81,29 @@ pub(super) fn norm(a: Vector) -> Interval {
     squared(a).sqrt()
 }
 
+/// `a/|a|`. Where a may vanish, all that is at most 1: a span without length pulls in any direction, with any
+/// part of its tension.
+pub(super) fn unit(a: Vector) -> Vector {
+    const WHOLE: Interval = Interval::ONE.hull(Interval::ONE.negated());
+    std::array::from_fn(|k| {
+        let others = squared([a[(k + 1) % 3], a[(k + 2) % 3], Interval::ZERO]);
+        if a[k] == Interval::ZERO && others != Interval::ZERO {
+            return Interval::ZERO;
+        }
+        // It rises with the part itself, and its size falls with the others.
+        let end = |x: f64, sign: f64| {
+            let others = if sign * x > 0.0 { others.lo() } else { others.hi() };
+            let size = (Interval::point(x).square() + Interval::point(others.max(0.0))).sqrt();
+            if size.lo() > 0.0 { Interval::point(x) / size } else { WHOLE }
+        };
+        if !(a[k].mag() + others.mag()).is_finite() {
+            return WHOLE;
+        }
+        let ends = Interval::new(end(a[k].lo(), -1.0).lo(), end(a[k].hi(), 1.0).hi());
+        ends.intersect(WHOLE).unwrap_or(WHOLE)
+    })
+}
+
 /// Three numbers that are exact as they stand.
 pub(super) fn points(a: model::Vector) -> Vector {
     a.map(Interval::point)
@@ -104,6 +127,24 @@ mod tests {
         // A range less another one that is the same is not zero.
         let range = Interval::new(1.0, 3.0);
         assert!(difference(range, range).encloses(Interval::new(-2.0, 2.0)));
+    }
+
+    /// Of 3 to 4 beside 0 to 3 the direction is from (3, 3) to (4, 0); what may vanish has any.
+    #[test]
+    fn directions_are_those_of_the_corners() {
+        let [x, y] = [Interval::new(3.0, 4.0), Interval::new(0.0, 3.0)];
+        let [along, across, none] = unit([x, y, Interval::ZERO]);
+        let near = |found: Interval, lo: f64, hi: f64| {
+            found.encloses(Interval::new(lo, hi)) && found.width() < hi - lo + 1e-15
+        };
+        assert!(near(along, 0.5_f64.sqrt(), 1.0) && near(across, 0.0, 0.5_f64.sqrt()));
+        assert_eq!(none, Interval::ZERO);
+        let [back, ..] = unit([-x, y, Interval::ZERO]);
+        assert!(near(back, -1.0, -(0.5_f64.sqrt())));
+        let whole = Interval::new(-1.0, 1.0);
+        let [along, first, second] = unit([Interval::new(-1.0, 2.0), y, y]);
+        assert!(near(along, -1.0, 1.0) && near(first, 0.0, 1.0) && near(second, 0.0, 1.0));
+        assert_eq!(unit(NOWHERE), [whole; 3]);
     }
 
     /// Products of vectors by hand.

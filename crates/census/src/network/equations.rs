@@ -245,7 +245,7 @@ impl Acting {
     }
 
     /// Left-hand side of (2) or (3).
-    fn misfit(&self, spans: &[Vector], force: Interval) -> Interval {
+    pub(super) fn misfit(&self, spans: &[Vector], force: Interval) -> Interval {
         match spans {
             [span] if self.is_squared() => {
                 difference(squared(*span), self.length.square()).scale(0.5)

@@ -72,6 +72,13 @@
 //! each box goes the list of the cells of pulls with which each strand reaches it (module
 //! `bridle`).
 //!
+//! Cables, struts and ropes beside bars are taut or slack: for each set of slack ones the others make a system of
+//! their own, whose equilibria are kept where the taut ones pull or push as they can and the slack ones do not
+//! reach. In a net a rope is one link of several spans with one tension $N$ and equation (3); an elastic member tells
+//! its tension by its spans, and a weight alone at the end of a rope tells that of the rope, $N = W$, and hangs as far
+//! down as the other spans leave it. A span without length pulls with any vector of at most the length 1 times N,
+//! so that boxes with a jam are not excluded; they end as undecided, with that reason.
+//!
 //! Of cables and ropes alone the energy is convex, so that an equilibrium in a box is the only one
 //! ([`SystemCensus::of_cables`]).
 //!

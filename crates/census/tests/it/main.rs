@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
 
+mod beside;
 mod boxes;
 mod bridles;
 mod compact;

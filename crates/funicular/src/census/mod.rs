@@ -87,9 +87,10 @@ impl Census {
 
     /// Take the census, and check it: of a chain, or of joints and members: trees, chains of bars
     /// between anchors with trees and weights at their joints, frames, nets of several closures whose
-    /// joints move in few ways (one joint held by strands of one or two bars), three strands of any
-    /// number of bars under upright loads, and any number of such parts. Of cables and ropes alone, elastic or not, an
-    /// equilibrium that is verified is the only one.
+    /// joints move in few ways (one joint held by strands of one or two bars, a boom on its tackle), three strands of any
+    /// number of bars under upright loads, and any number of such parts; of cables, struts and ropes among their
+    /// members each set that may be slack. Of cables and ropes alone, elastic or not, an equilibrium that is verified
+    /// is the only one.
     ///
     /// # Errors
     ///

@@ -121,6 +121,8 @@ struct Whole<'a> {
 #[derive(Serialize)]
 struct One<'a> {
     count: usize,
+    /// Numbers of the members that are slack, from 1.
+    slack: Vec<usize>,
     /// Numbers of the members in trees, from 1.
     hanging: Vec<usize>,
     chain: Option<Chain<'a>>,
@@ -160,11 +162,17 @@ struct Chain<'a> {
     statistics: census::Statistics,
 }
 
+/// From 1.
+fn numbers(members: &[usize]) -> Vec<usize> {
+    members.iter().map(|member| member + 1).collect()
+}
+
 impl<'a> One<'a> {
     fn of(system: &'a System, part: &'a PartCensus) -> Self {
         Self {
             count: part.positions,
-            hanging: part.hanging.iter().map(|member| member + 1).collect(),
+            slack: numbers(&part.slack),
+            hanging: numbers(&part.hanging),
             chain: part.chain.as_ref().map(|chain| Chain::of(system, chain)),
             framed: part.framed,
             net: part.net.as_ref().map(|net| Net::of(system, net)),

@@ -57,9 +57,9 @@ fn headline(answer: &SystemCensusAnswer) -> String {
     let count = answer.equilibria().len();
     let mut text = format!("{count} {}", if count == 1 { "equilibrium" } else { "equilibria" });
     if census.equilibria.iter().any(|position| position.circle) {
-        text += ", each with all its turns about the vertical through the anchors of a chain";
+        text += ", each with all its turns about the vertical through its anchors";
     }
-    if census.parts.len() > 1 {
+    if census.parts.len() > 1 && census.parts.iter().all(|part| part.slack.is_empty()) {
         let parts: Vec<_> = census.parts.iter().map(|part| part.positions.to_string()).collect();
         let _ = write!(text, " ({} of parts that move without each other)", parts.join(" times "));
     }
@@ -112,7 +112,8 @@ fn one(system: &System, number: usize, e: &SystemEquilibrium) -> String {
 /// What is known of the chains.
 fn chains(answer: &SystemCensusAnswer) -> String {
     let mut text = String::new();
-    for chain in answer.proven().chains() {
+    for part in &answer.proven().parts {
+        let Some(chain) = &part.chain else { continue };
         let census = &chain.census;
         let names: Vec<_> = [chain.joints.first(), chain.joints.last()]
             .into_iter()
@@ -121,7 +122,8 @@ fn chains(answer: &SystemCensusAnswer) -> String {
             .collect();
         let _ = write!(
             text,
-            "The chain from {}: {} in the plane, alternating sum {}",
+            "{} chain from {}: {} in the plane, alternating sum {}",
+            the(&part.slack),
             names.join(" to "),
             census.count_in_plane(),
             census.alternating_sum()
@@ -143,6 +145,16 @@ fn chains(answer: &SystemCensusAnswer) -> String {
     if text.is_empty() { text } else { text + "\n" }
 }
 
+/// "The", or with which members slack.
+fn the(slack: &[usize]) -> String {
+    let numbers: Vec<String> = slack.iter().map(|member| (member + 1).to_string()).collect();
+    match slack.len() {
+        0 => "The".to_owned(),
+        1 => format!("With member {} slack the", numbers[0]),
+        _ => format!("With members {} slack the", numbers.join(", ")),
+    }
+}
+
 /// What is known of the nets.
 fn nets(answer: &SystemCensusAnswer) -> String {
     /// So many undecided boxes are printed.
@@ -152,12 +164,17 @@ fn nets(answer: &SystemCensusAnswer) -> String {
         joints.iter().map(name).collect::<Vec<_>>().join(", ")
     };
     let mut text = String::new();
-    for net in answer.proven().nets() {
+    for part in &answer.proven().parts {
+        let Some(net) = &part.net else { continue };
         let _ = write!(
             text,
-            "The net of {} closures: all places of {}",
-            net.closures,
-            names(&net.knots)
+            "{} net of {}: {}",
+            the(&part.slack),
+            counted(net.closures, "closure"),
+            match &net.knots[..] {
+                [] => "no place to be searched".to_owned(),
+                knots => format!("all places of {}", names(knots)),
+            }
         );
         if !net.swings.is_empty() {
             let _ = write!(text, "; {} by closed forms", names(&net.swings));

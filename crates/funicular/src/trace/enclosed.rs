@@ -63,9 +63,6 @@ pub(super) fn proved(
     if start.values != from {
         return PathProved::nothing("it begins in a branch point");
     }
-    if first.has_ropes() {
-        return PathProved::nothing("it has ropes over rings or pulleys");
-    }
     if first.floor_m().is_some() {
         return PathProved::nothing("the system has a floor");
     }
@@ -104,7 +101,7 @@ pub(super) fn enclosed(
     };
     let system = |values: &[f64]| variation.unloaded(values).ok();
     let (first, last, here) = (system(from)?, system(to)?, system(&at.values)?);
-    if here.floor_m().is_some() || here.has_ropes() || !loads_alone(&first, &last) {
+    if here.floor_m().is_some() || !loads_alone(&first, &last) {
         return None;
     }
     let values = [from.last()?, to.last()?, at.values.last()?].map(|value| *value);

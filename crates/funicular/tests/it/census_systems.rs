@@ -178,7 +178,8 @@ fn positions_of_a_system_are_drawn_and_written() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
 }
 
-/// A ring on a rope with a weight over a pulley at its end, and a slack cable: of what pulls alone one equilibrium is all. Beside a strut there is no such list.
+/// A ring on a rope with a weight over a pulley at its end, and a slack cable: of what pulls alone one equilibrium is
+/// all. Beside a strut as long as Q is from its anchor when it runs to the pulley the list is open there.
 #[test]
 fn of_cables_and_ropes_one_equilibrium_is_all() {
     let path = folder("tackle").join("tackle.toml");
@@ -199,15 +200,44 @@ fn of_cables_and_ropes_one_equilibrium_is_all() {
         let axial_n = only["bars"][bar]["axial_n"].as_f64().unwrap();
         assert!((axial_n - wanted).abs() < ROUNDING * 25.0, "{axial_n}");
     }
-    std::fs::write(
-        &path,
-        tackle.replace(
-            "length_m = 5, mass_kg = 0, kind = 'cable'",
-            "length_m = 1, mass_kg = 0, kind = 'strut'",
-        ),
-    )
-    .unwrap();
-    let refused = funicular(&[path.to_str().unwrap()]);
-    assert_eq!(refused.status.code(), Some(2), "{}", stdout(&refused));
-    assert!(stderr(&refused).contains("member 1 is a rope"), "{}", stderr(&refused));
+    // A strut may let Q run to the pulley, which is told.
+    let strut = tackle.replace(
+        "length_m = 5, mass_kg = 0, kind = 'cable'",
+        "length_m = 1, mass_kg = 0, kind = 'strut'",
+    );
+    std::fs::write(&path, strut).unwrap();
+    let open = funicular(&[path.to_str().unwrap()]);
+    assert_eq!(open.status.code(), Some(3), "{}", stderr(&open));
+    let text = stdout(&open);
+    for said in
+        ["NOT proved to be all", "have run to the end of a span", "With member 2 slack the net"]
+    {
+        assert!(text.contains(said), "{text}");
+    }
+}
+
+/// A bar of 3 m and 20 N, whose end a counterweight of 12 N draws to a pulley, as `a_bar_over_a_pulley_with_its_counterweight_is_scanned` has it.
+#[test]
+fn a_bar_over_a_pulley_has_its_list() {
+    let path = folder("counterweight").join("counterweight.toml");
+    let bar = "gravity_m_s2 = 10\n\
+               joints = { A = { at_m = [0, 0, 0] }, Q = { mass_kg = 2 }, D = { at_m = [1.6, 1.2, 4] }, \
+               E = { mass_kg = 1.2 } }\n\
+               bars = [{ from = 'A', to = 'Q', length_m = 3, mass_kg = 0 },\n\
+               { from = 'E', to = 'Q', via = ['D'], length_m = LENGTH, mass_kg = 0, kind = 'cable' }]";
+    std::fs::write(&path, bar.replace("LENGTH", "9")).unwrap();
+    let path = path.to_str().unwrap();
+    let found = json_of_system(path);
+    assert_eq!(found["census"]["complete"], true);
+    for e in found["equilibria"].as_array().unwrap() {
+        assert!((e["bars"][1]["axial_n"].as_f64().unwrap() - 12.0).abs() < ROUNDING * 12.0);
+    }
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("The net of 0 closures: all places of Q"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    // Short ropes draw the counterweight up to the pulley, which is told.
+    std::fs::write(path, bar.replace("LENGTH", "5")).unwrap();
+    let open = funicular(&[path]);
+    assert_eq!(open.status.code(), Some(3), "{}", stderr(&open));
+    assert!(stdout(&open).contains("to the end of a span"), "{}", stdout(&open));
 }

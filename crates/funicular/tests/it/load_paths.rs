@@ -481,13 +481,46 @@ fn a_ring_follows_its_rope() {
     let problem = ring("");
     let path = path_of(&problem, "bars.1.length_m=4.5..9");
     is_known(&path, &|length_m| (length_m, 98.0, [4.0, 1.0]));
-    assert_eq!(path.proved.because.as_deref(), Some("it has ropes over rings or pulleys"));
+    assert_eq!(path.proved.because.as_deref(), Some("more than loads vary"));
     let path = path_of(&problem, "joints.P.mass_kg=10..1");
     is_known(&path, &|mass_kg| (5.0, 9.8 * mass_kg, [4.0, 1.0]));
+    let PathProved { to, first, because, .. } = &path.proved;
+    assert_eq!((*to, *first, because.as_deref()), (Some(1.0), None, None));
     let path = path_of(&problem, "joints.B.at_m.x=4..1");
     is_known(&path, &|x| (5.0, 98.0, [x, 1.0]));
     let path = path_of(&problem, "joints.B.at_m.z=1..-2.5");
     is_known(&path, &|z| (5.0, 98.0, [4.0, z]));
+}
+
+/// The shallow gable, its bars of EA = 1 N from A and B to P, on which a rope of EA = 0.3 N from A over P to B lies:
+/// 1 - l/l0 less 0.3 (2 l/L - 1) is c (1 - l/l1), as if the bars had EA = c and another length.
+#[test]
+fn a_rope_over_a_gable_moves_its_limit() {
+    let (l0, rope_m, soft) = (1.25_f64.sqrt(), 1.9, 0.3);
+    let c = 1.0 + soft;
+    let l1 = c / (1.0 / l0 + 2.0 * soft / rope_m);
+    let w = (l1 * l1 - 1.0).sqrt();
+    let bar = |from: &str, to: &str| {
+        format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nlength_m = {l0}\nstiffness_n = 1\n")
+    };
+    let text = format!(
+        "[joints]\nA = {{ at_m = [-1, 0, 0] }}\nB = {{ at_m = [1, 0, 0] }}\n\
+         P = {{ at_m = [0, 0, 0], free = \"z\", force_n = [0, 0, -1], near_m = [0, 0, {w}] }}\n{}{}\
+         [[bars]]\nfrom = \"A\"\nto = \"B\"\nvia = [\"P\"]\nkind = \"cable\"\nlength_m = {rope_m}\n\
+         stiffness_n = {soft}\n",
+        bar("A", "P"),
+        bar("B", "P"),
+    );
+    let path = path(&text, "loads=0..1");
+    let limit_n = c * load_n(l1, l1.cbrt());
+    near(path.events[0].values[0], limit_n);
+    let [low, high] = path.events[0].enclosed.unwrap();
+    assert!(low - 1e-15 <= limit_n && limit_n <= high + 1e-15 && high - low < 1e-13);
+    is_proved(&path, LoadEventKind::LimitPoint, limit_n);
+    for point in path.points.iter().take(3) {
+        let l = point.joints_m[2][2].hypot(1.0);
+        near(point.axial_n[2], soft * (2.0 * l / rope_m - 1.0));
+    }
 }
 
 /// P hangs from C while the rope is slack. It is taut as soon as 1 m and 3 m level, and z down, are

@@ -214,3 +214,25 @@ fn the_basin_of_rings_at_rest_is_everywhere() {
     let [[from, to], _] = found.ranges();
     assert!((to - from - 10.0).abs() < 1e-9, "{from} {to}");
 }
+
+/// The boom on its mainsheet of `a_mainsheet_holds_its_boom`: what both solvers find is in the list of all equilibria
+/// that nobody asked for.
+#[test]
+fn solve_looks_a_boom_up_in_its_list() {
+    let text = "gravity_m_s2 = 10\n\
+                joints = { mast = { at_m = [0, 0, 0] }, T = { at_m = [1.1, 0, 0] }, \
+                E = { mass_kg = 4, force_n = [0, 30, 0] } }\n\
+                bars = [{ from = 'mast', to = 'E', length_m = 3, mass_kg = 0 },\n\
+                { from = 'T', to = 'E', via = ['E', 'T'], length_m = 7.5, mass_kg = 0, kind = 'cable' }]";
+    let answer = Solve::new().run(&Problem::parse(text, "boom.toml").unwrap()).unwrap();
+    assert_eq!(answer.equilibria().len(), 2);
+    for found in answer.equilibria() {
+        let ladder = &found.evidence.ladder;
+        assert!(
+            ladder.verified.is_reached() && ladder.complete.is_reached(),
+            "{}",
+            ladder.complete
+        );
+        assert!((found.joints_m[2][2] + 1.92).abs() < 1e-9, "{:?}", found.joints_m);
+    }
+}

@@ -87,17 +87,13 @@ pub enum NoCensus {
         /// The joint that feels it, from 1.
         joint: usize,
     },
-    /// A member of a chain between anchors is elastic.
+    /// A member is elastic, in a chain between anchors or where nothing inextensible bounds the places of its joints.
     Elastic {
         /// The member, from 1.
         member: usize,
     },
-    /// A member of a frame is no inextensible bar.
-    NotABar {
-        /// The member, from 1.
-        member: usize,
-    },
-    /// A member of a tree is not proved to bear a force, and may point anywhere.
+    /// A member of a tree is not proved to bear a force, and may point anywhere; or a cable, strut or rope may be
+    /// slack and taut.
     Limp {
         /// The member, from 1.
         member: usize,
@@ -114,11 +110,17 @@ pub enum NoCensus {
         /// The joint, from 1.
         joint: usize,
     },
-    /// A member is a rope over rings or pulleys. Of cables and ropes alone an equilibrium that is verified is the
-    /// only one; there are other members, or none is verified.
-    Rope {
-        /// The member, from 1.
-        member: usize,
+    /// Of cables and ropes alone an equilibrium that is verified is the only one; none is verified.
+    Cables,
+    /// Where cables, struts or ropes are slack nothing holds a joint that no load acts on: it may be anywhere.
+    Loose {
+        /// The joint, from 1.
+        joint: usize,
+    },
+    /// More sets of cables, struts and ropes may be slack, or of ropes jam, than are tried.
+    SlackSets {
+        /// The limit.
+        limit: usize,
     },
     /// The system has more equilibria than are listed.
     TooManyPositions {

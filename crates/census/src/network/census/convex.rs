@@ -73,7 +73,14 @@ impl SystemCensus {
             ..Choice::default()
         };
         let position = SystemPosition::new(system, &frame, &choice, false);
-        let part = PartCensus { positions: 1, hanging: vec![], chain: None, framed: 0, net: None };
+        let part = PartCensus {
+            positions: 1,
+            slack: vec![],
+            hanging: vec![],
+            chain: None,
+            framed: 0,
+            net: None,
+        };
         Some(Self {
             equilibria: vec![position],
             parts: vec![part],

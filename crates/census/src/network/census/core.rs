@@ -5,7 +5,7 @@
 //! joints, to twice the usual precision: a bar that is told against the direction of the chain
 //! would have its centre rounded.
 
-use model::system::{Kind, System};
+use model::system::System;
 use model::{Anchors, Bar, Chain, NoCensus};
 use numerics::{DoubleDouble, Interval};
 
@@ -79,33 +79,14 @@ impl LoadedChain {
     }
 }
 
-/// The isolated positions of a census in the units of a frame in which cables pull and struts push.
+/// The isolated positions of a census in the units of a frame.
 pub(super) fn choices(
     census: &Census,
-    system: &System,
     frame: &Frame,
     [joints, members]: [&[usize]; 2],
-) -> Result<Vec<Choice>, NoCensus> {
-    let mut found = vec![];
-    for proven in &census.equilibria {
-        let mut allowed = true;
-        for (sign, number) in proven.signs.iter().zip(members) {
-            let kind = system.members()[*number].kind;
-            // Next to nothing may be nothing.
-            if *sign == 0 && kind != Kind::Bar {
-                return Err(NoCensus::Limp { member: number + 1 });
-            }
-            allowed &= match kind {
-                Kind::Bar => true,
-                Kind::Cable => *sign > 0,
-                Kind::Strut => *sign < 0,
-            };
-        }
-        if allowed {
-            found.push(choice(proven, frame, joints, members));
-        }
-    }
-    Ok(found)
+) -> Vec<Choice> {
+    let proven = census.equilibria.iter();
+    proven.map(|proven| choice(proven, frame, joints, members)).collect()
 }
 
 fn choice(

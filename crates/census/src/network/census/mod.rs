@@ -1,5 +1,8 @@
 //! Every equilibrium of a system, with proof, where its closures are few.
 //!
+//! Cables, struts and ropes are taut or slack: for each set of slack ones what is left is a system of its own,
+//! whose taut members keep their lengths (module `branch`).
+//!
 //! Parts of a system that are connected over anchors alone have equilibria of their own, and the
 //! system has all combinations of theirs. In each part the trees are taken off first: what a member
 //! alone holds tells its force, and the force its direction (module `tree`). What is left has
@@ -9,6 +12,7 @@
 //! built up joint by joint, a tripod among them, have closed forms whatever their closures (module
 //! `truss`). Other parts have no census.
 
+mod branch;
 mod bridle;
 mod choice;
 mod convex;
@@ -16,7 +20,6 @@ mod core;
 mod net;
 mod parts;
 mod position;
-mod slack;
 mod tree;
 mod truss;
 mod weights;
@@ -24,7 +27,7 @@ mod weights;
 use std::time::Instant;
 
 use model::NoCensus;
-use model::system::{Support, System};
+use model::system::{Kind, Support, System};
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
@@ -32,10 +35,10 @@ pub use self::bridle::bridle_seconds;
 pub use self::net::{NetCensus, Open, UndecidedPlaces};
 pub use self::position::SystemPosition;
 
+use self::branch::{Branch, branches, signs_hold};
 use self::choice::Choice;
 use self::core::{LoadedChain, choices};
 use self::parts::{Core, Part, parts};
-use self::slack::slackened;
 use self::tree::{borne, hung};
 use self::truss::{order, positions};
 use super::frame::Frame;
@@ -71,8 +74,10 @@ pub struct SystemCensus {
 /// A part of a system, connected not over anchors alone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PartCensus {
-    /// Its isolated equilibria.
+    /// Its isolated equilibria, whatever the lengths of slack members are.
     pub positions: usize,
+    /// Members that are slack, from 0: with those the part is another one, or several.
+    pub slack: Vec<usize>,
     /// Members in trees, from 0: each pulls or pushes, whatever the others do.
     pub hanging: Vec<usize>,
     /// The chain between anchors that bears the trees, if there is one.
@@ -143,28 +148,38 @@ impl SystemCensus {
         if system.floor_m().is_some() {
             return Err(NoCensus::Floor);
         }
-        if let Some(rope) = system.first_rope() {
-            return Err(NoCensus::Rope { member: rope + 1 });
-        }
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {
             return Err(NoCensus::Slider { joint: joint + 1 });
         }
         let frame = Frame::new(system, &[]);
+        let parts = parts(system, &[]);
+        let is_net = |part: &Part| matches!(part.core, Core::Net { .. });
+        let pulls = system.members().iter().all(|member| member.kind == Kind::Cable);
+        if pulls && parts.iter().any(is_net) {
+            return Err(NoCensus::Cables);
+        }
         let mut positions = vec![Choice::default()];
-        let mut found = vec![];
-        for part in parts(system) {
-            let (part, own) = of_part(system, &frame, &part, settings, watch)?;
-            if positions.len().saturating_mul(own.len()) > MAX_POSITIONS {
-                return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
+        let (count, mut found) = (parts.len(), vec![]);
+        for part in parts {
+            let mut own = vec![];
+            refusal(system, &frame, &part, settings)?;
+            let branches = branches(system, &frame, part)?;
+            for part in branches[1..].iter().flat_map(|branch| &branch.parts) {
+                refusal(system, &frame, part, settings)?;
             }
-            positions =
-                positions.iter().flat_map(|all| own.iter().map(|one| all.and(one))).collect();
-            found.push(part);
+            // The searches of all sets take no longer together than one.
+            let nets = branches.iter().flat_map(|branch| &branch.parts).filter(|part| is_net(part));
+            let tests = settings.max_tests_per_pattern / nets.count().max(1) as u64;
+            let shared = Settings { max_tests_per_pattern: tests.max(1), ..*settings };
+            for branch in branches {
+                own.extend(of_branch(system, &frame, &branch, &shared, watch, &mut found)?);
+            }
+            positions = combined(&positions, &own)?;
         }
         // One vertical plane holds a chain and plumb trees on it, or plumb trees on one anchor.
-        let plane = found.len() <= 1
+        let plane = count <= 1
             && found.iter().all(|part| part.framed == 0 && part.net.is_none())
             && frame.loads(system).iter().all(|[x, y, _]| [*x, *y] == [Interval::ZERO; 2]);
         let mut equilibria: Vec<SystemPosition> = positions
@@ -215,6 +230,69 @@ impl SystemCensus {
     }
 }
 
+/// Each of these positions with each of those.
+fn combined(all: &[Choice], own: &[Choice]) -> Result<Vec<Choice>, NoCensus> {
+    if all.len().saturating_mul(own.len()) > MAX_POSITIONS {
+        return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
+    }
+    Ok(all.iter().flat_map(|all| own.iter().map(|one| all.and(one))).collect())
+}
+
+/// Why a part has no census, as far as that is known before any search.
+fn refusal(
+    system: &System,
+    frame: &Frame,
+    part: &Part,
+    settings: &Settings,
+) -> Result<(), NoCensus> {
+    match &part.core {
+        _ if !part.grounded => Err(NoCensus::Loose { joint: part.joints[0] + 1 }),
+        Core::Net { joints, members } if joints.len() > MOST_JOINTS => {
+            let closures = members.len().saturating_sub(joints.len());
+            Err(NoCensus::Closures { closures })
+        }
+        Core::Net { joints, members } if framing(system, joints, members).is_none() => {
+            let loads = borne(system, frame, &part.hanging);
+            let core = net::Core { system, frame, joints, members, loads: &loads };
+            net::refusal(&core, settings)
+        }
+        Core::Chain { members, .. } if members.len() > settings.max_bars => {
+            Err(NoCensus::TooManyBars { bars: members.len(), limit: settings.max_bars })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The positions of a part with some members slack.
+fn of_branch(
+    system: &System,
+    frame: &Frame,
+    branch: &Branch,
+    settings: &Settings,
+    watch: &dyn Fn(Progress),
+    found: &mut Vec<PartCensus>,
+) -> Result<Vec<Choice>, NoCensus> {
+    let axial = branch.slack.iter().map(|member| (*member, Interval::ZERO)).collect();
+    let mut positions = vec![Choice { axial, ..Choice::default() }];
+    for part in &branch.parts {
+        let (part, own) = of_part(system, frame, part, settings, watch)?;
+        positions = combined(&positions, &own)?;
+        found.push(PartCensus { slack: branch.slack.clone(), ..part });
+    }
+    let mut kept = vec![];
+    for choice in positions {
+        if branch.has(system, frame, &choice)? {
+            kept.push(choice);
+        }
+    }
+    Ok(kept)
+}
+
+/// In which order the joints of a net are placed, if closed forms do.
+fn framing(system: &System, joints: &[usize], members: &[usize]) -> Option<Vec<truss::Placed>> {
+    (joints.len() <= MAX_FRAMED).then(|| order(system, joints, members)).flatten()
+}
+
 /// One part and its positions.
 fn of_part(
     system: &System,
@@ -225,15 +303,9 @@ fn of_part(
 ) -> Result<(PartCensus, Vec<Choice>), NoCensus> {
     let (mut chain, mut framed, mut net) = (None, 0, None);
     let cores = match &part.core {
-        Core::Net { joints, members } if joints.len() > MOST_JOINTS => {
-            let closures = members.len().saturating_sub(joints.len());
-            return Err(NoCensus::Closures { closures });
-        }
         Core::Net { joints, members } => {
             let loads = borne(system, frame, &part.hanging);
-            let order =
-                (joints.len() <= MAX_FRAMED).then(|| order(system, joints, members)).flatten();
-            if let Some(order) = order {
+            if let Some(order) = framing(system, joints, members) {
                 framed = joints.len();
                 positions(system, frame, &order, &loads, MAX_POSITIONS)?
             } else {
@@ -245,22 +317,23 @@ fn of_part(
         }
         Core::Anchor => vec![Choice::anchor(system, frame, part)],
         Core::Chain { joints, members } => {
-            let (bars, limit) = (members.len(), settings.max_bars);
-            if bars > limit {
-                return Err(NoCensus::TooManyBars { bars, limit });
-            }
             let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
             let census = loaded.census(settings)?;
             let check = loaded.check(&census);
             let both = [joints.as_slice(), members.as_slice()];
-            let mut cores = choices(&census, system, frame, both)?;
-            cores.extend(slackened(system, frame, &loaded, both)?);
+            let cores = choices(&census, frame, both);
             let (joints, members) = (joints.clone(), members.clone());
             chain = Some(ChainCensus { joints, members, census, check });
             cores
         }
     };
-    let positions = hung(system, frame, &part.hanging, cores, MAX_POSITIONS)?;
+    let mut positions = vec![];
+    for choice in hung(system, frame, &part.hanging, cores, MAX_POSITIONS)? {
+        if signs_hold(system, &choice)? {
+            positions.push(choice);
+        }
+    }
     let hanging = part.hanging.iter().map(|hanging| hanging.member).collect();
-    Ok((PartCensus { positions: positions.len(), hanging, chain, framed, net }, positions))
+    let (count, slack) = (positions.len(), vec![]);
+    Ok((PartCensus { positions: count, slack, hanging, chain, framed, net }, positions))
 }

@@ -1,13 +1,17 @@
 //! A system taken apart: parts that move without each other, and in each the trees that hang and
-//! what they hang on.
+//! what they hang on. A rope hangs in no tree: what is at its end moves with all its spans.
 
 use std::collections::VecDeque;
 
-use model::system::System;
+use model::system::{Kind, System};
 
 /// Joints that move and members that hold them, connected not over anchors.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Part {
+    /// Its joints that move.
+    pub(super) joints: Vec<usize>,
+    /// Whether a member holds it to what is fixed.
+    pub(super) grounded: bool,
     /// Members of trees, outermost last: the joint at which each hangs is known before it.
     pub(super) hanging: Vec<Hanging>,
     /// What is left without the trees.
@@ -40,12 +44,26 @@ pub(super) enum Core {
     },
 }
 
-/// The parts of a system, in the order of their first joints.
-pub(super) fn parts(system: &System) -> Vec<Part> {
+impl Part {
+    /// What of it may be slack: members of one sense that are in no tree.
+    pub(super) fn one_sided(&self, system: &System) -> Vec<usize> {
+        let (Core::Chain { members, .. } | Core::Net { members, .. }) = &self.core else {
+            return vec![];
+        };
+        let two_sided = |member: &usize| system.members()[*member].kind == Kind::Bar;
+        members.iter().copied().filter(|member| !two_sided(member)).collect()
+    }
+}
+
+/// The parts of a system without its slack members, in the order of their first joints.
+pub(super) fn parts(system: &System, slack: &[usize]) -> Vec<Part> {
     let mut meeting: Vec<Vec<usize>> = vec![vec![]; system.joints().len()];
-    for (k, member) in system.members().iter().enumerate() {
-        meeting[member.from].push(k);
-        meeting[member.to].push(k);
+    for (k, member) in system.members().iter().enumerate().filter(|(k, _)| !slack.contains(k)) {
+        for joint in member.path() {
+            if meeting[joint].last() != Some(&k) {
+                meeting[joint].push(k);
+            }
+        }
     }
     let taker = Taker { system, meeting };
     let mut seen = vec![false; system.joints().len()];
@@ -81,8 +99,8 @@ impl Taker<'_> {
         let mut next = 0;
         while let Some(here) = joints.get(next).copied() {
             next += 1;
-            for member in &self.meeting[here] {
-                let there = self.other(*member, here);
+            let members = self.meeting[here].iter();
+            for there in members.flat_map(|member| self.system.members()[*member].path()) {
                 if !self.held(there) && !seen[there] {
                     seen[there] = true;
                     joints.push(there);
@@ -100,10 +118,8 @@ impl Taker<'_> {
             joints.iter().copied().filter(|j| degree[*j] == 1).collect();
         let mut hanging = vec![];
         while let Some(child) = ends.pop_front() {
-            let Some(member) = self.meeting[child].iter().copied().find(|member| !gone[*member])
-            else {
-                continue;
-            };
+            let left = self.meeting[child].iter().copied().find(|member| !gone[*member]);
+            let Some(member) = left.filter(|member| !self.is_rope(*member)) else { continue };
             let parent = self.other(member, child);
             gone[member] = true;
             degree[parent] -= 1;
@@ -114,7 +130,16 @@ impl Taker<'_> {
             hanging.push(Hanging { member, parent, child });
         }
         hanging.reverse();
-        Part { hanging, core: self.core(&joints, &degree, &gone) }
+        let mut met = joints.iter().flat_map(|joint| &self.meeting[*joint]);
+        let held =
+            |member: &usize| self.system.members()[*member].path().any(|joint| self.held(joint));
+        let grounded = met.any(held);
+        let core = self.core(&joints, &degree, &gone);
+        Part { joints, grounded, hanging, core }
+    }
+
+    fn is_rope(&self, member: usize) -> bool {
+        self.system.members()[member].rope.is_some()
     }
 
     fn core(&self, joints: &[usize], degree: &[usize], gone: &[bool]) -> Core {
@@ -130,7 +155,8 @@ impl Taker<'_> {
             return Core::Anchor;
         }
         let net = Core::Net { joints: moving.clone(), members: left.clone() };
-        if moving.iter().any(|joint| degree[*joint] != 2) {
+        let ropes = left.iter().any(|member| self.is_rope(*member));
+        if ropes || moving.iter().any(|joint| degree[*joint] != 2) {
             return net;
         }
         // A walk from an anchor; without one the part is a ring that falls.

@@ -8,8 +8,8 @@ use model::{
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
-use super::SystemCensus;
 use super::choice::Choice;
+use super::{PartCensus, SystemCensus};
 use crate::network::arithmetic::{NOWHERE, dot, minus, norm, over, plus, product, sum, times};
 use crate::network::frame::Frame;
 use crate::network::proven::idle_n;
@@ -31,7 +31,7 @@ pub struct SystemPosition {
     /// The same among the motions in the vertical plane of the one chain; nothing where there is no
     /// such plane.
     pub index_in_plane: Option<usize>,
-    /// Whether a chain turns freely about the vertical through its anchors.
+    /// Whether a part turns freely about the vertical through its anchors.
     pub circle: bool,
 }
 
@@ -202,20 +202,27 @@ impl SystemCensus {
             let of_nets = Status::Open(Reason::NoCensus(of_nets));
             return open.map_or(of_nets, |chain| chain.census.completeness());
         }
-        let two_sided = |member: &usize| system.members()[*member].kind == Kind::Bar;
-        let hanging = self.parts.iter().flat_map(|part| &part.hanging);
-        let free = hanging.clone().filter(|member| two_sided(member)).count();
-        let free = free + self.chains().map(|chain| chain.members.len()).sum::<usize>();
-        let free = free + self.nets().map(|net| net.signs).sum::<usize>();
+        let two_sided = |member: &&usize| system.members()[**member].kind == Kind::Bar;
+        let signs = |part: &PartCensus| {
+            let of_chain = part.chain.as_ref().map_or(0, |chain| chain.members.len());
+            let of_net = part.net.as_ref().map_or(0, |net| net.signs);
+            part.hanging.iter().filter(two_sided).count() + of_chain + of_net
+        };
+        let patterns =
+            |signs: usize| 2_u64.saturating_pow(u32::try_from(signs).unwrap_or(u32::MAX));
+        let (taut, slack): (Vec<_>, Vec<_>) =
+            self.parts.iter().partition(|part| part.slack.is_empty());
+        let of_slack = slack.into_iter().map(|part| patterns(signs(part)));
+        let of_taut = patterns(taut.iter().map(|part| signs(part)).sum());
         Status::Reached(Complete {
             in_plane: self.equilibria.len(),
             families: self.families(),
-            patterns: 2_u64.saturating_pow(u32::try_from(free).unwrap_or(u32::MAX)),
+            patterns: of_slack.fold(of_taut, u64::saturating_add),
             cells: self.cells(),
             system: Some(CompleteSystem {
                 positions: self.equilibria.len(),
-                parts: self.parts.len(),
-                hanging: hanging.count(),
+                parts: taut.len(),
+                hanging: taut.iter().map(|part| part.hanging.len()).sum(),
             }),
         })
     }

@@ -14,7 +14,7 @@
 //! and the other kind has at most $2^k$ positions, by closed forms.
 
 use model::NoCensus;
-use model::system::{Kind, System};
+use model::system::{Member, System};
 use numerics::Interval;
 
 use super::choice::Choice;
@@ -31,8 +31,12 @@ pub(super) struct Placed {
     pub(super) held_by: Vec<(usize, usize)>,
 }
 
-/// In which order the joints of a part can be placed; nothing if they cannot.
+/// In which order the joints of a part can be placed; nothing if they cannot, or a member is elastic or a rope.
 pub(super) fn order(system: &System, joints: &[usize], members: &[usize]) -> Option<Vec<Placed>> {
+    let other = |member: &Member| member.stiffness_n.is_some() || member.rope.is_some();
+    if members.iter().any(|member| other(&system.members()[*member])) {
+        return None;
+    }
     let mut rigid: Vec<bool> = system.joints().iter().map(|j| j.support.is_fixed()).collect();
     let ends = |member: usize| [system.members()[member].from, system.members()[member].to];
     let held_by = |joint: usize, rigid: &[bool]| -> Vec<(usize, usize)> {
@@ -80,12 +84,6 @@ pub(super) fn positions(
     let anchors = places.filter_map(|(k, joint)| Some((k, frame.place(joint.support.at_m()?))));
     let mut choices = vec![Choice { places: anchors.collect(), ..Choice::default() }];
     for placed in order {
-        for (number, _) in &placed.held_by {
-            let member = &system.members()[*number];
-            if member.kind != Kind::Bar || member.stiffness_n.is_some() {
-                return Err(NoCensus::NotABar { member: number + 1 });
-            }
-        }
         let mut next = vec![];
         for choice in &choices {
             next.extend(placed_on(system, frame, choice, placed, loads)?);

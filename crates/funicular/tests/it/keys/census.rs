@@ -474,6 +474,23 @@ fn a_bridle() {
     output.done();
 }
 
+/// A boom of 5 m with 10 N at its end P, and two strands of 5 m from P to a pulley on its level, 8 m away: P hangs in
+/// the middle, 3 m down. Standing or hanging alone the boom would be out of their reach.
+#[test]
+fn a_boom_on_its_tackle() {
+    let text = "gravity_m_s2 = 10
+                joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 }, D = { at_m = [8, 0, 0] } }
+                bars = [{ from = 'A', to = 'P', length_m = 5, mass_kg = 0 }, \
+                { from = 'D', to = 'D', via = ['P'], length_m = 10, mass_kg = 0, kind = 'cable' }]";
+    let mut output = census("census of a system", "a_boom_on_its_tackle", text);
+    output.is("census.count", 1);
+    // Both slopes bear a half of 10 N, with 3/5 of their force: one bar, and two strands of one tension.
+    let along = 5.0 * 5.0 / 3.0;
+    output.is("equilibria[].bars[].axial_n", json!([along, along / 2.0]));
+    output.is("census.parts[].slack[]", json!([2]));
+    output.done();
+}
+
 /// The same positions as text in columns.
 #[test]
 fn columns_of_a_census() {

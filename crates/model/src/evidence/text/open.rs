@@ -145,14 +145,16 @@ impl Display for NoCensus {
                 ordinal(*joint)
             ),
             Self::Elastic { member } => {
-                write!(f, "no census: member {member} of a chain between anchors is elastic")
-            }
-            Self::NotABar { member } => {
-                write!(f, "no census: member {member} is no inextensible bar")
+                write!(
+                    f,
+                    "no census: member {member} is elastic, in a chain between anchors or between joints that nothing \
+                     inextensible bounds"
+                )
             }
             Self::Limp { member } => write!(
                 f,
-                "no census: member {member} bears nothing that is proved to turn it, and may point anywhere"
+                "no census: member {member} bears nothing that is proved to turn it, and may point anywhere or be slack \
+                 and taut"
             ),
             Self::Flat { joint } => write!(
                 f,
@@ -163,9 +165,18 @@ impl Display for NoCensus {
             Self::Slider { joint } => {
                 write!(f, "no census: the {} joint slides", ordinal(*joint))
             }
-            Self::Rope { member } => {
-                write!(f, "no census: member {member} is a rope, and other members may push or no equilibrium is verified")
-            }
+            Self::Cables => f.write_str(
+                "no census: of cables and ropes alone an equilibrium that is verified is the only one, and none is",
+            ),
+            Self::Loose { joint } => write!(
+                f,
+                "no census: nothing holds the {} joint, which bears no load, where members are slack",
+                ordinal(*joint)
+            ),
+            Self::SlackSets { limit } => write!(
+                f,
+                "no census: its cables, struts and ropes may be slack or jam in more than {limit} ways"
+            ),
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")
             }

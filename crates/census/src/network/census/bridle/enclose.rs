@@ -88,7 +88,7 @@ impl Enclosed {
 
 /// Enclose a zero; nothing if that is not proved, or if it may not be the one of the search.
 pub(super) fn enclosed(core: &Core, bridle: &Bridle, found: &Found) -> Option<Enclosed> {
-    let equations = equations(core);
+    let equations = equations(core, &[]);
     let (joints_m, axial_n) = start(core, bridle, found);
     let start = equations.start(&joints_m, &axial_n);
     let refined = refine(&equations, &start).ok()?;

@@ -65,23 +65,32 @@ pub fn bridle_seconds(bars: usize) -> f64 {
     NINE_BARS_S * 2.0_f64.powf((bars as f64 - 9.0).min(600.0))
 }
 
-/// Equilibria of a net that is a bridle of three strands; nothing if it is another net, or one with
-/// short strands whose joints move in few enough ways to be searched by their places.
-pub(super) fn taken(
-    core: &Core,
-    motions: usize,
-    settings: &Settings,
-    watch: &dyn Fn(Progress),
-) -> Result<Option<(NetCensus, Vec<Choice>)>, NoCensus> {
+/// A net that is a bridle of three strands; nothing if it is another net, or one with short strands whose
+/// joints move in few enough ways to be searched by their places.
+fn bridle(core: &Core, motions: usize, settings: &Settings) -> Result<Option<Bridle>, NoCensus> {
     let Some(bridle) = Bridle::new(core) else { return Ok(None) };
     let few = motions <= settings.max_motions && bridle.longest() <= SHORT;
     if few || bridle.strands.len() > MOST_STRANDS {
         return Ok(None);
     }
     let (bars, limit) = (bridle.bars(), settings.max_bridle_bars);
-    if bars > limit {
-        return Err(NoCensus::Bridle { bars, limit });
-    }
+    if bars > limit { Err(NoCensus::Bridle { bars, limit }) } else { Ok(Some(bridle)) }
+}
+
+/// Whether a net is such a bridle.
+pub(super) fn refusal(core: &Core, motions: usize, settings: &Settings) -> Result<bool, NoCensus> {
+    bridle(core, motions, settings).map(|bridle| bridle.is_some())
+}
+
+/// Equilibria of a net that is such a bridle.
+pub(super) fn taken(
+    core: &Core,
+    motions: usize,
+    settings: &Settings,
+    watch: &dyn Fn(Progress),
+) -> Result<Option<(NetCensus, Vec<Choice>)>, NoCensus> {
+    let Some(bridle) = bridle(core, motions, settings)? else { return Ok(None) };
+    let bars = bridle.bars();
     let patterns = bridle.strands.iter().map(|strand| 1_u64 << strand.length.len()).sum();
     let budget = settings.max_tests_per_pattern.saturating_mul(TESTS).saturating_mul(patterns);
     let Search { found, undecided, cells, tests, exhausted } = search(&bridle, budget, watch);

@@ -1,6 +1,5 @@
 //! A bridle taken apart into its knot and the strands that hold it.
 
-use model::system::Kind;
 use numerics::Interval;
 
 use crate::network::arithmetic::Vector;
@@ -36,7 +35,7 @@ impl Strand {
 }
 
 impl Bridle {
-    /// Nothing if the net has another shape, if a member is no bar, or if a joint of a strand bears
+    /// Nothing if the net has another shape, if a member is elastic or a rope, or if a joint of a strand bears
     /// no load or one that is not upright.
     pub(super) fn new(core: &Core) -> Option<Self> {
         let knots: Vec<usize> =
@@ -94,11 +93,7 @@ fn walk(core: &Core, knot: usize, member: usize, next: usize) -> Option<Strand> 
     let at_m = core.system.joints()[here].support.at_m()?;
     members.reverse();
     joints.reverse();
-    let is_bar = |number: &usize| {
-        let member = &core.system.members()[*number];
-        member.kind == Kind::Bar && member.stiffness_n.is_none()
-    };
-    if !members.iter().all(is_bar) {
+    if !members.iter().all(|member| core.is_rod(*member)) {
         return None;
     }
     // The force of the next bar is that of this one less the load between them.

@@ -1,4 +1,4 @@
-//! Forces that are not known: the densities of bars between knots, and the tensions of swings that
+//! Forces that are not known: those of inextensible links between knots, and the tensions of swings that
 //! may lie straight, as unknowns of the linear balance of the knots.
 //!
 //! Over a box of places the balance is $C\\,t + g = 0$ with a matrix C of intervals. With Y near the
@@ -7,12 +7,13 @@
 //! leaves of the balance must vanish too.
 
 use std::ops::Range;
+use std::slice::from_ref;
 
 use numerics::Interval;
 
 use super::cell::{Cell, Pattern};
 use super::dense::Dense;
-use super::layout::Swing;
+use super::layout::{End, Link, Swing};
 use super::swing::Swung;
 use crate::network::arithmetic::{Vector, norm, sum};
 
@@ -51,7 +52,7 @@ pub(super) enum Forces {
     Impossible,
     /// They are not bounded over this box.
     Unknown,
-    /// Densities of all bars between knots.
+    /// Forces, or force densities, of all links.
     Within(Vec<Interval>),
 }
 
@@ -65,18 +66,22 @@ impl Columns {
         };
         let swings = cell.layout.swings.iter().zip(&cell.swung);
         let unbounded: Vec<bool> = swings.map(|both| !both.1.folded && wide(both)).collect();
-        let bars = cell.layout.bars.iter().map(|bar| bar.ends).zip(cell.spans.iter().copied());
+        let links = cell.layout.links.iter().zip(&cell.along);
+        let links = links.filter(|(link, _)| link.is_constraint());
+        let links = links.map(|(link, along)| (&link.ends[..], &along[..]));
         let swings = cell.layout.swings.iter().zip(&cell.swung).zip(&unbounded);
+        let swings = swings.filter(|(_, unbounded)| **unbounded);
         let swings =
-            swings.filter(|(_, unbounded)| **unbounded).map(|((swing, s), _)| (swing.ends, s.span));
-        let columns: Vec<_> = bars.chain(swings).collect();
+            swings.map(|((swing, swung), _)| (from_ref(&swing.ends), from_ref(&swung.span)));
+        let columns: Vec<(&[[End; 2]], &[Vector])> = links.chain(swings).collect();
         let mut matrix = Dense::filled(cell.layout.coordinates(), columns.len(), Interval::ZERO);
-        for (column, (ends, span)) in columns.into_iter().enumerate() {
-            let both: [(usize, Vector); 2] = [(0, span), (1, span.map(|part| -part))];
-            for (end, pull) in both {
-                if let Some(row) = cell.rows(ends[end]) {
-                    let pull = pull[..cell.layout.dim].iter().copied();
-                    matrix.add_to_column([row, column], pull);
+        for (column, (ends, spans)) in columns.into_iter().enumerate() {
+            for ([a, b], span) in ends.iter().zip(spans) {
+                for (end, pull) in [(a, *span), (b, span.map(|part| -part))] {
+                    if let Some(row) = cell.rows(*end) {
+                        let pull = pull[..cell.layout.dim].iter().copied();
+                        matrix.add_to_column([row, column], pull);
+                    }
                 }
             }
         }
@@ -112,7 +117,7 @@ impl Columns {
             return Forces::Impossible;
         }
         if self.matrix.columns == 0 {
-            return Forces::Within(vec![]);
+            return Forces::Within(cell.known.iter().copied().flatten().collect());
         }
         let Some(solver) = &self.solver else { return Forces::Unknown };
         let Some(found) = solver.forces(loads) else { return Forces::Unknown };
@@ -126,14 +131,19 @@ impl Columns {
                 return Forces::Impossible;
             }
         }
-        let bars = cell.layout.bars.len();
         let swings = (0..self.unbounded.len()).filter(|s| self.unbounded[*s]);
-        for (swing, force) in swings.zip(&found[bars..]) {
+        for (swing, force) in swings.zip(&found[cell.layout.constraints()..]) {
             if force.disjoint(cell.tension(pattern, swing)) {
                 return Forces::Impossible;
             }
         }
-        Forces::Within(found[..bars].to_vec())
+        let mut found = found.into_iter();
+        let of_link = |(link, known): (&Link, &Option<Interval>)| match known {
+            Some(known) => Some(*known),
+            None => found.next()?.intersect(link.range),
+        };
+        let forces = cell.layout.links.iter().zip(&cell.known).map(of_link);
+        forces.collect::<Option<_>>().map_or(Forces::Impossible, Forces::Within)
     }
 }
 

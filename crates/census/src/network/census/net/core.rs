@@ -18,19 +18,18 @@ pub(in crate::network::census) struct Core<'a> {
 }
 
 impl Core<'_> {
-    pub(in crate::network::census) fn ends(&self, member: usize) -> [usize; 2] {
-        let member = &self.system.members()[member];
-        [member.from, member.to]
+    /// Members of the core at a joint, each with the joint at its other end; of a rope with all others.
+    pub(in crate::network::census) fn meeting(&self, joint: usize) -> Vec<(usize, usize)> {
+        let path = |member: usize| self.system.members()[member].path();
+        let at = self.members.iter().filter(|member| path(**member).any(|other| other == joint));
+        let others = at.flat_map(|member| path(*member).map(|other| (*member, other)));
+        others.filter(|(_, other)| *other != joint).collect()
     }
 
-    /// Members of the core at a joint, each with the joint at its other end.
-    pub(in crate::network::census) fn meeting(&self, joint: usize) -> Vec<(usize, usize)> {
-        let at = |member: &usize| match self.ends(*member) {
-            [a, b] if a == joint => Some((*member, b)),
-            [a, b] if b == joint => Some((*member, a)),
-            _ => None,
-        };
-        self.members.iter().filter_map(at).collect()
+    /// Whether a member is straight and inextensible.
+    pub(in crate::network::census) fn is_rod(&self, member: usize) -> bool {
+        let member = &self.system.members()[member];
+        member.rope.is_none() && member.stiffness_n.is_none()
     }
 
     pub(in crate::network::census) fn held(&self, joint: usize) -> bool {
@@ -44,8 +43,8 @@ impl Core<'_> {
     }
 
     fn anchors(&self) -> Vec<usize> {
-        let ends = self.members.iter().flat_map(|member| self.ends(*member));
-        ends.filter(|joint| self.held(*joint)).collect()
+        let paths = self.members.iter().flat_map(|member| self.system.members()[*member].path());
+        paths.filter(|joint| self.held(*joint)).collect()
     }
 
     /// The axes of the vertical plane of all anchors and loads, and its normal last, if it is a
@@ -69,23 +68,28 @@ impl Core<'_> {
         self.system.joints()[*self.anchors().first()?].support.at_m()
     }
 
-    /// A joint at which something turns freely about the vertical: the net itself between anchors
-    /// on one vertical, or what hangs on the net at this joint alone.
-    pub(in crate::network::census) fn turning(&self) -> Option<usize> {
+    /// Whether all loads are vertical.
+    fn is_upright(&self) -> bool {
         let level = |load: &Vector| load[0] == Interval::ZERO && load[1] == Interval::ZERO;
-        if !self.joints.iter().all(|joint| level(&self.loads[*joint])) {
-            return None;
-        }
+        self.joints.iter().all(|joint| level(&self.loads[*joint]))
+    }
+
+    /// An anchor of a net whose anchors are on one vertical: it turns freely about that.
+    pub(in crate::network::census) fn axis(&self) -> Option<usize> {
         let anchors = self.anchors();
         let at_m = |joint: usize| self.system.joints()[joint].support.at_m();
         let on_one_vertical = |joint: &usize| match (at_m(*joint), at_m(anchors[0])) {
             (Some([x, y, _]), Some([p, q, _])) => (x - p).abs() <= 0.0 && (y - q).abs() <= 0.0,
             _ => false,
         };
-        if anchors.iter().all(on_one_vertical) {
-            return anchors.first().copied();
-        }
-        self.joints.iter().copied().find(|joint| self.hangs_at(*joint))
+        let turns = self.is_upright() && anchors.iter().all(on_one_vertical);
+        anchors.first().copied().filter(|_| turns)
+    }
+
+    /// A joint at which alone a part of the net hangs, and turns freely about the vertical.
+    pub(in crate::network::census) fn turning(&self) -> Option<usize> {
+        let hangs = |joint: &usize| self.is_upright() && self.hangs_at(*joint);
+        self.joints.iter().copied().find(hangs)
     }
 
     /// Whether a part of the net is held by this joint alone.

@@ -10,13 +10,15 @@ use super::examine::Found;
 use super::inertia::index;
 use super::jet::values;
 use super::layout::Layout;
+use super::reach::span;
 use super::swing::{Swung, place};
 use crate::network::activity::Activity;
-use crate::network::arithmetic::{dot, minus, sum};
+use crate::network::arithmetic::{dot, minus, norm, sum};
 use crate::network::census::choice::Choice;
 use crate::network::equations::Equations;
 use crate::network::krawczyk::prove_zero;
 use crate::network::newton::refine;
+use crate::network::turns::Turn;
 
 /// An equilibrium of the net, enclosed.
 pub(super) struct Enclosed {
@@ -31,7 +33,8 @@ pub(super) fn enclosed<const N: usize>(
     layout: &Layout,
     found: &Found<N>,
 ) -> Option<Enclosed> {
-    let equations = equations(core);
+    let turn = turn(core, layout, found);
+    let equations = equations(core, turn.as_slice());
     let (joints_m, axial_n) = start(core, layout, found)?;
     let start = equations.start(&joints_m, &axial_n);
     let refined = refine(&equations, &start).ok()?;
@@ -60,7 +63,14 @@ pub(super) fn enclosed<const N: usize>(
             return None;
         }
     }
-    let mut choice = Choice::default();
+    if let Some(Turn { arm, centre, .. }) = &turn {
+        // The arm that holds the turn is none on the axis.
+        let off = minus(layout.turned(places[*arm]), layout.turned(places[*centre]));
+        if off[0].contains(0.0) {
+            return None;
+        }
+    }
+    let mut choice = Choice { circle: turn.is_some(), ..Choice::default() };
     choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
     for acting in &equations.acting {
         choice.axial.push((acting.member, acting.axial(zero.tight[acting.force])));
@@ -73,8 +83,18 @@ fn tight_array<const N: usize>(knots: &[Interval]) -> [Interval; N] {
     std::array::from_fn(|k| knots.get(k).copied().unwrap_or(Interval::ZERO))
 }
 
-/// The equations of the net alone, with what its joints bear.
-pub(in crate::network::census) fn equations(core: &Core) -> Equations {
+/// The free turn about the vertical of the anchors, where the knot is not on it.
+fn turn<const N: usize>(core: &Core, layout: &Layout, found: &Found<N>) -> Option<Turn> {
+    let (centre, arm) = (layout.axis?, *layout.knots.first()?);
+    let axis = layout.turned(core.frame.place(core.system.joints()[centre].support.at_m()?))[0];
+    let mut across = [1.0; 2];
+    across[layout.axes[0]] = 0.0;
+    let turn = Turn { joints: core.joints.to_vec(), centre, arm, across };
+    axis.disjoint(found.alone_in[0]).then_some(turn)
+}
+
+/// The equations of the net alone, with what its joints bear, each of these free turns held.
+pub(in crate::network::census) fn equations(core: &Core, turns: &[Turn]) -> Equations {
     let activities: Vec<Activity> = (0..core.system.members().len())
         .map(|member| if core.members.contains(&member) { Activity::Acts } else { Activity::Idle })
         .collect();
@@ -83,7 +103,7 @@ pub(in crate::network::census) fn equations(core: &Core) -> Equations {
     // Other joints that move are in no equation.
     let places_m: Vec<Point> =
         joints.iter().map(|joint| joint.support.at_m().unwrap_or(core.frame.origin_m)).collect();
-    Equations::new(core.system, *core.frame, &activities, &[], &places_m, &held)
+    Equations::new(core.system, *core.frame, &activities, turns, &places_m, &held)
         .with_loads(core.loads.to_vec())
 }
 
@@ -110,8 +130,9 @@ fn start<const N: usize>(
     for (number, knot) in layout.knots.iter().enumerate() {
         put(*knot, &|k| found.at[layout.dim * number + k]);
     }
-    for (bar, density) in layout.bars.iter().zip(&found.densities) {
-        axial_n[bar.member] = density * bar.length.mid() * frame.force_n;
+    for (link, force) in layout.links.iter().zip(&found.densities) {
+        let axial = link.acting.axial(Interval::point(*force));
+        axial_n[link.acting.member] = axial.mid() * frame.force_n;
     }
     for (s, swing) in layout.swings.iter().enumerate() {
         let hung = Swung::at_point(swing, layout.dim, &point, cell::sign(found.pattern, s))?;
@@ -120,6 +141,18 @@ fn start<const N: usize>(
             swing.members.iter().zip(hung.densities).zip(swing.lengths)
         {
             axial_n[*member] = density * length.mid() * frame.force_n;
+        }
+    }
+    for link in &layout.links {
+        let Some(hanging) = &link.hanging else { continue };
+        let spans = link.ends.iter().map(|ends| norm(span(layout.dim, &point, *ends)));
+        let left = spans.fold(link.sizes().hi(), |left, span| left - span.mid());
+        // Along its load, as far as the rope is left.
+        let from = frame.place(joints_m[hanging.from]);
+        for k in 0..3 {
+            let down = left * hanging.load[k].mid() / hanging.tension.mid();
+            joints_m[hanging.joint][k] =
+                (from[k].mid() + down) * frame.length_m + frame.origin_m[k];
         }
     }
     Some((joints_m, axial_n))

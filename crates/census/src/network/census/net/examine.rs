@@ -39,7 +39,7 @@ pub(super) struct Found<const N: usize> {
     pub(super) pattern: Pattern,
     pub(super) alone_in: [Interval; N],
     pub(super) at: [f64; N],
-    /// Force densities of the bars between knots.
+    /// Forces, or force densities, of the links.
     pub(super) densities: Vec<f64>,
 }
 
@@ -232,6 +232,7 @@ mod tests {
     use super::*;
     use crate::network::arithmetic::points;
     use crate::network::census::net::layout::{End, Link};
+    use crate::network::equations::Acting;
 
     fn swing(lengths: [f64; 2], load: [f64; 3]) -> Swing {
         Swing {
@@ -252,10 +253,11 @@ mod tests {
         Layout {
             dim: 3,
             axes: [0, 1, 2],
+            axis: None,
             knots: vec![0],
             loads: vec![points([0.0, 0.0, -1.0])],
             swings: strands.iter().map(swing).collect(),
-            bars: vec![],
+            links: vec![],
         }
     }
 
@@ -276,8 +278,11 @@ mod tests {
         assert!(!(0..8).any(|pattern| is_empty(&hung(&[folded, folded, aside]), pattern)));
         // Nor what a bar does.
         let ends = [End::Held(points([0.0, 2.0, 0.0])), End::Knot(0)];
-        let bars = vec![Link { member: 0, ends, length: Interval::point(2.0) }];
-        let barred = Layout { bars, ..hung(&[folded, aside]) };
+        let (length, compliance) = (Interval::point(2.0), Interval::ZERO);
+        let acting = Acting { member: 0, spans: 0..1, length, compliance, force: 0 };
+        let range = Interval::LINE;
+        let links = vec![Link { acting, ends: vec![ends], range, hanging: None }];
+        let barred = Layout { links, ..hung(&[folded, aside]) };
         assert!(!(0..4).any(|pattern| is_empty(&barred, pattern)));
     }
 

@@ -5,7 +5,8 @@
 //! $$ K = \begin{pmatrix} \Omega & R^T \\\\ R & 0 \end{pmatrix}, $$
 //!
 //! has as many negative eigenvalues as there are lengths and directions in which the energy falls
-//! together, where K is regular. With Q next to its eigenvectors $Q^T K Q$ is all but diagonal:
+//! together, where K is regular; a coordinate that holds a free turn is as a length, and an elastic member borders
+//! by minus its compliance. With Q next to its eigenvectors $Q^T K Q$ is all but diagonal:
 //! Gershgorin's circles tell the signs of its eigenvalues, which are those of K by Sylvester's law
 //! (Q is regular because $Q^T K Q$ is).
 //!
@@ -65,5 +66,5 @@ pub(in crate::network::census) fn index(
             _ => return None,
         }
     }
-    negative.checked_sub(lengths.len())
+    negative.checked_sub(lengths.len() + equations.holds.len())
 }

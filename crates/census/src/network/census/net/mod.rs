@@ -48,6 +48,7 @@ use model::NoCensus;
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
+use self::cell::Cell;
 pub(super) use self::core::Core;
 use self::enclose::{Enclosed, enclosed};
 use self::examine::Found;
@@ -61,6 +62,9 @@ use crate::settings::Settings;
 
 /// Tests of a box for a pattern against one of a cell of pulls: three coordinates instead of two.
 const TESTS: u64 = 10;
+
+/// Most coordinates of knots.
+const MOST_COORDINATES: usize = 12;
 
 /// Most joints that swing: each doubles the patterns.
 const MOST_SWINGS: usize = 12;
@@ -116,6 +120,8 @@ pub enum Open {
     Budget,
     /// One equilibrium at most lies there, and it or its index is not proved.
     Unproved,
+    /// A span of a rope may have no length there: a joint has run to its end, if there is such an equilibrium.
+    Jam,
 }
 
 impl std::fmt::Display for Open {
@@ -126,6 +132,7 @@ impl std::fmt::Display for Open {
             }
             Self::Budget => "the budget of tests was spent",
             Self::Unproved => "one equilibrium at most, which or whose index is not proved",
+            Self::Jam => "a joint may have run to the end of a span of a rope",
         })
     }
 }
@@ -136,17 +143,41 @@ pub(super) fn taken(
     settings: &Settings,
     watch: &dyn Fn(Progress),
 ) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
-    if let Some(joint) = core.turning() {
-        return Err(NoCensus::Turns { joint: joint + 1 });
-    }
     let space = Layout::new(core, 3, [0, 1, 2])?;
-    if let Some(taken) = bridle::taken(core, space.motions(), settings, watch)? {
+    let turns = core.axis().is_some();
+    let bridle = || bridle::taken(core, space.motions(), settings, watch);
+    if let Some(taken) = if turns { None } else { bridle()? } {
         return Ok(taken);
     }
-    // In a plane where that is all that can be searched.
-    let plane = core.plane().filter(|_| space.motions() > settings.max_motions);
-    let layout = match plane {
-        Some(axes) => Layout::new(core, 2, axes)?,
+    let layout = laid_out(core, space, settings)?;
+    Ok(match layout.coordinates() {
+        0..=3 => searched::<3>(core, &layout, settings, watch),
+        4..=6 => searched::<6>(core, &layout, settings, watch),
+        _ => searched::<12>(core, &layout, settings, watch),
+    })
+}
+
+/// Why a net has no census, as far as that is known before the search.
+pub(super) fn refusal(core: &Core, settings: &Settings) -> Result<(), NoCensus> {
+    let space = Layout::new(core, 3, [0, 1, 2])?;
+    let axis = core.axis();
+    // What swings about the vertical itself may leave the plane of the knot.
+    let is_flat = space.knots.len() == 1 && space.swings.is_empty();
+    if let Some(joint) = core.turning().or(axis.filter(|_| !is_flat)) {
+        return Err(NoCensus::Turns { joint: joint + 1 });
+    }
+    if axis.is_none() && bridle::refusal(core, space.motions(), settings)? {
+        return Ok(());
+    }
+    laid_out(core, space, settings).map(|_| ())
+}
+
+/// The net in space, or in a plane where that is all that can be searched, or to which a knot turns freely.
+fn laid_out(core: &Core, space: Layout, settings: &Settings) -> Result<Layout, NoCensus> {
+    let axis = core.axis();
+    let in_plane = axis.is_some() || space.motions() > settings.max_motions;
+    let layout = match core.plane().filter(|_| in_plane) {
+        Some(axes) => Layout { axis, ..Layout::new(core, 2, axes)? },
         None => space,
     };
     let closures = core.members.len().saturating_sub(core.joints.len());
@@ -155,15 +186,11 @@ pub(super) fn taken(
         return Err(NoCensus::Motions { closures, motions, limit });
     }
     // Self-stresses: forces are a family.
-    if layout.bars.len() > layout.coordinates() || layout.swings.len() > MOST_SWINGS {
+    let determined = layout.constraints() <= layout.coordinates();
+    if !determined || layout.swings.len() > MOST_SWINGS || layout.coordinates() > MOST_COORDINATES {
         return Err(NoCensus::Closures { closures });
     }
-    match layout.coordinates() {
-        1..=3 => Ok(searched::<3>(core, &layout, settings, watch)),
-        4..=6 => Ok(searched::<6>(core, &layout, settings, watch)),
-        7..=12 => Ok(searched::<12>(core, &layout, settings, watch)),
-        _ => Err(NoCensus::Closures { closures }),
-    }
+    Ok(layout)
 }
 
 /// With room for N coordinates.
@@ -175,16 +202,37 @@ fn searched<const N: usize>(
 ) -> (NetCensus, Vec<Choice>) {
     let patterns = 1_u64 << layout.swings.len();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns).saturating_mul(TESTS);
-    let Search { found, undecided, cells, tests, exhausted } = search::<N>(layout, budget, watch);
-    let reason = if exhausted { Open::Budget } else { Open::Degenerate };
+    let Search { found, undecided, mut cells, mut tests, exhausted } =
+        search::<N>(layout, budget, watch);
+    let reason = |at: &[Interval; N]| match Cell::over(layout, *at) {
+        Some(cell) if cell.jams() => Open::Jam,
+        _ if exhausted => Open::Budget,
+        _ => Open::Degenerate,
+    };
     let mut open: Vec<UndecidedPlaces> = vec![];
     let undecided = undecided.into_iter().map(|task| (task.at, vec![task.patterns]));
     for (at, patterns) in gathered(undecided) {
         let patterns = patterns.iter().map(Vec::len).sum();
-        open.push(UndecidedPlaces { reason, ..places(core, layout, &at, patterns) });
+        open.push(places(core, layout, reason(&at), &at, patterns));
+    }
+    for jammed in layout.jammed() {
+        let search = search::<N>(&jammed, budget, watch);
+        cells += search.cells;
+        tests += search.tests;
+        let found =
+            search.found.into_iter().map(|found| (found.alone_in, vec![vec![found.pattern]]));
+        let undecided = search.undecided.into_iter().map(|task| (task.at, vec![task.patterns]));
+        for (at, patterns) in gathered(found.chain(undecided)) {
+            let patterns = patterns.iter().map(Vec::len).sum();
+            open.push(places(core, &jammed, Open::Jam, &at, patterns));
+        }
     }
     let mut once: Vec<(Found<N>, Enclosed)> = vec![];
     for found in found {
+        // Nothing hangs there at the end of a rope: it is too short.
+        if reach::narrow(layout, &mut found.alone_in.clone()).is_none() {
+            continue;
+        }
         let known = |(other, enclosed): &(Found<N>, Enclosed)| {
             other.pattern == found.pattern
                 && found
@@ -199,10 +247,7 @@ fn searched<const N: usize>(
         }
         match enclosed(core, layout, &found) {
             Some(enclosed) => once.push((found, enclosed)),
-            None => open.push(UndecidedPlaces {
-                reason: Open::Unproved,
-                ..places(core, layout, &found.alone_in, 1)
-            }),
+            None => open.push(places(core, layout, Open::Unproved, &found.alone_in, 1)),
         }
     }
     let net = NetCensus {
@@ -212,7 +257,7 @@ fn searched<const N: usize>(
         knots: layout.knots.clone(),
         swings: layout.swings.iter().map(|swing| swing.joint).collect(),
         signs: layout.swings.len(),
-        in_plane: layout.dim == 2,
+        in_plane: layout.dim == 2 && layout.axis.is_none(),
         cells,
         tests,
         undecided: open,
@@ -224,6 +269,7 @@ fn searched<const N: usize>(
 fn places<const N: usize>(
     core: &Core,
     layout: &Layout,
+    reason: Open,
     at: &[Interval; N],
     patterns: usize,
 ) -> UndecidedPlaces {
@@ -234,7 +280,7 @@ fn places<const N: usize>(
         }
         core.frame.place_m(place)
     });
-    UndecidedPlaces { reason: Open::Degenerate, knots_m: knots.collect(), patterns }
+    UndecidedPlaces { reason, knots_m: knots.collect(), patterns }
 }
 
 /// More boxes than this are not told apart: joining them takes the square of their number.

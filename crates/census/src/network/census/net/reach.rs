@@ -2,32 +2,31 @@
 
 use numerics::Interval;
 
+use super::jet::values;
 use super::layout::{End, Layout};
+use super::swing::place;
+use crate::network::arithmetic::{Vector, minus, norm, sum};
 
 /// Rounds over all distances; each one narrows what the last one left.
 const ROUNDS: usize = 3;
 
-/// Rounds for the first box, which nothing bounds: more than any path of bars is long.
+/// Rounds for the first box, which nothing bounds: more than any path of members is long.
 const FIRST_ROUNDS: usize = 64;
 
 /// The box of all places of the knots.
 pub(super) fn whole<const N: usize>(layout: &Layout) -> Option<[Interval; N]> {
-    // All bars in a row from any place that is held.
-    let mut reach = Interval::ZERO;
-    let mut held: Option<[Interval; 3]> = None;
-    for (ends, [_, far]) in layout.reaches() {
-        reach = reach + far;
-        for end in ends {
-            if let End::Held(at) = end {
-                let before = held.unwrap_or(at);
-                held = Some(std::array::from_fn(|k| before[k].hull(at[k])));
-            }
-        }
-    }
-    let held = held?;
-    let around = |k: usize| held[k % layout.dim] + Interval::around(0.0, reach.hi());
     let coordinates = layout.coordinates();
-    let mut at = std::array::from_fn(|k| if k < coordinates { around(k) } else { Interval::ZERO });
+    let mut at =
+        std::array::from_fn(|k| if k < coordinates { Interval::LINE } else { Interval::ZERO });
+    if layout.axis.is_some() {
+        // All that is held is on it.
+        let ends = layout.links.iter().flat_map(|link| link.ends.as_flattened());
+        let held = ends.filter_map(|end| match end {
+            End::Held(at) => Some(at[0].lo()),
+            End::Knot(_) => None,
+        });
+        at[0] = Interval::new(held.fold(f64::INFINITY, f64::min), f64::INFINITY);
+    }
     for _ in 0..FIRST_ROUNDS {
         narrow(layout, &mut at)?;
     }
@@ -37,12 +36,26 @@ pub(super) fn whole<const N: usize>(layout: &Layout) -> Option<[Interval; N]> {
 /// Narrow a box; nothing if no places in it are within reach of each other.
 pub(super) fn narrow<const N: usize>(layout: &Layout, at: &mut [Interval; N]) -> Option<()> {
     for _ in 0..ROUNDS {
-        for (ends, [near, far]) in layout.reaches() {
-            let range = Interval::new(near.square().lo().max(0.0), far.square().hi());
-            narrow_one(layout.dim, at, ends, range)?;
+        for link in &layout.links {
+            for number in 0..link.ends.len() {
+                let others = link.ends.iter().enumerate().filter(|(other, _)| *other != number);
+                let sizes = others.map(|(_, ends)| norm(span(layout.dim, at, *ends)));
+                let range = sum(link.sizes(), -sizes.fold(Interval::ZERO, sum));
+                let range = range.intersect(Interval::new(0.0, f64::INFINITY))?;
+                narrow_one(layout.dim, at, link.ends[number], range.square())?;
+            }
+        }
+        for (ends, range) in layout.reaches() {
+            narrow_one(layout.dim, at, ends, range.square())?;
         }
     }
     Some(())
+}
+
+/// From one end to the other over a box of the places of the knots.
+pub(super) fn span<const N: usize>(dim: usize, at: &[Interval; N], ends: [End; 2]) -> Vector {
+    let [a, b] = ends.map(|end| values(place::<N>(end, dim, at)));
+    minus(b, a)
 }
 
 /// By one distance: $\sum_k (a_k - b_k)^2$ lies in a range, solved for each part.

@@ -121,6 +121,7 @@ mod tests {
         let layout = Layout {
             dim: 3,
             axes: [0, 1, 2],
+            axis: None,
             knots: vec![0],
             loads: vec![points([0.0, 0.0, -1.0])],
             swings: vec![
@@ -128,7 +129,7 @@ mod tests {
                 swing([0.0; 3], [1.0; 2]),
                 swing([2.0, 0.0, 0.0], [1.5, 1.0]),
             ],
-            bars: vec![],
+            links: vec![],
         };
         for (part, expected) in [(1.0, [0, 2]), (0.25, [1, 0])] {
             let at = [Interval::around(0.0, part * LEAST_WIDTH); 3];
