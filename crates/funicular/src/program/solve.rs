@@ -22,7 +22,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::threads;
+use crate::threads::Threads;
 use crate::view::View;
 use crate::which::Which;
 
@@ -52,9 +52,8 @@ pub struct Solve {
     /// and elsewhere auto holds; --census alone is --census=auto.
     #[arg(long, value_name = "WHEN", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
     pub census: Option<Census>,
-    /// How many threads; 0 means one per processor. No answer depends on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
@@ -185,12 +184,7 @@ impl Solve {
 
     /// Refuse to check what has no strength.
     fn checkable(&self, problem: &Problem) -> Result<(), Failure> {
-        if self.check && !problem.has_strengths() {
-            return Err(Failure::bad_input(
-                "--check: no bar of this system has a strength_n, compression_n or bending_n_m2",
-            ));
-        }
-        Ok(())
+        checkable(!self.check || problem.has_strengths())
     }
 
     /// Whether all load cases are asked for.
@@ -228,6 +222,16 @@ impl Solve {
     }
 }
 
+/// Refuse to check what has no strength.
+pub fn checkable(is_checkable: bool) -> Result<(), Failure> {
+    if is_checkable {
+        return Ok(());
+    }
+    Err(Failure::bad_input(
+        "--check: no bar of this system has a strength_n, compression_n or bending_n_m2",
+    ))
+}
+
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     arguments.printed.install();
@@ -240,7 +244,7 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
 
 fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let progress = Progress::start();
     progress.say("reading");
     let shape = arguments.shape()?;
