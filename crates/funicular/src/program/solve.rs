@@ -88,7 +88,7 @@ pub struct Solve {
     /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
     /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
     /// is largest; `start_x_n` to `end_z_n`, the forces on it at both; `utilisation`, the part of its strength
-    /// that it uses, where bars have strengths. With --tolerances the ends of the axial force, `least_n` and
+    /// that it uses, where bars have strengths; `via`, the joints that a rope runs over, where there are ropes. With --tolerances the ends of the axial force, `least_n` and
     /// `most_n`, what of it is reached, and the number on which it depends most.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
@@ -96,7 +96,7 @@ pub struct Solve {
     /// than its `strength_n` or `compression_n`
     #[arg(long, conflicts_with = "batch")]
     pub check: bool,
-    /// Lose each bar in turn: what hangs then, with which forces, and which loss brings a part down
+    /// Take each bar away in turn: what hangs then, with which forces, and which loss brings a part down
     ///
     /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
     #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "equations", "near"])]
@@ -107,14 +107,14 @@ pub struct Solve {
     /// With --check the exit code is 1 where a bar is weaker than wanted in any of them.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["batch", "without"])]
     pub load_case: Option<String>,
-    /// Bound all places and forces over the tolerances of the file (`length_tolerance_m` and the like):
-    /// guaranteed ranges, in interval arithmetic
+    /// Bound all places, forces and the sag over the tolerances of the file (`length_tolerance_m` and the
+    /// like): guaranteed ranges, in interval arithmetic
     ///
     /// The exit code is 3 where there is no proof for all values, with --check 1 where a bar may be weaker
     /// than wanted. The guide has an example, `funicular guide systems`.
     #[arg(long, conflicts_with_all = ["batch", "without", "svg", "columns", "summary", "evidence"])]
     pub tolerances: bool,
-    /// Solve so many random values within the tolerances too, for standard deviations
+    /// Also solve this many random systems within the tolerances, for standard deviations
     #[arg(long, value_name = "N", requires = "tolerances", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub monte_carlo: Option<u32>,
     /// From which number the random values follow

@@ -293,7 +293,7 @@ impl Rounded {
         Self { rounding: ROUNDING * largest }
     }
 
-    fn number(&self, x: f64) -> f64 {
+    pub fn number(&self, x: f64) -> f64 {
         if x.abs() <= self.rounding { 0.0 } else { x }
     }
 

@@ -56,8 +56,11 @@ impl TolerancesAnswer {
             let line = format!("Sag: {least} to {most} m, of joint {joint} below {below}.");
             writeln!(f, "\n{}", wrapped(&line, 0))?;
         }
+        // What is held where it is known to be has the rounding of its place.
+        let rounded = Rounded::of(ranges.joints_m.iter().flatten().flat_map(|at| &at.guaranteed));
+        let is_open = |range: &Range| rounded.number(width(range)) > 0.0;
         let places = ranges.joints_m.iter().enumerate();
-        let places = places.filter(|(_, at)| at.iter().any(|range| width(range) > 0.0));
+        let places = places.filter(|(_, at)| at.iter().any(is_open));
         writeln!(f, "\n{}", self.vectors("m", ["x", "y", "z"], places))?;
         let reactions = ranges.reactions_n.iter().enumerate();
         let reactions = reactions.filter_map(|(k, force)| Some((k, force.as_ref()?)));
