@@ -90,7 +90,9 @@ def test_ranges_over_tolerances():
     assert found.bars[0].axial_n.is_hull and found.bars[0].axial_n.most_by == "joints.P.mass_kg"
     assert found.draws.solved == 50 and found.draws.outside == 0 and 1 < found.bars[0].drawn_n.deviation < 5
     assert "exactly one equilibrium" in str(found).replace("\n", " ")
-    assert found.sag is None
+    # Below the lowest support, which moves with it.
+    assert (found.sag.joint, found.sag.to) == ("P", "A")
+    assert (found.sag.depth_m.least, found.sag.depth_m.most) == pytest.approx((3.0, 3.0))
     # A ring in the middle of a rope of 10 m hangs 4 m below its anchors, 3-4-5; 0.02 m more of it are 0.01 m more of each span.
     ring = """
         joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, ring = { mass_kg = 1 } }

@@ -232,8 +232,8 @@ class Tolerances(Result):
     ``axial_n``, ``joints_m``
         least and most of all forces and places, as arrays of shape (bars, 2) and (joints, 3, 2).
     ``sag``
-        a :class:`Record` of the largest sag of the numbers given: the ``joint``, the line ``from`` and ``to`` below which it hangs,
-        and ``depth_m``, with the same as a force; ``None`` where nothing sags.
+        a :class:`Record` of the largest sag of the numbers given: the ``joint``, the line ``from`` and ``to`` below which it hangs
+        (one name twice: the lowest support), and ``depth_m``, with the same as a force; ``None`` where nothing sags.
     ``draws``
         what became of random values, if any were drawn.
     """
