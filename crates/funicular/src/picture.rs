@@ -25,16 +25,9 @@ pub fn of_system(
     seen: Seen,
 ) -> Result<String, StructureError> {
     let SystemEquilibrium { joints_m, reactions_n, .. } = answer;
-    let axial_n = &largest_n(&answer.axial_forces(system));
-    SystemShape {
-        system,
-        joints_m,
-        axial_n,
-        reactions_n,
-        used: &answer.utilisations(system).unwrap_or_default(),
-        seen,
-    }
-    .svg()
+    let axial_n = largest_n(&answer.axial_forces(system));
+    let used = answer.utilisations(system).unwrap_or_default();
+    of_answer(system, joints_m, &axial_n, reactions_n, &used, seen)
 }
 
 /// What a picture shows of a member: its axial force where it is largest.
@@ -43,7 +36,7 @@ fn largest_n(axial: &[AxialForce]) -> Vec<f64> {
 }
 
 /// Positions, axial forces and forces of the ground from anywhere as an SVG file; each list as long
-/// as the system has joints or members.
+/// as the system has joints or members, that of the parts of strengths `used` perhaps empty.
 ///
 /// # Errors
 ///
@@ -53,7 +46,8 @@ pub fn of_answer(
     joints_m: &[Vector],
     axial_n: &[f64],
     reactions_n: &[Vector],
+    used: &[Option<f64>],
     seen: Seen,
 ) -> Result<String, StructureError> {
-    SystemShape { system, joints_m, axial_n, reactions_n, used: &[], seen }.svg()
+    SystemShape { system, joints_m, axial_n, reactions_n, used, seen }.svg()
 }

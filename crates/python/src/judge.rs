@@ -15,8 +15,8 @@ use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::work;
 
-/// What `funicular judge --json` prints, whether the answer is confirmed and whether refuted, and
-/// the judgement as a page and as text.
+/// What `funicular judge --json` prints, whether the answer is confirmed and whether refuted, the
+/// judgement as a page and as text, and whether all is as strong as wanted.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "arrays, one for each quantity")]
 pub fn judge<'py>(
@@ -29,7 +29,7 @@ pub fn judge<'py>(
     tolerance: Option<f64>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(String, bool, bool, String, String)> {
+) -> PyResult<(String, bool, bool, String, String, Option<bool>)> {
     let joints = vectors(&joints_m)?;
     let axial = axial_n.as_ref().map(numbers).transpose()?;
     let of = Arc::clone(&problem.of);
@@ -48,10 +48,11 @@ pub fn judge<'py>(
             verdict,
             judged.html(&[], Seen::Best),
             judged.to_string(),
+            judged.is_strong(),
         ))
     })?;
-    let (text, (confirmed, refuted), page, said) =
+    let (text, (confirmed, refuted), page, said, is_strong) =
         found.map_err(|error: funicular::Error| raise(&error))?;
     let text = text.map_err(|error| unwritten(&error))?;
-    Ok((text, confirmed, refuted, page, printable(&said)))
+    Ok((text, confirmed, refuted, page, printable(&said), is_strong))
 }

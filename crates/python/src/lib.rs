@@ -51,7 +51,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::live_page, module)?)?;
     module.add_function(wrap_pyfunction!(solve::live_answer, module)?)?;
     module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(solve::export, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;

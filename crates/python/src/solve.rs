@@ -88,6 +88,7 @@ impl Arrays {
                 Ok::<_, PyErr>(dict)
             });
         dict.set_item("weakest", weakest.transpose()?)?;
+        dict.set_item("is_strong", self.weakest.map(|weakest| weakest.suffices()))?;
         let extremes = self.extremes.as_ref();
         dict.set_item("sag_m", extremes.and_then(|all| all.sag_m))?;
         let size =
@@ -263,8 +264,10 @@ fn solver_of(solver: &str, equations: &str, census: &str) -> PyResult<Solve> {
         .census(words::census(census)?))
 }
 
-/// The text of a file for another program, of the format that an ending stands for.
+/// Places, axial forces and forces of the ground as the text of a file: of the format that an ending stands for, or
+/// as a picture to scale, `svg`, seen from `view`. NaN in `used` stands for a member without strength.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "arrays, one for each quantity")]
 pub fn export(
     py: Python<'_>,
     problem: &Problem,
@@ -273,46 +276,26 @@ pub fn export(
     reactions_n: PyReadonlyArrayDyn<'_, f64>,
     used: Option<PyReadonlyArrayDyn<'_, f64>>,
     ending: &str,
-) -> PyResult<String> {
-    let target = Target::of_ending(ending);
-    let target = target.ok_or_else(|| bad_word("ending", ending, &Target::ENDINGS))?;
-    let (joints_m, reactions_n) = (vectors(&joints_m)?, vectors(&reactions_n)?);
-    let (axial_n, used) = (numbers(&axial_n)?, used.as_ref().map(numbers).transpose()?);
-    // NaN stands for a member without strength.
-    let used = used.unwrap_or_default().into_iter();
-    let used: Vec<Option<f64>> =
-        used.map(|part| Some(part).filter(|part| !part.is_nan())).collect();
-    let system = problem.system();
-    let shape = Shape {
-        system: &system,
-        joints_m: &joints_m,
-        axial_n: &axial_n,
-        reactions_n: &reactions_n,
-        used: &used,
-    };
-    py.detach(|| shape.text(target)).map_err(|error| raise(&Error::from(error)))
-}
-
-/// A drawing of joints, axial forces and forces of the ground to scale, as SVG.
-#[pyfunction]
-pub fn draw(
-    py: Python<'_>,
-    problem: &Problem,
-    joints_m: PyReadonlyArrayDyn<'_, f64>,
-    axial_n: PyReadonlyArrayDyn<'_, f64>,
-    reactions_n: PyReadonlyArrayDyn<'_, f64>,
     view: &str,
 ) -> PyResult<String> {
-    let seen = words::seen(view)?;
-    let (joints, reactions) = (vectors(&joints_m)?, vectors(&reactions_n)?);
-    let axial = numbers(&axial_n)?;
-    let system = problem.system();
-    if joints.len() != system.joints().len()
-        || reactions.len() != joints.len()
-        || axial.len() != system.members().len()
+    let (system, seen) = (problem.system(), words::seen(view)?);
+    let (joints_m, reactions_n) = (&*vectors(&joints_m)?, &*vectors(&reactions_n)?);
+    let (axial_n, used) = (&*numbers(&axial_n)?, used.as_ref().map(numbers).transpose()?);
+    let used = used.unwrap_or_default().into_iter();
+    let used: &[Option<f64>] =
+        &used.map(|part| Some(part).filter(|x| !x.is_nan())).collect::<Vec<_>>();
+    if joints_m.len() != system.joints().len()
+        || reactions_n.len() != joints_m.len()
+        || axial_n.len() != system.members().len()
     {
         return Err(internal("the arrays are not those of the system"));
     }
-    let drawn = py.detach(|| picture::of_answer(&system, &joints, &axial, &reactions, seen));
-    drawn.map_err(|error| internal(&error.to_string()))
+    if ending == "svg" {
+        let draw = || picture::of_answer(&system, joints_m, axial_n, reactions_n, used, seen);
+        return py.detach(draw).map_err(|error| internal(&error.to_string()));
+    }
+    let target = Target::of_ending(ending);
+    let target = target.ok_or_else(|| bad_word("ending", ending, &Target::ENDINGS))?;
+    let shape = Shape { system: &system, joints_m, axial_n, reactions_n, used };
+    py.detach(|| shape.text(target)).map_err(|error| raise(&Error::from(error)))
 }

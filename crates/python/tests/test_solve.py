@@ -67,11 +67,14 @@ def test_strengths_and_the_weakest_member():
     assert a.weakest.number == 1 and a.weakest.safety_wanted == 2
     assert a.weakest.utilisation == pytest.approx(0.625) and a.weakest.safety == pytest.approx(1.6)
     assert a.to_dict()["equilibria"][0]["weakest"]["number"] == 1
+    assert a.is_strong is False and 'class="weak"' in a.svg()
     one = fn.System.from_dict({**system, "bars": [{**threads[0], "strength_n": 50}, threads[1]]}).solve()
     assert np.array_equal(one.utilisation, [one.utilisation[0], np.nan], equal_nan=True)
     with pytest.raises(fn.InputError, match="strength_n"):
         fn.System.from_dict({**system, "bars": threads}).solve()
-    assert fn.System.case("lamp").solve().weakest is None and fn.System.case("lamp").solve().utilisation is None
+    bare = fn.System.case("lamp").solve()
+    assert bare.weakest is None and bare.utilisation is None and bare.is_strong is None
+    assert fn.System.case("tackle").solve().is_strong is True
 
 
 def test_ranges_over_tolerances():
@@ -87,6 +90,18 @@ def test_ranges_over_tolerances():
     assert found.bars[0].axial_n.is_hull and found.bars[0].axial_n.most_by == "joints.P.mass_kg"
     assert found.draws.solved == 50 and found.draws.outside == 0 and 1 < found.bars[0].drawn_n.deviation < 5
     assert "exactly one equilibrium" in str(found).replace("\n", " ")
+    # Below the lowest support, which moves with it.
+    assert (found.sag.joint, found.sag.to) == ("P", "A")
+    assert (found.sag.depth_m.least, found.sag.depth_m.most) == pytest.approx((3.0, 3.0))
+    # A ring in the middle of a rope of 10 m hangs 4 m below its anchors, 3-4-5; 0.02 m more of it are 0.01 m more of each span.
+    ring = """
+        joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, ring = { mass_kg = 1 } }
+        bars = [{ from = "A", via = ["ring"], to = "B", length_m = 10, kind = "cable", length_tolerance_m = 0.02 }]
+    """
+    sag = fn.System.from_toml(ring).tolerances().sag
+    assert (sag.joint, sag.to) == ("ring", "B")
+    ends = np.array([sag.depth_m.least, sag.depth_m.most])
+    assert ends == pytest.approx(np.sqrt(np.array([4.99, 5.01]) ** 2 - 9), abs=1e-9)
     exact = fn.System.case("lamp").tolerances()
     assert not exact.is_proved and "tolerance" in exact.reason and exact.axial_n.shape == (0, 2) and exact.draws is None
 
@@ -104,7 +119,7 @@ def test_the_loss_of_each_member():
     assert first.bar == 1 and first.weakest.bar == 2 and first.weakest.utilisation == pytest.approx(1.25)
     assert second.bar == 2 and second.weakest.bar == 1 and second.weakest.utilisation == pytest.approx(0.4)
     assert first.moves == "lamp" and first.moves_m == pytest.approx(np.sqrt(10)) and first.agrees
-    assert not found.survives and "is at 125 %." in str(found) and found.to_dict()["losses"][0]["bar"] == 1
+    assert not found.survives and "is at 125 % of its strength." in str(found) and found.to_dict()["losses"][0]["bar"] == 1
     bars = [{"from": "A", "to": "P", "length_m": 1, "mass_kg": 0}]
     hanger = fn.System.from_dict({"joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}}, "bars": bars}).losses()
     assert hanger.losses[0].outcome == "falls" and not hanger.survives

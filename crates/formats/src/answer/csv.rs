@@ -42,6 +42,9 @@ const MEMBERS: &[&str] = &[
     "end_x_n",
     "end_y_n",
     "end_z_n",
+    // And of those that have them the part of the strength that is used, and the joints of a rope.
+    "utilisation",
+    "via",
 ];
 
 /// Parse joints as CSV: one answer, or one for each name in the column `solver`.
@@ -110,7 +113,7 @@ struct Collected {
 pub type MemberForces = (Option<String>, Vec<(String, String, f64)>);
 
 /// Parse the forces of members as CSV, `from,to,axial_n`: by the name in the column `solver`, or
-/// one list for all.
+/// one list for all; in the order of the column `bar`, if there is one.
 ///
 /// # Errors
 ///
@@ -121,7 +124,12 @@ pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>, 
         sheet.need(name)?;
     }
     let (mut lists, mut numbers) = (Vec::<MemberForces>::new(), HashMap::new());
-    for row in sheet.rows() {
+    let mut rows: Vec<_> = sheet
+        .rows()
+        .map(|row| Ok((row.number_or_zero("bar")?, row)))
+        .collect::<Result<_, FormatError>>()?;
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, row) in rows {
         let solver = Some(row.text("solver").to_owned()).filter(|name| !name.is_empty());
         let index = *numbers.entry(solver.clone()).or_insert_with(|| {
             lists.push((solver, Vec::new()));

@@ -3,8 +3,8 @@
 //! | file | what is read |
 //! |---|---|
 //! | JSON | what `solve --json` and `census --json` print, of chains and of systems: every equilibrium in it; or one object with `joints` and, if there are forces, `bars` |
-//! | CSV | `joint,x_m,y_m,z_m`, and `reaction_x_n,reaction_y_n,reaction_z_n`, `solver` if there are; forces as `from,to,axial_n` in a file of their own |
-//! | VTU | an unstructured grid in ASCII: points in the order of the joints, lines that are members, `axial_n` as data of the cells |
+//! | CSV | `joint,x_m,y_m,z_m`, and `reaction_x_n,reaction_y_n,reaction_z_n`, `solver` if there are; forces as `from,to,axial_n`, in the order of `bar` if there is that, in a file of their own |
+//! | VTU | an unstructured grid in ASCII: points in the order of the joints, lines that are members or spans of ropes, `axial_n` as data of the cells, in the order of `member` if there is that |
 
 mod csv;
 mod json;

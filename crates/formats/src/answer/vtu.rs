@@ -16,7 +16,8 @@ const LINES: [usize; 2] = [3, 4];
 /// More attributes than any element of the format has.
 const MOST_ATTRIBUTES: usize = 100;
 
-/// Parse a VTU file: its points are the joints in the order of the system, its lines members.
+/// Parse a VTU file: its points are the joints in the order of the system, its lines members or spans of
+/// ropes, in the order of their numbers `member` if it has these.
 ///
 /// # Errors
 ///
@@ -46,13 +47,20 @@ pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
     }
     let joints: Vec<Vector> = places.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
     let members = reader.lines(piece)?;
-    let axial_n = reader.named(piece, "CellData", "axial_n")?;
-    if let Some(forces) = axial_n.as_ref().filter(|forces| forces.len() != members.len()) {
-        let wrong = Wrong::Count { wanted: members.len(), found: forces.len() };
-        return Err(reader.error(piece, wrong));
+    let of_lines = |name| match reader.named(piece, "CellData", name)? {
+        Some(found) if found.len() != members.len() => {
+            let wrong = Wrong::Count { wanted: members.len(), found: found.len() };
+            Err(reader.error(piece, wrong))
+        }
+        found => Ok(found),
+    };
+    let (axial_n, numbers) = (of_lines("axial_n")?, of_lines("member")?);
+    let mut order: Vec<usize> = (0..members.len()).collect();
+    if let Some(numbers) = numbers {
+        order.sort_by(|a, b| numbers[*a].total_cmp(&numbers[*b]));
     }
     let force = |k: usize| axial_n.as_ref().map(|forces| forces[k]);
-    let forces = members.into_iter().enumerate().map(|(k, [a, b])| (a, b, force(k)));
+    let forces = order.into_iter().map(|k| (members[k][0], members[k][1], force(k)));
     Ok(Answer {
         source: file.to_owned(),
         joints: Joints::InOrder(joints),

@@ -75,6 +75,10 @@ fn member_forces_are_lists_by_solver() {
     let lists = parse_member_forces("from,to,axial_n\nA,P,1\nP,B,2\n", "file").unwrap();
     let force = |a: &str, b: &str, n| (a.to_owned(), b.to_owned(), n);
     assert_eq!(lists, [(None, vec![force("A", "P", 1.0), force("P", "B", 2.0)])]);
+    // As `solve --bars-csv` writes them, in any order of the lines.
+    let text = "solver,bar,from,to,axial_n,utilisation,via\n,2,A,P,2,0.5,\n,1,A,P,1,,Q R\n";
+    let lists = parse_member_forces(text, "file").unwrap();
+    assert_eq!(lists, [(None, vec![force("A", "P", 1.0), force("A", "P", 2.0)])]);
     let missing = parse_member_forces("from,axial_n\nA,1\n", "file").unwrap_err();
     assert_eq!(missing.to_string(), "file:1: there is no column `to`");
 }
@@ -151,6 +155,11 @@ fn a_grid_is_points_and_lines() {
     let places = vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
     assert_eq!(found.joints, Joints::InOrder(places));
     assert_eq!(found.forces, Forces::Numbered(vec![(0, 2, Some(1.25)), (2, 1, Some(1.5))]));
+    // In the order of the members, where the lines have their numbers.
+    let numbers =
+        forces.replace("<CellData>", "<CellData><DataArray Name=\"member\">2 1</DataArray>");
+    let turned = one(&vtu(POINTS, &cells("0 2 2 1", "2 4", "3 3"), &numbers));
+    assert_eq!(turned.forces, Forces::Numbered(vec![(2, 1, Some(1.5)), (0, 2, Some(1.25))]));
     let polyline = one(&vtu(POINTS, &cells("0 2 1", "3", "4"), ""));
     assert_eq!(polyline.forces, Forces::Numbered(vec![(0, 2, None), (2, 1, None)]));
 }

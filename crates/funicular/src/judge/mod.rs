@@ -20,6 +20,7 @@ use crate::error::Error;
 use crate::picture::Seen;
 use crate::problem::Problem;
 use crate::threads;
+use crate::weakest::Weakest;
 
 /// Judges joint positions, and member forces if there are some, from any program or publication:
 /// what is broken, how large the error is, and how far the answer is proved.
@@ -128,6 +129,19 @@ impl Judged {
     #[must_use]
     pub fn judgement(&self) -> &Judgement {
         &self.judgement
+    }
+
+    /// The member that is nearest to breaking under the forces that were judged; `None` where no member
+    /// has a strength.
+    #[must_use]
+    pub fn weakest(&self) -> Option<Weakest> {
+        Weakest::of(&self.system, &self.judgement.answer)
+    }
+
+    /// Whether all members are as strong as wanted under these forces; no value where none has a strength.
+    #[must_use]
+    pub fn is_strong(&self) -> Option<bool> {
+        self.weakest().map(|weakest| weakest.suffices())
     }
 
     /// The judgement as a page that needs nothing else: the verdict, what is broken, a picture.

@@ -6,6 +6,7 @@ use validate::foreign::{Judgement, Violation};
 
 use super::Judged;
 use crate::solve::SCHEMA_VERSION;
+use crate::weakest::Weakest;
 
 #[derive(Serialize)]
 struct Object<'a> {
@@ -15,6 +16,8 @@ struct Object<'a> {
     judgement: Told<'a>,
     joints: Vec<Joint<'a>>,
     bars: Vec<Bar<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    weakest: Option<Weakest>,
 }
 
 #[derive(Serialize)]
@@ -55,6 +58,8 @@ struct Bar<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     via: Vec<&'a str>,
     axial_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    utilisation: Option<f64>,
 }
 
 impl Serialize for Judged {
@@ -66,8 +71,8 @@ impl Serialize for Judged {
             says: violation.what(),
             violation,
         };
-        let places = judgement.joints_m.iter().zip(&judgement.reactions_n).enumerate();
-        let members = system.members().iter().zip(&judgement.axial_n);
+        let answer = &judgement.answer;
+        let places = answer.joints_m.iter().zip(&answer.reactions_n).enumerate();
         Object {
             schema_version: SCHEMA_VERSION,
             system: Summary {
@@ -83,14 +88,19 @@ impl Serialize for Judged {
             joints: places
                 .map(|(k, (at_m, force))| Joint { name: name(k), at_m: *at_m, reaction_n: *force })
                 .collect(),
-            bars: members
-                .map(|(m, axial)| Bar {
+            bars: system
+                .members()
+                .iter()
+                .enumerate()
+                .map(|(k, m)| Bar {
                     from: name(m.from),
                     to: name(m.to),
                     via: m.via().iter().map(|joint| name(*joint)).collect(),
-                    axial_n: *axial,
+                    axial_n: answer.axial_n[k],
+                    utilisation: answer.utilisation(system, k),
                 })
                 .collect(),
+            weakest: self.weakest(),
         }
         .serialize(serializer)
     }

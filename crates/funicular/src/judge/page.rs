@@ -6,6 +6,7 @@ use figures::Escaped;
 
 use super::Judged;
 use crate::picture::{self, Seen};
+use crate::text;
 
 /// Violations up to this many are listed; of more those that come first.
 const LISTED: usize = 200;
@@ -45,6 +46,10 @@ pub(super) fn html(judged: &Judged, notes: &[String], seen: Seen) -> String {
     if let Some(sentence) = judgement.tolerance_sentence(system) {
         // Writing to a String cannot fail.
         let _ = writeln!(body, "<p>{}</p>", Escaped(&sentence));
+    }
+    if let Some(weakest) = judged.weakest() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(body, "<p>{}</p>", Escaped(&text::weakest(system, &weakest)));
     }
     body += &broken(judged);
     body += "<h2>How large the error is</h2>\n";
@@ -128,14 +133,7 @@ fn rungs(judged: &Judged) -> String {
 
 /// The answer to scale. What cannot be drawn is said.
 fn drawing(judged: &Judged, seen: Seen) -> String {
-    let judgement = judged.judgement();
-    let drawn = picture::of_answer(
-        judged.system(),
-        &judgement.joints_m,
-        &judgement.axial_n,
-        &judgement.reactions_n,
-        seen,
-    );
+    let drawn = picture::of_system(judged.system(), &judged.judgement().answer, seen);
     let figure = match drawn {
         Ok(svg) => {
             let svg = svg.find("<svg").map_or(svg.as_str(), |at| &svg[at..]);

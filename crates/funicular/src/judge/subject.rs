@@ -177,7 +177,7 @@ fn joint_on_floor(judged: &Judged, floor_m: f64) -> Option<String> {
     let judgement = judged.judgement();
     let least_m = floor_m + judgement.bounds.position_m;
     let nearest = judgement.nearest().map(|one| &one.equilibrium.joints_m);
-    let lists = std::iter::once(&judgement.joints_m).chain(nearest);
+    let lists = std::iter::once(&judgement.answer.joints_m).chain(nearest);
     lists
         .flat_map(|places| places.iter().zip(judged.system().joints()))
         .find(|(place, joint)| joint.support.at_m().is_none() && place[2] <= least_m)

@@ -19,7 +19,7 @@ use crate::memory;
 use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::threads;
+use crate::threads::Threads;
 use crate::view::View;
 
 /// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of
@@ -60,9 +60,8 @@ pub struct Census {
     /// Refuse, before the census, lists that would probably be larger
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, default_value = "4GB")]
     pub max_output: u64,
-    /// How many threads; 0 means one per processor. The answer does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Run the command.
@@ -77,7 +76,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         ..usual
     };
     settings.validate().map_err(Error::from)?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;

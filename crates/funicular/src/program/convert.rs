@@ -13,7 +13,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::solve;
-use crate::threads;
+use crate::threads::Threads;
 
 /// What is written.
 const HELP: &str = "\
@@ -24,8 +24,8 @@ The ending of the file says what is written, of the equilibrium that both solver
   .xml         MuJoCo: masses at the joints, members as tendons
   .txt .dat    MoorDyn: lines of one segment between points; elastic cables
   .json        COMPAS: a graph with force densities and loads
-Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may be a file of MoorDyn
-or COMPAS too.";
+Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be a file
+of MoorDyn or COMPAS.";
 
 /// `funicular convert`.
 #[derive(Debug, Args)]
@@ -36,15 +36,14 @@ pub struct Arguments {
     /// Write this file; its ending says for which program (see --help)
     #[arg(long, value_name = "FILE")]
     pub to: PathBuf,
-    /// How many threads; 0 means one per processor. The file does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let ending = arguments.to.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let target = Target::of_ending(ending).ok_or_else(|| {
         let message = format!("no format has the ending of {}", arguments.to.display());

@@ -16,16 +16,21 @@ use crate::judge::{Format, Judge};
 
 /// The system that the arguments name, and the files that were read for it.
 pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
-    let Some(path) = arguments.file.as_deref() else {
-        let input::Input { problem, files } = input::problem(None, arguments.case.as_deref())?;
-        return Ok((Subject::from(&problem), files));
+    let load_case = arguments.load_case.as_deref();
+    let own = |file| {
+        let input::Input { problem, files } = input::problem(file, arguments.case.as_deref())?;
+        Ok((Subject::from(&input::in_case(problem, load_case)?), files))
     };
+    let Some(path) = arguments.file.as_deref() else { return own(None) };
     let format = match arguments.format {
         Format::Auto => guess(path, arguments.edges.is_some())?,
         format => format,
     };
     if format != Format::ForceDensity && arguments.edges.is_some() {
         return Err(Failure::bad_input("--edges is for nets of force densities"));
+    }
+    if load_case.is_some() && !matches!(format, Format::Auto | Format::Funicular) {
+        return Err(Failure::bad_input("--load-case is for system files, which have [[cases]]"));
     }
     let subject = match format {
         Format::Moordyn => {
@@ -46,10 +51,7 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
             let net = parse_net((&nodes.0, &nodes.1), (&edges.0, &edges.1), &nodes.1);
             Subject::net(net.map_err(Error::from)?, &nodes.1)
         }
-        Format::Auto | Format::Funicular => {
-            let input::Input { problem, files } = input::problem(Some(path), None)?;
-            return Ok((Subject::from(&problem), files));
-        }
+        Format::Auto | Format::Funicular => return own(Some(path)),
     };
     let files = [Some(path.to_owned()), arguments.edges.clone()];
     Ok((subject, files.into_iter().flatten().collect()))

@@ -12,6 +12,7 @@ use crate::foreign_input;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::solve;
 use crate::threads;
 use crate::view::View;
 
@@ -19,7 +20,7 @@ use crate::view::View;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  confirmed: an equilibrium is within the tolerance of every answer
-  1  refuted: an answer breaks a law by more than the tolerance explains
+  1  refuted: an answer breaks a law by more than the tolerance explains; or, with --check, too weak
   2  bad input or usage
   3  undecided: no law is broken, but no equilibrium was found within the tolerance; or not written (the disk is full)
 130  interrupted; no file is half written";
@@ -53,6 +54,12 @@ pub struct Judge {
     /// system, forces of the largest one. Forces printed to fewer digits count as such
     #[arg(long, value_name = "RELATIVE", default_value_t = validate::foreign::bounds::TOLERANCE)]
     pub tolerance: f64,
+    /// Judge under the loads of this load case, of the [[cases]] of the system file
+    #[arg(long, value_name = "NAME")]
+    pub load_case: Option<String>,
+    /// End with exit code 1 where a bar is weaker than wanted under the forces judged, as `solve --check`
+    #[arg(long)]
+    pub check: bool,
     /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -104,6 +111,9 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     let judge = funicular::Judge::new().tolerance(arguments.tolerance);
     let one = |answer| subject.judge(&judge, answer, &|what| progress.say(what));
     let all = answers.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    if arguments.check {
+        solve::checkable(all.iter().all(|one| one.judged.is_strong().is_some()))?;
+    }
     for (page, one) in pages.iter().zip(&all) {
         output::write_whole(page, &one.html(arguments.view.into()))?;
     }
@@ -119,12 +129,13 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
         let texts: Vec<_> = all.iter().map(Ruling::to_string).collect();
         output::print(&texts.join("\n"))?;
     }
-    Ok(exit(&all))
+    Ok(exit(&all, arguments.check))
 }
 
-/// A refutation is worse than what is not decided.
-fn exit(all: &[Ruling]) -> Exit {
-    if all.iter().any(Ruling::is_refuted) {
+/// A refutation, or what is too weak where that is checked, is worse than what is not decided.
+fn exit(all: &[Ruling], check: bool) -> Exit {
+    let is_weak = |one: &Ruling| check && one.judged.is_strong() == Some(false);
+    if all.iter().any(|one| one.is_refuted() || is_weak(one)) {
         Exit::CheckFailed
     } else if all.iter().all(Ruling::is_confirmed) {
         Exit::Done

@@ -11,7 +11,7 @@ use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::sweep::{json_object, print_json, seeds_bar, verdict, written};
-use crate::threads;
+use crate::threads::Threads;
 
 /// How it ends, for its help.
 const EXIT_CODES: &str = "\
@@ -34,9 +34,8 @@ pub struct Merge {
     /// many machines, and then for what these made
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
-    /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -51,7 +50,7 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
     let seeds = arguments.folders.first().and_then(|folder| ::sweep::Manifest::read(folder).ok());
     let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));
     let done = |seeds| bar.inc(seeds);
-    let threads = threads::resolve(arguments.threads)?;
+    let threads = arguments.threads.resolve()?;
     let (folders, out) = (&arguments.folders, &arguments.out);
     let merged = ::sweep::merge_shard(folders, out, arguments.shard, threads, stop, &done);
     bar.finish_and_clear();

@@ -12,7 +12,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::threads;
+use crate::threads::Threads;
 use crate::view::View;
 
 /// What is taken for granted of positions at rest.
@@ -50,9 +50,8 @@ pub struct Modes {
     /// Write all modes, moving, in one HTML file
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// How many threads; 0 means one per processor. The answer does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// A number of modes.
@@ -64,7 +63,7 @@ fn count(text: &str) -> Result<usize, String> {
 pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     arguments.printed.install();
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;

@@ -11,7 +11,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::solve;
-use crate::threads;
+use crate::threads::Threads;
 
 /// What the page has.
 const HELP: &str = "\
@@ -33,15 +33,14 @@ pub struct Arguments {
     /// joints.P.mass_kg=1..5; given several times, all but the last have one value
     #[arg(long, value_name = "PARAMETER=RANGE", allow_hyphen_values = true)]
     pub vary: Vec<String>,
-    /// How many threads; 0 means one per processor. The page does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let Input { problem, files } = arguments.input.read()?;
     output::check([arguments.out.as_path()], &files)?;
     let page = arguments.vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;

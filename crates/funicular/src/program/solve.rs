@@ -22,7 +22,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::threads;
+use crate::threads::Threads;
 use crate::view::View;
 use crate::which::Which;
 
@@ -52,9 +52,8 @@ pub struct Solve {
     /// and elsewhere auto holds; --census alone is --census=auto.
     #[arg(long, value_name = "WHEN", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
     pub census: Option<Census>,
-    /// How many threads; 0 means one per processor. No answer depends on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
@@ -89,7 +88,7 @@ pub struct Solve {
     /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
     /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
     /// is largest; `start_x_n` to `end_z_n`, the forces on it at both; `utilisation`, the part of its strength
-    /// that it uses, where bars have strengths. With --tolerances the ends of the axial force, `least_n` and
+    /// that it uses, where bars have strengths; `via`, the joints that a rope runs over, where there are ropes. With --tolerances the ends of the axial force, `least_n` and
     /// `most_n`, what of it is reached, and the number on which it depends most.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
@@ -97,7 +96,7 @@ pub struct Solve {
     /// than its `strength_n` or `compression_n`
     #[arg(long, conflicts_with = "batch")]
     pub check: bool,
-    /// Lose each bar in turn: what hangs then, with which forces, and which loss brings a part down
+    /// Take each bar away in turn: what hangs then, with which forces, and which loss brings a part down
     ///
     /// With --check the exit code is 1 where a part falls, or a bar is weaker than wanted.
     #[arg(long, value_name = "WHICH", value_parser = ["each"], conflicts_with_all = ["batch", "csv", "bars_csv", "svg", "columns", "summary", "evidence", "census", "equations", "near"])]
@@ -108,14 +107,14 @@ pub struct Solve {
     /// With --check the exit code is 1 where a bar is weaker than wanted in any of them.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["batch", "without"])]
     pub load_case: Option<String>,
-    /// Bound all places and forces over the tolerances of the file (`length_tolerance_m` and the like):
-    /// guaranteed ranges, in interval arithmetic
+    /// Bound all places, forces and the sag over the tolerances of the file (`length_tolerance_m` and the
+    /// like): guaranteed ranges, in interval arithmetic
     ///
     /// The exit code is 3 where there is no proof for all values, with --check 1 where a bar may be weaker
     /// than wanted. The guide has an example, `funicular guide systems`.
     #[arg(long, conflicts_with_all = ["batch", "without", "svg", "columns", "summary", "evidence"])]
     pub tolerances: bool,
-    /// Solve so many random values within the tolerances too, for standard deviations
+    /// Also solve this many random systems within the tolerances, for standard deviations
     #[arg(long, value_name = "N", requires = "tolerances", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub monte_carlo: Option<u32>,
     /// From which number the random values follow
@@ -185,12 +184,7 @@ impl Solve {
 
     /// Refuse to check what has no strength.
     fn checkable(&self, problem: &Problem) -> Result<(), Failure> {
-        if self.check && !problem.has_strengths() {
-            return Err(Failure::bad_input(
-                "--check: no bar of this system has a strength_n, compression_n or bending_n_m2",
-            ));
-        }
-        Ok(())
+        checkable(!self.check || problem.has_strengths())
     }
 
     /// Whether all load cases are asked for.
@@ -228,6 +222,16 @@ impl Solve {
     }
 }
 
+/// Refuse to check what has no strength.
+pub fn checkable(is_checkable: bool) -> Result<(), Failure> {
+    if is_checkable {
+        return Ok(());
+    }
+    Err(Failure::bad_input(
+        "--check: no bar of this system has a strength_n, compression_n or bending_n_m2",
+    ))
+}
+
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     arguments.printed.install();
@@ -240,7 +244,7 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
 
 fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let progress = Progress::start();
     progress.say("reading");
     let shape = arguments.shape()?;

@@ -12,7 +12,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::threads;
+use crate::threads::Threads;
 use crate::varied::Varied;
 
 /// What `--csv` writes, in `--help`; the head of the file is tested against it.
@@ -98,16 +98,15 @@ pub struct Arguments {
     /// FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Threads that share the work; 0 for one per processor
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     arguments.printed.install();
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let Input { problem, files } = arguments.input.read()?;
     let study = Study::new().over(arguments.varied.parameters()?);
     let study = arguments.of.iter().fold(study, Study::of);

@@ -28,7 +28,7 @@ const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
-    let threads = threads::resolve(arguments.threads)?;
+    let threads = arguments.threads.resolve()?;
     threads::install(threads)?;
     let interrupt = on_interrupt()?;
     let problem = arguments.input.read()?.problem;

@@ -1,8 +1,29 @@
 //! How many threads the program works on.
 
+use clap::Args;
 use funicular::MOST_THREADS;
 
 use crate::exit::Failure;
+
+/// The option of commands that say the same whatever it is.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Threads {
+    /// How many threads; 0 means one per processor. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = parse, allow_negative_numbers = true)]
+    threads: usize,
+}
+
+impl Threads {
+    /// Start the threads of the program.
+    pub fn install(self) -> Result<(), Failure> {
+        install(self.threads)
+    }
+
+    /// Their number, never 0.
+    pub fn resolve(self) -> Result<usize, Failure> {
+        resolve(self.threads)
+    }
+}
 
 /// What `--threads` takes: 0 for one per processor.
 pub fn parse(text: &str) -> Result<usize, String> {

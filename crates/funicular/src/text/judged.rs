@@ -44,6 +44,9 @@ fn text(judged: &Judged, finding: &str, notes: &[String]) -> String {
         text += &paragraph(&sentence);
     }
     text += &paragraph(&judgement.forces_sentence());
+    if let Some(weakest) = judged.weakest() {
+        text += &paragraph(&Printable(&super::weakest(system, &weakest)).to_string());
+    }
     text.push('\n');
     text += &broken(judged);
     for sentence in judgement.error_sentences(system) {

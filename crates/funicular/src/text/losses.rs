@@ -26,7 +26,9 @@ impl fmt::Display for LossesAnswer {
             writeln!(f, "(the worst {PRINTED} of {}; --json has all)", all.len())?;
         }
         let after = |what| all.iter().filter(|loss| outcome(loss) == Some(what)).count();
-        let mut said = vec![format!("a part falls after {}", after(Outcome::Falls))];
+        let losses = if all.len() == 1 { "loss" } else { "losses" };
+        let falls = after(Outcome::Falls);
+        let mut said = vec![format!("A part falls after {falls} of {} {losses}", all.len())];
         if system.has_strengths() {
             let weak =
                 |loss: &&Loss| loss.left.as_ref().is_ok_and(|l| l.is_strong() == Some(false));
@@ -40,8 +42,7 @@ impl fmt::Display for LossesAnswer {
             let count = Some(after(outcome)).filter(|count| *count > 0);
             said.extend(count.map(|count| format!("{what} after {count}")));
         }
-        let said = format!("Of {members} lost one at a time: {}.", said.join(", "));
-        writeln!(f, "\n{}", wrapped(&said, 0))?;
+        writeln!(f, "\n{}", wrapped(&format!("{}.", said.join(", ")), 0))?;
         for loss in shown.iter().filter(|loss| outcome(loss) == Some(Outcome::Unknown)) {
             let Err(reason) = &loss.left else { continue };
             let line = format!("Without {}: {}", loss.bar + 1, Printable(&reason.reason));

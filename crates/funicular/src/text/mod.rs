@@ -30,6 +30,15 @@ mod tolerances;
 #[cfg(feature = "branches")]
 mod trace;
 
+use model::system::System;
+
 pub use answer::answer;
 #[cfg(feature = "branches")]
 pub(crate) use answer::facts;
+
+/// The member of a system that is nearest to breaking, in a sentence.
+pub(crate) fn weakest(system: &System, weakest: &crate::Weakest) -> String {
+    let member = &system.members()[weakest.bar];
+    let ends = [member.from, member.to].map(|joint| system.joints()[joint].name.clone());
+    shape::weakest_of(weakest, &ends)
+}

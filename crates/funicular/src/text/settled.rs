@@ -47,7 +47,7 @@ pub fn severe(settled: &Settled) -> f64 {
 /// How much of its strength a member uses, in words behind its name.
 pub fn used(weakest: &Weakest) -> String {
     if weakest.utilisation.is_finite() {
-        format!("is at {}", percent(weakest.utilisation))
+        format!("is at {} of its strength", percent(weakest.utilisation))
     } else {
         "has no bound to its force".to_owned()
     }

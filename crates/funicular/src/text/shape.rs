@@ -235,23 +235,27 @@ impl Shape<'_> {
             let _ = writeln!(text, "Largest {what}: {size}, in the member from {from} to {to}.");
         }
         if let Some(weakest) = self.weakest {
-            let [from, to] = (self.ends)(weakest.bar).map(|joint| (self.name)(joint));
-            let Weakest { utilisation, safety, safety_wanted, .. } = weakest;
-            let wanted = if weakest.suffices() {
-                format!("{} wanted", short(safety_wanted))
-            } else {
-                format!("below {}", short(safety_wanted))
-            };
-            let said = format!(
-                "Weakest: member from {from} to {to}, at {} of its strength: safety {}, {wanted}.",
-                percent(utilisation),
-                three_digits(safety),
-            );
-            text += &wrapped(&said, 0);
+            let ends = (self.ends)(weakest.bar).map(|joint| (self.name)(joint));
+            text += &wrapped(&weakest_of(&weakest, &ends), 0);
             text.push('\n');
         }
         text
     }
+}
+
+/// The member that is nearest to breaking, by the names of its joints, in a sentence.
+pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
+    let Weakest { utilisation, safety, safety_wanted, .. } = *weakest;
+    let wanted = if weakest.suffices() {
+        format!("{} wanted", short(safety_wanted))
+    } else {
+        format!("below {}", short(safety_wanted))
+    };
+    format!(
+        "Weakest: member from {from} to {to}, at {} of its strength: safety {}, {wanted}.",
+        percent(utilisation),
+        three_digits(safety),
+    )
 }
 
 /// A safety in three digits, rounded down: 1.9999 is below 2.
@@ -279,21 +283,21 @@ fn size(force: Vector) -> f64 {
 }
 
 /// Numbers of one kind, the rounding of their zeros left out.
-struct Rounded {
+pub struct Rounded {
     rounding: f64,
 }
 
 impl Rounded {
-    fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+    pub fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
         let largest = numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         Self { rounding: ROUNDING * largest }
     }
 
-    fn number(&self, x: f64) -> f64 {
+    pub fn number(&self, x: f64) -> f64 {
         if x.abs() <= self.rounding { 0.0 } else { x }
     }
 
-    fn short(&self, x: f64) -> String {
+    pub fn short(&self, x: f64) -> String {
         short(self.number(x))
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use census::network::{Range, ToleranceRanges};
 
 use super::printable::Printable;
-use super::shape::{PRINTED, percent};
+use super::shape::{PRINTED, Rounded, percent};
 use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
 use crate::tolerances::{Draws, TolerancesAnswer};
 
@@ -56,8 +56,11 @@ impl TolerancesAnswer {
             let line = format!("Sag: {least} to {most} m, of joint {joint} below {below}.");
             writeln!(f, "\n{}", wrapped(&line, 0))?;
         }
+        // What is held where it is known to be has the rounding of its place.
+        let rounded = Rounded::of(ranges.joints_m.iter().flatten().flat_map(|at| &at.guaranteed));
+        let is_open = |range: &Range| rounded.number(width(range)) > 0.0;
         let places = ranges.joints_m.iter().enumerate();
-        let places = places.filter(|(_, at)| at.iter().any(|range| width(range) > 0.0));
+        let places = places.filter(|(_, at)| at.iter().any(is_open));
         writeln!(f, "\n{}", self.vectors("m", ["x", "y", "z"], places))?;
         let reactions = ranges.reactions_n.iter().enumerate();
         let reactions = reactions.filter_map(|(k, force)| Some((k, force.as_ref()?)));
@@ -114,7 +117,7 @@ impl TolerancesAnswer {
         rows
     }
 
-    /// Three ranges for each joint.
+    /// Three ranges for each joint, beside each other or, where there is no room for it, below each other.
     fn vectors<'a>(
         &self,
         unit: &str,
@@ -124,17 +127,23 @@ impl TolerancesAnswer {
         let heads = names.map(|name| [format!("{name} / {unit}"), format!("to / {unit}")]);
         let heads = heads.as_flattened().iter().map(String::as_str);
         let mut rows = table(std::iter::once("joint").chain(heads));
+        let mut tall = table(["joint", "", &format!("least / {unit}"), &format!("most / {unit}")]);
         let all: Vec<_> = all.collect();
         let widths: Vec<f64> =
             all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
+        let rounded = Rounded::of(all.iter().flat_map(|(_, of)| *of).flat_map(|r| &r.guaranteed));
         for k in widest(&widths) {
             let (joint, of) = all[k];
             let name = Printable(&self.answer().system().joints()[joint].name).to_string();
-            let ends = of.iter().flat_map(|range| range.guaranteed.map(short));
-            rows.add_row(std::iter::once(name).chain(ends));
+            let ends = of.each_ref().map(|range| range.guaranteed.map(|x| rounded.short(x)));
+            for (axis, [least, most]) in names.iter().zip(ends.clone()) {
+                tall.add_row([name.clone(), (*axis).to_owned(), least, most]);
+            }
+            rows.add_row(std::iter::once(name).chain(ends.into_iter().flatten()));
         }
-        numbers_from(&mut rows, 1);
-        rows
+        let (mut shown, first) = if rows.fits() { (rows, 1) } else { (tall, 2) };
+        numbers_from(&mut shown, first);
+        shown
     }
 }
 

@@ -56,3 +56,57 @@ fn what_cannot_be_written_leaves_no_file() {
     assert_eq!(std::fs::read_dir(folder).unwrap().count(), 1);
     assert_eq!(std::fs::read_to_string(folder.join("lamp.toml")).unwrap(), LAMP);
 }
+
+/// A rope from A over W to P and one from A over P to W, both through the span from W to P; the second stays slack: the
+/// first bears W where both its spans lean alike, by 3-4-5 with 8 m and 4.8 m of level distance.
+const CROSSED: &str = "name = \"crossed\"\ngravity_m_s2 = 10\n\
+    joints = { A = { at_m = [0, 0, 0] }, P = { at_m = [4.8, 0, 0] }, W = { mass_kg = 16 } }\n\
+    bars = [{ from = \"A\", via = [\"W\"], to = \"P\", length_m = 8, kind = \"cable\", strength_n = 437.5, safety = 3 },\n\
+    { from = \"A\", via = [\"P\"], to = \"W\", length_m = 9, kind = \"cable\" }]\n";
+
+/// Forces of ropes that share their joints are told apart in every file that is read again, and in any order of its
+/// lines where these are numbered.
+#[test]
+fn ropes_that_share_their_joints_are_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("crossed.toml"), CROSSED).unwrap();
+    let (code, ..) = run(folder, &["convert", "crossed.toml", "--to", "crossed.vtu"]);
+    assert_eq!(code, Some(0));
+    let solve =
+        ["solve", "crossed.toml", "--json", "--csv", "joints.csv", "--bars-csv", "bars.csv"];
+    let (code, text, said) = run(folder, &solve);
+    assert_eq!(code, Some(0), "{said}");
+    std::fs::write(folder.join("crossed.json"), text).unwrap();
+    let (code, text, _) = run(folder, &["solve", "crossed.toml", "--json", "--columns"]);
+    assert_eq!(code, Some(0));
+    std::fs::write(folder.join("columns.json"), text).unwrap();
+    let bars = std::fs::read_to_string(folder.join("bars.csv")).unwrap();
+    let mut turned: Vec<_> = bars.lines().collect();
+    turned[1..].reverse();
+    std::fs::write(folder.join("turned.csv"), turned.join("\n")).unwrap();
+    for answer in [
+        &["crossed.vtu"][..],
+        &["crossed.json"],
+        &["columns.json"],
+        &["joints.csv", "--members", "bars.csv"],
+        &["joints.csv", "--members", "turned.csv"],
+    ] {
+        let judge = [&["judge", "crossed.toml", "--check", "--answer"], answer].concat();
+        let (code, text, said) = run(folder, &judge);
+        assert_eq!(code, Some(0), "{answer:?}: {text}{said}");
+        // 160 N between two spans that lean by 3-4-5: 100 N.
+        let line =
+            "Weakest: member from A to P, at 22.9 % of its strength: safety 4.37, 3 wanted.\n";
+        assert!(
+            text.contains("The forces are those of the answer.") && text.contains(line),
+            "{text}"
+        );
+    }
+    // One edge bears both ropes in a graph, and MoorDyn knows no ropes.
+    for (file, words) in [("crossed.json", "two edges"), ("crossed.txt", "does not stretch")] {
+        let (code, _, said) = run(folder, &["convert", "crossed.toml", "--to", file]);
+        assert_eq!(code, Some(2));
+        assert!(said.contains(words), "{said}");
+    }
+}

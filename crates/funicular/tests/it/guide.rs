@@ -115,3 +115,29 @@ fn its_commands_run() {
         assert_eq!(run(folder.path(), &command).0, Some(0), "{command:?}");
     }
 }
+
+/// The systems of the second chapter, and what the program says of them: each text stands behind its system.
+#[test]
+fn its_systems_are_solved() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = include_str!("../../guide/2-systems.md");
+    let trimmed = |text: &str| text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
+    let ways: [&[&str]; 4] =
+        [&[], &["--without", "each"], &["--load-case", "each"], &["--tolerances"]];
+    let mut texts = 0;
+    for block in page.split("```").skip(1).step_by(2) {
+        if let Some(system) = block.strip_prefix("toml\n") {
+            std::fs::write(folder.path().join("system.toml"), system).unwrap();
+            assert_eq!(run(folder.path(), &["solve", "system.toml"]).0, Some(0), "{system}");
+        } else if let Some(text) = block.strip_prefix("text\n") {
+            let said =
+                ways.map(|way| run(folder.path(), &[&["solve", "system.toml"], way].concat()).1);
+            assert!(
+                said.iter().any(|said| trimmed(said).contains(&trimmed(text))),
+                "{text}{said:?}"
+            );
+            texts += 1;
+        }
+    }
+    assert_eq!(texts, 4);
+}

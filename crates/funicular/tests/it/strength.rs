@@ -74,27 +74,29 @@ fn the_own_weight_counts() {
     assert!((found.utilisation - 0.5).abs() < 1e-12, "{found:?}");
 }
 
+/// Three rigid members of this kind from the level of their anchors to 300 N 4 m below.
+fn three(kind: &str) -> String {
+    let bar = |from: &str, length_m: f64| {
+        format!(
+            "{{ from = \"{from}\", to = \"P\", kind = \"{kind}\", length_m = {length_m}, mass_kg = 0, \
+             strength_n = 400 }}"
+        )
+    };
+    format!(
+        "gravity_m_s2 = 10\nplane = \"xz\"\n\
+         joints = {{ A = {{ at_m = [-3, 0, 0] }}, M = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, \
+         P = {{ mass_kg = 30 }} }}\nbars = [{}, {}, {}]",
+        bar("A", 5.0),
+        bar("M", 4.0),
+        bar("B", 5.0)
+    )
+}
+
 /// Three rigid members hold a joint in one plane: with s and m the forces of the outer ones and of the one in
 /// the middle balance says 2 · 4/5 s + m = 300 N, and nothing else. Cables never push: m is 300 N at most. Of bars
 /// nothing bounds the force, and what nothing bounds is not safe, whatever the solvers show.
 #[test]
 fn forces_that_balance_leaves_open_are_counted_at_their_worst() {
-    let three = |kind: &str| {
-        let bar = |from: &str, length_m: f64| {
-            format!(
-                "{{ from = \"{from}\", to = \"P\", kind = \"{kind}\", length_m = {length_m}, mass_kg = 0, \
-                 strength_n = 400 }}"
-            )
-        };
-        format!(
-            "gravity_m_s2 = 10\nplane = \"xz\"\n\
-             joints = {{ A = {{ at_m = [-3, 0, 0] }}, M = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, \
-             P = {{ mass_kg = 30 }} }}\nbars = [{}, {}, {}]",
-            bar("A", 5.0),
-            bar("M", 4.0),
-            bar("B", 5.0)
-        )
-    };
     let found = weakest(&three("cable"));
     assert_eq!(found.bar, 1);
     assert!((found.utilisation - 0.75).abs() < 1e-9, "{found:?}");
@@ -201,8 +203,8 @@ fn the_program_loses_each_bar_in_turn() {
     file("weak.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 500"));
     let (code, text, _) = run(folder, &["solve", "weak.toml", "--without", "each"]);
     assert_eq!(code, Some(0));
-    let said = "Of 2 members lost one at a time: a part falls after 0, a member is too weak\nafter 1.\n\
-                Worst: without A to P the member from B to P is at 60 %.\n";
+    let said = "A part falls after 0 of 2 losses, a member is too weak after 1.\n\
+                Worst: without A to P the member from B to P is at 60 % of its strength.\n";
     assert!(text.ends_with(said), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     assert_eq!(run(folder, &["solve", "weak.toml", "--without", "each", "--check"]).0, Some(1));
@@ -267,4 +269,78 @@ fn the_program_says_which_bar_is_weakest() {
     );
     assert_eq!(code, Some(2));
     assert!(said.contains("bar 2 has no strength"), "{said}");
+}
+
+/// The forces of an answer from elsewhere are held against the strengths as those of a solver are: 250 N on each thread,
+/// given or found; and under the loads of a case.
+#[test]
+fn answers_from_elsewhere_are_as_strong_as_their_forces() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let cases = "[[loads]]\nname = \"snow\"\njoint = \"P\"\nmass_kg = 15\n\
+                 [[cases]]\nname = \"summer\"\nfactors = {}\n\
+                 [[cases]]\nname = \"winter\"\nfactors = { snow = 2 }\n";
+    for (name, root, second) in [
+        ("weak", "safety = 2", "strength_n = 300"),
+        ("strong", "safety = 2", "strength_n = 600"),
+        ("bare", "", ""),
+    ] {
+        let first = if second.is_empty() { "" } else { "strength_n = 2000" };
+        let text = bridle(root, first, second);
+        std::fs::write(folder.join(format!("{name}.toml")), &text).unwrap();
+        std::fs::write(folder.join(format!("{name}-cases.toml")), text + cases).unwrap();
+    }
+    std::fs::write(folder.join("places.csv"), "joint,x_m,y_m,z_m\nP,0,0,-3\n").unwrap();
+    std::fs::write(folder.join("forces.csv"), "from,to,axial_n\nA,P,250\nB,P,250\n").unwrap();
+    let judge = |arguments: &[&str]| {
+        run(folder, &[&["judge"], arguments, &["--answer", "places.csv"]].concat())
+    };
+    let members = ["--members", "forces.csv"];
+    for more in [&[][..], &members] {
+        let (code, text, _) = judge(&[&["weak.toml"], more].concat());
+        assert_eq!(code, Some(0), "{text}");
+        let line = "Weakest: member from B to P, at 83.3 % of its strength: safety 1.2, below 2.\n";
+        assert!(text.contains(line), "{text}");
+        let checked = ["weak.toml", "strong.toml", "bare.toml"]
+            .map(|file| judge(&[&[file, "--check"], more].concat()).0);
+        assert_eq!(checked, [Some(1), Some(0), Some(2)]);
+    }
+    let (_, _, said) = judge(&["bare.toml", "--check"]);
+    assert!(said.contains("--check: no bar of this system has a strength_n"), "{said}");
+    // Without snow as above, and with 30 kg more twice as much: 500 N are 83.3 % of 600 N.
+    let (code, text, _) = judge(&["strong-cases.toml", "--load-case", "summer", "--check"]);
+    assert!(code == Some(0) && text.contains("at 41.7 %"), "{text}");
+    let (code, text, _) = judge(&["strong-cases.toml", "--load-case", "winter", "--check"]);
+    assert!(code == Some(1) && text.contains("at 83.3 %"), "{text}");
+    let given = [&["strong-cases.toml", "--load-case", "winter"], &members[..]].concat();
+    let (code, text, _) = judge(&given);
+    assert!(code == Some(1) && text.contains("are left over"), "{text}");
+    let (code, _, said) = judge(&["strong-cases.toml", "--load-case", "spring"]);
+    assert!(code == Some(2) && said.contains("no load case \"spring\""), "{said}");
+    // On the page too.
+    let (code, ..) = judge(&["weak.toml", "--html", "verdict.html"]);
+    let page = std::fs::read_to_string(folder.join("verdict.html")).unwrap();
+    assert_eq!(code, Some(0));
+    assert!(page.contains("at 83.3 % of its strength") && page.contains("class=\"weak\""));
+}
+
+/// Places without forces, where balance leaves these open: what nothing bounds is not strong.
+#[test]
+fn forces_that_are_found_and_open_are_counted_at_their_worst() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("places.csv"), "joint,x_m,y_m,z_m\nP,0,0,-4\n").unwrap();
+    let forces = "from,to,axial_n\nA,P,75\nM,P,180\nB,P,75\n";
+    std::fs::write(folder.join("forces.csv"), forces).unwrap();
+    for (kind, found, given) in
+        [("cable", "at 75 % of its strength", "at 45 %"), ("bar", "at no bound", "at 45 %")]
+    {
+        std::fs::write(folder.join("three.toml"), three(kind)).unwrap();
+        let judge = ["judge", "three.toml", "--answer", "places.csv"];
+        let (code, text, _) = run(folder, &judge);
+        assert!(code == Some(0) && text.contains(found), "{text}");
+        // Forces that are given are those that are judged.
+        let (code, text, _) = run(folder, &[&judge[..], &["--members", "forces.csv"]].concat());
+        assert!(code == Some(0) && text.contains(given), "{text}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::{Joint, Member, RopeFault, Support};
+use super::{Joint, Kind, Member, RopeFault, Support};
 use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{SMALLEST_TOTAL, Vector};
@@ -130,6 +130,14 @@ pub enum SystemError {
         member: usize,
         /// The stiffness as given.
         stiffness_n: f64,
+    },
+    /// Occurs when a cable has a strength in compression, or a strut one in tension.
+    #[error("{what}")]
+    IdleStrength {
+        /// Number of the member, from 1.
+        member: usize,
+        /// What has no meaning.
+        what: &'static str,
     },
     /// Occurs when the tolerance of a length is zero, negative, infinite, not a number, or as large as the length.
     #[error("the tolerance of a length must be positive and less than the length, {} m, got {} m", Readable(*length_m), Readable(*tolerance_m))]
@@ -367,6 +375,9 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
     {
         return Err(SystemError::Stiffness { member: number, stiffness_n });
     }
+    if let Some(what) = idle_strength(member) {
+        return Err(SystemError::IdleStrength { member: number, what });
+    }
     let length_m = member.body.length_m();
     if let Some(tolerance_m) = member.length_tolerance_m()
         && !(tolerance_m > 0.0 && tolerance_m < length_m)
@@ -383,6 +394,20 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// A strength against a force that the member cannot have.
+fn idle_strength(member: &Member) -> Option<&'static str> {
+    let strength = member.strength.as_deref()?;
+    match member.kind {
+        Kind::Cable if strength.compression_n().is_some() => {
+            Some("a cable cannot push: it has no compression_n and no bending_n_m2")
+        }
+        Kind::Strut if strength.tension_n().is_some() => {
+            Some("a strut cannot pull: it has no strength_n")
+        }
+        _ => None,
+    }
 }
 
 /// Refuse a floor above what a support holds.

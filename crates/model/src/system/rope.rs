@@ -23,6 +23,12 @@ pub enum RopeFault {
     /// Occurs when a rope has a mass.
     #[error("a rope over rings or pulleys has no mass here: its weight would slide with the rope")]
     Mass,
+    /// Occurs when a rope has a centre of weight or moments of inertia.
+    #[error("a rope over rings or pulleys has no mass here, and so no {key}")]
+    Body {
+        /// `centre_m` or `inertia_kg_m2`.
+        key: &'static str,
+    },
     /// Occurs when a force acts on a rope between its joints.
     #[error("no force acts on a rope over rings or pulleys: it would slide with the rope")]
     Load,
@@ -45,6 +51,7 @@ impl RopeFault {
         match self {
             Self::Kind => "kind",
             Self::Mass => "mass_kg",
+            Self::Body { key } => key,
             Self::Load => "forces",
             Self::Prestress => "prestress_n",
             Self::Repeated { .. } => "via",
@@ -105,6 +112,8 @@ impl Member {
         let faults = [
             (self.kind != Kind::Cable, RopeFault::Kind),
             (self.body.mass_kg() > 0.0, RopeFault::Mass),
+            (self.body.given_centre_m().is_some(), RopeFault::Body { key: "centre_m" }),
+            (self.body.given_inertia_kg_m2().is_some(), RopeFault::Body { key: "inertia_kg_m2" }),
             (!self.loads.is_empty(), RopeFault::Load),
             (self.prestress.is_some(), RopeFault::Prestress),
         ];

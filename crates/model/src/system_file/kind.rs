@@ -461,7 +461,7 @@ fn rope_help(fault: &RopeFault) -> Option<&'static str> {
         ),
         RopeFault::Load => Some("let the force act at a joint"),
         RopeFault::Prestress => Some("give its unstretched length_m and stiffness_n alone"),
-        RopeFault::Repeated { .. } => None,
+        RopeFault::Body { .. } | RopeFault::Repeated { .. } => None,
     }
 }
 

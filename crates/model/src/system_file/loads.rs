@@ -161,6 +161,9 @@ fn several(
 ) -> Result<Vec<usize>, SystemFileError> {
     let value = table.require(key, wanted)?;
     let Some(items) = value.get_ref().as_array() else { return Ok(vec![one(value)?]) };
+    if items.is_empty() {
+        return Err(table.wrong_type(key, value, wanted));
+    }
     let room = table.source().budget.take_members(items.len());
     room.map_err(|error| table.error(Kind::Memory(error), key))?;
     items.iter().map(one).collect()

@@ -355,13 +355,13 @@ impl Reading<'_> {
                 _ => root.error(kind, "bars"),
             },
         };
-        let at_member = |kind, member: usize| {
+        let at_member = |kind, member: usize, key: &str| {
             if let Some(file) = &bars_file {
                 return file.row_error(root, member, kind);
             }
             let table = tables.partition_point(|(first, _)| *first <= member);
             let span = tables[table - 1].1.clone();
-            root.error_at(kind, &format!("bars[{table}]"), span)
+            root.error_at(kind, &format!("bars[{table}]{key}"), span)
         };
         if let Some(plane) = root.text("plane")? {
             drawing::keep_to_plane(&mut joints, plane).map_err(|(joint, kind)| match joint {
@@ -395,11 +395,18 @@ impl Reading<'_> {
                 | SystemError::Parallel { member, .. }
                 | SystemError::Rope { member, .. }
                 | SystemError::NoSuchJoint { member, .. }
-                | SystemError::Stiffness { member, .. }
-                | SystemError::LengthTolerance { member, .. }
+                | SystemError::IdleStrength { member, .. }
                 | SystemError::PointLoad { member, .. } => {
                     let member = *member;
-                    at_member(Kind::System(error), member)
+                    at_member(Kind::System(error), member, "")
+                }
+                SystemError::Stiffness { member, .. } => {
+                    let member = *member;
+                    at_member(Kind::System(error), member, ".stiffness_n")
+                }
+                SystemError::LengthTolerance { member, .. } => {
+                    let member = *member;
+                    at_member(Kind::System(error), member, ".length_tolerance_m")
                 }
                 _ => root.error(Kind::System(error), "bars"),
             })?;
@@ -420,7 +427,7 @@ impl Reading<'_> {
             | SystemRefusal::Folded { member, .. }
             | SystemRefusal::ShortRope { member, .. } => {
                 let member = *member;
-                at_member(Kind::SystemRefused(refusal), member)
+                at_member(Kind::SystemRefused(refusal), member, "")
             }
             _ => {
                 let key = if root.get("joints").is_some() { "joints" } else { "joints_file" };

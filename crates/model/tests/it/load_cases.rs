@@ -143,6 +143,8 @@ fn what_is_no_load_or_case_is_refused_where_it_stands() {
         ("[[loads]]\nmass_kg = 1", "loads[1].joint", "where the load acts"),
         ("[[loads]]\njoint = \"P\"\nmass_kg = -1", "loads[1].mass_kg", "zero or positive"),
         ("[[loads]]\njoint = \"P\"\nforce_n = [0, nan, 0]", "loads[1].force_n[2]", "finite"),
+        ("[[loads]]\njoint = []\nmass_kg = 1", "loads[1].joint", "where the load acts"),
+        ("[[loads]]\nbar = []\nforce_n_per_m = [0, 0, 1]", "loads[1].bar", "number of a bar"),
         ("[[loads]]\nbar = 1", "loads[1].force_n_per_m", "each metre"),
         ("[[loads]]\nbar = 4\nforce_n_per_m = [0, 0, 1]", "loads[1].bar", "number of bars"),
         ("[[loads]]\nbar = 0\nforce_n_per_m = [0, 0, 1]", "loads[1].bar", "from 1"),

@@ -74,6 +74,14 @@ fn what_is_no_rope_is_refused_where_it_stands() {
             "f:10:11: bars[1].mass_kg: a rope over rings or pulleys has no mass here: its weight would slide with the rope",
         ),
         (
+            "via = [\"P\"]\nkind = \"cable\"\ncentre_m = 1",
+            "f:10:12: bars[1].centre_m: a rope over rings or pulleys has no mass here, and so no centre_m",
+        ),
+        (
+            "via = [\"P\"]\nkind = \"cable\"\ninertia_kg_m2 = [0, 1, 1]",
+            "f:10:17: bars[1].inertia_kg_m2: a rope over rings or pulleys has no mass here, and so no inertia_kg_m2",
+        ),
+        (
             "via = [\"P\"]\nkind = \"cable\"\nforces = [{ force_n = [0, 1, 0] }]",
             "f:10:10: bars[1].forces: no force acts on a rope over rings or pulleys: it would slide with the rope",
         ),

@@ -122,7 +122,11 @@ fn what_is_no_tolerance_is_refused_where_it_stands() {
         (net("", "", ", stiffness_tolerance = nan"), "bars[1].stiffness_tolerance", "less than 1"),
         (net("", "", ", mass_tolerance_kg = 1.5"), "bars[1].mass_tolerance_kg", "not more than"),
         (net("", "", ", mass_tolerance_kg = -1"), "bars[1].mass_tolerance_kg", "positive"),
-        (net("", "", ", length_tolerance_m = 2"), "bars[1]", "less than the length"),
+        (
+            net("", "", ", length_tolerance_m = 2"),
+            "bars[1].length_tolerance_m",
+            "less than the length",
+        ),
         (
             net("", "", ", length_tolerence_m = 1"),
             "bars[1].length_tolerence_m",

@@ -19,7 +19,6 @@ __all__ = [
     "basins",
     "census",
     "derivatives",
-    "draw",
     "export",
     "get_threads",
     "judge",
@@ -114,9 +113,14 @@ def solve(
 ) -> tuple[str, list[dict[str, Any]]]: ...
 def solve_text(problem: Problem, solver: str, equations: str, census: str) -> str: ...
 def export(
-    problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array, used: _Array | None, ending: str
+    problem: Problem,
+    joints_m: _Array,
+    axial_n: _Array,
+    reactions_n: _Array,
+    used: _Array | None,
+    ending: str,
+    view: str,
 ) -> str: ...
-def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array, view: str) -> str: ...
 def solve_many(
     chains: int,
     bars: int,
@@ -227,6 +231,6 @@ def judge(
     tolerance: float | None,
     threads: int,
     progress: _Progress,
-) -> tuple[str, bool, bool, str, str]: ...
+) -> tuple[str, bool, bool, str, str, bool | None]: ...
 def arrow_stream(names: list[str], columns: list[Any]) -> object: ...
 def reproduce(threads: int, progress: _Progress) -> tuple[str, str, str]: ...

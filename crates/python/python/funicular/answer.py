@@ -65,6 +65,8 @@ class Equilibrium(Result):
     ``weakest``
         the member that is nearest to breaking, against the safety wanted: its ``number`` (from 0), ``utilisation``, ``safety``
         (strength over force) and ``safety_wanted``; ``None`` where no member has a strength.
+    ``is_strong``
+        whether all members are as strong as wanted; ``None`` where no member has a strength.
     ``sag_m``
         how deep a joint hangs below the line that its row of members spans, the largest, m; ``None`` where no row spans
         anything and no joint is below the supports.
@@ -83,6 +85,7 @@ class Equilibrium(Result):
     multipliers_n: Array | None
     utilisation: Array | None
     weakest: Record | None
+    is_strong: bool | None
     sag_m: float | None
     largest_tension_n: float | None
     largest_compression_n: float | None
@@ -94,6 +97,7 @@ class Equilibrium(Result):
             setattr(self, name, arrays[name])
         weakest = arrays["weakest"]
         self.weakest = None if weakest is None else Record(weakest)
+        self.is_strong = arrays["is_strong"]
 
     def _content(self) -> dict[str, Any]:
         found = {name: getattr(self, name) for name in (*ARRAYS, *EXTREMES, "weakest")}
@@ -212,8 +216,7 @@ class Equilibrium(Result):
 
         ``view``: from where it is seen, ``best``, ``front`` (x to the right, z up), ``side`` (y, z) or ``top`` (x, y).
         """
-        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_max_n, self.reactions_n))
-        return _native.draw(self.system._problem, joints, axial, ground, view)
+        return self._file(self.axial_max_n, "svg", view)
 
     def export(self, ending: str) -> str:
         """The text of a file for another program, of the format that the ending of its name stands for.
@@ -225,8 +228,11 @@ class Equilibrium(Result):
         >>> text.startswith("<?xml"), "axial_n" in text
         (True, True)
         """
-        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, self.axial_n, self.reactions_n))
-        return _native.export(self.system._problem, joints, axial, ground, self.utilisation, str(ending))
+        return self._file(self.axial_n, str(ending))
+
+    def _file(self, axial_n: Array, ending: str, view: str = "best") -> str:
+        joints, axial, ground = map(np.ascontiguousarray, (self.joints_m, axial_n, self.reactions_n))
+        return _native.export(self.system._problem, joints, axial, ground, self.utilisation, ending, view)
 
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
         """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
@@ -427,6 +433,11 @@ class Answer(Result):
     def weakest(self) -> Record | None:
         """The member that is nearest to breaking; see :class:`Equilibrium`."""
         return self.equilibria[0].weakest
+
+    @property
+    def is_strong(self) -> bool | None:
+        """Whether all members are as strong as wanted; see :class:`Equilibrium`."""
+        return self.equilibria[0].is_strong
 
     def svg(self, view: str = "best") -> str:
         """The picture to scale; see :meth:`Equilibrium.svg`."""

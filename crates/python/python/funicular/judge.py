@@ -24,16 +24,20 @@ class Judgement(Result):
 
     ``confirmed``: an equilibrium is within the tolerance; ``refuted``: a law is broken by more than the tolerance
     explains; neither: see ``says``. ``broken``: what is broken, largest first; ``nearest``: how far away the nearest
-    equilibrium is; ``proofs``: how far the equilibrium is proved that the answer stands for.
+    equilibrium is; ``proofs``: how far the equilibrium is proved that the answer stands for. ``is_strong``: whether all members
+    are as strong as wanted under the forces that were judged, ``None`` where no member has a strength.
     """
 
-    def __init__(self, system: System, text: str, confirmed: bool, refuted: bool, page: str, said: str) -> None:
+    def __init__(
+        self, system: System, text: str, confirmed: bool, refuted: bool, page: str, said: str, is_strong: bool | None
+    ) -> None:
         self.system = system
         self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self.confirmed = confirmed
         self.refuted = refuted
         self._page = page
+        self.is_strong = is_strong
 
     @property
     def finding(self) -> str:
@@ -64,6 +68,12 @@ class Judgement(Result):
     def proofs(self) -> Proofs:
         """The ladder of the answer."""
         return Proofs(self.data["ladder"])
+
+    @property
+    def weakest(self) -> Record | None:
+        """The member that is nearest to breaking: ``bar``, from 1, ``utilisation``, ``safety`` and ``safety_wanted``; ``None`` where
+        no member has a strength. ``data["bars"]`` has the ``utilisation`` of each."""
+        return Record(self.data["weakest"]) if "weakest" in self.data else None
 
     @property
     def table(self) -> Table:
@@ -106,7 +116,8 @@ def judge(
     Parameters
     ----------
     joints : (joints, 3) m in the order of the system, or {name: (3,) m}
-    forces : (members,) N, axial, tension positive; without them those are taken that balance the places best
+    forces : (members,) N, axial, tension positive, or one for each span of each member, ropes among them; without them those
+        are taken that balance the places best
     reactions : {joint: (3,) N}, optional: forces of the ground, to be judged too
     tolerance : how well the answer is taken to know its numbers, of the size of the system and the largest force
         (1e-6; from 1e-13 to 0.1)
@@ -122,6 +133,18 @@ def judge(
     >>> wrong = fn.judge(s, [[0, 0, 0], [3, 0, -4.001], [6, 0, 0]])
     >>> wrong.refuted, round(wrong.broken[0].value, 6)                 # bars 0.8 mm too long
     (True, 0.0008)
+
+    A system with strengths is held against these, and one with load cases judged in each:
+
+    >>> lamp = fn.System.from_toml('''gravity_m_s2 = 10
+    ... joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 4 } }
+    ... bars = [{ from = "A", to = "lamp", length_m = 5, mass_kg = 0, strength_n = 100, safety = 3 },
+    ...         { from = "B", to = "lamp", length_m = 5, mass_kg = 0, strength_n = 200 }]
+    ... loads = [{ name = "snow", joint = "lamp", mass_kg = 2 }]
+    ... cases = [{ name = "winter", factors = { snow = 2 } }]''')
+    >>> winter = fn.judge(lamp.in_case("winter"), {"A": (-3, 0, 0), "B": (3, 0, 0), "lamp": (0, 0, -4)}, [50, 50])
+    >>> winter.confirmed, winter.is_strong, winter.weakest.bar, winter.weakest.safety
+    (True, False, 1, 2.0)
     """
     system = described(system)
     if isinstance(joints, Mapping):

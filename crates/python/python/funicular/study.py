@@ -231,6 +231,9 @@ class Tolerances(Result):
         ``most_reached``, ``is_hull``, ``most_by`` (the number on which it depends most) and ``most_change``.
     ``axial_n``, ``joints_m``
         least and most of all forces and places, as arrays of shape (bars, 2) and (joints, 3, 2).
+    ``sag``
+        a :class:`Record` of the largest sag of the numbers given: the ``joint``, the line ``from`` and ``to`` below which it hangs
+        (one name twice: the lowest support), and ``depth_m``, with the same as a force; ``None`` where nothing sags.
     ``draws``
         what became of random values, if any were drawn.
     """
@@ -245,6 +248,7 @@ class Tolerances(Result):
         self.numbers = [Record(number) for number in found.get("numbers", [])]
         self.bars = [Record(bar) for bar in found.get("bars", [])]
         self.joints = [Record(joint) for joint in found.get("joints", [])]
+        self.sag = Record(found["sag"]) if found.get("sag") else None
         self.draws = Record(found["draws"]) if "draws" in found else None
         ends = [[bar["axial_n"]["least"], bar["axial_n"]["most"]] for bar in found.get("bars", [])]
         self.axial_n = np.array(ends).reshape(-1, 2)
@@ -259,8 +263,8 @@ class Tolerances(Result):
 def tolerances(
     system: Described, *, draws: int = 0, seed: int = 1, solver: str = "both", threads: int = 0, progress: Progress = None
 ) -> Tolerances:
-    """Bound all places, forces and reactions over the tolerances in the system's file, in interval arithmetic; with ``draws``
-    solve so many random values within them too.
+    """Bound all places, forces, reactions and the largest sag over the tolerances in the system's file, in interval arithmetic;
+    with ``draws`` solve so many random values within them too.
 
     >>> import funicular as fn
     >>> text = '''gravity_m_s2 = 10

@@ -1,7 +1,6 @@
 //! An answer from elsewhere, by the names of joints.
 
-use std::collections::{BTreeMap, HashMap};
-use std::ops::Range;
+use std::collections::{BTreeMap, HashMap, VecDeque};
 
 use model::system::{Joint, Member, System};
 use model::{SolverName, Vector};
@@ -173,17 +172,22 @@ impl ForeignAnswer {
         let source = SolverName::new(source.into());
         let (spans_n, reactions_n) = (BTreeMap::new(), None);
         let answer = Self { source, joints_m, axial_n: None, spans_n, reactions_n };
-        let Some(axial_n) = axial_n else { return Ok(answer) };
-        let mut left = axial_n.iter().copied();
-        let of_member = |member: &Member| {
-            let whole = if forces == members { left.next() } else { None };
-            member.spans().map_while(|_| whole.or_else(|| left.next())).collect()
-        };
-        answer.bearing(system, system.members().iter().map(of_member).collect())
+        match axial_n {
+            Some(axial_n) => answer.bearing(system, axial_n),
+            None => Ok(answer),
+        }
     }
 
-    /// The same with the axial force of each span of each member.
-    fn bearing(mut self, system: &System, forces: Vec<Vec<f64>>) -> Result<Self, GivenError> {
+    /// The same with axial forces in the order of the system: one for each member, or one for each span.
+    fn bearing(mut self, system: &System, axial_n: Vec<f64>) -> Result<Self, GivenError> {
+        let members = system.members();
+        let whole = axial_n.len() == members.len();
+        let mut left = axial_n.into_iter();
+        let of_member = |member: &Member| -> Vec<f64> {
+            let one = if whole { left.next() } else { None };
+            member.spans().map_while(|_| one.or_else(|| left.next())).collect()
+        };
+        let forces: Vec<Vec<f64>> = members.iter().map(of_member).collect();
         if let Some(k) = forces.iter().position(|spans| spans.iter().any(|n| !n.is_finite())) {
             return Err(GivenError::NotFinite { what: member_name(system, k) });
         }
@@ -197,9 +201,9 @@ impl ForeignAnswer {
         Ok(self)
     }
 
-    /// The same with axial forces, by the names of the two joints of each member in any order. Of a rope
-    /// they are its ends, or those of each of its spans; forces between the same two joints are in the order
-    /// of the system.
+    /// The same with axial forces by the names of two joints in any order: one for each member, by its
+    /// ends, or, where there are more forces than members, one for each span of each member. Forces
+    /// between the same two joints are in the order of the system.
     ///
     /// # Errors
     ///
@@ -210,49 +214,33 @@ impl ForeignAnswer {
         system: &System,
         forces: impl IntoIterator<Item = (String, String, f64)>,
     ) -> Result<Self, GivenError> {
+        let forces: Vec<_> = forces.into_iter().collect();
         let joints = joint_numbers(system);
         let number = |name: &str| joints.get(name).copied().ok_or_else(|| unknown(system, name));
-        let mut places = between(system);
+        let pieces = pieces(system, forces.len() > system.members().len());
+        let mut open = BTreeMap::<_, VecDeque<usize>>::new();
+        for (piece, (_, ends)) in pieces.iter().enumerate() {
+            open.entry(pair(*ends)).or_default().push_back(piece);
+        }
+        let mut found = vec![None; pieces.len()];
         for (from, to, force) in forces {
-            let Some(place) = places.get_mut(&pair([number(&from)?, number(&to)?])) else {
+            let Some(open) = open.get_mut(&pair([number(&from)?, number(&to)?])) else {
                 return Err(GivenError::UnknownMember { from, to });
             };
-            if place.forces.len() == place.members.len().max(place.spans.len()) {
+            let Some(piece) = open.pop_front() else {
                 return Err(GivenError::RepeatedMember { from, to });
-            }
-            if !force.is_finite() {
-                let k = place.members.first().copied().unwrap_or(place.spans[0].0);
-                return Err(GivenError::NotFinite { what: member_name(system, k) });
-            }
-            place.forces.push(force);
-        }
-        let count = |member: &Member| member.spans().count();
-        let mut found: Vec<Vec<Option<f64>>> =
-            system.members().iter().map(|member| vec![None; count(member)]).collect();
-        for Between { members, spans, forces } in places.into_values() {
-            let whole = |k: usize| (k, 0..count(&system.members()[k]));
-            let places: Vec<(usize, Range<usize>)> = if forces.len() == members.len() {
-                members.into_iter().map(whole).collect()
-            } else {
-                spans.into_iter().map(|(k, span)| (k, span..span + 1)).collect()
             };
-            for ((k, spans), force) in places.into_iter().zip(forces) {
-                if found[k][spans.clone()].iter().any(Option::is_some) {
-                    let name = |joint: usize| system.joints()[joint].name.clone();
-                    let [from, to] = [system.members()[k].from, system.members()[k].to].map(name);
-                    return Err(GivenError::RepeatedMember { from, to });
-                }
-                found[k][spans].fill(Some(force));
-            }
+            found[piece] = Some(force);
         }
-        let missing = found.iter().enumerate().filter(|(_, spans)| spans.contains(&None));
-        let missing: Vec<_> = missing.map(|(k, _)| member_name(system, k)).collect();
+        let missing = pieces.iter().zip(&found).filter(|(_, force)| force.is_none());
+        let mut missing: Vec<_> = missing.map(|((k, _), _)| *k).collect();
+        missing.dedup();
         if !missing.is_empty() {
-            let (count, names) = shortened(missing);
+            let (count, names) =
+                shortened(missing.into_iter().map(|k| member_name(system, k)).collect());
             return Err(GivenError::MissingForces { names, count });
         }
-        let found = found.into_iter().map(|spans| spans.into_iter().flatten().collect());
-        self.bearing(system, found.collect())
+        self.bearing(system, found.into_iter().flatten().collect())
     }
 
     /// The same with forces of the ground by the names of joints; those not named are zero.
@@ -272,31 +260,20 @@ impl ForeignAnswer {
     }
 }
 
-/// What is between two joints, and the forces given there.
-#[derive(Default)]
-struct Between {
-    /// The members with these ends.
-    members: Vec<usize>,
-    /// The members with a span here, and its number.
-    spans: Vec<(usize, usize)>,
-    forces: Vec<f64>,
-}
-
 /// Two joints in an order that does not depend on the direction.
 fn pair([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// What is between each two joints.
-fn between(system: &System) -> BTreeMap<[usize; 2], Between> {
-    let mut all = BTreeMap::<_, Between>::new();
-    for (k, member) in system.members().iter().enumerate() {
-        all.entry(pair([member.from, member.to])).or_default().members.push(k);
-        for (number, span) in member.spans().enumerate() {
-            all.entry(pair(span)).or_default().spans.push((k, number));
-        }
-    }
-    all
+/// What bears a force each, in the order of the system: every member by its ends, or every span; with the number of
+/// the member.
+fn pieces(system: &System, by_span: bool) -> Vec<(usize, [usize; 2])> {
+    let of_member = |(k, member): (usize, &Member)| {
+        let ends = (!by_span).then_some([member.from, member.to]);
+        let spans = member.spans().filter(|_| by_span);
+        ends.into_iter().chain(spans).map(|joints| (k, joints)).collect::<Vec<_>>()
+    };
+    system.members().iter().enumerate().flat_map(of_member).collect()
 }
 
 fn joint_numbers(system: &System) -> HashMap<&str, usize> {

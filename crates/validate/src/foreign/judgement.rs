@@ -3,7 +3,6 @@
 use model::system::{System, SystemEquilibrium};
 use model::{
     Agreed, Convergence, Disagreement, Excess, Ladder, Place, Quantity, Reason, SolverName, Status,
-    Vector,
 };
 use serde::Serialize;
 
@@ -103,15 +102,12 @@ pub struct Judgement {
     pub nearest: Nearest,
     /// How far the answer is proved: the rungs of the equilibrium that it stands for.
     pub ladder: Ladder,
-    /// Place of each joint as given, m.
+    /// The answer with what follows from its places and forces: the forces of the ground, given or from the
+    /// balance of each joint, those at the ends of members, the energy. Where its forces were found and
+    /// balance leaves them open, its self-stresses are those of the nearest equilibrium. Of its second
+    /// order nothing is said here.
     #[serde(skip)]
-    pub joints_m: Vec<Vector>,
-    /// Axial force of each member, given or found, N.
-    #[serde(skip)]
-    pub axial_n: Vec<f64>,
-    /// Force of the ground on each joint, given or from the balance of its joint, N.
-    #[serde(skip)]
-    pub reactions_n: Vec<Vector>,
+    pub answer: SystemEquilibrium,
 }
 
 impl Judgement {
@@ -190,12 +186,19 @@ pub fn judge_foreign(
     if !(LEAST..=MOST).contains(&tolerance) {
         return Err(ToleranceError { tolerance });
     }
-    let Trial { bounds, forces, completed, measured, force_digits } =
+    let Trial { bounds, forces, mut completed, measured, force_digits } =
         trial(system, answer, tolerance, watch);
     let nearest = nearest(system, &completed, bounds.position_m, watch);
     let finding = finding(system, answer, (&completed, &measured), &nearest, &bounds);
     watch("the rungs");
     let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
+    let statics = judge(system, &completed);
+    if let Some(reactions_n) = &answer.reactions_n {
+        completed.reactions_n.clone_from(reactions_n);
+    }
+    if answer.axial_n.is_none() {
+        completed.evidence.self_stresses = nearest.self_stresses().cloned();
+    }
     Ok(Judgement {
         source: answer.source.clone(),
         finding,
@@ -208,12 +211,10 @@ pub fn judge_foreign(
         },
         violations: measured.violations,
         largest: measured.largest,
-        statics: judge(system, &completed),
+        statics,
         nearest,
         ladder,
-        joints_m: completed.joints_m,
-        axial_n: completed.axial_n,
-        reactions_n: answer.reactions_n.clone().unwrap_or(completed.reactions_n),
+        answer: completed,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The equilibrium nearest to an answer: how large its error is.
 
 use model::system::{System, SystemEquilibrium};
-use model::{SolverName, Vector};
+use model::{SelfStresses, SolverName, Vector};
 use serde::{Serialize, Serializer};
 
 use super::proved::{ProvedError, proved_error};
@@ -46,6 +46,15 @@ pub struct Nearest {
     pub failures: Vec<SystemFailure>,
     /// Whether no solver found its way from the answer's positions, and they began without a guess.
     pub without_guess: bool,
+}
+
+impl Nearest {
+    /// What balance leaves open of the forces, from who says most of it.
+    pub(super) fn self_stresses(&self) -> Option<&SelfStresses> {
+        let all = self.equilibria.iter().map(|one| &one.equilibrium.evidence);
+        let families = all.filter_map(|evidence| evidence.self_stresses.as_ref());
+        families.max_by_key(|family| family.ranges.is_some())
+    }
 }
 
 /// Look from the positions of an answer.

@@ -215,7 +215,7 @@ impl Judgement {
     pub fn tolerance_sentence(&self, system: &System) -> Option<String> {
         let tolerance = self.confirmed_at?;
         let confirmed = format!("with --tolerance {tolerance:.0e} the answer is confirmed.");
-        let moving = system.joints().iter().zip(&self.joints_m);
+        let moving = system.joints().iter().zip(&self.answer.joints_m);
         let moving = moving.filter(|(joint, _)| !joint.support.is_fixed());
         let rounded = digits::places(moving.flat_map(|(_, at_m)| *at_m)).and_then(|places| {
             let unit_m = 0.1_f64.powi(i32::try_from(places).ok()?);

@@ -41,7 +41,7 @@ fn a_closed_form_is_confirmed_with_and_without_forces() {
         let found = judged(&system, places([0.0, 0.0, -4.0]), forces.clone());
         assert_eq!(found.finding, Finding::Confirmed, "{found:?}");
         assert!(found.largest < 1e-6 && found.violations.is_empty());
-        assert!(found.axial_n.iter().all(|force| (force - 1.25).abs() < 1e-12), "{found:?}");
+        assert!(found.answer.axial_n.iter().all(|force| (force - 1.25).abs() < 1e-12), "{found:?}");
         assert_eq!(found.ladder.highest(), Some(model::Rung::Optimal));
         assert!(found.nearest().unwrap().joints_m < 1e-12);
         assert_eq!(forces.is_some(), found.forces == ForcesJudged::Given);

@@ -274,7 +274,7 @@ fn answers_of_others_with_ropes_are_confirmed() {
             let found = judged(system, places(&sample), axial_n);
             assert_eq!(found.finding, Finding::Confirmed, "{name}: {:?}", found.violations);
             assert!(found.statics.largest() < 1e-9, "{name}: {:?}", found.statics);
-            for (axial_n, wanted_n) in found.axial_n.iter().zip(&sample.axial_n) {
+            for (axial_n, wanted_n) in found.answer.axial_n.iter().zip(&sample.axial_n) {
                 assert!((axial_n - wanted_n).abs() < 1e-6 * 100.0, "{name}: {axial_n}");
             }
             let agreed = found.ladder.agreed.proof().unwrap();
@@ -386,7 +386,7 @@ fn a_slack_rope_of_others_bears_nothing() {
     let found = judged(&slack.system, at.clone(), Some(vec![3.0, slack.axial_n[1]]));
     let law = Law::Slack { force_n: 3.0, length_m: 9.0, distance_m: 2.0 * 5.0_f64.sqrt() };
     assert!(found.violations.iter().any(|violation| violation.law == law), "{found:?}");
-    assert_eq!(judged(&slack.system, at, None).axial_n[0].to_bits(), 0.0_f64.to_bits());
+    assert_eq!(judged(&slack.system, at, None).answer.axial_n[0].to_bits(), 0.0_f64.to_bits());
 }
 
 /// By the joints of a whole rope, and by those of its spans in their order.
@@ -404,8 +404,8 @@ fn forces_of_ropes_come_by_the_names_of_joints() {
     // The last span has the joints of the whole.
     let error = with(&spans).unwrap_err();
     assert_eq!(error.to_string(), "forces are given, but not that of member \"1 (beam - end)\"");
-    let error = with(&[&spans[..1], &[("beam", "end", 5.0)]].concat()).unwrap_err();
-    assert_eq!(error.to_string(), "the force between \"beam\" and \"end\" is given twice");
+    let error = with(&[("beam", "end", 1.0), ("end", "beam", 5.0)]).unwrap_err();
+    assert_eq!(error.to_string(), "the force between \"end\" and \"beam\" is given twice");
     let own = &samples::ropes()[4].system;
     let answer = ForeignAnswer::in_order(own, "a table", vec![[0.0; 3]; 3], None).unwrap();
     let spans = [
@@ -425,6 +425,42 @@ fn forces_of_ropes_come_by_the_names_of_joints() {
     assert_eq!([1, 4].map(count), [Ok(()), Ok(())]);
     let wrong = GivenError::Count { of: "member forces", wanted: 1, found: 3 };
     assert_eq!(count(3), Err(wrong));
+}
+
+/// A rope from A over W to P and one from A over P to W: each has the ends of a span of the other, and both run
+/// between W and P. How many forces there are tells members from spans; those between the same joints are in the
+/// order of the system.
+#[test]
+fn forces_of_ropes_that_share_their_joints() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("P", [4.0, 0.0, 1.0]),
+        Joint::free("W").with_mass(20.0),
+    ];
+    let cable = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members = vec![
+        Member::cable(0, 1, cable(8.0)).over(vec![2]),
+        Member::cable(0, 2, cable(9.0)).over(vec![1]),
+    ];
+    let system = System::new("crossed", 10.0, joints, members).unwrap();
+    let answer = ForeignAnswer::in_order(&system, "a table", vec![[0.0; 3]; 3], None).unwrap();
+    let with = |forces: &[(&str, &str, f64)]| {
+        let forces = forces.iter().map(|(a, b, n)| ((*a).to_owned(), (*b).to_owned(), *n));
+        answer.clone().with_forces(&system, forces).map(|found| {
+            let spans = found.spans_n.into_values().collect::<Vec<_>>();
+            (found.axial_n.unwrap(), spans)
+        })
+    };
+    let members = [("W", "A", 7.0), ("A", "P", 5.0)];
+    assert_eq!(with(&members), Ok((vec![5.0, 7.0], vec![vec![5.0; 2], vec![7.0; 2]])));
+    let spans = [("P", "A", 3.0), ("W", "P", 2.0), ("A", "W", 1.0), ("P", "W", 4.0)];
+    let wanted = vec![vec![1.0, 2.0], vec![3.0, 4.0]];
+    assert_eq!(with(&spans), Ok((vec![1.5, 3.5], wanted)));
+    // One of the spans twice, and another not at all.
+    let error = with(&[spans[0], spans[1], spans[2], spans[2]]).unwrap_err();
+    assert_eq!(error.to_string(), "the force between \"A\" and \"W\" is given twice");
+    let error = with(&spans[..3]).unwrap_err();
+    assert_eq!(error.to_string(), "forces are given, but not that of member \"2 (A - W)\"");
 }
 
 /// A triangle hangs on A alone, and turns about its vertical; the cable and the rope to it from B are slack whichever

@@ -19,12 +19,11 @@ use crate::input::next_to;
 use crate::interrupt::{end_between_lines, whole_line};
 use crate::output;
 use crate::progress::Progress;
-use crate::threads;
 
 /// Run the batch: every line is answered, whatever becomes of the others.
 pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
     end_between_lines()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let lines = open(path)?;
     // A census takes far longer than a solution.
     let solve = arguments.question(UseCensus::Never);

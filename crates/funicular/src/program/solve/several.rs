@@ -14,7 +14,6 @@ use crate::input::{self, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
-use crate::threads;
 
 /// What is printed about a file.
 struct Said {
@@ -38,7 +37,7 @@ pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
         return Err(Failure::bad_input(format!("{option} writes one file, for one system")));
     }
     end_on_interrupt()?;
-    threads::install(arguments.threads)?;
+    arguments.threads.install()?;
     let mut worst = Exit::Done;
     let mut stopped = None;
     let write = |said: Said| {

@@ -6,7 +6,7 @@ use ::sweep::{MOST_SEEDS, Shard};
 use clap::{Args, ValueEnum};
 
 use crate::input::Source;
-use crate::threads;
+use crate::threads::Threads;
 use crate::which::Which;
 
 /// How `sweep` ends, for its help.
@@ -57,9 +57,8 @@ pub struct Sweep {
     /// Which solver
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
-    /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Only the K-th of N parts, to be joined by `funicular merge`
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub shard: Shard,

@@ -304,10 +304,16 @@ fn slack_bars_that_fit_into_a_line() {
 #[test]
 fn census_of_a_ring() {
     let ring = "gravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, ring = { mass_kg = 4 } }\n\
-                bars = [{ from = 'A', to = 'B', via = ['ring'], length_m = 10, mass_kg = 0, kind = 'cable' }]";
+                bars = [{ from = 'A', to = 'B', via = ['ring'], length_m = 10, mass_kg = 0, kind = 'cable', \
+                strength_n = 100, safety = 3 }]";
     let mut output = census("census of a system", "census_of_a_ring", ring);
     output.is("equilibria[].bars[].via[]", "ring");
     output.is("equilibria[].bars[].axial_n", 25.0);
+    output.is("equilibria[].bars[].utilisation", 0.25);
+    output.is("equilibria[].weakest.bar", 1);
+    output.is("equilibria[].weakest.utilisation", 0.25);
+    output.is("equilibria[].weakest.safety", 4.0);
+    output.is("equilibria[].weakest.safety_wanted", 3.0);
     output
         .is("equilibria[].joints[].at_m[]", json!([-3.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, -4.0]));
     output.is("equilibria[].bars[].force_at_start_n[]", json!([-15.0, 0.0, 20.0]));

@@ -194,3 +194,26 @@ fn right() {
     output.is(&at("singular"), false);
     output.done();
 }
+
+/// 16 N of 20 N, and 12 N of 40 N where four times as much is wanted: the second is the weaker one.
+#[test]
+fn two_strengths() {
+    let folder = tempfile::tempdir().unwrap();
+    let strong = LAMP.replace("length_m = 3", "length_m = 3\nstrength_n = 20");
+    let strong = strong.replace("length_m = 4", "length_m = 4\nstrength_n = 40\nsafety = 4");
+    std::fs::write(folder.path().join("lamp.toml"), strong).unwrap();
+    let places = "joint,x_m,y_m,z_m\nP,1.8,0,-2.4\n";
+    std::fs::write(folder.path().join("places.csv"), places).unwrap();
+    let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(0), "{text}");
+    let mut output = Output::json("judge", "two_strengths", &text);
+    output.is("bars[].utilisation", json!([0.8, 0.3]));
+    output.is("weakest.bar", 2);
+    output.is("weakest.utilisation", 0.3);
+    output.is("weakest.safety", 10.0 / 3.0);
+    output.is("weakest.safety_wanted", 4.0);
+    output.done();
+    let (code, _) = run(folder.path(), &[&arguments[..], &["--check"]].concat());
+    assert_eq!(code, Some(1));
+}
