@@ -80,6 +80,7 @@ mod compare;
 mod csv;
 #[cfg(feature = "branches")]
 mod derivatives;
+mod draws;
 mod enclosed;
 #[cfg(feature = "sweep")]
 mod ensemble;
@@ -171,6 +172,7 @@ pub use ::sweep::Field;
 #[cfg(feature = "branches")]
 pub use branches::{Combine, JointField, Number, PointError};
 pub use compare::compare;
+pub use draws::{Distribution, Drawn, Draws};
 pub use enclosed::{Enclosed, Inertia};
 pub use equilibria::system_of;
 pub use error::Error;
@@ -192,5 +194,5 @@ pub use settled::{Outcome, Settled, Unsettled};
 pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;
-pub use tolerances::{Drawn, Draws, TolerancesAnswer};
+pub use tolerances::TolerancesAnswer;
 pub use weakest::Weakest;

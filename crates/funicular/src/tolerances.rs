@@ -4,22 +4,17 @@ use std::io::{self, Write};
 
 use census::network::{Depth, NoRanges, Range, ToleranceRanges, prove_ranges};
 use model::InSpace;
-use model::system::{
-    MemberTolerances, Strength, System, SystemEquilibrium, Uncertain, UncertainNumber,
-};
-use rayon::prelude::*;
+use model::system::{MemberTolerances, Strength, System, Uncertain, UncertainNumber};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
-use validate::UseCensus;
 
 use crate::csv::{Numbers, quoted};
+use crate::draws::{Distribution, Draws};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::sag::Sag;
 use crate::solve::{Lists, Solve, SolveAnswer};
 
-/// Solvers agree to this part of lengths and forces: less is no draw outside of what is proved.
-const ROUNDING: f64 = 1e-9;
 /// The coordinates as numbers of files name them.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -30,34 +25,6 @@ pub struct TolerancesAnswer {
     sag: Option<Sag>,
     ranges: Result<ToleranceRanges, NoRanges>,
     draws: Option<Draws>,
-}
-
-/// What becomes of random values of the uncertain numbers, each anywhere within its tolerance.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Draws {
-    /// How many were drawn.
-    pub count: usize,
-    /// The seed.
-    pub seed: u64,
-    /// Of how many there is an answer.
-    pub solved: usize,
-    /// Of how many an answer is outside of the ranges that are proved for all.
-    pub outside: usize,
-    /// Coordinates of all joints, m.
-    #[serde(skip)]
-    pub joints_m: Vec<[Drawn; 3]>,
-    /// Axial forces of all members, N.
-    #[serde(skip)]
-    pub axial_n: Vec<Drawn>,
-}
-
-/// One number of many draws.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Drawn {
-    /// The mean.
-    pub mean: f64,
-    /// The standard deviation.
-    pub deviation: f64,
 }
 
 impl Solve {
@@ -87,11 +54,11 @@ impl Solve {
     ///
     /// As [`run`](Self::run).
     pub fn tolerances(&self, problem: &Problem) -> Result<TolerancesAnswer, Error> {
-        self.tolerances_drawn(problem, 0, 0)
+        self.tolerances_drawn(problem, 0, 0, Distribution::default())
     }
 
-    /// The same, and what becomes of so many random values from a seed, uniform within the tolerances, each
-    /// solved by itself.
+    /// The same, and what becomes of so many random values from a seed, within the tolerances, each solved by
+    /// itself.
     ///
     /// # Errors
     ///
@@ -101,6 +68,7 @@ impl Solve {
         problem: &Problem,
         draws: usize,
         seed: u64,
+        distribution: Distribution,
     ) -> Result<TolerancesAnswer, Error> {
         let answer = self.run(problem)?;
         let (system, found) = (answer.system(), &answer.equilibria()[0]);
@@ -108,89 +76,9 @@ impl Solve {
         let depth = sag.map(|Sag { joint, ends, .. }| Depth { joint, ends });
         let prove = || prove_ranges(system, &found.joints_m, &found.axial_n, depth.as_slice());
         let ranges = self.on_threads(prove)?;
-        let draw = || (draws > 0).then(|| Draws::new(self, system, &ranges, draws, seed));
-        let draws = self.on_threads(draw)?;
+        let draw = || Draws::new(self, system, &ranges, (draws, seed, distribution));
+        let draws = if draws > 0 { Some(self.on_threads(draw)?) } else { None };
         Ok(TolerancesAnswer { answer, sag, ranges, draws })
-    }
-}
-
-impl Draws {
-    fn new(
-        solve: &Solve,
-        system: &System,
-        ranges: &Result<ToleranceRanges, NoRanges>,
-        count: usize,
-        seed: u64,
-    ) -> Self {
-        let solve = solve.census(UseCensus::Never);
-        let of_draw = |draw: usize| {
-            let numbers = system.uncertain().into_iter().enumerate();
-            let values = numbers
-                .map(|(k, number)| number.given + number.within * uniform(seed, draw, k))
-                .collect::<Vec<_>>();
-            let answer = solve.run_here(&system.with_uncertain(&values).ok()?.into()).ok()?;
-            answer.into_parts().1.into_iter().next()
-        };
-        let all: Vec<Option<SystemEquilibrium>> = (0..count).into_par_iter().map(of_draw).collect();
-        let all: Vec<SystemEquilibrium> = all.into_iter().flatten().collect();
-        let outside = |found: &SystemEquilibrium| {
-            ranges.as_ref().is_ok_and(|ranges| is_outside(system, ranges, found))
-        };
-        let place =
-            |joint: usize, axis: usize| Drawn::of(all.iter().map(|e| e.joints_m[joint][axis]));
-        Self {
-            count,
-            seed,
-            solved: all.len(),
-            outside: all.iter().filter(|found| outside(found)).count(),
-            joints_m: (0..system.joints().len())
-                .map(|joint| [0, 1, 2].map(|axis| place(joint, axis)))
-                .collect(),
-            axial_n: (0..system.members().len())
-                .map(|member| Drawn::of(all.iter().map(|e| e.axial_n[member])))
-                .collect(),
-        }
-    }
-}
-
-/// Whether a solver's answer is outside of what is proved by more than its rounding.
-fn is_outside(system: &System, ranges: &ToleranceRanges, found: &SystemEquilibrium) -> bool {
-    let most_n = found.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
-    let beyond = |(range, x): (&Range, &f64), size: f64| {
-        let [least, most] = range.guaranteed;
-        let beyond = (least - x).max(x - most);
-        beyond.is_nan() || beyond > ROUNDING * size
-    };
-    let places = ranges.joints_m.iter().flatten();
-    let mut places = places.zip(found.joints_m.iter().flatten());
-    places.any(|pair| beyond(pair, system.total_length_m()))
-        || ranges.axial_n.iter().zip(&found.axial_n).any(|pair| beyond(pair, most_n))
-}
-
-/// A number from -1 to 1 for each number of each draw: SplitMix64.
-///
-/// G. L. Steele, D. Lea, C. H. Flood, OOPSLA (2014) 453-472, doi:10.1145/2660193.2660195.
-fn uniform(seed: u64, draw: usize, number: usize) -> f64 {
-    let mixed = |x: u64| {
-        let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    };
-    let bits = mixed(mixed(mixed(seed) ^ draw as u64) ^ number as u64);
-    (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
-impl Drawn {
-    fn of(values: impl ExactSizeIterator<Item = f64> + Clone) -> Self {
-        let count = values.len() as f64;
-        let mean = model::sum(values.clone()) / count;
-        let squares = model::sum(values.map(|x| (x - mean).powi(2)));
-        if count > 1.0 {
-            Self { mean, deviation: (squares / (count - 1.0)).sqrt() }
-        } else {
-            Self::default()
-        }
     }
 }
 

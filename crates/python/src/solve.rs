@@ -243,15 +243,16 @@ fn run_told<'py, T: Serialize + Display, V: Send + 'static>(
 pub fn tolerances<'py>(
     py: Python<'py>,
     problem: &Problem,
-    draws: usize,
-    seed: u64,
+    draws: (usize, u64, String),
     solver: &str,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(String, String)> {
     let solve = Solve::new().solvers(words::solvers(solver)?).census(words::census("never")?);
     let of = Arc::clone(&problem.of);
-    let prove = move || Ok((solve.tolerances_drawn(&of, draws, seed)?, ()));
+    let (draws, seed, distribution) = draws;
+    let distribution = words::distribution(&distribution)?;
+    let prove = move || Ok((solve.tolerances_drawn(&of, draws, seed, distribution)?, ()));
     let (text, said, ()) = run_told(py, threads, progress, "proving ranges", prove)?;
     Ok((text, said))
 }

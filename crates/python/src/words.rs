@@ -2,7 +2,7 @@
 
 use funicular::picture::Seen;
 use funicular::prelude::{Equations, Solvers, UseCensus};
-use funicular::{Plane, Spread};
+use funicular::{Distribution, Plane, Spread};
 use pyo3::PyErr;
 
 use crate::raise::bad_word;
@@ -64,5 +64,15 @@ pub fn plane(word: &str) -> Result<Plane, PyErr> {
         "yz" => Ok(Plane::Yz),
         "xy" => Ok(Plane::Xy),
         _ => Err(bad_word("plane", word, &["xz", "yz", "xy"])),
+    }
+}
+
+/// `uniform`, `normal` or `ends`.
+pub fn distribution(word: &str) -> Result<Distribution, PyErr> {
+    match word {
+        "uniform" => Ok(Distribution::Uniform),
+        "normal" => Ok(Distribution::Normal),
+        "ends" => Ok(Distribution::Ends),
+        _ => Err(bad_word("distribution", word, &["uniform", "normal", "ends"])),
     }
 }

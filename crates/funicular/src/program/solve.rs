@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
 use funicular::picture;
-use funicular::{Error, Lists, Problem, SolveAnswer, text};
+use funicular::{Distribution, Error, Lists, Problem, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::case_name::CaseName;
@@ -120,6 +120,9 @@ pub struct Solve {
     /// From which number the random values follow
     #[arg(long, value_name = "SEED", requires = "monte_carlo", default_value_t = 1)]
     pub seed: u64,
+    /// How the random values are distributed
+    #[arg(long, value_enum, value_name = "WHICH", requires = "monte_carlo", default_value_t)]
+    pub distribution: Distribution,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,

@@ -7,7 +7,8 @@ use census::network::{Range, ToleranceRanges};
 use super::printable::Printable;
 use super::shape::{PRINTED, Rounded, percent};
 use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
-use crate::tolerances::{Draws, TolerancesAnswer};
+use crate::draws::{Distribution, Draws};
+use crate::tolerances::TolerancesAnswer;
 
 /// Digits of what is an estimate.
 const DIGITS: usize = 3;
@@ -170,10 +171,16 @@ fn excess(range: &Range) -> String {
 }
 
 fn said(draws: &Draws) -> String {
-    let Draws { count, seed, solved, outside, .. } = draws;
+    let Draws { count, seed, distribution, solved, outside, .. } = draws;
     let outside = match outside {
         0 => "none of them outside of a range that is proved".to_owned(),
         outside => format!("{outside} of them OUTSIDE of what is proved"),
     };
-    format!("{} (seed {seed}): {solved} with an answer, {outside}.", counted(*count, "draw"))
+    let within = match distribution {
+        Distribution::Uniform => "uniform within the tolerances",
+        Distribution::Normal => "normal, a third of the tolerance as deviation, cut off at it",
+        Distribution::Ends => "at the ends of the tolerances",
+    };
+    let draws = counted(*count, "draw");
+    format!("{draws} (seed {seed}), {within}: {solved} with an answer, {outside}.")
 }

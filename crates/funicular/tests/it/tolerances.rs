@@ -1,5 +1,6 @@
 //! Ranges over tolerances, against what both solvers find of systems within them.
 
+use funicular::Distribution;
 use funicular::prelude::*;
 
 use crate::run::run;
@@ -30,7 +31,7 @@ fn problem(text: &str) -> Problem {
 #[test]
 fn solvers_stay_within_the_ranges() {
     let problem = problem(&mast(ALL));
-    let found = Solve::new().tolerances_drawn(&problem, 60, 11).unwrap();
+    let found = Solve::new().tolerances_drawn(&problem, 60, 11, Distribution::Ends).unwrap();
     let ranges = found.ranges().unwrap();
     assert_eq!((found.is_stable(), ranges.numbers.len()), (Some(true), 5 + 3 + 5 + 12 + 2 + 3));
     let draws = found.draws().unwrap();
@@ -160,12 +161,38 @@ fn what_has_no_ranges_says_why() {
 fn seeds_make_the_draws() {
     let problem = problem(&mast(ALL));
     let draws = |seed: u64| {
-        let found = Solve::new().tolerances_drawn(&problem, 3, seed).unwrap();
+        let found = Solve::new().tolerances_drawn(&problem, 3, seed, Distribution::Normal).unwrap();
         found.draws().unwrap().axial_n.clone()
     };
     let first = draws(1);
     assert_eq!(first, draws(1));
     assert_ne!(first, draws(2));
+}
+
+/// A plumb bob bears its weight, 20 N and 5: draws deviate by what their distribution says. What lies beyond three
+/// deviations takes 6 phi(3) / (2 Phi(3) - 1) = 0.026 662 of the variance of a normal one.
+#[test]
+fn draws_are_distributed_as_they_are_asked_for() {
+    let text = "gravity_m_s2 = 10\n\
+        joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 3, mass_kg = 0 }]";
+    let problem = problem(text);
+    for (distribution, part) in [
+        (Distribution::Uniform, 3.0_f64.sqrt().recip()),
+        (Distribution::Normal, (1.0 - 0.026_662_f64).sqrt() / 3.0),
+        (Distribution::Ends, 1.0),
+    ] {
+        let found = Solve::new().tolerances_drawn(&problem, 4000, 1, distribution).unwrap();
+        let draws = found.draws().unwrap();
+        assert_eq!((draws.solved, draws.outside, draws.distribution), (4000, 0, distribution));
+        // Of 4000 draws the mean is known to 1/63 of the deviation, and that to 1/89 of itself: four times that.
+        let drawn = draws.axial_n[0];
+        assert!((drawn.mean - 20.0).abs() < 5.0 * part * 4.0 / 63.0, "{distribution:?}: {drawn:?}");
+        assert!(
+            (drawn.deviation / (5.0 * part) - 1.0).abs() < 4.0 / 89.0,
+            "{distribution:?}: {drawn:?}"
+        );
+    }
 }
 
 /// Three prestressed cables of 2 m that meet in a knot, 0.1 mm and 1 % more or less: at all 64 corners of their six

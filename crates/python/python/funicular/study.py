@@ -261,10 +261,18 @@ class Tolerances(Result):
 
 
 def tolerances(
-    system: Described, *, draws: int = 0, seed: int = 1, solver: str = "both", threads: int = 0, progress: Progress = None
+    system: Described,
+    *,
+    draws: int = 0,
+    seed: int = 1,
+    distribution: str = "uniform",
+    solver: str = "both",
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Tolerances:
     """Bound all places, forces, reactions and the largest sag over the tolerances in the system's file, in interval arithmetic;
-    with ``draws`` solve so many random values within them too.
+    with ``draws`` solve so many random values within them too, ``uniform``, ``normal`` (a third of the tolerance as deviation, cut off
+    at it) or at their ``ends``.
 
     >>> import funicular as fn
     >>> text = '''gravity_m_s2 = 10
@@ -276,8 +284,8 @@ def tolerances(
     """
     system = described(system)
     with shown(progress) as callback:
-        numbers = whole("draws", draws), whole("seed", seed)
-        found = _native.tolerances(system._problem, *numbers, str(solver), whole("threads", threads), callback)
+        drawn = whole("draws", draws), whole("seed", seed), str(distribution)
+        found = _native.tolerances(system._problem, drawn, str(solver), whole("threads", threads), callback)
     return Tolerances(system, *found)
 
 

@@ -21,7 +21,7 @@ pub fn run(
     progress.say("proving ranges");
     let solve = arguments.question(UseCensus::Never);
     let draws = arguments.monte_carlo.map_or(0, |count| count as usize);
-    let found = solve.tolerances_drawn(problem, draws, arguments.seed);
+    let found = solve.tolerances_drawn(problem, draws, arguments.seed, arguments.distribution);
     let found = found.or_else(|error| super::unsolved(arguments, error))?;
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| found.write_csv(file))?;

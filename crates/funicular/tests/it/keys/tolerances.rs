@@ -77,6 +77,7 @@ fn tolerances_of_a_plumb_bob() {
     output.is("tolerances.draws.solved", 400);
     output.is("tolerances.draws.outside", 0);
     output.is("tolerances.draws.seed", 7);
+    output.is("tolerances.draws.distribution", "uniform");
     // Of 400 draws the mean is known to 1/20 of the deviation, and that to 1/40 of itself: four times that.
     let third = 3.0_f64.sqrt().recip();
     output.near("tolerances.bars[].drawn_n.mean", 0.03, 20.0);
