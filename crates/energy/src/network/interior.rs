@@ -182,7 +182,10 @@ impl Interior {
         let mean = shape.force.iter().sum::<f64>() / shape.force.len() as f64;
         let force = self.frame.rods.iter().enumerate().map(|(e, rod)| {
             let slack = self.slack[e] / rod.length > shape.force[e] / mean;
-            if slack && rod.kind == Kind::Cable { 0.0 } else { shape.force[e] }
+            // A strut between anchors is no cable to any joint.
+            let held = [rod.from, rod.to].iter().all(|joint| self.frame.spots[*joint].freedom == 0);
+            let none = (slack && rod.kind == Kind::Cable) || (held && rod.kind == Kind::Strut);
+            if none { 0.0 } else { shape.force[e] }
         });
         Shape { x: shape.x.clone(), force: force.collect() }
     }

@@ -112,11 +112,10 @@ impl Newton {
     /// The same with springs of one strain.
     fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
         let frame = Arc::clone(&self.frame);
-        let (mut shape, mut active) = (shape.clone(), frame.active(shape));
+        let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
         let stiffness = frame.force_scale(&shape.force) / strain;
-        release(&mut shape, &active);
-        let mut slope = frame.slope(&shape);
         let (mut steps, mut changes) = (POLISH, CHANGES);
+        let mut active = frame.active(&shape);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();

@@ -20,7 +20,8 @@ const ROUNDING: f64 = 1e-9;
 /// square of its weight over the tension.
 const ABOVE: f64 = 1e-11;
 
-/// What was found; where a rope jams, with the joints that run together as one, as long as more do.
+/// What was found; where a rope jams, with the joints that run together as one. Where that is no equilibrium those of
+/// another of its spans may be: nearly equal weights over a pulley are nearly one at either end.
 pub(super) fn joined(
     system: &System,
     framework: Framework,
@@ -28,19 +29,32 @@ pub(super) fn joined(
 ) -> Result<Solution, Error> {
     let whole = (!framework.ropes.is_empty()).then(|| framework.clone());
     let found = solve(system, framework, None);
-    let (Some(whole), Err(Error::Jammed { from, to, .. })) = (whole, &found) else { return found };
-    let mut names = [from.clone(), to.clone()];
+    let (Some(whole), Err(Error::Jammed { member, from, to })) = (whole, &found) else {
+        return found;
+    };
+    let [Some(a), Some(b)] = [from, to].map(|name| system.joint(name)) else { return found };
+    let others = system.members()[member - 1].spans().filter(|span| *span != [a, b]);
+    let mut corners = std::iter::once([a, b]).chain(others);
+    corners.find_map(|pair| corner(system, &whole, pair, &mut solve)).map_or(found, Ok)
+}
+
+/// The equilibrium with the joints of a pair as one, and of others as long as more run together.
+fn corner(
+    system: &System,
+    whole: &Framework,
+    mut pair: [usize; 2],
+    solve: &mut impl FnMut(&System, Framework, Option<&Joined>) -> Result<Solution, Error>,
+) -> Option<Solution> {
     let mut pairs = Vec::new();
     loop {
-        let [Some(a), Some(b)] = names.each_ref().map(|name| system.joint(name)) else {
-            return found;
-        };
-        pairs.push([a, b]);
-        let Some(joined) = system.joined(&pairs) else { return found };
+        pairs.push(pair);
+        let joined = system.joined(&pairs)?;
         match solve(&joined.system, whole.joined(&joined), Some(&joined)) {
-            Ok(solution) => return apart(system, &whole, &joined, solution).map_or(found, Ok),
-            Err(Error::Jammed { from, to, .. }) => names = [from, to],
-            Err(_) => return found,
+            Ok(solution) => return apart(system, whole, &joined, solution),
+            Err(Error::Jammed { from, to, .. }) => {
+                pair = [system.joint(&from)?, system.joint(&to)?];
+            }
+            Err(_) => return None,
         }
     }
 }
