@@ -397,9 +397,41 @@ fn three_cables() {
     output.each(&at("rigidity.gap[]"), json!([side - 1.0, 0.0]));
     output.each(&at("ladder[].reached"), json!([true, true, false, false, true]));
     output.each(&at("ladder[].reason.kind"), json!(["no_box", "no_census"]));
-    output.each(&at("ladder[].reason.because"), json!(["self_stresses", "not_a_bar"]));
+    output.each(&at("ladder[].reason.because"), json!(["self_stresses", "cables"]));
     output.each(&at("ladder[].reason.dimension"), 1);
-    output.each(&at("ladder[].reason.member"), 1);
+    output.done();
+}
+
+/// A bar and an elastic one to a weight: no chain has a list with an elastic member, here the second.
+#[test]
+fn an_elastic_chain() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { mass_kg = 1 } }\n\
+                bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 },\n\
+                { from = 'P', to = 'B', length_m = 1, mass_kg = 0, stiffness_n = 100 }]";
+    std::fs::write(folder.path().join("chain.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "chain.toml", "--json"]);
+    let mut output = Output::json("solve", "an_elastic_chain", &text);
+    output.each("equilibria[].evidence.ladder[].reason.member", 2);
+    output.done();
+}
+
+/// Two rings on one rope, and a bar of 1 m between them: six places, and two lengths that stay.
+#[test]
+fn rings_that_a_bar_keeps_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "joints = { A = { at_m = [-3, -0.5, 0] }, B = { at_m = [3, 0.5, 0] }, P = { mass_kg = 1 }, Q = { mass_kg = 1 } }\n\
+                bars = [{ from = 'A', to = 'B', via = ['P', 'Q'], length_m = 8, mass_kg = 0, kind = 'cable' },\n\
+                { from = 'P', to = 'Q', length_m = 1, mass_kg = 0 }]";
+    std::fs::write(folder.path().join("rings.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "rings.toml", "--json"]);
+    let mut output = Output::json("solve", "rings_that_a_bar_keeps_apart", &text);
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].reason.{key}");
+    output.each(&at("closures"), 0);
+    output.each(&at("motions"), 4);
+    output.each(&at("limit"), 3);
+    // The bar may push: the energy is not convex.
+    output.each(&at("members"), 1);
     output.done();
 }
 
