@@ -106,6 +106,40 @@ def test_ranges_over_tolerances():
     assert not exact.is_proved and "tolerance" in exact.reason and exact.axial_n.shape == (0, 2) and exact.draws is None
 
 
+def test_a_hundred_thousand_draws_stay_within_their_ranges():
+    # A lamp on two elastic cables, all of their numbers uncertain; half of the draws at the ends of the tolerances.
+    text = """
+        gravity_m_s2 = 10
+        tolerances = { length_tolerance_m = 2e-3, stiffness_tolerance = 0.05, at_tolerance_m = 5e-3 }
+        joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [6, 0, 0] }, lamp = { mass_kg = 12, mass_tolerance_kg = 0.5 } }
+        bars = [{ from = "A", to = "lamp", length_m = 4, mass_kg = 0, stiffness_n = 2e4 },
+                { from = "lamp", to = "B", length_m = 3.5, mass_kg = 0, stiffness_n = 3e4 }]
+    """
+    system = fn.System.from_toml(text)
+    ranges = system.tolerances()
+    assert ranges.is_proved
+    rows, rng = 100_000, np.random.default_rng(1)
+
+    def draws(*shape):
+        within = rng.uniform(-1, 1, (rows, *shape))
+        within[::2] = np.sign(within[::2])
+        return within
+
+    found = system.solve_many(
+        lengths=[4, 3.5] + 2e-3 * draws(2),
+        stiffnesses=[2e4, 3e4] * (1 + 0.05 * draws(2)),
+        joint_masses=[0, 0, 12] + 0.5 * draws(3) * [0, 0, 1],
+        anchors={0: 5e-3 * draws(3), 1: [6, 0, 0] + 5e-3 * draws(3)},
+    )
+    assert found.ok.all()
+    for least_and_most, values, room in [(ranges.axial_n, found.axial_n, 1e-7), (ranges.joints_m, found.joints_m, 1e-9)]:
+        least, most = least_and_most[..., 0], least_and_most[..., 1]
+        assert (values >= least - room).all() and (values <= most + room).all()
+        # The corners of the numbers are among the draws, or nearly: the ranges are no wider than they need be.
+        reached = (values.max(axis=0) - values.min(axis=0)) / (most - least)
+        assert (reached > 0.95).all(), reached
+
+
 def test_the_loss_of_each_member():
     # The triangle 3, 4, 5: without one thread the lamp hangs 5 m below the other anchor, from 4 m below the middle.
     text = """

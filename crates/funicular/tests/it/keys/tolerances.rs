@@ -89,6 +89,13 @@ fn tolerances_of_a_plumb_bob() {
     );
     output.near("tolerances.joints[].drawn_m[].deviation", 0.006, json!(vec![0.1 * third; 6]));
     output.done();
+    for (which, deviation) in [("normal", 0.986_58 / 3.0), ("ends", 1.0)] {
+        let text = good(folder.path(), &[&arguments[..], &["--distribution", which]].concat());
+        let found: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(found["tolerances"]["draws"]["distribution"], which);
+        let drawn = found["tolerances"]["bars"][0]["drawn_n"]["deviation"].as_f64().unwrap();
+        assert!((drawn - 5.0 * deviation).abs() < 0.5 * deviation, "{which}: {drawn}");
+    }
     columns_of_a_plumb_bob(folder.path());
 }
 
