@@ -96,6 +96,7 @@ mod family;
 mod floor;
 mod frame;
 mod inverse;
+mod jam;
 mod krawczyk;
 mod limit;
 mod newton;

@@ -10,6 +10,7 @@ use super::diagnosis::diagnosed;
 use super::equations::Equations;
 use super::floor::prove_above;
 use super::frame::Frame;
+use super::jam::{jammed, prove_joined};
 use super::krawczyk::{Zero, prove_zero};
 use super::newton::refine;
 use super::proven::{SystemBox, reach};
@@ -57,7 +58,9 @@ pub fn prove(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Sys
     if !(finite && fits) {
         return Err(NoBox::NotFinite);
     }
+    let jams = jammed(system, joints_m, axial_n);
     match system.floor_m() {
+        _ if !jams.is_empty() => prove_joined(system, &jams, joints_m, axial_n),
         None => prove_without_floor(system, joints_m, axial_n),
         Some(floor_m) => prove_above(system, floor_m, joints_m, axial_n),
     }

@@ -103,6 +103,43 @@ fn what_is_no_equilibrium_of_a_rope_is_not_proved() {
     assert_eq!(found, Err(NoBox::Rope { member: 1 }));
 }
 
+/// 3 kg and a lighter weight over pulleys at D and E: the lighter one is pulled up to E, where its span bears its
+/// weight, less than the 30 N of the rope.
+#[test]
+fn joints_that_have_run_together_are_proved() {
+    let over_pulleys = |mass_kg: f64| {
+        let joints = vec![
+            Joint::anchor("D", [0.0; 3]),
+            Joint::anchor("E", [1.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(3.0),
+            Joint::free("Q").with_mass(mass_kg),
+        ];
+        let rope = Member::cable(2, 3, Bar::homogeneous(6.0, 0.0).unwrap()).over(vec![0, 1]);
+        System::new("two weights", 10.0, joints, vec![rope]).unwrap()
+    };
+    let at_m = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -5.0], [1.0, 0.0, 0.0]];
+    for (mass_kg, holds) in [(2.0, true), (2.999_999, true), (3.0, false), (3.000_001, false)] {
+        let found = prove(&over_pulleys(mass_kg), &at_m, &[30.0]);
+        if holds {
+            let found = found.unwrap();
+            assert!(found.beyond_m(&at_m) < 1e-15 && found.axial_n[0].contains(30.0), "{found:?}");
+            assert!(found.width_m < ROUNDING && found.joints_m.len() == 4, "{found:?}");
+        } else {
+            assert_eq!(found, Err(NoBox::Rope { member: 1 }), "{mass_kg}");
+        }
+    }
+    let census = SystemCensus::of_cables(&over_pulleys(2.0), &at_m, &[30.0]).unwrap();
+    assert!(census.complete && census.equilibria[0].energy_j.contains(-150.0));
+    // Pulled aside by 12 N in Y too: |(12, 20)| < 30 N, but not with 24 N.
+    for (aside_n, holds) in [(12.0, true), (24.0, false)] {
+        let system = over_pulleys(2.0);
+        let mut joints = system.joints().to_vec();
+        joints[3].force_n[1] = aside_n;
+        let aside = System::new("aside", 10.0, joints, system.members().to_vec()).unwrap();
+        assert_eq!(prove(&aside, &at_m, &[30.0]).is_ok(), holds, "{aside_n}");
+    }
+}
+
 /// A pulley on a vertical with an anchor: a weight that hangs aside by a second rope turns about it.
 #[test]
 fn what_hangs_on_ropes_below_one_anchor_turns() {

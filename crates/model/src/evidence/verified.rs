@@ -66,7 +66,8 @@ pub enum NoBox {
         /// Number of independent ones.
         dimension: usize,
     },
-    /// Occurs when a rope that is taut has a span without a length, as where a ring runs to its end.
+    /// Occurs when a rope that is taut has a span without a length, as where a ring runs to its end, which is not
+    /// proved to bear less than the tension.
     Rope {
         /// The member, from 1.
         member: usize,

@@ -243,7 +243,7 @@ impl Display for NoBox {
             Self::Rope { member } => {
                 write!(
                     f,
-                    "a span of the rope that is member {member} has no length, and no direction"
+                    "a span of the rope that is member {member} has no length, and is not proved to bear less than its tension"
                 )
             }
             Self::Degenerate { member } => {
