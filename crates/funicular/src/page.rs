@@ -149,7 +149,13 @@ fn equilibria(
     modes: Option<&ModesAnswer>,
 ) -> Result<(Vec<Shape>, usize), Error> {
     const GROUP: &str = "Equilibria";
-    const ANSWER: &str = "the answer of both solvers";
+    let own = match answer.agreement() {
+        Some(_) => "the answer of both solvers".to_owned(),
+        None => format!(
+            "the answer of {} alone",
+            answer.equilibria().first().map_or("", |one| one.solver.as_str())
+        ),
+    };
     let found = equilibria::all(problem, census::Settings::UNASKED_BARS)?;
     let with_modes = |shape: Shape, label: &str| {
         let known = modes.and_then(|all| all.equilibria.iter().find(|one| one.label == label));
@@ -167,14 +173,14 @@ fn equilibria(
         with_modes(Shape::of(system, GROUP, &label, &located.found), &located.label)
     });
     if found.complete && found.list.len() > 1 {
-        let own = answer.equilibria().first();
-        let own = own.map(|first| Shape::of(system, GROUP, ANSWER, first));
+        let first = answer.equilibria().first();
+        let own = first.map(|first| Shape::of(system, GROUP, &own, first));
         return Ok((own.into_iter().chain(listed).collect(), found.list.len()));
     }
     let first = answer
         .equilibria()
         .first()
-        .map(|first| with_modes(Shape::of(system, GROUP, ANSWER, first), "1"));
+        .map(|first| with_modes(Shape::of(system, GROUP, &own, first), "1"));
     Ok((first.into_iter().collect(), 1))
 }
 

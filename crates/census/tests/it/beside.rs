@@ -551,3 +551,24 @@ fn what_has_no_list_is_told_why() {
     let members = vec![Member::bar(0, 2, light(4.0)), rope(&[1, 2, 1], 10.0)];
     assert_eq!(refusal(&system(joints, members)), NoCensus::Limp { member: 2 });
 }
+
+/// A pendulum beside a strut that cannot reach it, bar and strut being too short for their anchors, and a rope that is
+/// too long: it hangs and stands, and a list without any position of bar and strut together passes its check.
+#[test]
+fn what_does_not_reach_has_no_position() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [3.0, 0.2, 0.1]),
+        Joint::anchor("T", [2.0, 0.5, 1.0]),
+        Joint::free("P").with_mass(2.0),
+    ];
+    let strut = Member { kind: Kind::Strut, ..Member::bar(1, 3, light(1.5)) };
+    let members = vec![Member::bar(0, 3, light(1.0)), strut, rope(&[1, 2, 3], 12.0)];
+    let census = whole(&system(joints, members));
+    let heights: Vec<f64> = census.equilibria.iter().map(|e| e.joints_m[3][2].mid()).collect();
+    assert!(heights.len() == 2 && (heights[0] + 1.0).abs() < 1e-12, "{heights:?}");
+    assert!(census.chains().count() > 0);
+    for chain in census.chains() {
+        assert_eq!(chain.check, Ok(()), "{:?}", chain.members);
+    }
+}

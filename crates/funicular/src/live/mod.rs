@@ -19,8 +19,10 @@ use crate::shown::{Shape, Shown, Start};
 use crate::solve::Solve;
 use crate::text;
 
-/// Members of a system that is shown while it changes: of more an answer takes longer than a hand waits.
+/// Members of a system that is shown while it changes, each span of a rope counted: of more an answer takes longer than
+/// a hand waits. A rope has so many spans, which all of its joints share.
 const MOST_MEMBERS: usize = 2000;
+const MOST_SPANS: usize = 100;
 
 /// A question of the page: a system file, what is done to it, and how much is wanted.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
@@ -141,10 +143,12 @@ impl Ask {
         let said = |error: Error| error.to_string();
         let problem = Problem::parse(text, NAME).map_err(said)?;
         let system = system_of(&problem);
-        let members = system.members().len();
-        if members > MOST_MEMBERS {
+        let spans = system.members().iter().map(|member| member.spans().count());
+        let (members, most) = (spans.clone().sum::<usize>(), spans.max().unwrap_or(0));
+        if members > MOST_MEMBERS || most > MOST_SPANS {
             return Err(format!(
-                "{members} members: up to {MOST_MEMBERS} are shown while they change; `funicular page` shows more"
+                "{members} members, {most} spans in one: up to {MOST_MEMBERS} and {MOST_SPANS} are shown while they change; \
+                 `funicular page` shows more"
             ));
         }
         let (shown, words) = if self.quick {

@@ -69,7 +69,9 @@ fn main() -> std::process::ExitCode {
         Command::Derivatives(arguments) => derivatives::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Page(arguments) => page::run(&arguments),
-        Command::Serve(arguments) => serve::run(&arguments, cli.max_work.is_some()),
+        Command::Serve(arguments) => {
+            serve::run(&arguments, [cli.max_work.is_some(), cli.max_memory.is_some()])
+        }
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use clap::Args;
 use funicular::live::Ask;
-use model::system_file::most_file_bytes;
+use model::system_file::{limit_memory, most_file_bytes};
 
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
@@ -24,10 +24,14 @@ other. A joint that is held is dragged to another place, a free one is held by h
 members, ropes and masses are added by forms, anything else in the text. It is answered on this machine
 alone, at 127.0.0.1, to the page that this program gives out, and opens no file but the one given, which it does not
 write: the page saves the text, or itself as a page that needs nothing else. A request has at most 1 MB,
-10 s to arrive and, if no --max-work is given, some seconds of work; a system up to 2000 members. Ctrl-C ends it.";
+10 s to arrive and, if --max-work and --max-memory say nothing else, some seconds of work and 100 MB for its
+system; a system has up to 2000 members, spans of ropes counted each. Ctrl-C ends it.";
 
 /// Work of a solver for one request, if `--max-work` says nothing else: some seconds.
 const WORK: std::num::NonZeroU64 = std::num::NonZeroU64::new(20_000_000).unwrap();
+
+/// Memory for the system of one request, if `--max-memory` says nothing else, bytes.
+const MEMORY: u64 = 100_000_000;
 
 /// Requests at a time.
 const MOST: usize = 8;
@@ -53,10 +57,13 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments, has_budget: bool) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments, [has_work, has_memory]: [bool; 2]) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    if !has_budget {
+    if !has_work {
         funicular::limit_work(WORK);
+    }
+    if !has_memory {
+        limit_memory(MEMORY);
     }
     let text = match &arguments.file {
         Some(path) => text(path)?,

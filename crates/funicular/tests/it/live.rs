@@ -119,6 +119,12 @@ fn what_is_wrong_is_said() {
     );
     let many = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\nbars = [{ length_m = 1, mass_kg = 1, count = 2001 }]";
     assert!(error(json!({ "text": many })).starts_with("2001 members"));
+    let rope = format!(
+        "joints = {{ A = {{ at_m = [0, 0, 0] }}, P = {{ mass_kg = 1 }} }}\nbars = [{{ from = \"A\", to = \"P\", \
+         length_m = 999, kind = \"cable\", via = [{}] }}]",
+        "\"P\", \"A\", ".repeat(60)
+    );
+    assert!(error(json!({ "text": rope })).contains("121 spans"));
     let file = "bars_file = \"/etc/passwd\"\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }";
     assert!(error(json!({ "text": file })).contains("bars_file"));
     assert!(
