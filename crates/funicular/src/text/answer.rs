@@ -113,7 +113,7 @@ fn lowest(proved: bool) -> &'static str {
     if proved {
         "The lowest equilibrium of all (proved).\n"
     } else {
-        "The lowest equilibrium of all (not proved).\n"
+        "The lowest equilibrium found; that none is lower is not proved.\n"
     }
 }
 

@@ -15,7 +15,7 @@ use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, Syste
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
-use super::spans::{length_m, unit as unit_vector};
+use super::spans::{has_corner, length_m, unit as unit_vector};
 use super::statics::rounding_m;
 use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
 
@@ -58,7 +58,8 @@ pub(super) struct Family {
 impl Family {
     /// Count them. Of a system that is too large the self-stresses are those that the answer names,
     /// as far as they are in balance. Without value where the answer is incomplete, or the
-    /// system is large and the answer names none.
+    /// system is large and the answer names none, and where a rope has a span without length, which pulls in
+    /// any direction.
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
         let members = system.members();
         let named = &answer.evidence.self_stresses;
@@ -69,7 +70,8 @@ impl Family {
             Support::Fixed { .. } => 0,
         };
         let is_large = || system.joints().iter().map(motions_of).sum::<usize>() > 2 * COUNTED;
-        if answer.joints_m.len() != system.joints().len() || named.is_none() && is_large() {
+        let incomplete = answer.joints_m.len() != system.joints().len();
+        if incomplete || has_corner(system, answer) || named.is_none() && is_large() {
             return None;
         }
         let near_m = rounding_m(system, answer);

@@ -19,7 +19,7 @@ use model::{Proved, Vector};
 
 use super::definite::{Symmetric, gamma};
 use super::family::motions;
-use super::spans;
+use super::spans::{self, has_corner};
 use numerics::vector::{dot, minus, norm};
 
 /// A member that is this near its length, as a part of it, has it.
@@ -59,7 +59,8 @@ pub(super) fn proved(system: &System, answer: &SystemEquilibrium) -> Option<Prov
     }
     let acting: Vec<Acting> = (0..members).filter_map(|k| acting(system, answer, k)).collect();
     // A span without length is a corner of the energy.
-    if acting.iter().flat_map(|member| &member.spans).any(|(_, unit, _)| norm(*unit) <= 0.0) {
+    let corner = |(_, unit, _): &([usize; 2], Vector, f64)| norm(*unit) <= 0.0;
+    if has_corner(system, answer) || acting.iter().flat_map(|member| &member.spans).any(corner) {
         return None;
     }
     let free: Vec<Vec<Vector>> =

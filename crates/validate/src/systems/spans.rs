@@ -1,7 +1,7 @@
 //! The spans of members: one of a member that is straight, several of a rope over rings and pulleys.
 
 use model::Vector;
-use model::system::{Member, SystemEquilibrium};
+use model::system::{Member, System, SystemEquilibrium};
 
 use numerics::vector::{minus, norm, plus, times};
 
@@ -55,5 +55,22 @@ pub(super) fn span_forces<'a>(
         let start = if n == 0 { answer.start_forces_n[k] } else { inner(-1.0) };
         let end = if n == last { answer.end_forces_n[k] } else { inner(1.0) };
         (span, [start, end])
+    })
+}
+
+/// A span of a rope that is shorter than this part of it has no direction in double precision.
+const NO_SPAN: f64 = model::system::LENGTH_ROUNDING;
+
+/// Whether a rope that bears something has a span without length, named as a jam or not.
+pub(crate) fn has_corner(system: &System, answer: &SystemEquilibrium) -> bool {
+    let bears = |k: usize| answer.axial_n.get(k).is_some_and(|axial_n| axial_n.abs() > 0.0);
+    let mut ropes = system.members().iter().enumerate().filter(|(_, member)| member.rope.is_some());
+    ropes.any(|(k, member)| {
+        let near_m = NO_SPAN * member.body.length_m();
+        let short = |[a, b]: [usize; 2]| {
+            let ends = [a, b].map(|joint| answer.joints_m.get(joint));
+            matches!(ends, [Some(a), Some(b)] if norm(minus(*b, *a)) <= near_m)
+        };
+        bears(k) && member.spans().any(short)
     })
 }
