@@ -1,13 +1,13 @@
 //! The forces that leave the joints of given positions least out of balance.
 
-use model::Vector;
 use model::system::{Kind, Support, System};
+use model::{Jam, Vector};
 use serde::Serialize;
 
 use super::bounds::{Bounds, IMPLAUSIBLE};
 use super::least_squares::{Column, Found, Problem};
 use crate::systems::spans;
-use numerics::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{cross, dot, minus, norm, plus, times};
 
 /// Forces found for positions that came without.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -15,6 +15,9 @@ pub struct BestForces {
     /// Axial force of each member, N.
     #[serde(skip)]
     pub axial_n: Vec<f64>,
+    /// What spans of taut ropes bear whose joints are in one place.
+    #[serde(skip)]
+    pub jams: Vec<Jam>,
     /// What they leave over at each joint along the motions that its support leaves free, N.
     #[serde(skip)]
     pub left_n: Vec<Vector>,
@@ -76,6 +79,35 @@ pub(super) fn free_part(support: &Support, vector: Vector) -> Vector {
     }
 }
 
+/// The sine of an angle below which two supports are parallel.
+pub(super) const PARALLEL: f64 = 1e-6;
+
+/// A support that leaves free what both leave free. Its place is that of one of them.
+pub(super) fn meeting(first: Support, second: Support) -> Support {
+    let (at_m, turned) = (first.at_m().unwrap_or_default(), |sine: f64| sine > PARALLEL);
+    match (first, second) {
+        (Support::Free, other) | (other, Support::Free) => other,
+        (Support::Plane { normal: a, .. }, Support::Plane { normal: b, .. })
+            if turned(norm(cross(a, b))) =>
+        {
+            let along = cross(a, b);
+            Support::Line { at_m, direction: times(1.0 / norm(along), along) }
+        }
+        (Support::Line { direction, .. }, Support::Plane { normal, .. })
+        | (Support::Plane { normal, .. }, Support::Line { direction, .. })
+            if turned(dot(direction, normal).abs()) =>
+        {
+            Support::Fixed { at_m }
+        }
+        (Support::Line { direction: a, .. }, Support::Line { direction: b, .. })
+            if turned(norm(cross(a, b))) =>
+        {
+            Support::Fixed { at_m }
+        }
+        (held @ (Support::Fixed { .. } | Support::Line { .. }), _) | (_, held) => held,
+    }
+}
+
 /// The force of an elastic member by its law, N.
 pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64) -> f64 {
     let force = stiffness_n * ((distance_m - length_m) / length_m);
@@ -86,13 +118,41 @@ pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64
     }
 }
 
+/// A span whose joints meet: member, number of the span in it, and the columns of its pull.
+type MetSpan = (usize, usize, [Column; 3]);
+
+/// The spans of ropes whose joints meet. Such a span has no direction, and its pull is sought by its
+/// parts, none of them larger than the largest tension of the rope.
+fn met_spans(
+    system: &System,
+    joints_m: &[Vector],
+    bounds: &Bounds,
+    ropes: &[Column],
+) -> Vec<MetSpan> {
+    let mut met = Vec::new();
+    for (k, (member, rope)) in system.members().iter().zip(ropes).enumerate() {
+        for (number, [a, b]) in member.spans().enumerate() {
+            if bounds.meet(member, [a, b], joints_m) {
+                let part = |c: usize| {
+                    let axis: Vector = std::array::from_fn(|k| f64::from(u8::from(k == c)));
+                    let pulls = vec![(a, axis), (b, times(-1.0, axis))];
+                    Column { pulls, lower: -rope.upper, upper: rope.upper }
+                };
+                met.push((k, number, [0, 1, 2].map(part)));
+            }
+        }
+    }
+    met
+}
+
 /// Find the axial forces that leave the joints at these places least out of balance: least squares
 /// under the members' laws. A cable that is shorter than its length is slack, a strut that is
 /// longer is loose; an elastic member has the force of its elongation; each as far as the bounds of
-/// the positions decide it.
+/// the positions decide it. A span of a taut rope whose joints have run together bears what balances
+/// both.
 #[must_use]
 pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> BestForces {
-    let columns: Vec<Column> = system
+    let mut columns: Vec<Column> = system
         .members()
         .iter()
         .map(|member| {
@@ -114,24 +174,36 @@ pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Bes
                 (None, Kind::Cable) => (0.0, f64::INFINITY),
                 (None, Kind::Strut) => (f64::NEG_INFINITY, 0.0),
             };
-            let gradient = spans::gradient(member, joints_m).into_iter();
+            let long = member.spans().filter(|span| !bounds.meet(member, *span, joints_m));
+            let gradient = spans::gradient(long, joints_m).into_iter();
             let pulls = gradient.map(|(joint, longer)| (joint, times(-1.0, longer))).collect();
             Column { pulls, lower, upper }
         })
         .collect();
+    let met = met_spans(system, joints_m, bounds, &columns);
+    columns.extend(met.iter().flat_map(|(.., pulls)| pulls.clone()));
     let loads = joint_loads(system);
     let joints = system.joints();
     let free = |joint: usize, vector: Vector| free_part(&joints[joint].support, vector);
     let problem = Problem { columns: &columns, loads: &loads, free: &free };
     let found = problem.solve();
-    let largest_n = found.x.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    let (axial_n, parts_n) = found.x.split_at(system.members().len());
+    let largest_n = axial_n.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     let scale_n = largest_n.max(model::sum(loads.iter().map(|load| norm(*load))));
     let up_to_n = IMPLAUSIBLE * scale_n;
     let least_n = problem.least(&found, up_to_n);
-    let Found { x, left, steps } = found;
+    let jam = |((member, span, _), part_n): (&MetSpan, &[f64])| Jam {
+        member: *member,
+        span: *span,
+        pull_n: std::array::from_fn(|c| part_n[c]),
+    };
+    let jams = met.iter().zip(parts_n.chunks_exact(3)).map(jam).collect();
+    let axial_n = axial_n.to_vec();
+    let Found { left, steps, .. } = found;
     let residual_n = model::sum(left.iter().map(|left| dot(*left, *left))).sqrt();
     BestForces {
-        axial_n: x,
+        axial_n,
+        jams,
         left_n: left,
         residual_n,
         least_n,

@@ -1,5 +1,6 @@
 //! What the tolerance of an answer explains.
 
+use model::Vector;
 use model::system::{Member, System};
 use serde::Serialize;
 
@@ -29,11 +30,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// Bounds of the positions; those of the forces are zero until the largest of them is known.
-    pub(super) fn of_positions(
-        system: &System,
-        joints_m: &[model::Vector],
-        tolerance: f64,
-    ) -> Self {
+    pub(super) fn of_positions(system: &System, joints_m: &[Vector], tolerance: f64) -> Self {
         let origin = system.reference_m();
         let longest = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
         let size_m = joints_m.iter().map(|x| norm(minus(*x, origin))).fold(longest, worse);
@@ -55,6 +52,11 @@ impl Bounds {
         } else {
             2.0 * self.position_m / (distance_m - self.position_m)
         }
+    }
+
+    /// Whether the joints of a span of a rope have run together, as far as their places tell.
+    pub(super) fn meet(&self, member: &Member, [a, b]: [usize; 2], joints_m: &[Vector]) -> bool {
+        member.rope.is_some() && norm(minus(joints_m[b], joints_m[a])) <= 2.0 * self.position_m
     }
 
     /// How far the length of a member may change along its spans, m.

@@ -1,23 +1,25 @@
 //! Answers of others above a floor.
 
-use model::Place;
 use model::system::{Joint, Support, System, SystemEquilibrium};
+use model::{Place, Vector};
 
+use super::best_forces::{PARALLEL, free_part, meeting};
 use super::bounds::Bounds;
 use super::violation::{Law, Measured, balances};
+use numerics::vector::{dot, norm};
 
-/// The system with every free joint that lies on the floor held in its level, and no floor: the
-/// laws of lengths and balances are those of this one, whichever way the floor pushes.
-pub(super) fn laid(system: &System, joints_m: &[[f64; 3]], bounds: &Bounds) -> System {
+/// Upwards.
+const UP: Vector = [0.0, 0.0, 1.0];
+
+/// The system with every joint that lies on the floor held in its level too, and no floor: the
+/// balances are those of this one, whichever way the floor pushes.
+pub(super) fn laid(system: &System, joints_m: &[Vector], bounds: &Bounds) -> System {
     let Some(floor_m) = system.floor_m() else { return system.clone() };
-    let joint = |(joint, at_m): (&Joint, &[f64; 3])| {
+    let joint = |(joint, at_m): (&Joint, &Vector)| {
         let lies = (at_m[2] - floor_m).abs() <= bounds.position_m;
-        let support = match joint.support {
-            Support::Free if lies => {
-                Support::Plane { at_m: [at_m[0], at_m[1], floor_m], normal: [0.0, 0.0, 1.0] }
-            }
-            other => other,
-        };
+        let level_m = [at_m[0], at_m[1], floor_m];
+        let level = Support::Plane { at_m: level_m, normal: UP };
+        let support = if lies { meeting(joint.support, level) } else { joint.support };
         Joint { support, ..joint.clone() }
     };
     let joints = system.joints().iter().zip(joints_m).map(joint).collect();
@@ -42,14 +44,13 @@ pub(super) fn above_floor(
         }
         let below_m = floor_m - answer.joints_m[k][2];
         found.note(Place::Joint(k), Law::BelowFloor, below_m, bounds.position_m);
-        if joint.support == Support::Free {
-            let push_n = answer.reactions_n[k][2];
-            found.note(
-                Place::Joint(k),
-                Law::FloorPulls { force_n: -push_n },
-                -push_n,
-                explained[k].1,
-            );
+        // Along the way up that its support leaves free nothing but the floor holds a joint.
+        let way = free_part(&joint.support, UP);
+        let steep = norm(way);
+        if steep > PARALLEL {
+            let force_n = -dot(answer.reactions_n[k], way) / (steep * steep);
+            let allowed = explained[k].1 / steep;
+            found.note(Place::Joint(k), Law::FloorPulls { force_n }, force_n, allowed);
         }
     }
 }

@@ -244,7 +244,7 @@ fn trial(system: &System, answer: &ForeignAnswer, tolerance: f64, watch: &dyn Fn
     let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
     let bounds = bounds.with_largest_force(largest);
     let measured = |bounds: &Bounds| {
-        let mut measured = measure(&laid, answer, &completed, &forces, bounds);
+        let mut measured = measure([system, &laid], answer, &completed, &forces, bounds);
         above_floor(system, &completed, bounds, &mut measured);
         measured
     };
@@ -283,9 +283,9 @@ fn confirmed_at(
     })
 }
 
-/// Every law.
+/// Every law but those of the floor: lengths and supports of the system, balances of what is laid on it.
 fn measure(
-    system: &System,
+    [system, laid]: [&System; 2],
     answer: &ForeignAnswer,
     completed: &SystemEquilibrium,
     forces: &ForcesJudged,
@@ -297,14 +297,14 @@ fn measure(
     match forces {
         ForcesJudged::Given => {
             tensions(system, answer, bounds, &mut measured);
-            balance_given(system, completed, reactions_n, bounds, &mut measured);
+            balance_given(laid, completed, reactions_n, bounds, &mut measured);
         }
         ForcesJudged::Found(best) => {
-            balance_found(system, completed, best, bounds, &mut measured);
+            balance_found(laid, completed, best, bounds, &mut measured);
         }
     }
     if let Some(reactions_n) = reactions_n {
-        whole(system, reactions_n, bounds, &mut measured);
+        whole(laid, reactions_n, bounds, &mut measured);
     }
     measured
 }

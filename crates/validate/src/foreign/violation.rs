@@ -1,10 +1,10 @@
 //! What is broken in an answer, member by member and joint by joint.
 
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Place, Vector};
+use model::{Jam, Place, Vector};
 use serde::Serialize;
 
-use super::best_forces::{BestForces, free_part, joint_loads, law_n};
+use super::best_forces::{BestForces, free_part, joint_loads, law_n, meeting};
 use super::bounds::Bounds;
 use super::given::ForeignAnswer;
 use crate::systems::spans;
@@ -214,7 +214,8 @@ pub(super) fn tensions(
 }
 
 /// What is left over at every joint along its free motions, and what the bounds explain there when
-/// no force is larger than the answer's, or than `at_most_n` if that is given.
+/// no force is larger than the answer's, or than `at_most_n` if that is given. A span whose joints have
+/// run together bears anything up to its tension, or where forces are found what was found.
 pub(super) fn balances(
     system: &System,
     answer: &SystemEquilibrium,
@@ -227,9 +228,13 @@ pub(super) fn balances(
     for (member, force) in system.members().iter().zip(&answer.axial_n) {
         for [a, b] in member.spans() {
             let distance_m = norm(minus(joints_m[b], joints_m[a]));
-            let pull = times(*force, spans::unit([a, b], joints_m));
-            let explained =
-                bounds.force_n + at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m);
+            let (pull, open_n) = if bounds.meet(member, [a, b], joints_m) {
+                ([0.0; 3], at_most_n.map_or(force.abs(), |_| 0.0))
+            } else {
+                let pull = times(*force, spans::unit([a, b], joints_m));
+                (pull, at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m))
+            };
+            let explained = bounds.force_n + open_n;
             left[a] = (plus(left[a].0, pull), left[a].1 + explained);
             left[b] = (minus(left[b].0, pull), left[b].1 + explained);
         }
@@ -238,17 +243,20 @@ pub(super) fn balances(
 }
 
 /// Joints that have run together on a rope: the span between them bears what one of them is out of balance by, up to its
-/// tension, but nothing of what all of them together are. The first joint of each such group that moves freely, what is left
-/// over at all, and what the bounds explain.
+/// tension, but nothing of what all of them together are. The first joint of each such group, what is left
+/// over along the motions that all of their supports leave free, and what the bounds explain.
 fn balances_of_groups(
     system: &System,
     answer: &SystemEquilibrium,
     bounds: &Bounds,
 ) -> Vec<(usize, Vector, f64)> {
     let at_m = &answer.joints_m;
-    let ropes = system.members().iter().filter(|member| member.rope.is_some());
-    let meet = |[a, b]: &[usize; 2]| norm(minus(at_m[*b], at_m[*a])) <= 2.0 * bounds.position_m;
-    let tied: Vec<[usize; 2]> = ropes.flat_map(Member::spans).filter(meet).collect();
+    let spans =
+        system.members().iter().flat_map(|member| member.spans().map(move |span| (member, span)));
+    let tied: Vec<[usize; 2]> = spans
+        .filter(|(member, span)| bounds.meet(member, *span, at_m))
+        .map(|(_, span)| span)
+        .collect();
     if tied.is_empty() {
         return Vec::new();
     }
@@ -275,10 +283,13 @@ fn balances_of_groups(
     for (joint, of) in group.into_iter().enumerate() {
         joints[of].push(joint);
     }
-    let is_free = |joint: &usize| system.joints()[*joint].support == Support::Free;
-    let groups = joints.into_iter().zip(left);
-    let groups = groups.filter(|(all, _)| all.len() > 1 && all.iter().all(is_free));
-    groups.map(|(all, (left_n, allowed))| (all[0], left_n, allowed)).collect()
+    let groups = joints.into_iter().zip(left).filter(|(all, _)| all.len() > 1);
+    let of_group = |(all, (left_n, allowed)): (Vec<usize>, (Vector, f64))| {
+        let supports = all.iter().map(|joint| system.joints()[*joint].support);
+        let left_n = free_part(&supports.fold(Support::Free, meeting), left_n);
+        (all[0], left_n, allowed)
+    };
+    groups.map(of_group).collect()
 }
 
 /// The balance of joints whose forces are given.
@@ -310,7 +321,7 @@ pub(super) fn balance_given(
 /// less than [`BestForces::least_n`].
 ///
 /// A violation where forces up to [`BestForces::up_to_n`] cannot explain that; the joints are those
-/// where most is left over.
+/// where most is left over. Open too where a span without length would bear more than its tension.
 pub(super) fn balance_found(
     system: &System,
     answer: &SystemEquilibrium,
@@ -328,7 +339,8 @@ pub(super) fn balance_found(
         found.largest = found.largest.max(best.least_n / explained_n);
     }
     if best.least_n <= explained_n {
-        found.open = best.residual_n > explained_n;
+        let torn = |jam: &Jam| norm(jam.pull_n) > best.axial_n[jam.member].abs() + explained_n;
+        found.open = best.residual_n > explained_n || best.jams.iter().any(torn);
         return;
     }
     // At least one joint is above its share, or they would not be together.

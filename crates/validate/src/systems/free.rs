@@ -175,7 +175,7 @@ fn bearing(
 
 /// The derivatives of the length of a member by the places of its joints, along what their supports leave free.
 fn pulls(system: &System, k: usize, answer: &SystemEquilibrium) -> Vec<(usize, Vector)> {
-    let all = gradient(&system.members()[k], &answer.joints_m).into_iter();
+    let all = gradient(system.members()[k].spans(), &answer.joints_m).into_iter();
     all.map(|(joint, pull)| (joint, along_supports(system, joint, pull))).collect()
 }
 
@@ -253,7 +253,7 @@ fn with_room(
     }
     let mut rows = Mat::<f64>::zeros(rank, coordinates);
     for (row, k) in taut.iter().enumerate() {
-        for (joint, pull) in gradient(&system.members()[*k], &answer.joints_m) {
+        for (joint, pull) in gradient(system.members()[*k].spans(), &answer.joints_m) {
             for (column, (at, axis)) in axes.iter().enumerate() {
                 if part[*at] == joint {
                     rows[(row, column)] = dot(pull, *axis);

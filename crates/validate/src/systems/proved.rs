@@ -92,7 +92,7 @@ fn acting(system: &System, answer: &SystemEquilibrium, k: usize) -> Option<Actin
         ([a, b], spans::unit([a, b], joints_m), density)
     };
     (acts && distance_m > 0.0).then(|| Acting {
-        gradient: spans::gradient(member, joints_m),
+        gradient: spans::gradient(member.spans(), joints_m),
         stiffness: member.stiffness_n.map_or(f64::INFINITY, |n| n / length_m),
         spans: member.spans().map(span).collect(),
     })

@@ -18,11 +18,14 @@ pub(crate) fn unit([a, b]: [usize; 2], joints_m: &[Vector]) -> Vector {
     if long_m <= 0.0 { [0.0; 3] } else { times(1.0 / long_m, along) }
 }
 
-/// The derivatives of the length of a member by the places of its joints, each joint once. A span whose
-/// joints meet adds nothing.
-pub(crate) fn gradient(member: &Member, joints_m: &[Vector]) -> Vec<(usize, Vector)> {
+/// The derivatives of the length of these spans by the places of their joints, each joint once. A span
+/// whose joints meet adds nothing.
+pub(crate) fn gradient(
+    spans: impl Iterator<Item = [usize; 2]>,
+    joints_m: &[Vector],
+) -> Vec<(usize, Vector)> {
     let mut all: Vec<(usize, Vector)> = Vec::with_capacity(2);
-    for span in member.spans() {
+    for span in spans {
         let unit = unit(span, joints_m);
         for (joint, part) in [(span[0], times(-1.0, unit)), (span[1], unit)] {
             match all.iter_mut().find(|(other, _)| *other == joint) {

@@ -1,9 +1,11 @@
 //! Joints on and beside a floor, by hand.
 
-use model::SolverName;
+use model::system::Member;
+use model::{Bar, STANDARD_GRAVITY_M_S2, SolverName};
 
 use super::super::complete::complete;
 use super::super::tests::lamp;
+use super::super::{Finding, ForeignAnswer, Judgement, judge_foreign};
 use super::*;
 
 const KNOWN: Bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.5 };
@@ -56,4 +58,48 @@ fn a_floor_that_is_passed_or_pulls_is_told() {
     // Half a newton of the load and of each cable, and 10 N that may turn by `1/2` over `√18 - 1/4`.
     let allowed = 1.5 + 20.0 * 0.5 / (18.0_f64.sqrt() - 0.25);
     assert!((pulls.allowed - allowed).abs() < 1e-14, "{pulls:?}");
+}
+
+/// 3 kg on a slack cable of 2 m, on a floor 1.5 m below its anchor.
+fn sliding(support: Support, force_n: Vector, pushed_n: Vector) -> Judgement {
+    let at_m = [0.0, 0.0, -1.5];
+    let mut weight = Joint { support, ..Joint::free("P").with_mass(3.0) };
+    weight.force_n = force_n;
+    let cable = Member::cable(0, 1, Bar::homogeneous(2.0, 0.0).unwrap());
+    let joints = vec![Joint::anchor("A", [0.0; 3]), weight];
+    let system = System::new("sliding", STANDARD_GRAVITY_M_S2, joints, vec![cable]).unwrap();
+    let system = system.with_floor(-1.5).unwrap();
+    let answer = ForeignAnswer::in_order(&system, "x", vec![[0.0; 3], at_m], Some(vec![0.0]));
+    let answer = ForeignAnswer { reactions_n: Some(vec![[0.0; 3], pushed_n]), ..answer.unwrap() };
+    judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap()
+}
+
+#[test]
+fn what_slides_is_pushed_by_its_support_and_the_floor() {
+    let weight_n = 3.0 * STANDARD_GRAVITY_M_S2;
+    let (at_m, none) = ([0.0, 0.0, -1.5], [0.0; 3]);
+    let upright = Support::Plane { at_m, normal: [0.0, 1.0, 0.0] };
+    let steep = Support::Plane { at_m, normal: [-0.8, 0.0, 0.6] };
+    let rising = Support::Line { at_m, direction: [0.6, 0.0, 0.8] };
+    for support in [Support::Free, upright, steep, rising] {
+        let right = sliding(support, none, [0.0, 0.0, weight_n]);
+        assert_eq!(right.finding, Finding::Confirmed, "{support:?}: {:?}", right.violations);
+        let wrong = sliding(support, none, [0.0, 0.0, weight_n - 1.0]);
+        let [reaction, _] = wrong.violations[..] else { panic!("{:?}", wrong.violations) };
+        assert!(matches!(reaction.law, Law::Reaction { .. }), "{reaction:?}");
+        assert!((reaction.value - 1.0).abs() < 1e-9, "{reaction:?}");
+    }
+    // Along the slope 30 N up and 4/5 of the weight down: the floor would have to pull.
+    let pulled = sliding(rising, [50.0, 7.0, 0.0], [-50.0, -7.0, weight_n]);
+    let [pulls] = pulled.violations[..] else { panic!("{:?}", pulled.violations) };
+    let Law::FloorPulls { force_n } = pulls.law else { panic!("{pulls:?}") };
+    assert!((force_n - (37.5 - weight_n)).abs() < 1e-9, "{pulls:?}");
+    // In the upright plane nothing holds it along x, on or off the floor.
+    let drawn = sliding(upright, [50.0, 7.0, 0.0], [0.0, -7.0, weight_n]);
+    assert!(
+        drawn
+            .violations
+            .iter()
+            .any(|v| matches!(v.law, Law::Balance { left_n } if (left_n[0] - 50.0).abs() < 1e-9))
+    );
 }

@@ -1,7 +1,9 @@
 //! Measures against what is allowed, exactly at the bound too.
 
 use model::Bar;
+use model::system::Joint;
 
+use super::super::{Finding, ForcesJudged, ForeignAnswer, judge_foreign};
 use super::*;
 
 #[test]
@@ -136,6 +138,7 @@ fn what_forces_found_leave_is_a_violation_where_it_is_proved_and_none_explain_it
     let left = 109.0_f64.sqrt();
     let best = |least_n: f64, up_to_n: f64| BestForces {
         axial_n: answer.axial_n.clone(),
+        jams: vec![],
         left_n: vec![[0.0; 3], [0.0; 3], [3.0, 0.0, 10.0]],
         residual_n: left,
         least_n,
@@ -198,4 +201,64 @@ fn lengths_are_told_in_metres_and_forces_in_newtons() {
         Law::Elongation { force_n: 1.0, elastic_n: 2.0 },
     ];
     assert_eq!(others.map(|law| law.unit()), ["N"; 4]);
+}
+
+/// A weight of 2.5 kg on a rope through a ring of 1.5 kg to an anchor, the ring run down to it: the
+/// rope bears both, and its span without length the weight.
+#[test]
+fn forces_are_found_that_balance_joints_in_one_place() {
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    for support in [Support::Free, plane] {
+        let of =
+            |name: &str, mass_kg: f64| Joint { support, ..Joint::free(name).with_mass(mass_kg) };
+        let joints = vec![Joint::anchor("A", [0.0; 3]), of("ring", 1.5), of("weight", 2.5)];
+        let rope = Member::cable(2, 0, Bar::homogeneous(3.0, 0.0).unwrap()).over(vec![1]);
+        let system = System::new("hung", 10.0, joints, vec![rope]).unwrap();
+        let judged = |apart_m: f64, axial_n: Option<Vec<f64>>| {
+            let at_m = vec![[0.0; 3], [0.0, 0.0, -3.0], [apart_m, 0.0, -3.0 + apart_m]];
+            let answer = ForeignAnswer::in_order(&system, "x", at_m, axial_n).unwrap();
+            judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap()
+        };
+        // In one place, and as near as places of six digits tell.
+        for apart_m in [0.0, 1e-7, -1e-7] {
+            let found = judged(apart_m, None);
+            assert_eq!(found.finding, Finding::Confirmed, "{:?}", found.violations);
+            assert!((found.answer.axial_n[0] - 40.0).abs() < 1e-6, "{:?}", found.answer.axial_n);
+            let ForcesJudged::Found(best) = found.forces else { panic!() };
+            let [jam] = best.jams[..] else { panic!("{:?}", best.jams) };
+            assert_eq!([jam.member, jam.span], [0, 0]);
+            assert!(norm(minus(jam.pull_n, [0.0, 0.0, 25.0])) < 1e-6, "{jam:?}");
+        }
+        assert_eq!(judged(0.0, Some(vec![40.0])).finding, Finding::Confirmed);
+        assert_eq!(judged(0.0, Some(vec![26.0])).finding, Finding::Refuted);
+    }
+}
+
+/// 5 kg at its pulley, and 3 kg that pull there with 30 N: the span without length would have to bear
+/// 50 N.
+#[test]
+fn a_span_without_length_bears_its_tension_at_most() {
+    let joints = vec![
+        Joint::anchor("pulley", [0.0, 0.0, 3.0]),
+        Joint::free("heavy").with_mass(5.0),
+        Joint::free("light").with_mass(3.0),
+    ];
+    let rope = Member::cable(1, 2, Bar::homogeneous(4.0, 0.0).unwrap()).over(vec![0]);
+    let system = System::new("block", 10.0, joints, vec![rope]).unwrap();
+    let judged = |[heavy_m, light_m]: [f64; 2], axial_n: Option<f64>| {
+        let at_m = vec![[0.0, 0.0, 3.0], [0.0, 0.0, heavy_m], [0.0, 0.0, light_m]];
+        let axial_n = axial_n.map(|n| vec![n]);
+        let answer = ForeignAnswer::in_order(&system, "x", at_m, axial_n).unwrap();
+        judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap()
+    };
+    let wrong = judged([3.0, -1.0], Some(30.0));
+    let [left] = wrong.violations[..] else { panic!("{:?}", wrong.violations) };
+    assert_eq!((left.place, left.law.unit()), (Place::Joint(1), "N"));
+    assert!((left.value - 50.0).abs() < 1e-9 && (left.allowed - 30.0).abs() < 1e-3, "{left:?}");
+    assert_eq!(judged([3.0, -1.0], None).finding, Finding::ForcesNotFound);
+    for axial_n in [None, Some(50.0)] {
+        let right = judged([-1.0, 3.0], axial_n);
+        assert_eq!(right.finding, Finding::Confirmed, "{:?}", right.violations);
+        assert!((right.answer.axial_n[0] - 50.0).abs() < 1e-6);
+    }
 }
