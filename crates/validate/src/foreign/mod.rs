@@ -29,6 +29,9 @@
 //! refutation where that is at least [`IMPLAUSIBLE`](bounds::IMPLAUSIBLE) times the forces found
 //! and all loads together.
 //!
+//! A span of a rope whose joints have run together has no direction: its pull is three unknowns more. Forces
+//! with a pull larger than the tension leave the answer undecided.
+//!
 //! # Digits
 //!
 //! Given forces that break a law of force alone, and that were printed to a few digits, are judged as
