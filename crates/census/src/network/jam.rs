@@ -24,7 +24,9 @@ pub(super) fn jammed(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Ve
     let spans = taut.flat_map(|(k, (member, _))| {
         member.spans().enumerate().map(move |(number, joints)| (k, number, joints))
     });
-    spans.filter(|(.., [a, b])| joints_m[*a] == joints_m[*b]).collect()
+    let apart =
+        |[a, b]: [usize; 2], axis: usize| (joints_m[a][axis] - joints_m[b][axis]).abs() > 0.0;
+    spans.filter(|(.., joints)| !(0..3).any(|axis| apart(*joints, axis))).collect()
 }
 
 /// Prove an answer with such spans.
