@@ -465,57 +465,6 @@ fn forces_of_ropes_that_share_their_joints() {
     assert_eq!(error.to_string(), "forces are given, but not that of member \"2 (A - W)\"");
 }
 
-/// A triangle hangs on A alone, and turns about its vertical; the cable and the rope to it from B are slack whichever
-/// way it turns.
-#[test]
-fn parts_turn_beside_what_is_slack() {
-    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-    for via in [vec![], vec![4]] {
-        let mut joints = vec![
-            Joint::anchor("A", [0.82, -1.38, -2.75]),
-            Joint::anchor("B", [-2.9, 1.88, 2.48]),
-            Joint::free("P").with_mass(20.0),
-            Joint::free("Q").with_mass(30.0),
-        ];
-        if !via.is_empty() {
-            joints.push(Joint::anchor("C", [0.0, 0.0, -1.0]));
-        }
-        let members = vec![
-            Member::cable(0, 2, body(3.0)),
-            Member::bar(2, 3, body(2.0)),
-            Member::cable(0, 3, body(2.5)),
-            Member::cable(1, 2, body(25.0)).over(via),
-        ];
-        let system = System::new("a triangle", 9.81, joints, members).unwrap();
-        let answer = asked(&system);
-        assert!(answer.agrees() && answer.equilibria.len() == 2, "{answer:?}");
-        assert_eq!(answer.agreement.unwrap().turned_parts, 1);
-    }
-}
-
-/// S slides on a rail, and R is on a rope: what holds them is slack, nothing loads them, and where they are is open.
-#[test]
-fn what_slack_ropes_hold_is_free() {
-    let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-    let rail = Support::Line { at_m: [3.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint { support: rail, ..Joint::free("S") },
-        Joint::free("M").with_mass(10.0),
-        Joint::free("R"),
-        Joint::anchor("B", [4.0, 0.0, 0.3]),
-    ];
-    let members = vec![
-        Member::cable(0, 2, body(2.0)),
-        Member::cable(0, 1, body(5.0)),
-        Member::cable(0, 4, body(9.0)).over(vec![3]),
-    ];
-    let system = System::new("slack", 9.81, joints, members).unwrap();
-    let answer = asked(&system);
-    assert!(answer.agrees() && answer.equilibria.len() == 2, "{answer:?}");
-    assert_eq!(answer.agreement.unwrap().free_joints, 2);
-}
-
 /// code_aster's SSNL100 (V6.02.100): one cable of 210 m over a pulley in the middle of two spans of 100 m.
 #[derive(serde::Deserialize)]
 struct OverAPulley {
