@@ -124,6 +124,7 @@ impl Distribution {
                     let angle = PI * uniform(2 * attempt + 1);
                     (-2.0 * part.ln()).sqrt() * angle.cos() / 3.0
                 };
+                // One of 370 lies beyond three deviations: the second is hardly ever asked for.
                 (0..64).map(of).find(|x| x.abs() <= 1.0).unwrap_or(0.0)
             }
         }

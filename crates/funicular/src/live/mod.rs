@@ -33,7 +33,7 @@ pub struct Ask {
     /// What is changed in it first.
     #[serde(default)]
     pub change: Option<Change>,
-    /// A free joint that is held by hand: the file stays as it is.
+    /// A free joint that is held by hand: the file stays as it is, and the answer is quick.
     #[serde(default)]
     pub held: Option<Held>,
     /// The shape before, a place for every joint, m: the equilibrium next to it is wanted.
@@ -151,7 +151,7 @@ impl Ask {
                  `funicular page` shows more"
             ));
         }
-        let (shown, words) = if self.quick {
+        let (shown, words) = if self.quick || self.held.is_some() {
             (self.moved(&problem, &system)?, String::new())
         } else {
             let (answer, shown, _) = Page::new().shown(&problem).map_err(said)?;

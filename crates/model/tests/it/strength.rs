@@ -128,16 +128,6 @@ fn what_is_no_strength_is_refused_where_it_stands() {
         assert_eq!(error.key(), Some("bars[1]"), "{error}");
         assert!(error.to_string().contains(words), "{error}");
     }
-    for (kind, key, words) in [
-        ("cable", "compression_n", "a cable cannot push: it has no compression_n"),
-        ("cable", "bending_n_m2", "no bending_n_m2"),
-        ("strut", "strength_n", "a strut cannot pull: it has no strength_n"),
-    ] {
-        let text = net("", &format!(", kind = \"{kind}\", {key} = 1"), "");
-        let error = parse(&text, "system.toml").unwrap_err();
-        assert_eq!(error.key(), Some("bars[1]"), "{error}");
-        assert!(error.to_string().contains(words), "{error}");
-    }
     let error = parse_system(&chain("", ", strength_n = 1", ""), "chain.toml").unwrap_err();
     assert!(error.to_string().contains("strength_n"), "{error}");
 }

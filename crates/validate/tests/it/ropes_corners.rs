@@ -224,14 +224,17 @@ fn rings_run_together_beside_other_things() {
 /// Two anchors in one place: their strands bear a block of 7 kg together, which one of them would not.
 #[test]
 fn anchors_in_one_place_hold_a_block_together() {
-    let joints = vec![
-        Joint::anchor("a", [0.0; 3]),
-        Joint::anchor("b", [0.0; 3]),
-        Joint::anchor("out", [3.0, 0.0, 0.0]),
-        free("block", 7.0),
-        free("W", 4.0),
-    ];
-    let (answers, _) = agreed(&system(joints, vec![rope(&[0, 3, 1, 2, 4], 12.0)]));
+    let with_block = |mass_kg: f64| {
+        let joints = vec![
+            Joint::anchor("a", [0.0; 3]),
+            Joint::anchor("b", [0.0; 3]),
+            Joint::anchor("out", [3.0, 0.0, 0.0]),
+            free("block", mass_kg),
+            free("W", 4.0),
+        ];
+        system(joints, vec![rope(&[0, 3, 1, 2, 4], 12.0)])
+    };
+    let (answers, _) = agreed(&with_block(7.0));
     for found in &answers {
         near(found.joints_m[3], [0.0; 3]);
         near(found.joints_m[4], [3.0, 0.0, -9.0]);
@@ -240,14 +243,7 @@ fn anchors_in_one_place_hold_a_block_together() {
         near(found.reactions_n[1], [-40.0, 0.0, 35.0]);
     }
     // 9 kg are more than two strands of 40 N hold.
-    let joints = vec![
-        Joint::anchor("a", [0.0; 3]),
-        Joint::anchor("b", [0.0; 3]),
-        Joint::anchor("out", [3.0, 0.0, 0.0]),
-        free("block", 9.0),
-        free("W", 4.0),
-    ];
-    for found in asked(&system(joints, vec![rope(&[0, 3, 1, 2, 4], 12.0)])).equilibria {
+    for found in asked(&with_block(9.0)).equilibria {
         assert!(found.joints_m[3][2] < -1.0, "{found:?}");
     }
 }
