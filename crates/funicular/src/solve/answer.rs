@@ -71,6 +71,13 @@ impl SolveAnswer {
         self.answer.near.as_ref()
     }
 
+    /// The solvers that were asked again, next to the lowest equilibrium of a complete census,
+    /// because they had no answer or a higher one.
+    #[must_use]
+    pub fn asked_again(&self) -> &[SolverName] {
+        &self.answer.asked_again
+    }
+
     /// The paper's multipliers of an answer, N, where the system is a row of rigid bars between two
     /// anchors: first the force of the ground on the first bar, then at each joint the force of the
     /// next bar on the one before, last that of the ground on the last bar.

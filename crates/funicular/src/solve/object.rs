@@ -40,6 +40,7 @@ impl SolveAnswer {
             agreement: self.agreement(),
             failures: self.failures().iter().map(Failure::of).collect(),
             near: self.near(),
+            asked_again: self.asked_again(),
         }
     }
 }
@@ -60,6 +61,8 @@ struct Object<'a> {
     failures: Vec<Failure>,
     #[serde(skip_serializing_if = "Option::is_none")]
     near: Option<&'a Near>,
+    #[serde(skip_serializing_if = "<[SolverName]>::is_empty")]
+    asked_again: &'a [SolverName],
 }
 
 /// An equilibrium with the names of its joints.

@@ -117,11 +117,22 @@ fn lowest(proved: bool) -> &'static str {
     }
 }
 
+/// Who found it only after a census had said where.
+fn again(asked_again: &[SolverName]) -> String {
+    let names: Vec<_> = asked_again.iter().map(ToString::to_string).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    let begin = if names.len() == 1 { "began" } else { "both began" };
+    let who = names.join(" and ");
+    wrapped(&format!("{who} {begin} again next to the lowest equilibrium of the census."), 0) + "\n"
+}
+
 /// In a line which question this answers.
 fn question(solution: &SolveAnswer) -> String {
     let proved = solution.equilibria().iter().any(|e| e.evidence.ladder.optimal.is_reached());
     let Some(near) = solution.near() else {
-        return lowest(proved).to_owned();
+        return lowest(proved).to_owned() + &again(solution.asked_again());
     };
     let moved = format!(
         "joint {} is {:.3e} m from it, {:.2} % of the shortest member there",

@@ -303,6 +303,11 @@ class Answer(Result):
         return Record(self.data["near"]) if self.data.get("near") else None
 
     @property
+    def asked_again(self) -> tuple[str, ...]:
+        """The solvers that had no answer, or a higher one than the lowest of a complete census, and were asked again next to that."""
+        return tuple(self.data.get("asked_again", ()))
+
+    @property
     def agreement(self) -> Record | None:
         """The comparison of both answers, with its numbers; ``None`` if there is one answer."""
         return Record(self.data["agreement"]) if self.data["agreement"] else None

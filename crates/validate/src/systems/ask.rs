@@ -1,11 +1,13 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
+use census::network::SystemCensus;
 use model::system::{Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Reason, Rung, SolverName, Status, Vector};
+use numerics::Interval;
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
-use super::completeness::look_up;
+use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
 use super::near::{Near, lower_j, next_to};
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
@@ -23,6 +25,9 @@ pub struct SystemAnswer {
     /// How the first of them lies to the drawing, where the system is drawn: then the question is
     /// the equilibrium next to it, and else the lowest of all.
     pub near: Option<Near>,
+    /// The solvers that were asked again, next to the lowest equilibrium of a complete census,
+    /// because they had no answer or a higher one.
+    pub asked_again: Vec<SolverName>,
 }
 
 /// Why a solver has no answer for a system.
@@ -127,6 +132,14 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         Some(drawing_m) => near_to(system, drawing_m, question, watch),
         None => lowest(system, question, watch),
     };
+    // Without a drawing the lowest is asked for, and a complete list knows it.
+    let listed = wanted_census(system, census);
+    let asked_again = match &listed {
+        Ok(listed) if drawing_m.is_none() => {
+            ask_again(system, listed, question, watch, &mut answers)
+        }
+        _ => vec![],
+    };
     let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
@@ -146,7 +159,7 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     } else {
         watch("proofs in interval arithmetic");
         verify(system, &mut equilibria);
-        look_up(system, census, &mut equilibria);
+        look_up(system, &listed, &mut equilibria);
     }
     if let (Some(near), Some(first)) = (&mut near, equilibria.first())
         && census != UseCensus::Never
@@ -154,7 +167,43 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         watch("the lowest equilibrium");
         near.lower_j = lower_j(system, question, first);
     }
-    SystemAnswer { equilibria, failures, agreement, near }
+    SystemAnswer { equilibria, failures, agreement, near, asked_again }
+}
+
+/// Ask those solvers again that have no answer or end in another equilibrium than the lowest of a complete census, each by its own method next
+/// to that; the names of those that are there now. The census tells where to look, not what holds there.
+fn ask_again(
+    system: &System,
+    census: &SystemCensus,
+    question: &Question,
+    watch: &dyn Fn(&str),
+    answers: &mut [Result<SystemEquilibrium, SystemFailure>],
+) -> Vec<SolverName> {
+    let found: Vec<&SystemEquilibrium> = answers.iter().flatten().collect();
+    let Some(lowest) = lowest_listed(system, census, &found) else { return vec![] };
+    let places_m: Vec<Vector> = lowest.joints_m.iter().map(|at| at.map(Interval::mid)).collect();
+    let is_listed = |answer: &SystemEquilibrium| {
+        census.equilibria.iter().any(|position| is_at(system, position, answer))
+    };
+    let mut asked_again = vec![];
+    for answer in answers {
+        let solver = match answer {
+            // The paper's equations have no shape to begin from.
+            _ if question.equations == Equations::Full => continue,
+            // One that is no equilibrium at all is refuted, not replaced.
+            Ok(answer) if is_at(system, lowest, answer) || !is_listed(answer) => continue,
+            Ok(answer) => answer.solver.clone(),
+            Err(failure) => failure.solver(),
+        };
+        let alone =
+            if solver == SolverName::LAGRANGE { Solvers::Lagrange } else { Solvers::Energy };
+        let again = near_to(system, &places_m, &Question { solvers: alone, ..*question }, watch);
+        for again in again.into_iter().flatten().filter(|again| is_at(system, lowest, again)) {
+            *answer = Ok(again);
+            asked_again.push(solver.clone());
+        }
+    }
+    asked_again
 }
 
 /// What the solvers find next to a drawing, each by its own method.

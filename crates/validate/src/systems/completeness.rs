@@ -6,6 +6,8 @@ use census::network::{SystemCensus, SystemPosition};
 use model::system::{System, SystemEquilibrium};
 use model::{NoCensus, Reason, Status, Vector};
 
+use super::certificate::total_load_n;
+use super::near::LOWER;
 use crate::question::UseCensus;
 use crate::tolerances::Tolerances;
 
@@ -38,15 +40,55 @@ pub fn quick_census(system: &System) -> Result<SystemCensus, NoCensus> {
     SystemCensus::take(system, &quick)
 }
 
-/// Look the answers up in a census, where one is quick or asked for, and say so on their ladders.
-pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibrium]) {
-    let census = match census {
+/// The census that is wanted.
+///
+/// # Errors
+///
+/// [`NoCensus`]; also that it was not asked for.
+pub fn wanted_census(system: &System, census: UseCensus) -> Result<SystemCensus, NoCensus> {
+    match census {
         UseCensus::Always => SystemCensus::take(system, &Settings::default()),
         UseCensus::Auto => quick_census(system),
         UseCensus::Never => Err(NoCensus::NotAsked),
-    };
+    }
+}
+
+/// The lowest equilibrium of a complete census, as long as no answer is lower; of several, the one that the first of
+/// the answers is in.
+pub(super) fn lowest_listed<'a>(
+    system: &System,
+    census: &'a SystemCensus,
+    answers: &[&SystemEquilibrium],
+) -> Option<&'a SystemPosition> {
+    if !census.complete || census.families() > 0 {
+        return None;
+    }
+    let listed = census.equilibria.iter();
+    let least_j = listed.clone().map(|position| position.energy_j.hi()).min_by(f64::total_cmp)?;
+    let rounding_j = LOWER * total_load_n(system) * system.total_length_m();
+    if answers.iter().any(|answer| answer.energy_j < least_j - rounding_j) {
+        return None;
+    }
+    let mut lowest = listed.filter(|position| position.energy_j.lo() <= least_j + rounding_j);
+    let first = lowest.clone().next();
+    let holds =
+        |position: &&SystemPosition| answers.iter().any(|answer| is_at(system, position, answer));
+    lowest.find(holds).or(first)
+}
+
+/// Whether an answer is that position, to the accuracy that solvers are held to.
+pub(super) fn is_at(system: &System, at: &SystemPosition, answer: &SystemEquilibrium) -> bool {
+    distance(system, at, answer) <= Tolerances::project().joints.value + PLACED
+}
+
+/// Look the answers up in the census that was wanted, and say on their ladders what it knows of them.
+pub fn look_up(
+    system: &System,
+    census: &Result<SystemCensus, NoCensus>,
+    answers: &mut [SystemEquilibrium],
+) {
     for answer in answers {
-        match &census {
+        match census {
             Ok(census) => certify_by_census(system, census, answer),
             Err(because) => {
                 let verified = answer.evidence.ladder.verified.is_reached();

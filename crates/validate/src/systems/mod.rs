@@ -37,7 +37,7 @@ pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use cables::{Cables, ConeError, hang_as_cables};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone, judge_without};
-pub use completeness::{certify_by_census, look_up, quick_census};
+pub use completeness::{certify_by_census, look_up, quick_census, wanted_census};
 pub(crate) use forces::ABSURD;
 pub use near::Near;
 pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};

@@ -27,7 +27,7 @@ const SUMMED: f64 = 1e-9;
 const MEMBERS: usize = 2_000;
 
 /// An energy is lower by more than this part of load times size: what solvers agree to.
-const LOWER: f64 = 1e-9;
+pub(super) const LOWER: f64 = 1e-9;
 
 /// How the equilibrium that was found lies to the shape that was given.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -6,12 +6,13 @@ use std::time::Instant;
 use census::Settings;
 use census::network::{SystemCensus, prove};
 use lagrange::network::{Seed, solve_from};
-use model::system::{Joint, Member, System, SystemEquilibrium};
-use model::{Bar, Ladder};
+use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
+use model::{Bar, Ladder, SolverName};
+use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use validate::Solvers;
-use validate::systems::{ask, certify_by_census};
+use validate::systems::{ask, ask_with, certify_by_census};
+use validate::{Question, Solvers, UseCensus};
 
 struct Draft {
     random: ChaCha8Rng,
@@ -221,4 +222,61 @@ fn a_hundred_bars_are_verified() {
     println!("{seconds} s, {:e} m and {:e} N wide", proof.width_m, proof.width_n);
     assert!(proof.width_m < 1e-10 * chain.total_length_m(), "{:e}", proof.width_m);
     assert!(found.evidence.ladder.verified.is_reached());
+}
+
+/// Bars from two anchors to P and on to Q, which a rope holds: without the list `lagrange` rests in a higher minimum
+/// than `energy`. Expected is the least energy over the circle of P with Q as low as bar and rope let it.
+#[test]
+fn who_ends_above_the_lowest_of_a_complete_list_is_asked_again_next_to_it() {
+    let [b, t] = [Vector3::new(1.41, 0.14, 0.25), Vector3::new(0.04, 0.0, 1.73)];
+    let bar = |from, to, length_m, mass_kg| {
+        Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+    };
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", b.into()),
+        Joint::anchor("T", t.into()),
+        Joint::free("P").with_mass(1.64),
+        Joint::free("Q").with_mass(3.49),
+    ];
+    let members = vec![
+        bar(0, 3, 1.9, 0.69),
+        bar(1, 3, 1.71, 0.6),
+        bar(3, 4, 1.27, 2.85),
+        Member { kind: Kind::Cable, ..bar(1, 4, 2.672, 0.0) }.over(vec![2]),
+    ];
+    let system = System::new("boom", 9.80665, joints, members).unwrap();
+
+    let (span, down) = (b.norm(), -Vector3::z());
+    let foot = 0.5 * (1.9_f64.powi(2) - 1.71_f64.powi(2) + span * span) / span;
+    let along = b / span;
+    let across = along.cross(&Vector3::z()).normalize();
+    let radius = (1.9_f64.powi(2) - foot * foot).sqrt();
+    let reach = 2.672 - (t - b).norm();
+    let energy_j = |turn: f64| {
+        let out = turn.cos() * across + turn.sin() * along.cross(&across);
+        let p = along * foot + radius * out;
+        let hanging = p + 1.27 * down;
+        let far = (t - p).norm();
+        let axis = (t - p) / far;
+        // The circle in which the sphere of the bar cuts that of the rope.
+        let height = 0.5 * (1.27_f64.powi(2) - reach * reach + far * far) / far;
+        let width = (1.27_f64.powi(2) - height * height).sqrt();
+        let lowest = p + height * axis + width * (down - axis * axis.dot(&down)).normalize();
+        let q = if (hanging - t).norm() <= reach { hanging } else { lowest };
+        9.80665 * ((1.64 + 0.345 + 0.3 + 1.425) * p.z + (3.49 + 1.425) * q.z + 0.3 * b.z)
+    };
+    let turns = (0..200_000).map(|k| energy_j(f64::from(k) * std::f64::consts::PI * 1e-5));
+    let least_j = turns.filter(|energy| energy.is_finite()).fold(f64::INFINITY, f64::min);
+
+    let answer = ask(&system, Solvers::Both, &|_| {});
+    assert_eq!(answer.asked_again, [SolverName::LAGRANGE]);
+    assert!(answer.agrees(), "{answer:?}");
+    for found in &answer.equilibria {
+        assert!((found.energy_j - least_j).abs() < 1e-6, "{} {least_j}", found.energy_j);
+    }
+    let question = Question { census: UseCensus::Never, ..Question::default() };
+    let alone = ask_with(&system, &question, &|_| {});
+    assert!(alone.asked_again.is_empty() && !alone.agrees());
+    assert!(alone.equilibria[0].energy_j - least_j > 0.3);
 }

@@ -7,7 +7,14 @@ use super::*;
 fn what_was_not_compared_does_not_agree() {
     let (system, answer) = lamp();
     let agrees = |agreement: Option<SystemAgreement>| {
-        SystemAnswer { equilibria: vec![], failures: vec![], agreement, near: None }.agrees()
+        SystemAnswer {
+            equilibria: vec![],
+            failures: vec![],
+            agreement,
+            near: None,
+            asked_again: vec![],
+        }
+        .agrees()
     };
     let compared = |off_m: f64| {
         let mut second = answer.clone();
