@@ -53,14 +53,15 @@ pub fn wanted_census(system: &System, census: UseCensus) -> Result<SystemCensus,
     }
 }
 
-/// The lowest equilibrium of a complete census, as long as no answer is lower; of several, the one that the first of
-/// the answers is in.
+/// The lowest equilibrium of a complete census, as long as it is stable, there are answers, and none is lower; of
+/// several, the one that the first of the answers is in. (Where no solver has an answer, what is listed may stand on
+/// struts above a fall without end.)
 pub(super) fn lowest_listed<'a>(
     system: &System,
     census: &'a SystemCensus,
     answers: &[&SystemEquilibrium],
 ) -> Option<&'a SystemPosition> {
-    if !census.complete || census.families() > 0 {
+    if !census.complete || census.families() > 0 || answers.is_empty() {
         return None;
     }
     let listed = census.equilibria.iter();
