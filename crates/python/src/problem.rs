@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use funicular::prelude::{Anchors, Bar, Chain, Joint, Kind, Member, Support, System, Vector};
-use model::system_file::{write_network, write_system};
 use numpy::{PyArray1, PyArray2, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -230,10 +229,7 @@ impl Problem {
 
     /// The system file that reads back to the same, bit for bit.
     fn toml(&self) -> String {
-        match self.of.as_chain() {
-            Some(chain) => write_system(chain.chain()),
-            None => write_network(&self.system()),
-        }
+        self.of.to_toml()
     }
 
     /// Names of the joints; those of a chain are `0`, `1`, ...
