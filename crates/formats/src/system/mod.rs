@@ -6,6 +6,7 @@
 //! | [`Obj`](Source::Obj) | lines between vertices, by their groups |
 //! | [`MoorDyn`](Source::MoorDyn) | MoorDyn input files, the statics of them |
 //! | [`Map`](Source::Map) | MAP++ input files |
+//! | [`OpenSees`](Source::OpenSees) | trusses of OpenSees, in Tcl |
 //! | [`Compas`](Source::Compas) | COMPAS JSON of a network, graph or mesh with force densities `q` |
 //! | [`parse_net`] | CSV of nodes and of edges with force densities |
 //!
@@ -19,6 +20,7 @@ mod force_density;
 mod moordyn;
 mod nodes;
 mod obj;
+mod opensees;
 
 use model::system::System;
 
@@ -28,6 +30,7 @@ pub use force_density::{Edge, ForceDensityNet, Node};
 pub use moordyn::{parse_map, parse_moordyn};
 pub use nodes::parse_net;
 pub use obj::parse_obj;
+pub use opensees::parse_opensees;
 
 use crate::error::{FormatError, Wrong};
 
@@ -43,6 +46,8 @@ pub enum Source {
     MoorDyn,
     /// MAP++.
     Map,
+    /// OpenSees.
+    OpenSees,
     /// COMPAS.
     Compas,
 }
@@ -72,6 +77,7 @@ impl Source {
             "dxf" => Self::Dxf,
             "obj" => Self::Obj,
             "map" => Self::Map,
+            "tcl" => Self::OpenSees,
             "dat" | "txt" if sections() => {
                 if map() {
                     Self::Map
@@ -87,7 +93,7 @@ impl Source {
     /// Whether files with this ending may be of another program.
     #[must_use]
     pub fn may_end(ending: &str) -> bool {
-        let endings = ["dxf", "obj", "map", "dat", "txt", "json"];
+        let endings = ["dxf", "obj", "map", "tcl", "dat", "txt", "json"];
         endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
     }
 
@@ -119,6 +125,7 @@ impl Source {
             Self::Obj => parse_obj(text, file),
             Self::MoorDyn => parse_moordyn(text, file),
             Self::Map => parse_map(text, file),
+            Self::OpenSees => parse_opensees(text, file),
             Self::Compas => {
                 let net = parse_compas(text, file)?;
                 let places_m = net.places_m();

@@ -10,3 +10,4 @@ mod forces;
 mod map;
 mod moordyn;
 mod nets;
+mod opensees;

@@ -26,7 +26,7 @@ The ending of the file says what is written, of the equilibrium that both solver
   .json        COMPAS: a graph with force densities and loads
   .toml        the system itself, as a file of ours to be edited; nothing is solved
 Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be lines
-of DXF or OBJ, or a file of MoorDyn or COMPAS.";
+of DXF or OBJ, or a file of MoorDyn, MAP++, OpenSees or COMPAS.";
 
 /// Ending of our own system files.
 const OWN: &str = "toml";

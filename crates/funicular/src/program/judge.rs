@@ -30,8 +30,8 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Judge {
-    /// The system: a system file (TOML or JSON, - for standard input), lines of DXF or OBJ, a MoorDyn input file,
-    /// COMPAS JSON, or the nodes of a net of force densities as CSV
+    /// The system: a system file (TOML or JSON, - for standard input), lines of DXF or OBJ, an input file of
+    /// MoorDyn, MAP++ or OpenSees, COMPAS JSON, or the nodes of a net of force densities as CSV
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// Judge against a named case instead of a file
@@ -76,8 +76,8 @@ pub struct Judge {
 /// How a system is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// By the name and the text: .dxf, .obj, .dat and .txt under lines of dashes MoorDyn's, .csv a net, JSON with a
-    /// `dtype` COMPAS's
+    /// By the name and the text: .dxf, .obj, .tcl is OpenSees's, .map MAP++'s, .dat and .txt MoorDyn's or MAP++'s,
+    /// .csv a net, JSON with a `dtype` COMPAS's
     Auto,
     /// Our own system file
     Funicular,
@@ -89,6 +89,8 @@ pub enum Format {
     Moordyn,
     /// A MAP++ input file
     Map,
+    /// A truss of OpenSees in Tcl
+    Opensees,
     /// COMPAS JSON with force densities
     Compas,
     /// Nodes as CSV; --edges has the edges
@@ -103,6 +105,7 @@ impl Format {
             Source::Obj => Self::Obj,
             Source::MoorDyn => Self::Moordyn,
             Source::Map => Self::Map,
+            Source::OpenSees => Self::Opensees,
             Source::Compas => Self::Compas,
             _ => Self::Funicular,
         }
@@ -115,6 +118,7 @@ impl Format {
             Self::Obj => Some(Source::Obj),
             Self::Moordyn => Some(Source::MoorDyn),
             Self::Map => Some(Source::Map),
+            Self::Opensees => Some(Source::OpenSees),
             Self::Compas => Some(Source::Compas),
             Self::Auto | Self::Funicular | Self::ForceDensity => None,
         }
