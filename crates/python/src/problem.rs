@@ -17,11 +17,14 @@ use crate::raise::{internal, raise};
 pub struct Problem {
     /// The problem; shared with the work on it.
     pub of: Arc<funicular::Problem>,
+    /// How a file of another program was read.
+    #[pyo3(get)]
+    notes: Vec<String>,
 }
 
 impl Problem {
     fn new(of: funicular::Problem) -> Self {
-        Self { of: Arc::new(of) }
+        Self { of: Arc::new(of), notes: vec![] }
     }
 }
 
@@ -165,11 +168,11 @@ impl Problem {
         parsed.map(Self::new).map_err(|error| raise(&error))
     }
 
-    /// A system file.
+    /// A system file, or one of another program.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let read = py.detach(|| funicular::Problem::read(path));
-        read.map(Self::new).map_err(|error| raise(&error))
+        let read = py.detach(|| funicular::Reading::of(path)).map_err(|error| raise(&error))?;
+        Ok(Self { notes: read.notes, ..Self::new(read.problem) })
     }
 
     /// A named case.

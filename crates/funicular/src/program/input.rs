@@ -17,7 +17,8 @@ use crate::tables::wrapped;
 /// Where a command that takes one system takes it from.
 #[derive(Debug, Args)]
 pub struct Source {
-    /// The system file (TOML or JSON, - for standard input); see `funicular cases lamp` for one
+    /// The system file (TOML or JSON, - for standard input); see `funicular cases lamp` for one. Or a
+    /// file of another program, by its ending: .dxf, .obj, .map, .tcl, .txt, .dat, .json
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// A named case instead of a file
