@@ -29,7 +29,7 @@ const SLIDING: &str = "sliding";
 /// What was found in a drawing.
 pub(super) struct Drawing<'a> {
     file: &'a str,
-    lines: Vec<Line>,
+    lines: Vec<Segment>,
     anchors: Vec<Anchor>,
     names: Vec<(Vector, String)>,
     skipped: BTreeMap<String, usize>,
@@ -44,7 +44,7 @@ struct Anchor {
 }
 
 /// A straight line: where it stands in the file, its ends, m, and what it is.
-struct Line {
+struct Segment {
     line: usize,
     ends_m: [Vector; 2],
     kind: Kind,
@@ -80,7 +80,7 @@ impl<'a> Drawing<'a> {
             () if layer.contains("strut") => Kind::Strut,
             () => Kind::Bar,
         };
-        self.lines.push(Line { line, ends_m, kind });
+        self.lines.push(Segment { line, ends_m, kind });
         Ok(())
     }
 

@@ -303,7 +303,9 @@ impl<'a> Polyline<'a> {
         if flags & IN_SPACE == 0 {
             head.level()?;
             let z = unit_m * head.number(30, 0.0)?;
-            corners.iter_mut().for_each(|at_m| at_m[2] = z);
+            for at_m in &mut corners {
+                at_m[2] = z;
+            }
         }
         drawing.way(head.line, head.text(8), &corners, flags & CLOSED != 0)
     }

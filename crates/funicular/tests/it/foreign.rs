@@ -48,7 +48,8 @@ fn pull(text: &str) -> [f64; 3] {
     let folder = tempfile::tempdir().unwrap();
     let answer = solved(folder.path(), "line.map", text);
     let found = &answer.equilibria()[0];
-    let on_bottom = found.joints_m.iter().skip(2).filter(|at_m| at_m[2] < -300.0 + 1e-9).count();
+    let on_bottom =
+        found.joints_m.iter().skip(2).filter(|at_m| (at_m[2] + 300.0).abs() < 1e-9).count();
     [found.reactions_n[1][0], found.reactions_n[1][2], on_bottom as f64]
 }
 
@@ -135,4 +136,45 @@ fn a_truss_of_opensees_is_where_its_elongations_balance_the_loads() {
     let at_m = answer.equilibria()[0].joints_m[2];
     assert!((at_m[0] - found[0]).hypot(at_m[2] - found[1]) < 1e-12, "{at_m:?}");
     assert_eq!(at_m[1], 0.0);
+}
+
+/// Eight trusses on two anchors and two sliders, and what OpenSees 3.7.1 finds (openseespy 3.7.1.2, corotTruss, twenty steps,
+/// unbalance of 1e-9 N).
+const TRIPOD: &str = "model basic -ndm 3 -ndf 3\nnode 1 -3 0.5 0\nnode 2 4 -0.25 0\nnode 3 0.25 -3.5 0.1\nnode 4 0 0.2 2\n\
+    node 5 0.5 3 0\nfix 1 1 1 1\nfix 2 0 1 1\nfix 3 0 0 1\nfix 5 1 1 1\n\
+    uniaxialMaterial Elastic 1 70e6\nuniaxialMaterial Elastic 2 210e6\n\
+    element corotTruss 1 1 4 2e-3 1\nelement corotTruss 2 2 4 5e-4 2\nelement corotTruss 3 3 4 1e-3 2\n\
+    element corotTruss 4 5 4 1.5e-3 1\nelement corotTruss 5 1 2 3e-3 1\nelement corotTruss 6 2 3 4e-4 2\n\
+    element corotTruss 7 1 3 6e-4 1\nelement corotTruss 8 3 5 7e-4 2\n\
+    timeSeries Linear 1\npattern Plain 1 1 {\nload 4 3e3 -1.5e3 -8e3\nload 2 2e3 0 0\n}\n";
+const TRIPOD_M: [[f64; 3]; 5] = [
+    [-3.0, 0.5, 0.0],
+    [4.189_147_201_003_194, -0.25, 0.0],
+    [0.491_578_961_389_531_06, -3.676_062_618_349_213, 0.1],
+    [0.185_952_435_890_176_04, 0.090_275_216_936_425_79, 1.492_775_028_909_919_8],
+    [0.5, 3.0, 0.0],
+];
+const TRIPOD_N: [f64; 8] = [
+    -2_936.985_287_408_633,
+    -4_876.006_945_677_639,
+    -7_036.045_080_297_409,
+    -5_789.571_317_887_865,
+    5_610.853_171_567_846,
+    1_327.703_628_018_789,
+    2_358.488_946_617_874_7,
+    3_869.391_975_407_425,
+];
+
+#[test]
+fn a_deck_has_the_places_and_forces_of_opensees() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = solved(folder.path(), "tripod.tcl", TRIPOD);
+    let found = &answer.equilibria()[0];
+    for (at_m, theirs_m) in found.joints_m.iter().zip(TRIPOD_M) {
+        let away = at_m.iter().zip(theirs_m).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(away < 1e-11, "{at_m:?} {theirs_m:?}");
+    }
+    for (axial_n, theirs_n) in found.axial_n.iter().zip(TRIPOD_N) {
+        assert!((axial_n - theirs_n).abs() < 1e-7, "{axial_n} {theirs_n}");
+    }
 }

@@ -130,7 +130,7 @@ class System:
         ``dat`` MoorDyn, ``json`` COMPAS. How that was read is in :attr:`notes`; :meth:`to_toml` is the system as a file
         to be edited.
 
-        Raises FileError when the file cannot be read or used, InputError when one of another program cannot.
+        Raises FileError when the file cannot be read or used.
         """
         try:
             return cls._of(_native.Problem.read(path))

@@ -92,7 +92,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
         let row = &lines[k];
         let line = Line {
             id: numbered(row, copy, lines.len(), k)?,
-            line_type: super::line_type(row, &types)?,
+            kind: super::line_type(row, &types)?,
             ends: super::ends(row, &numbers)?.map(|end| end + copy * nodes.len()),
             length_m: row.positive("length")?,
             count: SEGMENTS,

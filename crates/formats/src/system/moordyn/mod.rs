@@ -133,7 +133,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
     for row in lines {
         let line = Line {
             id: row.text("id")?.to_owned(),
-            line_type: line_type(&row, &types)?,
+            kind: line_type(&row, &types)?,
             ends: ends(&row, &numbers)?,
             length_m: row.positive("length")?,
             count: segments(&row)?,
@@ -263,7 +263,7 @@ fn segments(row: &Row<'_>) -> Result<usize, FormatError> {
 /// A line that becomes a run of elastic cables.
 struct Line<'a> {
     id: String,
-    line_type: &'a LineType,
+    kind: &'a LineType,
     ends: [usize; 2],
     length_m: f64,
     count: usize,
@@ -299,12 +299,12 @@ impl Line<'_> {
         budget: &Budget,
         (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
     ) -> Result<String, FormatError> {
-        let Self { id, line_type, ends: [from, to], length_m, count } = self;
+        let Self { id, kind, ends: [from, to], length_m, count } = self;
         let asked =
             budget.take_members(*count).and_then(|()| budget.take_names(*count, id.len() + DIGITS));
         asked.map_err(|error| row.error(Wrong::Memory(error)))?;
         let piece_m = length_m / *count as f64;
-        let weight_n = line_type.weight_n_m * piece_m;
+        let weight_n = kind.weight_n_m * piece_m;
         let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
         let body = Bar::homogeneous(piece_m, mass_kg)
             .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
@@ -317,7 +317,7 @@ impl Line<'_> {
             } else {
                 *to
             };
-            let mut member = Member::cable(here, there, body).with_stiffness(line_type.stiffness_n);
+            let mut member = Member::cable(here, there, body).with_stiffness(kind.stiffness_n);
             if weight_n < 0.0 {
                 member.loads.push(lift);
             }
@@ -326,7 +326,7 @@ impl Line<'_> {
         }
         Ok(format!(
             "line {id}: {count} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
-            line_type.stiffness_n, line_type.weight_n_m
+            kind.stiffness_n, kind.weight_n_m
         ))
     }
 }

@@ -193,10 +193,8 @@ impl Deck<'_> {
     fn model(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
         words.options(2, &["-ndm", "-ndf"])?;
         let dimensions = words.option(2, "-ndm")?;
-        self.dimensions = [2, 3]
-            .into_iter()
-            .find(|n| dimensions == Some(f64::from(*n)))
-            .map_or(0, |n| n as usize);
+        let is = |known: f64| dimensions.is_some_and(|n| (n - known).abs() <= 0.0);
+        self.dimensions = if is(2.0) { 2 } else { 3 * usize::from(is(3.0)) };
         if self.dimensions == 0 {
             return Err(words.unknown("a model that has not -ndm 2 or 3".to_owned()));
         }
