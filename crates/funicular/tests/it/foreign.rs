@@ -44,13 +44,13 @@ fn line(
 }
 
 /// The force of a line on the vessel: level, and down, N; and how many of its joints lie on the bottom.
-fn pull(text: &str) -> [f64; 3] {
+fn pull(text: &str) -> ([f64; 2], usize) {
     let folder = tempfile::tempdir().unwrap();
     let answer = solved(folder.path(), "line.map", text);
     let found = &answer.equilibria()[0];
     let on_bottom =
         found.joints_m.iter().skip(2).filter(|at_m| (at_m[2] + 300.0).abs() < 1e-9).count();
-    [found.reactions_n[1][0], found.reactions_n[1][2], on_bottom as f64]
+    ([found.reactions_n[1][0], found.reactions_n[1][2]], on_bottom)
 }
 
 /// Span and height of an elastic catenary of which one end bears `h` and `v`, m: with all of it hanging, or a part of it
@@ -74,7 +74,7 @@ fn a_steep_line_of_map_has_the_forces_of_the_catenary() {
     let [h, v] = [58_377.241_422_650, 63_044.412_955_917];
     let [span_m, height_m] = catenary([h, v], [length_m, 700e6, w], true);
     assert!((span_m - ends[0]).hypot(height_m - ends[1]) < 1e-9);
-    let [level, down, _] = pull(&line(ends[0], ends[1], length_m, 700e6, w, "OMIT_CONTACT"));
+    let ([level, down], _) = pull(&line(ends[0], ends[1], length_m, 700e6, w, "OMIT_CONTACT"));
     assert!((level / h - 1.0).abs() < WITHIN && (down / v - 1.0).abs() < WITHIN);
 }
 
@@ -88,7 +88,7 @@ fn slack_lines_of_map_have_the_forces_of_the_catenary() {
         let [span_m, height_m] =
             catenary([h, v], [length_m, stiffness_n, w], flags != "OMIT_CONTACT");
         let text = line(span_m, height_m, length_m, stiffness_n, w, flags);
-        let [level, down, on_bottom] = pull(&text);
+        let ([level, down], on_bottom) = pull(&text);
         assert!(
             (level / h - 1.0).abs() < WITHIN && (down / v - 1.0).abs() < WITHIN,
             "{v} {:e} {:e}",
@@ -96,7 +96,7 @@ fn slack_lines_of_map_have_the_forces_of_the_catenary() {
             down / v - 1.0
         );
         // A third of the 50 cables: all but 100 m of them hang.
-        assert_eq!(on_bottom, if lying { 17.0 } else { 0.0 });
+        assert_eq!(on_bottom, if lying { 17 } else { 0 });
     }
 }
 
@@ -135,7 +135,7 @@ fn a_truss_of_opensees_is_where_its_elongations_balance_the_loads() {
     let answer = solved(folder.path(), "two.tcl", &deck);
     let at_m = answer.equilibria()[0].joints_m[2];
     assert!((at_m[0] - found[0]).hypot(at_m[2] - found[1]) < 1e-12, "{at_m:?}");
-    assert_eq!(at_m[1], 0.0);
+    assert!(at_m[1].abs() <= 0.0);
 }
 
 /// Eight trusses on two anchors and two sliders, and what OpenSees 3.7.1 finds (openseespy 3.7.1.2, corotTruss, twenty steps,
