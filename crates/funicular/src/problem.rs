@@ -55,7 +55,10 @@ impl Reading {
         if let Some((source, text)) = foreign(path) {
             let name = path.display().to_string();
             let mut read = source.parse(&text, &name)?;
-            let notes = std::mem::take(&mut read.notes);
+            let mut notes = std::mem::take(&mut read.notes);
+            let bottom =
+                |floor_m: f64| format!("the bottom at {floor_m} m is a floor without friction");
+            notes.extend(read.floor_m.map(bottom));
             let problem = read.above_floor(&name)?.into();
             return Ok(Self { problem, files: vec![path.to_owned()], notes });
         }

@@ -186,7 +186,7 @@ impl<'a> Drawing<'a> {
         });
         let members = members.collect::<Result<Vec<_>, FormatError>>()?;
         let mut notes = vec![format!(
-            "{} members between {} joints; ends within {:e} m of each other are one",
+            "{} members between {} joints; ends within {:.1e} m of each other are one",
             members.len(),
             joints.len(),
             places.within_m

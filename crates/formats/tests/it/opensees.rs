@@ -125,6 +125,11 @@ fn what_is_not_a_truss_at_rest_is_named_with_its_line() {
             "UniformExcitation 1",
             "x:16: the pattern \"UniformExcitation\" is not understood",
         ),
+        (
+            "load 4 0 0.5 0",
+            "load 4 0 0.5 0 0 0 1",
+            "x:19: a moment is not part of a system of bars at rest",
+        ),
         ("load 4 0 0.5 0", "sp 4 1 0.5", "x:19: the load \"sp 4 1 0.5\" is not understood"),
         ("\n}\npattern", "\npattern", "x:16: there is no '}' that closes '{'"),
         ("\"Constant\"", "\"Constant", "x:21: there is no end of a text in quotes"),

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use funicular::{Problem, Solve, SolveAnswer};
+use funicular::{Modes, Problem, Solve, SolveAnswer};
 use model::STANDARD_GRAVITY_M_S2;
 
 /// The equilibrium of a file with this text, both solvers of one mind.
@@ -177,4 +177,23 @@ fn a_deck_has_the_places_and_forces_of_opensees() {
     for (axial_n, theirs_n) in found.axial_n.iter().zip(TRIPOD_N) {
         assert!((axial_n - theirs_n).abs() < 1e-7, "{axial_n} {theirs_n}");
     }
+}
+
+/// Two trusses in a plane without loads: stiffness EA/L along each, a mass that does not weigh.
+#[test]
+fn a_mass_of_opensees_swings_and_does_not_weigh() {
+    let folder = tempfile::tempdir().unwrap();
+    // 3 and 4 m to a right angle: stiffness of 900 and 500 N/m, each of a mode of its own; 4 and 1 kg at the node.
+    let deck = "model basic -ndm 2\nnode 1 0 0\nnode 2 5 0\nnode 3 1.8 -2.4 -mass 4 4\nfix 1 1 1\nfix 2 1 1\n\
+        uniaxialMaterial Elastic 1 1e3\nelement truss 1 1 3 2.7 1\nelement truss 2 2 3 2 1 -rho 0.5\n";
+    std::fs::write(folder.path().join("two.tcl"), deck).unwrap();
+    let problem = Problem::read(folder.path().join("two.tcl")).unwrap();
+    let found = Modes::new().run(&problem).unwrap();
+    let one = &found.equilibria[0];
+    let mut squares: Vec<f64> = one.modes.iter().map(|mode| mode.omega2_s2).collect();
+    squares.sort_by(f64::total_cmp);
+    for (found, wanted) in squares.iter().zip([500.0 / 5.0, 900.0 / 5.0]) {
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{squares:?}");
+    }
+    assert_eq!(squares.len(), 2);
 }

@@ -37,9 +37,13 @@ const TYPE_COLUMNS: &[(&str, &[&str])] = &[
     ("EI", &["ei"]),
     // Damping, drag, added mass and vortices: nothing of them at rest in still water.
     ("BA", &["ba/-zeta", "ba", "cint"]),
-    // Friction on the bottom.
-    ("CB", &["cb"]),
-    ("", &["cintdamp", "cd", "ca", "cdax", "caax", "can", "cat", "cdn", "cdt", "cl", "df", "cf"]),
+    (
+        "",
+        &[
+            "cb", "cintdamp", "cd", "ca", "cdax", "caax", "can", "cat", "cdn", "cdt", "cl", "df",
+            "cf",
+        ],
+    ),
 ];
 const POINT_COLUMNS: &[(&str, &[&str])] = &[
     ("id", &["id", "node", "point"]),
@@ -149,14 +153,11 @@ fn foreign(
     sections: &Sections<'_>,
     gravity_m_s2: f64,
     (joints, members): (Vec<Joint>, Vec<Member>),
-    (mut notes, floor_m): (Vec<String>, Option<f64>),
+    (notes, floor_m): (Vec<String>, Option<f64>),
 ) -> Result<ForeignSystem, FormatError> {
     let system = System::new(sections.title(), gravity_m_s2, joints, members).map_err(|error| {
         FormatError::new(sections.file, None, Wrong::NoSystem { reason: error.to_string() })
     })?;
-    if let Some(floor_m) = floor_m {
-        notes.push(format!("the floor at {floor_m} m is not part of the system"));
-    }
     Ok(ForeignSystem { system, notes, floor_m })
 }
 

@@ -343,6 +343,11 @@ impl Deck<'_> {
             }
             let node = self.known(&words, words.get(1)?)?;
             let force_n = self.vector(&words, 2, "a load")?;
+            for k in 2 + self.dimensions..command.words.len() {
+                if words.number(k, "a moment")?.abs() > 0.0 {
+                    return Err(words.error(Wrong::OutOfScope { what: "a moment".to_owned() }));
+                }
+            }
             for (sum, force_n) in self.nodes[node].force_n.iter_mut().zip(force_n) {
                 *sum += factor * force_n;
             }
