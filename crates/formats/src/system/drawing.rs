@@ -22,6 +22,8 @@ const ONE_PLACE: f64 = 1e-6;
 const MASS_KG_M: f64 = 1.0;
 /// What the name of a layer or group has in it where its points mark anchors: the second is that of our own drawings.
 const ANCHORS: [&str; 2] = ["anchor", "support"];
+/// Kinds of other things that a note names.
+const MOST_SKIPPED: usize = 30;
 /// What stands there before the axes along which a support slides, and where it slides across them.
 const FREE: &str = "free_";
 const SLIDING: &str = "sliding";
@@ -146,8 +148,8 @@ impl<'a> Drawing<'a> {
             "a drawing has no masses: each member has {MASS_KG_M} kg/m; `funicular convert FILE --to FILE.toml` writes a \
              system file, to be edited"
         ));
-        let skipped: Vec<_> =
-            self.skipped.iter().map(|(what, count)| format!("{count} {what}")).collect();
+        let skipped = self.skipped.iter().map(|(what, count)| format!("{count} {what}"));
+        let skipped: Vec<_> = skipped.take(MOST_SKIPPED).collect();
         if !skipped.is_empty() {
             read.notes.push(format!("not read: {}", skipped.join(", ")));
         }
