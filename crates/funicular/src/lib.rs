@@ -188,7 +188,7 @@ pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
-pub use problem::{Problem, case, case_text};
+pub use problem::{Problem, Reading, case, case_text};
 pub use sag::Sag;
 pub use settled::{Outcome, Settled, Unsettled};
 pub use simulate::{Motion, Simulate, SimulateError, Start};

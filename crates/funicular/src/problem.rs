@@ -1,13 +1,15 @@
 //! What is asked about.
 
 use std::cell::RefCell;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use formats::system::Source;
 use model::Vector;
 use model::budget::Budget;
 use model::system::{Row, System};
-use model::system_file::{self, Described, Readers, Rows};
+use model::system_file::{self, Described, Readers, Rows, most_file_bytes};
 
 use crate::error::Error;
 use crate::judge::ForeignAnswer;
@@ -31,24 +33,35 @@ enum Kind {
     System(Arc<System>),
 }
 
-impl Problem {
-    /// The problem of a system file. Joints and bars in files of their own may be CSV, or with the
-    /// feature `columns` Parquet.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::File`], with the line and what is allowed there.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
-        Self::read_with_files(path).map(|(problem, _)| problem)
-    }
+/// A problem that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The problem.
+    pub problem: Problem,
+    /// All files that were read for it.
+    pub files: Vec<PathBuf>,
+    /// How a file of another program was read: sentences.
+    pub notes: Vec<String>,
+}
 
-    /// The same, and all files that were read for it.
+impl Reading {
+    /// What [`Problem::read`] reads, with what there is to say about it. The bottom of the sea is a floor.
     ///
     /// # Errors
     ///
-    /// As [`read`](Self::read).
-    pub fn read_with_files(path: impl AsRef<Path>) -> Result<(Self, Vec<PathBuf>), Error> {
+    /// As [`Problem::read`].
+    pub fn of(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
+        if let Some((source, text)) = foreign(path) {
+            let name = path.display().to_string();
+            let mut read = source.parse(&text, &name)?;
+            let mut notes = std::mem::take(&mut read.notes);
+            let bottom =
+                |floor_m: f64| format!("the bottom at {floor_m} m is a floor without friction");
+            notes.extend(read.floor_m.map(bottom));
+            let problem = read.above_floor(&name)?.into();
+            return Ok(Self { problem, files: vec![path.to_owned()], notes });
+        }
         let files = RefCell::new(vec![path.to_owned()]);
         let keep = |file: &Path| files.borrow_mut().push(file.to_owned());
         let bars = |file: &Path| {
@@ -60,7 +73,33 @@ impl Problem {
             parquet_rows(file, rows)
         };
         let described = system_file::read_with(path, Readers { bars: &bars, rows: &rows })?;
-        Ok((described.into(), files.into_inner()))
+        Ok(Self { problem: described.into(), files: files.into_inner(), notes: vec![] })
+    }
+}
+
+/// The text of a file of another program; `None` of any other, and of what cannot be read, which our own reader says.
+fn foreign(path: &Path) -> Option<(Source, String)> {
+    let ending = path.extension()?.to_str()?;
+    if !Source::may_end(ending) {
+        return None;
+    }
+    let (most, mut bytes) = (most_file_bytes(), vec![]);
+    let file = model::open_input(path).ok()?;
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes).ok()?;
+    let text = Source::text(ending, bytes).ok()?;
+    Some((Source::guess(ending, &text).filter(|_| text.len() as u64 <= most)?, text))
+}
+
+impl Problem {
+    /// The problem of a system file, or of a file of another program that
+    /// [`Source`](formats::system::Source) knows. Joints and bars of a system file may be in files of their own, as CSV, or
+    /// with the feature `columns` Parquet.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`], or [`Error::Format`] of a file of another program, with the line and what is allowed there.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Reading::of(path).map(|reading| reading.problem)
     }
 
     /// The problem of the text of a system file; `name` stands for the file in errors.
@@ -82,6 +121,21 @@ impl Problem {
         match model::cases::exhibit(name) {
             Some(exhibit) => Ok(exhibit.system().into()),
             None => Ok(case(name)?.problem().into()),
+        }
+    }
+
+    /// The system file that reads back to the same, bit for bit.
+    ///
+    /// ```
+    /// let problem = funicular::Problem::case("footbridge")?;
+    /// assert_eq!(funicular::Problem::parse(&problem.to_toml(), "again.toml")?, problem);
+    /// # Ok::<(), funicular::Error>(())
+    /// ```
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        match &self.0 {
+            Kind::Chain(problem) => system_file::write_system(problem.chain()),
+            Kind::System(system) => system_file::write_network(system),
         }
     }
 
@@ -243,7 +297,6 @@ fn parquet_rows(file: &Path, rows: &mut dyn Rows) -> Read<()> {
 
 #[cfg(feature = "columns")]
 fn is_parquet(file: &Path) -> bool {
-    use std::io::Read as _;
     let mut magic = [0; 4];
     // What is read from a pipe is gone: only a file is tasted.
     file.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))

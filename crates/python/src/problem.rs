@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use funicular::prelude::{Anchors, Bar, Chain, Joint, Kind, Member, Support, System, Vector};
-use model::system_file::{write_network, write_system};
 use numpy::{PyArray1, PyArray2, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -18,11 +17,14 @@ use crate::raise::{internal, raise};
 pub struct Problem {
     /// The problem; shared with the work on it.
     pub of: Arc<funicular::Problem>,
+    /// How a file of another program was read.
+    #[pyo3(get)]
+    notes: Vec<String>,
 }
 
 impl Problem {
     fn new(of: funicular::Problem) -> Self {
-        Self { of: Arc::new(of) }
+        Self { of: Arc::new(of), notes: vec![] }
     }
 }
 
@@ -166,11 +168,11 @@ impl Problem {
         parsed.map(Self::new).map_err(|error| raise(&error))
     }
 
-    /// A system file.
+    /// A system file, or one of another program.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let read = py.detach(|| funicular::Problem::read(path));
-        read.map(Self::new).map_err(|error| raise(&error))
+        let read = py.detach(|| funicular::Reading::of(path)).map_err(|error| raise(&error))?;
+        Ok(Self { notes: read.notes, ..Self::new(read.problem) })
     }
 
     /// A named case.
@@ -230,10 +232,7 @@ impl Problem {
 
     /// The system file that reads back to the same, bit for bit.
     fn toml(&self) -> String {
-        match self.of.as_chain() {
-            Some(chain) => write_system(chain.chain()),
-            None => write_network(&self.system()),
-        }
+        self.of.to_toml()
     }
 
     /// Names of the joints; those of a chain are `0`, `1`, ...

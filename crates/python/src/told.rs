@@ -137,7 +137,11 @@ fn parts(error: &Error) -> Parts {
         Error::Motion(_) => ("MotionError", vec![]),
         Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
         Error::Continuation(_) | Error::Load(_) => ("TraceError", vec![]),
-        Error::Format(_) | Error::Export(_) => ("InputError", vec![]),
+        Error::Format(error) => {
+            let (file, line, help) = (&error.file, error.line, &error.help);
+            ("FileError", fields!(file, line, help))
+        }
+        Error::Export(_) => ("InputError", vec![]),
         _ => ("Error", vec![]),
     }
 }

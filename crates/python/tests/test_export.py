@@ -79,3 +79,29 @@ def test_what_a_format_does_not_have_is_refused():
         answer.export("txt")
     with pytest.raises(fn.SettingError, match="ending must be one of vtu"):
         answer.export("step")
+
+
+@pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
+def test_a_drawing_of_another_program_is_read(tmp_path, version):
+    drawing = ezdxf.new(version, units=ezdxf.units.CM)
+    model = drawing.modelspace()
+    places = [(0, 0, 0), (400, 0, 0), (0, 300, 0), (100, 50, 250)]
+    for place in places[:3]:
+        model.add_point(place, dxfattribs={"layer": "Anchors"})
+    model.add_polyline3d([places[0], places[3], places[1]], dxfattribs={"layer": "struts"})
+    model.add_line(places[2], places[3], dxfattribs={"layer": "CABLES"})
+    model.add_circle((0, 0), 5)
+    path = tmp_path / f"tripod-{version}.dxf"
+    drawing.saveas(path)
+    system = fn.System.read(path)
+    # R12 has no units.
+    scale = 1.0 if version == "R12" else 0.01
+    assert system.members["kind"] == ["strut", "strut", "cable"]
+    assert np.allclose(system.lengths_m, scale * np.sqrt([75000, 155000, 135000]), rtol=1e-15)
+    assert any("1 CIRCLE" in note for note in system.notes)
+    again = fn.System.from_toml(system.to_toml())
+    assert again == system and again.notes == []
+    path.write_text(path.read_text().replace("Anchors", "Points"))
+    with pytest.raises(fn.FileError, match="there is no anchor") as caught:
+        fn.System.read(path)
+    assert "POINT" in caught.value.help

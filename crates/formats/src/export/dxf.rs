@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 
 use model::Vector;
+use model::system::Support;
 use numerics::vector::{minus, norm};
 
 use super::{Shape, kind};
@@ -31,7 +32,7 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     }
     let height = TEXT * extent(shape.joints_m);
     for (joint, at_m) in shape.system.joints().iter().zip(shape.joints_m) {
-        let layer = if joint.support.at_m().is_some() { "supports" } else { "joints" };
+        let layer = layer(&joint.support);
         let _ = write!(text, "0\nPOINT\n8\n{layer}\n");
         place(&mut text, 0, *at_m);
         // A line of its own for each value: a name cannot have another.
@@ -42,6 +43,21 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     }
     text.push_str("0\nENDSEC\n0\nEOF\n");
     text
+}
+
+/// The layer of a joint: a support that slides along axes has these in its name.
+fn layer(support: &Support) -> String {
+    /// The axis of a direction, if it is one.
+    fn axis(direction: &Vector) -> Option<usize> {
+        (0..3).find(|k| (0..3).all(|j| (direction[j].abs() > 0.0) == (j == *k)))
+    }
+    let free = match support {
+        Support::Free => return "joints".to_owned(),
+        Support::Fixed { .. } => return "supports".to_owned(),
+        Support::Line { direction, .. } => axis(direction).map(|k| ["x", "y", "z"][k]),
+        Support::Plane { normal, .. } => axis(normal).map(|k| ["yz", "xz", "xy"][k]),
+    };
+    free.map_or_else(|| "supports_sliding".to_owned(), |free| format!("supports_free_{free}"))
 }
 
 /// The groups of a point: 10, 20, 30 of the first, 11, 21, 31 of the second.

@@ -3,7 +3,7 @@
 //! | [`Target`] | ending | for | what it holds |
 //! |---|---|---|---|
 //! | [`Vtu`](Target::Vtu) | `.vtu` | ParaView | lines with axial forces and utilisation, joints with reactions and masses |
-//! | [`Dxf`](Target::Dxf) | `.dxf` | CAD | lines in a layer for each kind of member, points and names of joints |
+//! | [`Dxf`](Target::Dxf) | `.dxf` | CAD | lines in a layer for each kind of member, points and names of joints; [`parse_dxf`](crate::system::parse_dxf) reads them |
 //! | [`Obj`](Target::Obj), [`Gltf`](Target::Gltf) | `.obj`, `.gltf` | 3D programs | members as prisms, coloured by tension and compression |
 //! | [`Mjcf`](Target::Mjcf) | `.xml` | MuJoCo | the mechanical model with masses at the joints, standing in this equilibrium |
 //! | [`MoorDyn`](Target::MoorDyn) | `.txt`, `.dat` | MoorDyn | lines of one segment between points |

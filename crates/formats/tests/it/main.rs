@@ -4,7 +4,10 @@
 
 mod answers;
 mod compas;
+mod drawings;
 mod export;
 mod forces;
+mod map;
 mod moordyn;
 mod nets;
+mod opensees;

@@ -134,7 +134,9 @@ impl From<&Problem> for Subject {
 
 impl From<ForeignSystem> for Subject {
     fn from(read: ForeignSystem) -> Self {
-        let ForeignSystem { system, notes, floor_m } = read;
+        let ForeignSystem { system, mut notes, floor_m } = read;
+        let beside = |floor_m: f64| format!("the floor at {floor_m} m is not part of the system");
+        notes.extend(floor_m.map(beside));
         Self(Kind::System { system, notes, floor_m })
     }
 }

@@ -99,8 +99,8 @@ pub enum Command {
     /// Judge joint positions, and forces if there are some, from any program: what is broken, and
     /// how large the error is
     ///
-    /// Reads answers as JSON, CSV and VTU, and systems of our own files, MoorDyn, COMPAS and the
-    /// force density method.
+    /// Reads answers as JSON, CSV and VTU, and systems of our own files, DXF, OBJ, MoorDyn, MAP++,
+    /// OpenSees, COMPAS and the force density method.
     Judge(crate::judge::Judge),
     /// Run millions of starts through the solvers: which start leads where
     Sweep(crate::sweep::Sweep),
@@ -120,7 +120,8 @@ pub enum Command {
     /// Change a system in the browser, its file and its shape side by side
     #[command(after_help = ALL_OR_NOTHING)]
     Serve(crate::serve::Arguments),
-    /// Write the equilibrium as a file for ParaView, CAD, 3D programs, MuJoCo, MoorDyn or COMPAS
+    /// Write the equilibrium as a file for ParaView, CAD, 3D programs, MuJoCo, MoorDyn or COMPAS, or
+    /// the system as a file of ours
     #[command(after_help = ALL_OR_NOTHING)]
     Convert(crate::convert::Arguments),
     /// Draw which start leads where, by both solvers

@@ -1,4 +1,4 @@
-//! `funicular convert`: the equilibrium as a file for another program.
+//! `funicular convert`: the equilibrium as a file for another program, or the system as a file of ours.
 
 use std::path::PathBuf;
 
@@ -24,8 +24,12 @@ The ending of the file says what is written, of the equilibrium that both solver
   .xml         MuJoCo: masses at the joints, members as tendons
   .txt .dat    MoorDyn: lines of one segment between points; elastic cables
   .json        COMPAS: a graph with force densities and loads
-Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be a file
-of MoorDyn or COMPAS.";
+  .toml        the system itself, as a file of ours to be edited; nothing is solved
+Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be lines
+of DXF or OBJ, or a file of MoorDyn, MAP++, OpenSees or COMPAS.";
+
+/// Ending of our own system files.
+const OWN: &str = "toml";
 
 /// `funicular convert`.
 #[derive(Debug, Args)]
@@ -45,13 +49,19 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     arguments.threads.install()?;
     let ending = arguments.to.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let target = Target::of_ending(ending).ok_or_else(|| {
+    let own = ending.eq_ignore_ascii_case(OWN);
+    let Some(target) = Target::of_ending(ending).map(Some).or(own.then_some(None)) else {
         let message = format!("no format has the ending of {}", arguments.to.display());
-        let help = format!("there are .{}", Target::ENDINGS.join(", ."));
-        Failure::bad_input(Diagnostic::from(message).with_help(help))
-    })?;
+        let help = format!("there are .{}, .{OWN}", Target::ENDINGS.join(", ."));
+        return Err(Failure::bad_input(Diagnostic::from(message).with_help(help)));
+    };
     let Input { problem, files } = arguments.input.read()?;
     output::check([arguments.to.as_path()], &files)?;
+    let Some(target) = target else {
+        output::write_whole(&arguments.to, &problem.to_toml())?;
+        output::print(&format!("{}: a system file\n", arguments.to.display()))?;
+        return Ok(Exit::Done);
+    };
     let progress = Progress::start();
     progress.say("the equilibrium");
     let found = Solve::new().run(&problem)?;

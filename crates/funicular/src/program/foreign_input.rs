@@ -3,13 +3,12 @@
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use formats::system::{ForeignSystem, parse_compas, parse_moordyn, parse_net};
+use formats::system::{Source, parse_compas, parse_net};
+use funicular::Error;
 use funicular::judge::Subject;
-use funicular::{Error, Problem};
 use model::open_input;
 use model::system_file::most_file_bytes;
 
-use crate::diagnostics::Diagnostic;
 use crate::exit::Failure;
 use crate::input;
 use crate::judge::{Format, Judge};
@@ -33,10 +32,6 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
         return Err(Failure::bad_input("--load-case is for system files, which have [[cases]]"));
     }
     let subject = match format {
-        Format::Moordyn => {
-            let (text, name) = text(path)?;
-            Subject::from(parse_moordyn(&text, &name).map_err(Error::from)?)
-        }
         Format::Compas => {
             let (text, name) = text(path)?;
             Subject::net(parse_compas(&text, &name).map_err(Error::from)?, &name)
@@ -51,69 +46,33 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
             let net = parse_net((&nodes.0, &nodes.1), (&edges.0, &edges.1), &nodes.1);
             Subject::net(net.map_err(Error::from)?, &nodes.1)
         }
-        Format::Auto | Format::Funicular => return own(Some(path)),
+        format => match format.source() {
+            Some(source) => {
+                let (text, name) = text(path)?;
+                Subject::from(source.parse(&text, &name).map_err(Error::from)?)
+            }
+            None => return own(Some(path)),
+        },
     };
     let files = [Some(path.to_owned()), arguments.edges.clone()];
     Ok((subject, files.into_iter().flatten().collect()))
 }
 
-/// The problem of a file of another program; `None` if it is not known as one.
-///
-/// The bottom of the sea is a floor of the system; a net of force densities is the system that has them at its
-/// places, and its equilibrium next to these is wanted.
-pub fn problem(path: &Path) -> Result<Option<Problem>, Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    match ending.to_ascii_lowercase().as_str() {
-        "csv" => {
-            let message = format!("{} is a table, not a system file", path.display());
-            let help = "a system file names it, bars_file = \"...\" or joints_file = \"...\" (`funicular format`); \
-                        of a net of force densities `funicular judge NODES --edges EDGES` reads both tables";
-            Err(Failure::bad_input(Diagnostic::from(message).with_help(help.to_owned())))
-        }
-        "dat" | "txt" => moordyn(path),
-        "json" if guess(path, false)? == Format::Compas => {
-            let (text, name) = text(path)?;
-            let net = parse_compas(&text, &name).map_err(Error::from)?;
-            let places_m = net.places_m();
-            let system = net.system_at(&places_m, &name).map_err(Error::from)?;
-            Ok(Some(Problem::from(system).near(&places_m)?))
-        }
-        _ => Ok(None),
-    }
-}
-
-/// A MoorDyn file, which has sections under lines of dashes, as no system file has.
-fn moordyn(path: &Path) -> Result<Option<Problem>, Failure> {
-    let (text, name) = text(path)?;
-    if !text.lines().any(|line| line.starts_with("---")) {
-        return Ok(None);
-    }
-    let ForeignSystem { system, floor_m, .. } = parse_moordyn(&text, &name).map_err(Error::from)?;
-    let system = match floor_m {
-        Some(floor_m) => {
-            let above = system.with_floor(floor_m);
-            above.map_err(|error| Failure::bad_input(format!("{name}: {error}")))?
-        }
-        None => system,
-    };
-    system.refusal().map_err(|refusal| Failure::bad_input(format!("{name}: {refusal}")))?;
-    Ok(Some(system.into()))
-}
-
 /// Which format a file is in.
 fn guess(path: &Path, with_edges: bool) -> Result<Format, Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    Ok(match ending.to_ascii_lowercase().as_str() {
-        "dat" | "txt" => Format::Moordyn,
-        "csv" => Format::ForceDensity,
-        _ if with_edges => Format::ForceDensity,
-        "json" => {
-            let (text, _) = text(path)?;
-            let compas = text.contains("\"dtype\"") || text.contains("\"datatype\"");
-            if compas { Format::Compas } else { Format::Funicular }
-        }
-        _ => Format::Funicular,
-    })
+    if with_edges || ending.eq_ignore_ascii_case("csv") {
+        return Ok(Format::ForceDensity);
+    }
+    if !Source::may_end(ending) {
+        return Ok(Format::Funicular);
+    }
+    Ok(Source::guess(ending, &text(path)?.0).map_or(Format::Funicular, Format::of))
+}
+
+/// Whether a file is of another program.
+pub fn is_foreign(path: &Path) -> Result<bool, Failure> {
+    Ok(guess(path, false)?.source().is_some())
 }
 
 /// The text of a file (`-` is standard input), and the name that stands for it in errors.
@@ -139,6 +98,7 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     if bytes.len() as u64 > most {
         return Err(unreadable(&format_args!("it is longer than {most} bytes")));
     }
-    let text = String::from_utf8(bytes).map_err(|error| unreadable(&error.utf8_error()))?;
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let text = Source::text(ending, bytes).map_err(|error| unreadable(&error))?;
     Ok((text, name))
 }

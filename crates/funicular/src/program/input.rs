@@ -5,18 +5,20 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use formats::answer::{Answer, Forces};
-use funicular::{Error, Problem};
+use funicular::{Error, Problem, Reading};
 use model::system_file::most_file_bytes;
 
 use crate::case_name::CaseName;
-use crate::diagnostics::Diagnostic;
+use crate::diagnostics::{Diagnostic, tell};
 use crate::exit::Failure;
 use crate::foreign_input;
+use crate::tables::wrapped;
 
 /// Where a command that takes one system takes it from.
 #[derive(Debug, Args)]
 pub struct Source {
-    /// The system file (TOML or JSON, - for standard input); see `funicular cases lamp` for one
+    /// The system file (TOML or JSON, - for standard input); see `funicular cases lamp` for one. Or a
+    /// file of another program, by its ending: .dxf, .obj, .map, .tcl, .txt, .dat, .json
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// A named case instead of a file
@@ -123,10 +125,10 @@ pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure
         (Some(file), _) if file == Path::new("-") => (standard_input()?, vec![]),
         (Some(file), _) => {
             meant_as_case(file)?;
-            match foreign_input::problem(file)? {
-                Some(problem) => (problem, vec![file.to_owned()]),
-                None => Problem::read_with_files(file)?,
-            }
+            meant_as_table(file)?;
+            let Reading { problem, files, notes } = Reading::of(file)?;
+            tell_notes(&notes);
+            (problem, files)
         }
         (None, Some(name)) => (Problem::case(name)?, vec![]),
         // clap asks for one of them.
@@ -141,6 +143,29 @@ pub fn in_case(problem: Problem, name: Option<&str>) -> Result<Problem, Error> {
         Some(name) => problem.in_case(name),
         None => Ok(problem),
     }
+}
+
+/// Say how a file of another program was read.
+fn tell_notes(notes: &[String]) {
+    /// What is shown of the lines of a large mooring.
+    const MOST: usize = 8;
+    for note in notes.iter().take(MOST) {
+        tell(wrapped(&format!("note: {note}"), 2));
+    }
+    if notes.len() > MOST {
+        tell(format_args!("note: and {} more, which `funicular judge` shows", notes.len() - MOST));
+    }
+}
+
+/// A table of bars or nodes is a part of a system.
+fn meant_as_table(file: &Path) -> Result<(), Failure> {
+    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        return Ok(());
+    }
+    let message = format!("{} is a table, not a system file", file.display());
+    let help = "a system file names it, bars_file = \"...\" or joints_file = \"...\" (`funicular format`); \
+                of a net of force densities `funicular judge NODES --edges EDGES` reads both tables";
+    Err(Failure::bad_input(Diagnostic::from(message).with_help(help.to_owned())))
 }
 
 /// A file that does not exist and has the name of a case was meant as that.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
+use formats::system::Source;
 use funicular::judge::{Ruling, Subject};
 
 use crate::case_name::CaseName;
@@ -29,8 +30,8 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Judge {
-    /// The system: a system file (TOML or JSON, - for standard input), a MoorDyn input file, COMPAS
-    /// JSON, or the nodes of a net of force densities as CSV
+    /// The system: a system file (TOML or JSON, - for standard input), lines of DXF or OBJ, an input file of
+    /// MoorDyn, MAP++ or OpenSees, COMPAS JSON, or the nodes of a net of force densities as CSV
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// Judge against a named case instead of a file
@@ -75,17 +76,53 @@ pub struct Judge {
 /// How a system is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// By the name and the text: .dat and .txt are MoorDyn's, .csv a net, JSON with a `dtype`
-    /// COMPAS's
+    /// By the name and the text: .dxf, .obj, .tcl is OpenSees's, .map MAP++'s, .dat and .txt MoorDyn's or MAP++'s,
+    /// .csv a net, JSON with a `dtype` COMPAS's
     Auto,
     /// Our own system file
     Funicular,
+    /// Lines of a drawing in ASCII
+    Dxf,
+    /// Lines of Wavefront OBJ
+    Obj,
     /// A MoorDyn input file, version 1 or 2
     Moordyn,
+    /// A MAP++ input file
+    Map,
+    /// A truss of OpenSees in Tcl
+    Opensees,
     /// COMPAS JSON with force densities
     Compas,
     /// Nodes as CSV; --edges has the edges
     ForceDensity,
+}
+
+impl Format {
+    /// The format of another program's file.
+    pub fn of(source: Source) -> Self {
+        match source {
+            Source::Dxf => Self::Dxf,
+            Source::Obj => Self::Obj,
+            Source::MoorDyn => Self::Moordyn,
+            Source::Map => Self::Map,
+            Source::OpenSees => Self::Opensees,
+            Source::Compas => Self::Compas,
+            _ => Self::Funicular,
+        }
+    }
+
+    /// Whose file it is.
+    pub fn source(self) -> Option<Source> {
+        match self {
+            Self::Dxf => Some(Source::Dxf),
+            Self::Obj => Some(Source::Obj),
+            Self::Moordyn => Some(Source::MoorDyn),
+            Self::Map => Some(Source::Map),
+            Self::Opensees => Some(Source::OpenSees),
+            Self::Compas => Some(Source::Compas),
+            Self::Auto | Self::Funicular | Self::ForceDensity => None,
+        }
+    }
 }
 
 /// Run the command.

@@ -13,6 +13,7 @@ use model::system_file::{limit_memory, most_file_bytes};
 
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
+use crate::input;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::serve::http::{Answer, Request};
@@ -104,8 +105,11 @@ impl Drop for Place<'_> {
     }
 }
 
-/// The text of a file that is TOML.
+/// The text of a file that is TOML, or as TOML that of another program's.
 fn text(path: &Path) -> Result<String, Failure> {
+    if foreign_input::is_foreign(path)? {
+        return Ok(input::problem(Some(path), None)?.problem.to_toml());
+    }
     let (text, name) = foreign_input::text(path)?;
     if text.len() as u64 > most_file_bytes().min(MOST_BYTES as u64) {
         return Err(Failure::bad_input(format!("{name}: more than {MOST_BYTES} bytes")));

@@ -1,5 +1,8 @@
 //! `funicular convert`: files that other programs, and this one, read.
 
+use funicular::Problem;
+use funicular::prelude::System;
+
 use crate::run::run;
 
 /// A lamp of 40 N on two elastic cables of 2.5 and 3.2 m, stretched to the triangle 3, 4, 5: 32 and 24 N.
@@ -45,7 +48,7 @@ fn what_cannot_be_written_leaves_no_file() {
     for (arguments, words) in [
         (&["lamp.toml", "--to", "lamp.step"][..], "there are .vtu, .dxf"),
         (&["lamp.toml", "--to", "lamp"], "no format has the ending of lamp"),
-        (&["lamp.toml", "--to", "lamp.toml"], "no format"),
+        (&["lamp.toml", "--to", "lamp.toml"], "it is lamp.toml, which is read"),
         (&["--case", "lamp", "--to", "out.txt"], "MoorDyn has no line that does not stretch"),
         (&["lamp.toml"], "--to"),
     ] {
@@ -109,4 +112,76 @@ fn ropes_that_share_their_joints_are_read_again() {
         assert_eq!(code, Some(2));
         assert!(said.contains(words), "{said}");
     }
+}
+
+/// Drawn, read as a drawing, and written as a system file: the same system each time.
+#[test]
+fn a_drawing_is_a_system_to_be_edited() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for case in ["pratt-truss", "geiger-dome"] {
+        let convert = ["convert", "--case", case, "--to", "drawn.dxf"];
+        assert_eq!(run(folder, &convert).0, Some(0));
+        let (code, text, said) = run(folder, &["convert", "drawn.dxf", "--to", "drawn.toml"]);
+        assert_eq!((code, text.as_str()), (Some(0), "drawn.toml: a system file\n"), "{said}");
+        assert!(said.contains("note: a drawing has no masses: each member has 1 kg/m"), "{said}");
+        let read = |file: &str| Problem::read(folder.join(file)).unwrap();
+        let (drawn, again) = (read("drawn.dxf"), read("drawn.toml"));
+        assert_eq!(drawn, again);
+        let (drawn, first) = (drawn.as_system().unwrap(), Problem::case(case).unwrap());
+        let first = first.as_system().unwrap();
+        let ends = |system: &System| -> Vec<_> {
+            system
+                .members()
+                .iter()
+                .map(|m| (m.kind, system.joints()[m.from].name.clone()))
+                .collect()
+        };
+        assert_eq!(ends(drawn), ends(first));
+    }
+    let all = model::cases::all().iter().map(|case| case.name);
+    for name in all.chain(model::cases::exhibits().map(|exhibit| exhibit.name)) {
+        let problem = Problem::case(name).unwrap();
+        assert_eq!(Problem::parse(&problem.to_toml(), "again.toml").unwrap(), problem, "{name}");
+    }
+}
+
+/// Two cables, 3 and 4 m long between anchors 5 m apart, of 1 kg/m: half of both weighs on the joint where they meet at
+/// a right angle, 0.8 of it along the first, which is steeper, and 0.6 along the second.
+const DRAWN: &str = "v 0 0 0\nv 5 0 0\nv 1.8 0 -2.4\ng cables\nl 1 3 2\ng anchors\np 1 2\n";
+
+#[test]
+fn every_command_takes_a_drawing() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("lamp.obj"), DRAWN).unwrap();
+    let (code, text, said) = run(folder, &["solve", "lamp.obj", "--json"]);
+    assert_eq!(code, Some(0), "{said}");
+    std::fs::write(folder.join("lamp.json"), &text).unwrap();
+    let answer: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let weight_n = 3.5 * model::STANDARD_GRAVITY_M_S2;
+    for (bar, share) in [(0, 0.8), (1, 0.6)] {
+        let axial_n = answer["equilibria"][0]["bars"][bar]["axial_n"].as_f64().unwrap();
+        assert!((axial_n - share * weight_n).abs() < 1e-9 * weight_n, "{axial_n}");
+    }
+    for arguments in [
+        &["judge", "lamp.obj", "--answer", "lamp.json"][..],
+        &["modes", "lamp.obj"],
+        &["census", "lamp.obj"],
+        &["page", "lamp.obj", "--out", "lamp.html"],
+        &["study", "lamp.obj", "--vary", "gravity_m_s2=5,10"],
+        &["simulate", "lamp.obj", "--time", "0.01"],
+    ] {
+        let (code, text, said) = run(folder, arguments);
+        assert_eq!(code, Some(0), "{arguments:?}: {text}{said}");
+        assert!(text.contains("1 kg/m") || said.contains("1 kg/m"), "{arguments:?}: {text}{said}");
+        assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    }
+    std::fs::write(folder.join("none.obj"), DRAWN.replace("g anchors", "g dots")).unwrap();
+    let (code, _, said) = run(folder, &["solve", "none.obj"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        said.contains("there is no anchor") && said.contains("help: mark each anchor"),
+        "{said}"
+    );
 }

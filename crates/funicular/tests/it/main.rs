@@ -13,6 +13,7 @@ mod edited;
 mod escapes;
 mod examples;
 mod files;
+mod foreign;
 mod format_page;
 mod fuzz;
 mod guesses;

@@ -85,6 +85,29 @@ fn segments_of_all_lines_share_one_budget() {
     refused(&run(&folder, &judge), "200000000 bytes of memory are needed; of 100000000");
 }
 
+/// Lines of drawings and trusses are counted as they are read: a few letters each, and two letters each where they share
+/// their ends.
+#[test]
+fn lines_of_drawings_have_a_budget() {
+    let folder = folder("drawings");
+    let ends = " 1 2".repeat(5001);
+    fs::write(folder.join("long.obj"), format!("v 0 0 0\nv 1 0 0\ng anchors\np 1\nl{ends}\n"))
+        .unwrap();
+    let truss = "element truss 1 1 2 1 1\n".repeat(10_001);
+    let deck = "model basic -ndm 3\nnode 1 0 0 0\nnode 2 1 0 0\nuniaxialMaterial Elastic 1 1\n";
+    fs::write(folder.join("long.tcl"), format!("{deck}{truss}")).unwrap();
+    let entities = format!("0\nLWPOLYLINE\n{}", "10\n0\n20\n0\n".repeat(10_002));
+    fs::write(
+        folder.join("long.dxf"),
+        format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"),
+    )
+    .unwrap();
+    for file in ["long.obj", "long.tcl", "long.dxf"] {
+        let output = run(&folder, &["solve", file, "--max-memory", "50MB"]);
+        refused(&output, "50005000 bytes of memory are needed; of 50000000");
+    }
+}
+
 /// What is done with a row needs more memory than its equilibrium: motion, variations and derivatives as much
 /// as another system's, modes more for each that is asked for. It is asked for before.
 #[test]

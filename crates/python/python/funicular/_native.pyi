@@ -48,6 +48,8 @@ __version__: str
 
 @final
 class Problem:
+    @property
+    def notes(self) -> list[str]: ...
     @staticmethod
     def chain(
         name: str,

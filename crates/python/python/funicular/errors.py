@@ -143,7 +143,7 @@ class SystemError(InputError):
 
 
 class FileError(InputError):
-    """A system file, text or dictionary cannot be read or used.
+    """A system file, text or dictionary cannot be read or used, or a file of another program.
 
     ``line`` and ``column`` count from 1; of a dictionary they are those of its JSON, and ``key`` says more.
     """

@@ -126,6 +126,10 @@ class System:
     def read(cls, path: str | PathLike[str]) -> System:
         """The system of a file (TOML or JSON; bars and joints in files of their own as CSV or Parquet).
 
+        Or of a file of another program, by its ending: ``dxf`` and ``obj`` lines, ``map`` MAP++, ``tcl`` OpenSees, ``txt`` and
+        ``dat`` MoorDyn, ``json`` COMPAS. How that was read is in :attr:`notes`; :meth:`to_toml` is the system as a file
+        to be edited.
+
         Raises FileError when the file cannot be read or used.
         """
         try:
@@ -285,6 +289,11 @@ class System:
     def name(self) -> str:
         """The name."""
         return self._problem.name
+
+    @property
+    def notes(self) -> list[str]:
+        """How the file of another program was read, in sentences; empty of any other."""
+        return self._problem.notes
 
     @property
     def is_chain(self) -> bool:

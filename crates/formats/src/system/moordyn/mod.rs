@@ -13,6 +13,7 @@
 //!
 //! MoorDyn, <https://moordyn.readthedocs.io>, "Input Files".
 
+mod map;
 mod options;
 mod sections;
 
@@ -24,8 +25,9 @@ use model::{Bar, Vector};
 
 use crate::error::{FormatError, Wrong, as_count};
 use crate::system::ForeignSystem;
+pub use map::parse_map;
 use options::Options;
-use sections::{Row, Section, Sections};
+use sections::{COMMENTS, Row, Section, Sections};
 
 const TYPE_COLUMNS: &[(&str, &[&str])] = &[
     ("name", &["name", "typename", "linetype"]),
@@ -35,7 +37,13 @@ const TYPE_COLUMNS: &[(&str, &[&str])] = &[
     ("EI", &["ei"]),
     // Damping, drag, added mass and vortices: nothing of them at rest in still water.
     ("BA", &["ba/-zeta", "ba", "cint"]),
-    ("", &["cd", "ca", "cdax", "caax", "can", "cat", "cdn", "cdt", "cl", "df", "cf"]),
+    (
+        "",
+        &[
+            "cb", "cintdamp", "cd", "ca", "cdax", "caax", "can", "cat", "cdn", "cdt", "cl", "df",
+            "cf",
+        ],
+    ),
 ];
 const POINT_COLUMNS: &[(&str, &[&str])] = &[
     ("id", &["id", "node", "point"]),
@@ -44,7 +52,7 @@ const POINT_COLUMNS: &[(&str, &[&str])] = &[
     ("y", &["y"]),
     ("z", &["z"]),
     ("mass", &["m", "mass"]),
-    ("volume", &["v", "volume", "vol"]),
+    ("volume", &["v", "volume", "vol", "b"]),
     ("fx", &["fx"]),
     ("fy", &["fy"]),
     ("fz", &["fz"]),
@@ -57,6 +65,7 @@ const LINE_COLUMNS: &[(&str, &[&str])] = &[
     ("b", &["attachb", "nodefair", "nodeb", "endb"]),
     ("length", &["unstrlen"]),
     ("segments", &["numsegs"]),
+    ("flags", &["flags"]),
     ("", &["lineoutputs", "flags/outputs", "outputs"]),
 ];
 const BODY_COLUMNS: &[(&str, &[&str])] = &[
@@ -102,7 +111,7 @@ struct LineType {
 ///
 /// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
-    let sections = Sections::parse(text, file)?;
+    let sections = Sections::parse(text, file, COMMENTS)?;
     let options = Options::read(&sections)?;
     let types = line_types(&sections, &options)?;
     let bodies = bodies(&sections)?;
@@ -122,22 +131,34 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
     let (mut members, budget) = (Vec::new(), Budget::default());
     let lines = sections.need(Section::Lines)?.rows(LINE_COLUMNS)?;
     // Of all lines, before the first is made.
-    let segments = lines.iter().map(segments).sum::<Result<usize, _>>()?;
-    let room = budget.fits_members(segments, BYTES_PER_MEMBER);
+    let all = lines.iter().map(segments).sum::<Result<usize, _>>()?;
+    let room = budget.fits_members(all, BYTES_PER_MEMBER);
     room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
     for row in lines {
-        let gravity_m_s2 = options.gravity_m_s2;
+        let line = Line {
+            id: row.text("id")?.to_owned(),
+            kind: line_type(&row, &types)?,
+            ends: ends(&row, &numbers)?,
+            length_m: row.positive("length")?,
+            count: segments(&row)?,
+        };
         let into = (&mut joints, &mut members);
-        notes.push(line(&row, &types, &numbers, gravity_m_s2, &budget, into)?);
+        notes.push(line.read(&row, options.gravity_m_s2, &budget, into)?);
     }
-    let name = sections.title();
-    let system = System::new(name, options.gravity_m_s2, joints, members).map_err(|error| {
-        FormatError::new(file, None, Wrong::NoSystem { reason: error.to_string() })
+    foreign(&sections, options.gravity_m_s2, (joints, members), (notes, options.floor_m))
+}
+
+/// The system, with the bottom of the sea beside it.
+fn foreign(
+    sections: &Sections<'_>,
+    gravity_m_s2: f64,
+    (joints, members): (Vec<Joint>, Vec<Member>),
+    (notes, floor_m): (Vec<String>, Option<f64>),
+) -> Result<ForeignSystem, FormatError> {
+    let system = System::new(sections.title(), gravity_m_s2, joints, members).map_err(|error| {
+        FormatError::new(sections.file, None, Wrong::NoSystem { reason: error.to_string() })
     })?;
-    if let Some(floor_m) = options.floor_m {
-        notes.push(format!("the floor at {floor_m} m is not part of the system"));
-    }
-    Ok(ForeignSystem { system, notes, floor_m: options.floor_m })
+    Ok(ForeignSystem { system, notes, floor_m })
 }
 
 fn line_types(
@@ -220,10 +241,14 @@ fn point(
         let what = format!("the type {kind:?} of point {name}");
         return Err(row.error(Wrong::Unknown { what }));
     }
+    Ok(Joint::free(name).with_force([0.0, 0.0, -weight_n(row, options)?]))
+}
+
+/// Weight of a point in water, N.
+fn weight_n(row: &Row<'_>, options: &Options) -> Result<f64, FormatError> {
     let mass_kg = row.optional("mass")?.unwrap_or_default();
     let displaced_kg = row.optional("volume")?.unwrap_or_default() * options.density_kg_m3;
-    let weight_n = (mass_kg - displaced_kg) * options.gravity_m_s2;
-    Ok(Joint::free(name).with_force([0.0, 0.0, -weight_n]))
+    Ok((mass_kg - displaced_kg) * options.gravity_m_s2)
 }
 
 /// Segments of a line.
@@ -236,19 +261,26 @@ fn segments(row: &Row<'_>) -> Result<usize, FormatError> {
     Ok(as_count(segments))
 }
 
-/// A line as a run of elastic cables, and how it was read.
-fn line(
+/// A line that becomes a run of elastic cables.
+struct Line<'a> {
+    id: String,
+    kind: &'a LineType,
+    ends: [usize; 2],
+    length_m: f64,
+    count: usize,
+}
+
+/// The type of a line.
+fn line_type<'a>(
     row: &Row<'_>,
-    types: &HashMap<String, LineType>,
-    numbers: &HashMap<String, usize>,
-    gravity_m_s2: f64,
-    budget: &Budget,
-    (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
-) -> Result<String, FormatError> {
-    let (id, kind) = (row.text("id")?, row.text("type")?);
-    let Some(line_type) = types.get(kind) else {
-        return Err(row.error(Wrong::Missing { what: format!("line type {kind:?}") }));
-    };
+    types: &'a HashMap<String, LineType>,
+) -> Result<&'a LineType, FormatError> {
+    let kind = row.text("type")?;
+    types.get(kind).ok_or_else(|| row.error(Wrong::Missing { what: format!("line type {kind:?}") }))
+}
+
+/// The points at the ends of a line.
+fn ends(row: &Row<'_>, numbers: &HashMap<String, usize>) -> Result<[usize; 2], FormatError> {
     let end = |column: &str| {
         let name = row.text(column)?;
         let bare = name.to_lowercase();
@@ -256,34 +288,46 @@ fn line(
         let found = numbers.get(bare).copied();
         found.ok_or_else(|| row.error(Wrong::Missing { what: format!("point {name:?}") }))
     };
-    let (from, to, length_m) = (end("a")?, end("b")?, row.positive("length")?);
-    let count = segments(row)?;
-    let asked =
-        budget.take_members(count).and_then(|()| budget.take_names(count, id.len() + DIGITS));
-    asked.map_err(|error| row.error(Wrong::Memory(error)))?;
-    let piece_m = length_m / count as f64;
-    let weight_n = line_type.weight_n_m * piece_m;
-    let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
-    let body = Bar::homogeneous(piece_m, mass_kg)
-        .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
-    let lift = PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n] };
-    let mut here = from;
-    for k in 1..=count {
-        let there = if k < count {
-            joints.push(Joint::free(format!("line {id}.{k}")));
-            joints.len() - 1
-        } else {
-            to
-        };
-        let mut member = Member::cable(here, there, body).with_stiffness(line_type.stiffness_n);
-        if weight_n < 0.0 {
-            member.loads.push(lift);
+    Ok([end("a")?, end("b")?])
+}
+
+impl Line<'_> {
+    /// The cables, their joints, and how they were read.
+    fn read(
+        &self,
+        row: &Row<'_>,
+        gravity_m_s2: f64,
+        budget: &Budget,
+        (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
+    ) -> Result<String, FormatError> {
+        let Self { id, kind, ends: [from, to], length_m, count } = self;
+        let asked =
+            budget.take_members(*count).and_then(|()| budget.take_names(*count, id.len() + DIGITS));
+        asked.map_err(|error| row.error(Wrong::Memory(error)))?;
+        let piece_m = length_m / *count as f64;
+        let weight_n = kind.weight_n_m * piece_m;
+        let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
+        let body = Bar::homogeneous(piece_m, mass_kg)
+            .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
+        let lift = PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n] };
+        let mut here = *from;
+        for k in 1..=*count {
+            let there = if k < *count {
+                joints.push(Joint::free(format!("line {id}.{k}")));
+                joints.len() - 1
+            } else {
+                *to
+            };
+            let mut member = Member::cable(here, there, body).with_stiffness(kind.stiffness_n);
+            if weight_n < 0.0 {
+                member.loads.push(lift);
+            }
+            members.push(member);
+            here = there;
         }
-        members.push(member);
-        here = there;
+        Ok(format!(
+            "line {id}: {count} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
+            kind.stiffness_n, kind.weight_n_m
+        ))
     }
-    Ok(format!(
-        "line {id}: {count} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
-        line_type.stiffness_n, line_type.weight_n_m
-    ))
 }

@@ -13,7 +13,7 @@ pub(super) struct Options {
 }
 
 /// Density of water unless the file says another, kg/m^3: MoorDyn's own default.
-const SEA_WATER: f64 = 1025.0;
+pub(super) const SEA_WATER: f64 = 1025.0;
 
 /// Time steps, tolerances of the dynamic relaxation, contact with the floor, output: nothing of
 /// them at rest above it.

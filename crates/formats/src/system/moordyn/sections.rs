@@ -38,8 +38,10 @@ const HEADINGS: &[(&str, Section)] = &[
     ("NEED THIS LINE", Section::Frame),
     ("INPUT FILE", Section::Frame),
 ];
-/// What begins a comment.
-const COMMENTS: [char; 3] = ['!', '#', '%'];
+/// What begins a comment, unless the file has another use for it.
+pub(super) const COMMENTS: &[char] = &['!', '#', '%'];
+/// The column that may be empty at the end of a row, and of which all that follows is a part.
+const FLAGS: &str = "flags";
 /// Lines of names and of units above a table.
 const HEAD: usize = 2;
 
@@ -62,11 +64,16 @@ pub(super) struct Row<'a> {
     file: &'a str,
     line: usize,
     words: Vec<&'a str>,
+    units: &'a str,
     columns: HashMap<&'static str, usize>,
 }
 
 impl<'a> Sections<'a> {
-    pub(super) fn parse(text: &'a str, file: &'a str) -> Result<Self, FormatError> {
+    pub(super) fn parse(
+        text: &'a str,
+        file: &'a str,
+        comments: &[char],
+    ) -> Result<Self, FormatError> {
         let mut sections = Self { file, title: None, tables: HashMap::new() };
         let mut current = Section::Frame;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -89,7 +96,7 @@ impl<'a> Sections<'a> {
                 sections.tables.entry(current).or_insert_with(table);
                 continue;
             }
-            let bare = line.split(COMMENTS).next().unwrap_or_default().trim();
+            let bare = line.split(comments).next().unwrap_or_default().trim();
             if bare.is_empty() {
                 continue;
             }
@@ -172,14 +179,16 @@ impl<'a> Table<'a> {
                 return Err(FormatError::new(self.file, Some(*line), Wrong::Repeated { what }));
             }
         }
+        let wanted = names.len() - usize::from(columns.get(FLAGS) == Some(&(names.len() - 1)));
+        let units = self.lines.get(1).map_or("", |(_, units)| *units);
         let rows = self.lines.iter().skip(HEAD).map(|(line, text)| {
             let words: Vec<_> = text.split_whitespace().collect();
-            if words.len() < names.len() {
-                let wrong = Wrong::Count { wanted: names.len(), found: words.len() };
+            if words.len() < wanted {
+                let wrong = Wrong::Count { wanted, found: words.len() };
                 return Err(FormatError::new(self.file, Some(*line), wrong));
             }
             let (file, line) = (self.file, *line);
-            Ok(Row { file, line, words, columns: columns.clone() })
+            Ok(Row { file, line, words, units, columns: columns.clone() })
         });
         rows.collect()
     }
@@ -197,8 +206,26 @@ impl Row<'_> {
         Ok(self.words[place])
     }
 
+    /// Whether a word is among the flags, in any case.
+    pub(super) fn has_flag(&self, flag: &str) -> bool {
+        let flags = self.columns.get(FLAGS).and_then(|place| self.words.get(*place..));
+        flags.is_some_and(|flags| flags.iter().any(|word| word.eq_ignore_ascii_case(flag)))
+    }
+
+    /// The unit of a column as the line below its name says.
+    pub(super) fn unit(&self, column: &str) -> &str {
+        let unit =
+            self.columns.get(column).and_then(|place| self.units.split_whitespace().nth(*place));
+        unit.unwrap_or_default().trim_matches(['(', ')', '[', ']'])
+    }
+
     pub(super) fn number(&self, column: &str) -> Result<f64, FormatError> {
-        number(self.file, Some(self.line), column, self.text(column)?)
+        self.as_number(column, self.text(column)?)
+    }
+
+    /// A part of a column as a number.
+    pub(super) fn as_number(&self, column: &str, text: &str) -> Result<f64, FormatError> {
+        number(self.file, Some(self.line), column, text)
     }
 
     /// The number of a column that need not be there.

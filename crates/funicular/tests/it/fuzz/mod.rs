@@ -8,6 +8,7 @@
 
 mod columns;
 mod command_line;
+mod foreign;
 mod manifest;
 mod mutate;
 mod system_file;

@@ -1,0 +1,312 @@
+//! DXF in ASCII: `LINE`, `LWPOLYLINE` and `POLYLINE` as members, `POINT` as anchors, `TEXT` as names of joints.
+//!
+//! The layer says what a line is. `$INSUNITS` says in which unit it is drawn: without one it is m. What else is in the
+//! drawing is counted, curves within polylines are refused. What is in blocks and in paper space is not read.
+//!
+//! # References
+//!
+//! Autodesk, "DXF Reference".
+
+use model::Vector;
+
+use crate::error::{FormatError, Wrong, number, shortened};
+use crate::system::ForeignSystem;
+use crate::system::drawing::Drawing;
+
+/// Values of `$INSUNITS`: their names and lengths, m.
+const UNITS: &[(&str, &str, f64)] = &[
+    ("0", "m", 1.0),
+    ("1", "in", 0.0254),
+    ("2", "ft", 0.3048),
+    ("4", "mm", 1e-3),
+    ("5", "cm", 1e-2),
+    ("6", "m", 1.0),
+    ("7", "km", 1e3),
+    ("10", "yd", 0.9144),
+    ("14", "dm", 0.1),
+];
+/// How an anchor is marked.
+const MARK: &str = "mark each anchor by a POINT at the end of its line, on a layer whose name has \"anchor\" or \"support\" \
+                    in it";
+/// What a layer has in its name whose texts are names of joints.
+const NAMES: &str = "name";
+/// Group 70 of a `POLYLINE`: closed, in space, a net or faces; of a `VERTEX`: no corner, but what bends a spline.
+const CLOSED: u32 = 1;
+const IN_SPACE: u32 = 8;
+const SURFACE: u32 = 16 | 64;
+const CONTROL: u32 = 16;
+
+/// A value with its group code and the line of the code.
+#[derive(Clone, Copy)]
+struct Group<'a> {
+    line: usize,
+    code: i32,
+    value: &'a str,
+}
+
+/// The groups of a text.
+struct Groups<'a> {
+    file: &'a str,
+    lines: std::iter::Enumerate<std::str::Lines<'a>>,
+    next: Option<Group<'a>>,
+}
+
+/// What follows a group 0, until the next.
+struct Entity<'a> {
+    file: &'a str,
+    line: usize,
+    kind: &'a str,
+    groups: Vec<Group<'a>>,
+}
+
+/// A `POLYLINE` whose vertices are being read.
+struct Polyline<'a> {
+    head: Entity<'a>,
+    corners: Vec<Vector>,
+}
+
+/// Read the lines of a drawing.
+///
+/// # Errors
+///
+/// [`FormatError`] with the line and the part that is wrong or not understood.
+pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+    if text.starts_with("AutoCAD Binary DXF") {
+        let what = "a binary DXF file".to_owned();
+        let error = FormatError::new(file, None, Wrong::Unknown { what });
+        return Err(error.with_help("save the drawing as DXF in ASCII"));
+    }
+    let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines().enumerate();
+    let mut groups = Groups { file, lines, next: None };
+    let (mut drawing, mut open) = (Drawing::new(file), None);
+    let (mut section, mut unit) = ("", UNITS[0]);
+    loop {
+        let Some(entity) = groups.entity()? else {
+            let missing = Wrong::Missing { what: "end of the drawing (EOF)".to_owned() };
+            return Err(FormatError::new(file, None, missing));
+        };
+        match entity.kind {
+            "EOF" => break,
+            "SECTION" => {
+                section = entity.text(2);
+                if section == "HEADER" {
+                    unit = entity.unit()?.unwrap_or(unit);
+                }
+            }
+            "ENDSEC" => section = "",
+            _ if section == "ENTITIES" => entity.read(&mut drawing, &mut open, unit.2)?,
+            _ => {}
+        }
+    }
+    if let Some(Polyline { head, .. }) = open {
+        return Err(head.missing("end of a polyline (SEQEND)"));
+    }
+    drawing.system("line", MARK, vec![format!("drawn in {}", unit.1)])
+}
+
+impl<'a> Groups<'a> {
+    fn group(&mut self) -> Result<Option<Group<'a>>, FormatError> {
+        let Some((k, code)) = self.lines.next() else { return Ok(None) };
+        let (line, text) = (k + 1, code.trim());
+        let Ok(code) = text.parse() else {
+            if text.is_empty() && self.lines.all(|(_, line)| line.trim().is_empty()) {
+                return Ok(None);
+            }
+            let (what, found) = ("a group code".to_owned(), shortened(text));
+            let wrong = Wrong::Value { what, wanted: "a whole number", found };
+            return Err(FormatError::new(self.file, Some(line), wrong));
+        };
+        let Some((_, value)) = self.lines.next() else {
+            let what = format!("value of the group {code}");
+            return Err(FormatError::new(self.file, Some(line), Wrong::Missing { what }));
+        };
+        Ok(Some(Group { line, code, value: value.trim() }))
+    }
+
+    /// A group 0 with those that follow it.
+    fn entity(&mut self) -> Result<Option<Entity<'a>>, FormatError> {
+        /// A remark.
+        const REMARK: i32 = 999;
+        let mut head = self.next.take();
+        while head.is_none_or(|head| head.code == REMARK) {
+            head = self.group()?;
+            if head.is_none() {
+                return Ok(None);
+            }
+        }
+        let Some(Group { line, code: 0, value: kind }) = head else {
+            let (line, what) = (head.map(|head| head.line), "group 0 of an entity".to_owned());
+            return Err(FormatError::new(self.file, line, Wrong::Missing { what }));
+        };
+        let mut groups = vec![];
+        while let Some(group) = self.group()? {
+            if group.code == 0 {
+                self.next = Some(group);
+                break;
+            }
+            groups.push(group);
+        }
+        Ok(Some(Entity { file: self.file, line, kind, groups }))
+    }
+}
+
+impl<'a> Entity<'a> {
+    fn text(&self, code: i32) -> &'a str {
+        self.groups.iter().find(|group| group.code == code).map_or("", |group| group.value)
+    }
+
+    fn value(&self, group: &Group<'_>) -> Result<f64, FormatError> {
+        let what = format!("the group {}", group.code);
+        number(self.file, Some(group.line + 1), &what, group.value)
+    }
+
+    fn number(&self, code: i32, otherwise: f64) -> Result<f64, FormatError> {
+        let group = self.groups.iter().find(|group| group.code == code);
+        group.map_or(Ok(otherwise), |group| self.value(group))
+    }
+
+    /// Bits of group 70.
+    fn flags(&self) -> Result<u32, FormatError> {
+        let text = Some(self.text(70)).filter(|text| !text.is_empty()).unwrap_or("0");
+        text.parse().map_err(|_| {
+            let (what, found) = ("the group 70".to_owned(), shortened(text));
+            self.error(Wrong::Value { what, wanted: "a whole number", found })
+        })
+    }
+
+    fn error(&self, wrong: Wrong) -> FormatError {
+        FormatError::new(self.file, Some(self.line), wrong)
+    }
+
+    fn missing(&self, what: &str) -> FormatError {
+        self.error(Wrong::Missing { what: what.to_owned() })
+    }
+
+    /// The point of the groups 10, 20, 30, or 11, 21, 31, m.
+    fn place(&self, number: i32, unit_m: f64) -> Result<Vector, FormatError> {
+        let mut at_m = [0.0; 3];
+        for (k, x) in (1..).zip(&mut at_m) {
+            let code = 10 * k + number;
+            if k < 3 && self.groups.iter().all(|group| group.code != code) {
+                return Err(self.missing(&format!("group {code} of a {}", shortened(self.kind))));
+            }
+            *x = unit_m * self.number(code, 0.0)?;
+        }
+        Ok(at_m)
+    }
+
+    /// The unit of a header.
+    fn unit(&self) -> Result<Option<(&'static str, &'static str, f64)>, FormatError> {
+        let named = |group: &Group<'_>| group.code == 9 && group.value == "$INSUNITS";
+        let mut rest = self.groups.iter().skip_while(|group| !named(group)).skip(1);
+        let Some(group) = rest.next() else { return Ok(None) };
+        let unit = UNITS.iter().find(|(number, ..)| *number == group.value);
+        unit.copied().map(Some).ok_or_else(|| {
+            let what = format!("the unit {:?} ($INSUNITS)", shortened(group.value));
+            let error = FormatError::new(self.file, Some(group.line + 1), Wrong::Unknown { what });
+            error.with_help("draw in m, dm, cm, mm, km, in, ft or yd")
+        })
+    }
+
+    fn read(
+        self,
+        drawing: &mut Drawing<'a>,
+        open: &mut Option<Polyline<'a>>,
+        unit_m: f64,
+    ) -> Result<(), FormatError> {
+        if let Some(polyline) = open {
+            return match self.kind {
+                "VERTEX" => {
+                    self.straight()?;
+                    if self.flags()? & CONTROL == 0 {
+                        polyline.corners.push(self.place(0, unit_m)?);
+                    }
+                    Ok(())
+                }
+                "SEQEND" => match open.take() {
+                    Some(polyline) => polyline.read(drawing, unit_m),
+                    None => Ok(()),
+                },
+                _ => Err(self.missing("end of the polyline before it (SEQEND)")),
+            };
+        }
+        let layer = self.text(8);
+        match self.kind {
+            // On a sheet beside the model.
+            kind if self.text(67) == "1" => drawing.skip(&format!("{} on paper", shortened(kind))),
+            "LINE" => {
+                let ends = [self.place(0, unit_m)?, self.place(1, unit_m)?];
+                drawing.line(self.line, layer, ends)?;
+            }
+            "POINT" => drawing.point(self.line, layer, self.place(0, unit_m)?)?,
+            "TEXT" if layer.to_lowercase().contains(NAMES) => {
+                drawing.name(self.place(0, unit_m)?, self.text(1));
+            }
+            "LWPOLYLINE" => {
+                let corners = self.corners(unit_m)?;
+                drawing.way(self.line, layer, &corners, self.flags()? & CLOSED != 0)?;
+            }
+            "POLYLINE" => *open = Some(Polyline { head: self, corners: vec![] }),
+            kind => drawing.skip(&shortened(kind)),
+        }
+        Ok(())
+    }
+
+    /// The corners of a polyline in a level plane, m.
+    fn corners(&self, unit_m: f64) -> Result<Vec<Vector>, FormatError> {
+        self.level()?;
+        self.straight()?;
+        let z = unit_m * self.number(38, 0.0)?;
+        let mut corners: Vec<Vector> = vec![];
+        for group in &self.groups {
+            match (group.code, corners.last_mut()) {
+                (10, _) => corners.push([unit_m * self.value(group)?, 0.0, z]),
+                (20, Some(last)) => last[1] = unit_m * self.value(group)?,
+                _ => {}
+            }
+        }
+        Ok(corners)
+    }
+
+    /// Refuse arcs between the corners of a polyline.
+    fn straight(&self) -> Result<(), FormatError> {
+        let bulges = self.groups.iter().filter(|group| group.code == 42);
+        for group in bulges {
+            if self.value(group)?.abs() > 0.0 {
+                let what = "an arc of a polyline (group 42)".to_owned();
+                let wrong = Wrong::OutOfScope { what };
+                return Err(FormatError::new(self.file, Some(group.line), wrong));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuse a plane of its own.
+    fn level(&self) -> Result<(), FormatError> {
+        let normal = [self.number(210, 0.0)?, self.number(220, 0.0)?, self.number(230, 1.0)?];
+        if normal[0].abs() + normal[1].abs() > 0.0 || normal[2] <= 0.0 {
+            let what = "a polyline in a plane of its own (groups 210 to 230)".to_owned();
+            return Err(self.error(Wrong::Unknown { what }).with_help("draw it in 3D"));
+        }
+        Ok(())
+    }
+}
+
+impl<'a> Polyline<'a> {
+    fn read(self, drawing: &mut Drawing<'a>, unit_m: f64) -> Result<(), FormatError> {
+        let Self { head, mut corners } = self;
+        let flags = head.flags()?;
+        if flags & SURFACE != 0 {
+            drawing.skip("POLYLINE of faces");
+            return Ok(());
+        }
+        if flags & IN_SPACE == 0 {
+            head.level()?;
+            let z = unit_m * head.number(30, 0.0)?;
+            for at_m in &mut corners {
+                at_m[2] = z;
+            }
+        }
+        drawing.way(head.line, head.text(8), &corners, flags & CLOSED != 0)
+    }
+}

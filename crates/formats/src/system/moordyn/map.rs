@@ -1,0 +1,178 @@
+//! MAP++ input files: the statics of its lines, which are read as those of MoorDyn.
+//!
+//! A line is [`SEGMENTS`] elastic cables in a row. Nodes that are fixed or on the vessel are anchors; those that connect
+//! carry their mass less the water they displace, and their force. Gravity, the density of the water and its depth come
+//! from the program around MAP++: they are standard gravity, 1025 kg/m³, and the height of the lowest fixed node, unless
+//! all lines have the flag `OMIT_CONTACT`. Friction on the bottom (`CB`) is not part of the system.
+//!
+//! # References
+//!
+//! MAP++, <https://map-plus-plus.readthedocs.io>, "Input File"; `repeat` turns clockwise, as its source does.
+
+use std::collections::HashMap;
+
+use model::budget::{BYTES_PER_MEMBER, Budget};
+use model::system::Joint;
+use model::{STANDARD_GRAVITY_M_S2, Vector};
+
+use super::options::{Options, SEA_WATER};
+use super::sections::{Row, Section, Sections};
+use super::{HELD, LINE_COLUMNS, Line, POINT_COLUMNS};
+use crate::error::{FormatError, Wrong, number, shortened};
+use crate::system::ForeignSystem;
+
+/// Cables of one line: against the catenary the forces at its ends are then wrong by a part of some 1e-4.
+const SEGMENTS: usize = 50;
+/// `#` marks a first guess here.
+const COMMENTS: &[char] = &['!', '%'];
+/// A line that touches no bottom.
+const NO_CONTACT: &str = "OMIT_CONTACT";
+/// The head of the table of options, and what its solver does.
+const NO_BEARING: &[&str] = &[
+    "option",
+    "options",
+    "(-)",
+    "[-]",
+    "help",
+    "inner_ftol",
+    "inner_gtol",
+    "inner_xtol",
+    "inner_max_its",
+    "outer_tol",
+    "outer_max_its",
+    "outer_fd",
+    "outer_bd",
+    "outer_cd",
+    "integration_dt",
+    "kb_default",
+    "cb_default",
+    "wave_kinematics",
+    "ref_position",
+    "krylov_accelerator",
+    "pg_cooked",
+    "lm_model",
+];
+
+/// Read a MAP++ input file.
+///
+/// # Errors
+///
+/// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
+pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+    let sections = Sections::parse(text, file, COMMENTS)?;
+    let (gravity_m_s2, density_kg_m3) = (STANDARD_GRAVITY_M_S2, SEA_WATER);
+    let options = Options { gravity_m_s2, density_kg_m3, floor_m: None };
+    let angles = angles(&sections)?;
+    let types = super::line_types(&sections, &options)?;
+    let nodes = sections.need(Section::Points)?.rows(POINT_COLUMNS)?;
+    let lines = sections.need(Section::Lines)?.rows(LINE_COLUMNS)?;
+    let budget = Budget::default();
+    // Of all copies, before the first is made.
+    let (joints, members) = (nodes.len(), lines.len().saturating_mul(SEGMENTS));
+    let copies = joints.saturating_add(members).saturating_mul(angles.len());
+    let room = budget.fits_members(copies, BYTES_PER_MEMBER);
+    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
+    let (mut joints, mut members) = (Vec::new(), Vec::new());
+    let mut numbers = HashMap::new();
+    for (copy, angle) in angles.iter().enumerate() {
+        for (k, row) in nodes.iter().enumerate() {
+            let joint = node(row, numbered(row, copy, nodes.len(), k)?, *angle, &options)?;
+            if numbers.insert(joint.name.clone(), joints.len()).is_some() {
+                return Err(row.error(Wrong::Repeated { what: format!("node {}", joint.name) }));
+            }
+            joints.push(joint);
+        }
+    }
+    let floor_m = floor_m(&lines, &joints)?;
+    let mut notes = vec![format!(
+        "in still water of {density_kg_m3} kg/m^3, g = {gravity_m_s2} m/s^2, which the file does not say; without the \
+         friction of the bottom"
+    )];
+    for (copy, k) in (0..angles.len()).flat_map(|copy| (0..lines.len()).map(move |k| (copy, k))) {
+        let row = &lines[k];
+        let line = Line {
+            id: numbered(row, copy, lines.len(), k)?,
+            kind: super::line_type(row, &types)?,
+            ends: super::ends(row, &numbers)?.map(|end| end + copy * nodes.len()),
+            length_m: row.positive("length")?,
+            count: SEGMENTS,
+        };
+        notes.push(line.read(row, gravity_m_s2, &budget, (&mut joints, &mut members))?);
+    }
+    super::foreign(&sections, gravity_m_s2, (joints, members), (notes, floor_m))
+}
+
+/// The name of a row, or in a copy its number: copies are numbered on.
+fn numbered(row: &Row<'_>, copy: usize, count: usize, k: usize) -> Result<String, FormatError> {
+    Ok(if copy == 0 { row.text("id")?.to_owned() } else { (copy * count + k + 1).to_string() })
+}
+
+/// The angles of all copies, rad: that of the file itself is 0.
+fn angles(sections: &Sections<'_>) -> Result<Vec<f64>, FormatError> {
+    let mut angles = vec![0.0];
+    for (line, text) in sections.lines(Section::Options) {
+        let mut words = text.split_whitespace();
+        let word = words.next().unwrap_or_default().to_lowercase();
+        if word == "repeat" {
+            for angle in words {
+                let angle_deg = number(sections.file, Some(*line), "an angle of repeat", angle)?;
+                angles.push(angle_deg.to_radians());
+            }
+        } else if !NO_BEARING.contains(&word.as_str()) {
+            let what = format!("the option {:?}", shortened(text));
+            return Err(FormatError::new(sections.file, Some(*line), Wrong::Unknown { what }));
+        }
+    }
+    Ok(angles)
+}
+
+/// A node of a copy.
+fn node(row: &Row<'_>, name: String, angle: f64, options: &Options) -> Result<Joint, FormatError> {
+    let (sin, cos) = angle.sin_cos();
+    let turned = |[x, y, z]: Vector| [cos * x + sin * y, cos * y - sin * x, z];
+    let kind = row.text("type")?.to_lowercase();
+    let at_m = turned([place(row, "x")?, place(row, "y")?, place(row, "z")?]);
+    if HELD.contains(&kind.as_str()) {
+        return Ok(Joint::anchor(name, at_m));
+    }
+    if kind != "connect" {
+        let what = format!("the type {kind:?} of node {name}");
+        return Err(row.error(Wrong::Unknown { what }));
+    }
+    let mut force_n = [0.0; 3];
+    for (column, force_n) in ["fx", "fy", "fz"].into_iter().zip(&mut force_n) {
+        *force_n = row.optional(column)?.unwrap_or_default();
+        // MAP++ takes N, whatever the head of its table says.
+        if force_n.abs() > 0.0 && row.unit(column) != "N" {
+            let what = format!("the force {column} on node {name} in {:?}", row.unit(column));
+            return Err(row.error(Wrong::Unknown { what }).with_help("MAP++ takes N: write (N)"));
+        }
+    }
+    let mut force_n = turned(force_n);
+    force_n[2] -= super::weight_n(row, options)?;
+    Ok(Joint::free(name).with_force(force_n))
+}
+
+/// A coordinate; where it is a first guess it has a `#` before it.
+fn place(row: &Row<'_>, column: &str) -> Result<f64, FormatError> {
+    let text = row.text(column)?;
+    if text.eq_ignore_ascii_case("depth") {
+        let error = row.error(Wrong::Missing { what: "depth of the water".to_owned() });
+        return Err(error.with_help("write the height of the bottom in the place of `depth`"));
+    }
+    row.as_number(column, text.strip_prefix('#').unwrap_or(text))
+}
+
+/// The bottom of the sea: that of the lowest fixed node, where lines may lie on it.
+fn floor_m(lines: &[Row<'_>], joints: &[Joint]) -> Result<Option<f64>, FormatError> {
+    let free = lines.iter().filter(|row| row.has_flag(NO_CONTACT)).count();
+    if free == lines.len() {
+        return Ok(None);
+    }
+    if let Some(row) = lines.iter().find(|row| row.has_flag(NO_CONTACT)) {
+        let what = format!("a bottom for some lines alone ({NO_CONTACT})");
+        return Err(row.error(Wrong::Unknown { what }));
+    }
+    let heights = joints.iter().filter_map(|joint| joint.support.at_m()).map(|at_m| at_m[2]);
+    Ok(heights.reduce(f64::min))
+}

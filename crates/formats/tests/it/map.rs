@@ -1,0 +1,115 @@
+//! MAP++ input files.
+
+use formats::system::{Source, parse_map};
+use model::STANDARD_GRAVITY_M_S2;
+
+/// A buoy between a chain to the ground and a rope to a vessel, and the same turned by a right angle.
+const DECK: &str = "\
+--------------- LINE DICTIONARY ---------------
+LineType  Diam  MassDenInAir  EA     CB   CIntDamp  Ca   Cdn   Cdt
+(-)       (m)   (kg/m)        (N)    (-)  (Pa-s)    (-)  (-)   (-)
+chain     0.2   100           1e9    1.0  1e8       0.6  -1.0  0.05
+rope      0.2   20            1e7    1.0  1e8       0.6  -1.0  0.05
+--------------- NODE PROPERTIES ---------------
+Node  Type     X    Y   Z     M    B    FX   FY   FZ
+(-)   (-)     (m)  (m)  (m)  (kg) (m^3) (N)  (N)  (N)
+1     Fix      90   10  -80   0    0    #    #    #
+2     Connect  #40  #0  #-50  100  0.5  300  0    -20
+3     VESSEL   20   0   -10   0    0    #    #    #
+--------------- LINE PROPERTIES ---------------
+Line  LineType  UnstrLen  NodeAnch  NodeFair  Flags
+(-)   (-)       (m)       (-)       (-)       (-)
+1     chain     70        1         2         gx_pos plot
+2     rope      50        2         3
+--------------- SOLVER OPTIONS ----------------
+Option
+(-)
+help
+outer_tol 1e-5
+repeat 90   ! degrees
+ref_position 0 0 0
+";
+
+#[test]
+fn nodes_are_joints_and_lines_are_cables_in_a_row() {
+    let found = parse_map(DECK, "x.map").unwrap();
+    let system = &found.system;
+    let names: Vec<_> = system.joints()[..6].iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(names, ["1", "2", "3", "4", "5", "6"]);
+    assert_eq!((system.members().len(), system.joints().len()), (200, 6 + 4 * 49));
+    let g = STANDARD_GRAVITY_M_S2;
+    // 500 litres of the buoy's 100 kg float; a metre of line displaces 1025 pi/100 kg.
+    let (lift_n, water_kg_m) = ((0.5 * 1025.0 - 100.0) * g, 10.25 * std::f64::consts::PI);
+    let force_n = system.joints()[1].force_n;
+    assert_eq!(force_n[..2], [300.0, 0.0]);
+    assert!((force_n[2] - (lift_n - 20.0)).abs() < 1e-9);
+    let (chain, rope) = (&system.members()[0], &system.members()[50]);
+    assert_eq!((chain.stiffness_n, chain.body.length_m()), (Some(1e9), 1.4));
+    assert!((chain.body.mass_kg() - 1.4 * (100.0 - water_kg_m)).abs() < 1e-12);
+    assert!((rope.loads[0].force_n[2] - (water_kg_m - 20.0) * g).abs() < 1e-9);
+    assert_eq!((rope.from, system.members()[99].to), (1, 2));
+    // A quarter clockwise, as seen from above: x is -y.
+    let turned = &system.joints()[3..6];
+    let at_m = turned[0].support.at_m().unwrap();
+    assert!((at_m[0] - 10.0).hypot(at_m[1] + 90.0).hypot(at_m[2] + 80.0) < 1e-12, "{at_m:?}");
+    assert!(turned[1].force_n[0].hypot(turned[1].force_n[1] + 300.0) < 1e-12);
+    assert_eq!((system.members()[100].from, system.members()[199].to), (3, 5));
+    // The ground is at the lowest anchor.
+    assert_eq!(found.floor_m, Some(-80.0));
+    assert!(found.notes[0].contains("1025 kg/m^3") && found.notes[0].contains("friction"));
+    assert!(found.notes[1].starts_with("line 1: 50 elastic cables of 1.4 m"));
+    let free =
+        DECK.replace("gx_pos plot", "plot omit_CONTACT").replace("3\n---", "3 OMIT_CONTACT\n---");
+    assert_eq!(parse_map(&free, "x").unwrap().floor_m, None);
+    assert_eq!(Source::guess("txt", DECK), Some(Source::Map));
+    assert_eq!(
+        Source::guess("txt", &DECK.replace("UnstrLen", "UnstrLen NumSegs")),
+        Some(Source::MoorDyn)
+    );
+}
+
+#[test]
+fn what_is_wrong_in_a_deck_has_its_line() {
+    for (from, to, says) in [
+        ("-80   0", "depth 0", "x:9: there is no depth of the water"),
+        (
+            "gx_pos plot",
+            "OMIT_CONTACT",
+            "x:15: a bottom for some lines alone (OMIT_CONTACT) is not understood",
+        ),
+        (
+            "(N)  (N)  (N)",
+            "(kN) (N) (N)",
+            "x:10: the force fx on node 2 in \"kN\" is not understood",
+        ),
+        ("300  0", "#300 0", "x:10: fx must be a finite number, found \"#300\""),
+        ("Connect  #40", "Connect  #nan", "x:10: x must be a finite number, found \"nan\""),
+        ("Connect", "Slide", "x:10: the type \"slide\" of node 2 is not understood"),
+        ("outer_tol", "inner_tool", "x:21: the option \"inner_tool 1e-5\" is not understood"),
+        (
+            "repeat 90",
+            "repeat 90deg",
+            "x:22: an angle of repeat must be a finite number, found \"90deg\"",
+        ),
+        ("chain     70 ", "wire      70 ", "x:15: there is no line type \"wire\""),
+        ("2         3\n", "2         7\n", "x:16: there is no point \"7\""),
+        ("70        1", "-70       1", "x:15: length must be positive, found \"-70\""),
+        (
+            "2     rope      50        2         3",
+            "2 rope 50 2",
+            "x:16: 5 values are needed here, found 4",
+        ),
+        ("2     Connect", "1     Connect", "x:10: node 1 is there twice"),
+        ("2     Connect", "6     Connect", "x:11: node 6 is there twice"),
+    ] {
+        assert!(DECK.contains(from), "{from}");
+        assert_eq!(parse_map(&DECK.replacen(from, to, 1), "x").unwrap_err().to_string(), says);
+    }
+}
+
+/// Copies are counted before they are made.
+#[test]
+fn copies_have_a_budget() {
+    let error = parse_map(&DECK.replace("90   !", &("90 ".repeat(50_000) + "!")), "x").unwrap_err();
+    assert!(error.to_string().contains("bytes of memory are needed"), "{error}");
+}

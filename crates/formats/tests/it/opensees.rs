@@ -1,0 +1,177 @@
+//! OpenSees decks.
+
+use formats::system::parse_opensees;
+use model::STANDARD_GRAVITY_M_S2;
+use model::system::{Kind, Support};
+
+/// A tripod on two supports and a slider, with masses.
+const DECK: &str = "\
+# a tripod
+wipe
+model BasicBuilder -ndm 3 -ndf 3
+set L 4.0 ; set h [expr $L/2 - 0.5];
+node 1 0 0 0
+node 2 $L 0 0; node 3 0 [expr {-$L}] 0
+node 4 [expr 7/2] 1 $h -mass 10 10 10
+fix 1 1 1 1
+fix 2 0 1 1
+fix 3 0 0 1
+uniaxialMaterial Elastic 1 200e9
+element truss 1 1 4 1e-4 1
+element corotTruss 2 2 4 2e-4 1 -rho 8
+element corotTruss 3 4 \\
+    3 3e-4 1 -rho 0.5 -cMass 0
+pattern Plain 1 Linear {
+    # down and aside
+    load 4 1.0 -2.0 -3000
+    load 4 0 0.5 0
+}
+pattern Plain 2 \"Constant\" -fact 2.0 { load 2 100 0 0 }
+integrator LoadControl 0.1
+analyze 10
+";
+
+#[test]
+fn trusses_are_elastic_bars_and_nothing_weighs() {
+    let read = parse_opensees(DECK, "a/tripod.tcl").unwrap();
+    let system = &read.system;
+    assert_eq!(system.name(), "tripod");
+    // Whole numbers are divided as Tcl does.
+    assert_eq!(system.joints()[3].near_m, Some([3.0, 1.0, 1.5]));
+    let supports: Vec<Support> = system.joints().iter().map(|joint| joint.support).collect();
+    let along = Support::Line { at_m: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
+    let level = Support::Plane { at_m: [0.0, -4.0, 0.0], normal: [0.0, 0.0, 1.0] };
+    assert_eq!(supports, [Support::Fixed { at_m: [0.0; 3] }, along, level, Support::Free]);
+    let stiff: Vec<_> = system.members().iter().map(|m| (m.kind, m.stiffness_n.unwrap())).collect();
+    assert_eq!(stiff, [(Kind::Bar, 2e7), (Kind::Bar, 4e7), (Kind::Bar, 200e9 * 3e-4)]);
+    let [second_m, third_m] = [(1.0_f64 + 1.0 + 2.25).sqrt(), (9.0_f64 + 25.0 + 2.25).sqrt()];
+    assert!((system.members()[0].body.length_m() - 3.5).abs() < 1e-15);
+    // Half of each truss at each of its ends; the weight of a mass is held up.
+    let masses = [0.0, 4.0 * second_m, 0.25 * third_m, 10.0 + 4.0 * second_m + 0.25 * third_m];
+    let loads = [[0.0; 3], [200.0, 0.0, 0.0], [0.0; 3], [1.0, -1.5, -3000.0]];
+    for ((joint, mass_kg), load_n) in system.joints().iter().zip(masses).zip(loads) {
+        assert!((joint.mass_kg - mass_kg).abs() < 1e-12, "{joint:?}");
+        let held_n = [0.0, 0.0, joint.mass_kg * STANDARD_GRAVITY_M_S2];
+        for axis in 0..3 {
+            assert!((joint.force_n[axis] - held_n[axis] - load_n[axis]).abs() < 1e-9, "{joint:?}");
+        }
+    }
+    assert!(system.members().iter().all(|member| member.body.mass_kg() <= 0.0));
+    for says in
+        ["nothing weighs", "truss is linear in OpenSees", "not read: analyze, integrator, wipe"]
+    {
+        assert!(read.notes.iter().any(|note| note.contains(says)), "{:?}", read.notes);
+    }
+}
+
+#[test]
+fn what_is_not_a_truss_at_rest_is_named_with_its_line() {
+    for (from, to, says) in [
+        (
+            "Elastic 1 200e9",
+            "ElasticPPGap 1 200e9 1e6 0.1",
+            "x:11: the material \"ElasticPPGap 1 200e9 1e6 0.1\" is not understood",
+        ),
+        (
+            "Elastic 1 200e9",
+            "Elastic 1 200e9 0 1e9",
+            "x:11: the material \"Elastic 1 200e9 0 1e9\" is not understood",
+        ),
+        (
+            "element truss",
+            "element elasticBeamColumn",
+            "x:12: the element \"elasticBeamColumn\" is not understood",
+        ),
+        (
+            "-cMass 0",
+            "-cMass 1",
+            "x:14: a mass that is not at the nodes (-cMass) is not part of a system of bars at rest",
+        ),
+        ("-rho 8", "-beta 8", "x:13: the word \"-beta\" is not understood"),
+        ("1e-4 1", "1e-4 2", "x:12: there is no material \"2\""),
+        ("1 4 1e-4", "1 9 1e-4", "x:12: there is no node \"9\""),
+        ("1 4 1e-4", "1 4 -1", "x:12: A must be positive, found \"-1\""),
+        ("1 4 1e-4", "1 1 1e-4", "x:12: the length of a bar must be positive and finite, got 0 m"),
+        ("node 1 0 0 0", "node 4 0 0 0", "x:7: node 4 is there twice"),
+        ("node 1 0 0 0", "node 1 0 0", "x:5: 5 values are needed here, found 4"),
+        (
+            "node 1 0 0 0",
+            "node 1 0 0 zero",
+            "x:5: a coordinate must be a finite number, found \"zero\"",
+        ),
+        ("fix 2 0 1 1", "fix 5 0 1 1", "x:9: there is no node \"5\""),
+        (
+            "-mass 10 10 10",
+            "-mass 10 10 9",
+            "x:7: a mass that differs by direction, or a negative one, is not part of a system of bars at rest",
+        ),
+        ("-ndm 3", "-ndm 1", "x:3: a model that has not -ndm 2 or 3 is not understood"),
+        ("$L 0 0", "$M 0 0", "x:6: there is no value of the variable \"M\""),
+        (
+            "[expr 7/2]",
+            "[nodeCoord 1 1]",
+            "x:7: the command [nodeCoord 1 1] within another is not understood",
+        ),
+        ("[expr 7/2]", "[expr 7/0]", "x:7: the arithmetic \"expr 7/0\" is not understood"),
+        ("wipe", "source other.tcl", "x:2: the command \"source\" is not understood"),
+        (
+            "analyze 10",
+            "for {set k 0} {1} {} {analyze 1}",
+            "x:23: the command \"for\" is not understood",
+        ),
+        ("Plain 1 Linear", "Plain 1 3", "x:16: there is no time series \"3\""),
+        (
+            "Plain 1",
+            "UniformExcitation 1",
+            "x:16: the pattern \"UniformExcitation\" is not understood",
+        ),
+        (
+            "load 4 0 0.5 0",
+            "load 4 0 0.5 0 0 0 1",
+            "x:19: a moment is not part of a system of bars at rest",
+        ),
+        ("load 4 0 0.5 0", "sp 4 1 0.5", "x:19: the load \"sp 4 1 0.5\" is not understood"),
+        ("\n}\npattern", "\npattern", "x:16: there is no '}' that closes '{'"),
+        ("\"Constant\"", "\"Constant", "x:21: there is no end of a text in quotes"),
+    ] {
+        assert!(DECK.contains(from), "{from}");
+        let error = parse_opensees(&DECK.replacen(from, to, 1), "x").unwrap_err();
+        assert!(error.to_string().starts_with(says), "{error}\n{says}");
+    }
+    assert_eq!(parse_opensees("", "x").unwrap_err().to_string(), "x: there is no element");
+    // A word does not grow without end by variables of variables.
+    let mut text = "set a 0123456789\n".to_owned();
+    text += &"set a $a$a$a$a$a$a$a$a$a$a\n".repeat(9);
+    let error = parse_opensees(&text, "x").unwrap_err();
+    assert_eq!(error.to_string(), "x:4: a word of more than 1000 letters is not understood");
+    let deep = format!("set a [expr {}1{}]\n", "(".repeat(900), ")".repeat(900));
+    assert!(parse_opensees(&deep, "x").unwrap_err().to_string().contains("the arithmetic"));
+}
+
+/// Arithmetic as Tcl has it.
+#[test]
+fn arithmetic_is_that_of_tcl() {
+    for (text, x) in [
+        ("7/2", 3.0),
+        ("-7/2", -4.0),
+        ("-7%3", 2.0),
+        ("7/2.0", 3.5),
+        ("2**3**2", 512.0),
+        ("-2**2", 4.0),
+        ("2+3*4-6/3", 12.0),
+        ("(2+3)*-4", -20.0),
+        ("10-4-3", 3.0),
+        ("sqrt(16)*1e-1", 0.4),
+        ("pow(2,-1)+hypot(3,4)", 5.5),
+        ("abs(-3)/2", 1.0),
+        ("2.5e+1", 25.0),
+    ] {
+        let text = format!(
+            "model basic -ndm 2\nnode 1 0 0\nnode 2 [expr {text}] 1\nfix 1 1 1\n\
+             uniaxialMaterial Elastic 1 1\nelement truss 1 1 2 1 1\n"
+        );
+        let read = parse_opensees(&text, "x").unwrap();
+        let at_m = read.system.joints()[1].near_m.unwrap();
+        assert!((at_m[0] - x).abs() < 1e-15, "{text} {at_m:?}");
+    }
+}
