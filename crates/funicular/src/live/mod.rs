@@ -17,7 +17,6 @@ use crate::page::Page;
 use crate::problem::Problem;
 use crate::shown::{Shape, Shown, Start};
 use crate::solve::Solve;
-use crate::text;
 
 /// Members of a system that is shown while it changes, each span of a rope counted: of more an answer takes longer than
 /// a hand waits. A rope has so many spans, which all of its joints share.
@@ -154,8 +153,9 @@ impl Ask {
         let (shown, words) = if self.quick || self.held.is_some() {
             (self.moved(&problem, &system)?, String::new())
         } else {
-            let (answer, shown, _) = Page::new().shown(&problem).map_err(said)?;
-            (shown, text::answer(&answer, false, false))
+            let shown = Page::new().of(&problem).map_err(said)?;
+            let words = shown.words.clone();
+            (shown, words)
         };
         let data = serde_json::to_value(Data::new(&system, &shown));
         Ok((data.map_err(|error| error.to_string())?, words))
