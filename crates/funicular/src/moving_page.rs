@@ -26,14 +26,14 @@ pub(crate) fn filled(page: &str, title: &str, words: &str, data: &str) -> String
 
 /// The bars of a system, the joints that are held (on a line or plane too) and their names.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Net {
+pub(crate) struct Topology {
     /// The joints of each, those that a rope runs over too.
     bars: Vec<Vec<usize>>,
     held: Vec<u8>,
     names: Vec<String>,
 }
 
-impl Net {
+impl Topology {
     pub fn of(system: &System) -> Self {
         let (joints, members) = (system.joints(), system.members());
         Self {
@@ -48,7 +48,7 @@ impl Net {
 #[derive(Serialize)]
 pub(crate) struct Data<'a, T> {
     #[serde(flatten)]
-    net: Net,
+    net: Topology,
     /// Where places are counted from, m.
     reference: Vector,
     #[serde(flatten)]
@@ -57,7 +57,7 @@ pub(crate) struct Data<'a, T> {
 
 impl<'a, T: Serialize> Data<'a, T> {
     pub fn new(system: &System, shown: &'a T) -> Self {
-        Self { net: Net::of(system), reference: system.reference_m(), shown }
+        Self { net: Topology::of(system), reference: system.reference_m(), shown }
     }
 }
 

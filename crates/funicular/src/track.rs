@@ -6,7 +6,7 @@ use model::Vector;
 use model::system::System;
 use serde::{Serialize, Serializer};
 
-use crate::moving_page::{Net, flat, plain};
+use crate::moving_page::{Topology, flat, plain};
 
 /// Numbers in the frames of one group of tracks: some 300 kB.
 const NUMBERS: usize = 60_000;
@@ -33,7 +33,7 @@ pub(crate) struct Track {
     pub axial: Vec<Option<Vec<Short>>>,
     /// The bars of each frame, where their number changes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub nets: Option<Vec<Option<Net>>>,
+    pub nets: Option<Vec<Option<Topology>>>,
     /// What happens, by the numbers of the frames.
     pub events: BTreeMap<usize, String>,
     pub charts: Vec<Chart>,

@@ -3,7 +3,7 @@
 use model::system::System;
 
 use super::{StudyAnswer, StudyPoint, StudyShape};
-use crate::moving_page::{Net, plain, plain_lines};
+use crate::moving_page::{Topology, plain, plain_lines};
 use crate::track::{Chart, Curve, Short, Track, kept, named};
 
 impl StudyAnswer {
@@ -23,7 +23,7 @@ impl StudyAnswer {
         let over = named(&self.parameters[last], self.units[last]);
         let events = points.iter().enumerate();
         let changes = drawn.iter().flatten().any(|one| one.joints_m.len() != system.joints().len());
-        let nets = drawn.iter().map(|one| one.map(|one| Net::of(&one.system)));
+        let nets = drawn.iter().map(|one| one.map(|one| Topology::of(&one.system)));
         Track {
             group: "Study",
             label: self.label(path, &points),
