@@ -22,6 +22,7 @@ pub(crate) struct Located {
 }
 
 /// The equilibria of a problem.
+#[derive(Debug, Clone)]
 pub(crate) struct Equilibria {
     pub list: Vec<Located>,
     /// Whether a census proves that there are no others.

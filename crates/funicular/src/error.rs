@@ -35,10 +35,13 @@ pub enum Error {
         /// The name that is nearest, if one is near.
         suggestion: Option<&'static str>,
     },
-    /// Occurs when a page is to show load paths, and a parameter has values instead of a range.
+    /// Occurs when a page is to show shapes over parameters, and nothing hangs at any of their values.
     #[cfg(feature = "branches")]
-    #[error("a page follows a load path over a range alone, such as loads=0..1.2")]
-    PageRange,
+    #[error("nothing hangs at any of the values; no load path: {because}")]
+    NoShapes {
+        /// Why there is no load path.
+        because: String,
+    },
     /// Occurs when a file format has no counterpart of a part of the system.
     #[error(transparent)]
     Export(#[from] formats::export::ExportError),

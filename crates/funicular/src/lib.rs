@@ -94,12 +94,10 @@ pub mod judge;
 pub mod live;
 mod load_cases;
 mod losses;
-mod mode_pages;
 mod modes;
 mod moving_page;
 #[cfg(feature = "branches")]
 mod observable;
-#[cfg(feature = "branches")]
 mod page;
 #[cfg(feature = "branches")]
 mod parameters;
@@ -125,6 +123,9 @@ mod threads;
 mod tolerances;
 #[cfg(feature = "branches")]
 mod trace;
+mod track;
+#[cfg(feature = "branches")]
+mod varied;
 mod weakest;
 
 pub mod guide;
@@ -150,7 +151,6 @@ pub use self::derivatives::{
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
 pub use self::load_cases::{BarEnvelope, CaseAnswer, Governing, LoadCasesAnswer, SupportEnvelope};
 pub use self::losses::{Loss, LossesAnswer};
-#[cfg(feature = "branches")]
 pub use self::page::{Page, PageAnswer};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
@@ -182,12 +182,12 @@ pub use formats::export;
 pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
 pub use lagrange::network::Gradient;
-pub use mode_pages::{animated_modes, drawn_modes};
 pub use model::budget::limit_work;
 pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
+pub use picture::drawn_modes;
 pub use problem::{Problem, Reading, case, case_text};
 pub use sag::Sag;
 pub use settled::{Outcome, Settled, Unsettled};

@@ -7,7 +7,7 @@ use motion::{Direction, What};
 use serde::Serialize;
 
 use crate::enclosed::{Enclosed, enclose};
-use crate::equilibria::{self, Located, system_of};
+use crate::equilibria::{self, Equilibria, Located, system_of};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::SCHEMA_VERSION;
@@ -105,22 +105,32 @@ impl Modes {
     /// [`Solve`](crate::Solve).
     pub fn run(&self, problem: &Problem) -> Result<ModesAnswer, Error> {
         threads::on(self.threads, || {
-            let modes = self.lowest.unwrap_or(LOWEST) as u64;
-            problem.fits(BYTES_PER_MEMBER_IN_MODES + modes.saturating_mul(BYTES_PER_MODE))?;
-            let found = equilibria::all(problem, self.max_bars)?;
-            let system = system_of(problem);
-            let equilibria = found
-                .list
-                .iter()
-                .map(|located| self.with_modes(&system, located))
-                .collect::<Result<_, _>>()?;
-            Ok(ModesAnswer {
-                schema_version: SCHEMA_VERSION,
-                system: Summary::new(&system),
-                equilibria,
-                complete: found.complete,
-            })
+            self.fits(problem)?;
+            self.of(problem, &equilibria::all(problem, self.max_bars)?)
         })?
+    }
+
+    /// Chains of how many bars a census is taken of.
+    pub(crate) fn most_bars(&self) -> usize {
+        self.max_bars
+    }
+
+    fn fits(&self, problem: &Problem) -> Result<(), Error> {
+        let modes = self.lowest.unwrap_or(LOWEST) as u64;
+        problem.fits(BYTES_PER_MEMBER_IN_MODES + modes.saturating_mul(BYTES_PER_MODE))
+    }
+
+    /// The modes of known equilibria.
+    pub(crate) fn of(&self, problem: &Problem, found: &Equilibria) -> Result<ModesAnswer, Error> {
+        self.fits(problem)?;
+        let system = system_of(problem);
+        let equilibria = found.list.iter().map(|located| self.with_modes(&system, located));
+        Ok(ModesAnswer {
+            schema_version: SCHEMA_VERSION,
+            system: Summary::new(&system),
+            equilibria: equilibria.collect::<Result<_, _>>()?,
+            complete: found.complete,
+        })
     }
 
     fn with_modes(&self, system: &System, located: &Located) -> Result<WithModes, Error> {

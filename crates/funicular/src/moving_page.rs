@@ -1,21 +1,22 @@
-//! What the pages have in common on which a system moves: the scene, the numbers of the system, the
-//! escaping of its name.
+//! The page on which a system is shown: its scripts, the numbers of the system, the escaping of its name.
 
 use figures::{BLUE, Escaped, SKY_BLUE, VERMILION, regions};
 use model::Vector;
 use model::system::System;
 use serde::Serialize;
 
-/// The part of the script that draws and turns the scene.
+/// The part of the script that draws and turns the scene, and that of what moves over a number.
 const SCENE: &str = include_str!("scene.js");
+const TRACK: &str = include_str!("track.js");
 
-/// A page with `@SCENE@`, `@TITLE@`, `@WORDS@` and `@DATA@` filled in. It needs nothing but itself.
+/// A page with its scripts, colours, `@TITLE@`, `@WORDS@` and `@DATA@` filled in. It needs nothing but itself.
 pub(crate) fn filled(page: &str, title: &str, words: &str, data: &str) -> String {
     // A name must not fill in the rest of the page.
     let title = Escaped(title).to_string().replace('@', "&#64;");
     let regions: Vec<_> = regions(6).iter().map(|colour| format!("\"{colour}\"")).collect();
     let page = page
         .replace("@SCENE@", SCENE.trim_end())
+        .replace("@TRACK@", TRACK.trim_end())
         .replace("@BLUE@", &BLUE.to_string())
         .replace("@SKY@", &SKY_BLUE.to_string())
         .replace("@VERMILION@", &VERMILION.to_string())
@@ -23,14 +24,31 @@ pub(crate) fn filled(page: &str, title: &str, words: &str, data: &str) -> String
     page.replace("@TITLE@", &title).replace("@WORDS@", words).replace("@DATA@", data)
 }
 
-/// What a page shows of a system, behind its bars, the joints that are held (on a line or plane too) and
-/// their names.
-#[derive(Serialize)]
-pub(crate) struct Data<'a, T> {
+/// The bars of a system, the joints that are held (on a line or plane too) and their names.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Topology {
     /// The joints of each, those that a rope runs over too.
     bars: Vec<Vec<usize>>,
     held: Vec<u8>,
     names: Vec<String>,
+}
+
+impl Topology {
+    pub fn of(system: &System) -> Self {
+        let (joints, members) = (system.joints(), system.members());
+        Self {
+            bars: members.iter().map(|member| member.path().collect()).collect(),
+            held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
+            names: joints.iter().map(|joint| plain(&joint.name)).collect(),
+        }
+    }
+}
+
+/// What a page shows of a system, behind its bars and joints.
+#[derive(Serialize)]
+pub(crate) struct Data<'a, T> {
+    #[serde(flatten)]
+    net: Topology,
     /// Where places are counted from, m.
     reference: Vector,
     #[serde(flatten)]
@@ -39,14 +57,7 @@ pub(crate) struct Data<'a, T> {
 
 impl<'a, T: Serialize> Data<'a, T> {
     pub fn new(system: &System, shown: &'a T) -> Self {
-        let (joints, members) = (system.joints(), system.members());
-        Self {
-            bars: members.iter().map(|member| member.path().collect()).collect(),
-            held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
-            names: joints.iter().map(|joint| plain(&joint.name)).collect(),
-            reference: system.reference_m(),
-            shown,
-        }
+        Self { net: Topology::of(system), reference: system.reference_m(), shown }
     }
 }
 
@@ -58,6 +69,11 @@ pub(crate) fn json(data: &impl Serialize) -> String {
 /// A text that does not turn what stands around it.
 pub(crate) fn plain(text: &str) -> String {
     text.replace(model::steers, " ")
+}
+
+/// A text of several lines, none of which turns what stands around it.
+pub(crate) fn plain_lines(text: &str) -> String {
+    text.lines().map(plain).collect::<Vec<_>>().join("\n")
 }
 
 /// Joints, from the reference point of the system: x, y, z of one after the other, m, for the eye.

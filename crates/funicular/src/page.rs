@@ -1,35 +1,52 @@
-//! A system to look at: its equilibria, load cases, modes and load paths as one HTML file.
+//! A system to look at: its equilibria, load cases, modes, motion and load paths as one HTML file.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use model::system::{System, SystemEquilibrium};
 
-use crate::equilibria::{self, system_of};
+use crate::animation::Animation;
+use crate::equilibria::{self, Equilibria, system_of};
 use crate::error::Error;
 use crate::modes::{Modes, ModesAnswer};
-use crate::moving_page::{plain, six};
+use crate::moving_page::{plain, plain_lines, six};
+#[cfg(feature = "branches")]
+use crate::parameters::Parameters;
 use crate::problem::Problem;
-use crate::shown::{Shape, Shown, plain_lines};
+use crate::shown::{Shape, Shown};
+use crate::simulate::Simulate;
 use crate::solve::{Solve, SolveAnswer};
 use crate::text;
-use crate::trace::{Trace, TraceAnswer};
+use crate::track::Track;
 
-/// Modes of each equilibrium.
+/// Modes of each equilibrium, if nothing else is asked for.
 const MODES: usize = 12;
 
+/// What tracks are called in words.
+const TRACKS: [[&str; 3]; 3] = [
+    ["Motion", "motion", "motions"],
+    ["Load paths", "load path", "load paths"],
+    ["Study", "study", "studies"],
+];
+
 /// A page for a system: its equilibria (all of them where a census is complete), its load cases, the lowest
-/// modes and, over a parameter, load paths, with forces, utilisation and how far each is proved.
+/// modes, a motion and, over a parameter, load paths or the shapes of a study, with forces, utilisation and
+/// how far each is proved.
 ///
 /// ```
 /// use funicular::{Page, prelude::*};
-/// let page = Page::new().vary("loads=0.5..1.2")?.run(&Problem::case("lamp")?)?;
-/// assert!(page.html().starts_with("<!DOCTYPE html>") && page.html().contains("Load paths"));
-/// assert!(page.answer().agrees());
+/// let released = Simulate::new().start(Start::Seed(1)).time_s(0.5).damping_1_s(2.0);
+/// let page = Page::new().simulate(released).run(&Problem::case("lamp")?)?;
+/// assert!(page.html().starts_with("<!DOCTYPE html>"));
+/// assert!(page.contents().ends_with(", 1 motion") && page.answer().agrees());
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Page {
-    trace: Option<Trace>,
+    #[cfg(feature = "branches")]
+    vary: Option<Parameters>,
+    simulate: Option<Simulate>,
+    modes: Option<Modes>,
 }
 
 /// A page, and the answer of both solvers that it shows first.
@@ -65,40 +82,88 @@ impl Shape {
 }
 
 impl Page {
-    /// Without a parameter.
+    /// Of what is at rest.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// With load paths over a range of a number of the file, `loads=0..1.2`; of several all but the last have one value.
+    /// With shapes over numbers of the file, `loads=0..1.2`; each combination of all but the last is a row of
+    /// them. They are load paths, as a [`Trace`](crate::Trace) follows them over a range alone or in a
+    /// system; where none can be followed, and over values of a chain, they are the shapes of a
+    /// [`Study`](crate::Study), at 41 values of a range. The page says which of the two.
+    ///
+    /// ```
+    /// use funicular::{Page, prelude::*};
+    /// let lamp = Problem::case("lamp")?;
+    /// let shown = |vary: &str| Page::new().vary(vary)?.run(&lamp);
+    /// assert!(shown("loads=0.5..1.2")?.contents().ends_with(", 1 load path"));
+    /// // No path leads from one number of bars to another.
+    /// let chain = Problem::case("three-equal-bars")?;
+    /// let over = Page::new().vary("bars.1.count=3..5")?.run(&chain)?;
+    /// assert!(over.contents().ends_with(", 1 study"));
+    /// # Ok::<(), Error>(())
+    /// ```
     ///
     /// # Errors
     ///
     /// [`Error::Parameter`] with the place in the text.
+    #[cfg(feature = "branches")]
     pub fn vary(self, text: &str) -> Result<Self, Error> {
-        Ok(Self { trace: Some(self.trace.unwrap_or_default().vary(text)?) })
+        Ok(Self { vary: Some(self.vary.unwrap_or_default().vary(text)?), ..self })
+    }
+
+    /// With a motion.
+    #[must_use]
+    pub fn simulate(self, simulate: Simulate) -> Self {
+        Self { simulate: Some(simulate), ..self }
+    }
+
+    /// With these modes, moving from the start, of these equilibria.
+    #[must_use]
+    pub fn modes(self, modes: Modes) -> Self {
+        Self { modes: Some(modes), ..self }
     }
 
     /// Solve the problem and make its page.
     ///
     /// # Errors
     ///
-    /// As [`Solve::run`], and [`Trace::run`] with a parameter; [`Error::PageRange`] for one that is no range alone.
-    /// A system without modes, and a load case without an answer, are left out.
+    /// As [`Solve::run`], [`Simulate::run`] with a motion and [`Study::run`](crate::Study::run) with a
+    /// parameter; [`Error::NoShapes`] where nothing hangs at any of its values. A system without
+    /// modes, and a load case without an answer, are left out.
     pub fn run(&self, problem: &Problem) -> Result<PageAnswer, Error> {
-        let (answer, shown, contents) = self.shown(problem)?;
-        let html = shown.html(&system_of(problem), &text::answer(&answer, false, false));
+        let found = equilibria::all(problem, self.asked_modes().most_bars())?;
+        let mut tracks: Vec<Track> = self.moved(problem, &found)?.into_iter().collect();
+        tracks.extend(self.varied(problem)?);
+        let (answer, shown, mut contents) = self.at_rest(problem, &found)?;
+        for [group, one, several] in TRACKS {
+            let count = tracks.iter().filter(|track| track.group == group).count();
+            if count > 0 {
+                contents = contents + ", " + &plural(count, one, several);
+            }
+        }
+        let html = Shown { play: self.modes.is_some(), tracks, ..shown }.html(&system_of(problem));
         Ok(PageAnswer { answer, html, contents })
     }
 
-    /// What the page is made of, and what that is in words.
-    pub(crate) fn shown(&self, problem: &Problem) -> Result<(SolveAnswer, Shown, String), Error> {
+    /// What stands still.
+    #[cfg(feature = "live")]
+    pub(crate) fn of(&self, problem: &Problem) -> Result<Shown, Error> {
+        let found = equilibria::all(problem, self.asked_modes().most_bars())?;
+        self.at_rest(problem, &found).map(|(_, shown, _)| shown)
+    }
+
+    /// What stands still, and that in words.
+    pub(crate) fn at_rest(
+        &self,
+        problem: &Problem,
+        found: &Equilibria,
+    ) -> Result<(SolveAnswer, Shown, String), Error> {
         let system = system_of(problem);
-        let traced = self.traced(problem)?;
         let answer = Solve::new().run(problem)?;
-        let modes = Modes::new().lowest(MODES).run(problem).ok();
-        let (mut shapes, count) = equilibria(problem, &system, &answer, modes.as_ref())?;
+        let modes = self.asked_modes().of(problem, found).ok();
+        let (mut shapes, count) = equilibria(&system, &answer, found, modes.as_ref());
         let listed = shapes.len();
         for case in problem.load_cases() {
             let found = problem.in_case(case).and_then(|changed| Solve::new().run_here(&changed));
@@ -106,28 +171,38 @@ impl Page {
             shapes.push(Shape::of(&system, "Load cases", case, &first));
         }
         let cases = shapes.len() - listed;
-        let mut shown = Shown { shapes, ..Shown::default() };
-        if let Some(paths) = traced.as_ref().and_then(|found| found.load_paths()) {
-            shown = shown.with_paths(paths);
-        }
         let modes = if modes.is_some() { " with modes" } else { "" };
         let mut contents = plural(count, "equilibrium", "equilibria") + modes;
-        for (count, one, several) in
-            [(cases, "load case", "load cases"), (shown.paths.len(), "load path", "load paths")]
-        {
-            if count > 0 {
-                contents = contents + ", " + &plural(count, one, several);
-            }
+        if cases > 0 {
+            contents = contents + ", " + &plural(cases, "load case", "load cases");
         }
-        Ok((answer, shown, contents))
+        let words = text::answer(&answer, false, false);
+        Ok((answer, Shown { words, shapes, ..Shown::default() }, contents))
     }
 
-    fn traced(&self, problem: &Problem) -> Result<Option<TraceAnswer>, Error> {
-        let Some(trace) = &self.trace else { return Ok(None) };
-        if !trace.is_load_path(problem) {
-            return Err(Error::PageRange);
-        }
-        trace.run(problem).map(Some)
+    fn asked_modes(&self) -> Modes {
+        self.modes.unwrap_or_else(|| Modes::new().lowest(MODES))
+    }
+
+    fn moved(&self, problem: &Problem, found: &Equilibria) -> Result<Option<Track>, Error> {
+        let Some(simulate) = &self.simulate else { return Ok(None) };
+        let mut animation = Animation::new(&system_of(problem)).near(found);
+        simulate.run_watched(problem, &mut |at| {
+            animation.add(at);
+            ControlFlow::Continue(())
+        })?;
+        Ok(Some(animation.track()))
+    }
+
+    #[cfg(feature = "branches")]
+    fn varied(&self, problem: &Problem) -> Result<Vec<Track>, Error> {
+        self.vary.as_ref().map_or(Ok(vec![]), |vary| crate::varied::tracks(problem, vary))
+    }
+
+    #[cfg(not(feature = "branches"))]
+    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "nothing varies")]
+    fn varied(&self, _: &Problem) -> Result<Vec<Track>, Error> {
+        Ok(vec![])
     }
 }
 
@@ -143,11 +218,11 @@ fn first(answer: SolveAnswer) -> Option<(Arc<System>, SystemEquilibrium)> {
 
 /// The answer, and all equilibria where a census knows them, with their modes; and how many there are.
 fn equilibria(
-    problem: &Problem,
     system: &System,
     answer: &SolveAnswer,
+    found: &Equilibria,
     modes: Option<&ModesAnswer>,
-) -> Result<(Vec<Shape>, usize), Error> {
+) -> (Vec<Shape>, usize) {
     const GROUP: &str = "Equilibria";
     let own = match answer.agreement() {
         Some(_) => "the answer of both solvers".to_owned(),
@@ -156,7 +231,6 @@ fn equilibria(
             answer.equilibria().first().map_or("", |one| one.solver.as_str())
         ),
     };
-    let found = equilibria::all(problem, census::Settings::UNASKED_BARS)?;
     let with_modes = |shape: Shape, label: &str| {
         let known = modes.and_then(|all| all.equilibria.iter().find(|one| one.label == label));
         match known {
@@ -172,16 +246,11 @@ fn equilibria(
         let label = format!("{}: {down}", located.label);
         with_modes(Shape::of(system, GROUP, &label, &located.found), &located.label)
     });
+    let first = answer.equilibria().first().map(|first| Shape::of(system, GROUP, &own, first));
     if found.complete && found.list.len() > 1 {
-        let first = answer.equilibria().first();
-        let own = first.map(|first| Shape::of(system, GROUP, &own, first));
-        return Ok((own.into_iter().chain(listed).collect(), found.list.len()));
+        return (first.into_iter().chain(listed).collect(), found.list.len());
     }
-    let first = answer
-        .equilibria()
-        .first()
-        .map(|first| with_modes(Shape::of(system, GROUP, &own, first), "1"));
-    Ok((first.into_iter().collect(), 1))
+    (first.map(|first| with_modes(first, "1")).into_iter().collect(), 1)
 }
 
 impl PageAnswer {

@@ -57,6 +57,12 @@ impl Parameters {
         self.all.iter().any(|one| one.open)
     }
 
+    /// The same with so many values of each range that has no number of them.
+    pub(crate) fn sampled(&self, points: usize) -> Self {
+        let all = self.all.iter().map(|one| one.sampled(points));
+        Self { all: all.collect(), combine: self.combine }
+    }
+
     /// A system with these parameters, for paths that find their own points.
     pub(crate) fn along<B: Base>(&self, base: B) -> Result<Variation<B>, Error> {
         Ok(Variation::along(base, &self.all, self.combine)?)

@@ -1,11 +1,13 @@
 "use strict";
-// What the pages of motions, modes, load paths and systems share: a scene that is turned by dragging, played and paused.
-// A page adds `draw()` and `advance(seconds)`, and calls `begin()` at its end.
+// A scene that is turned by dragging, played and paused, with what `draw()` and `advance(seconds)` of the page show.
 const get = id => document.getElementById(id);
 let data = JSON.parse(get("data").textContent);
 const scene = get("scene"), play = get("play");
 let turn = 0, tilt = 0.12, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-let before = null, middle = [0, 0, 0], reach = 1;
+let before = null, largest = 0, net = data, middle = [0, 0, 0], reach = 1;
+
+// Of the style sheet, in light and dark.
+const colour = name => getComputedStyle(document.documentElement).getPropertyValue("--" + name);
 
 // Put the middle and the reach of the scene around all joints of all frames.
 function enclose(frames) {
@@ -48,14 +50,14 @@ function along(g, place, [first, ...others]) {
 function lines(g, place) {
   g.lineCap = "round";
   g.beginPath();
-  data.bars.forEach(bar => along(g, place, bar));
+  net.bars.forEach(bar => along(g, place, bar));
   g.stroke();
 }
 
 // Many joints would hide the bars: then only those that are held.
 function joints(g, place, ink, held, edge) {
-  data.held.forEach((fixed, joint) => {
-    if (data.bars.length > 200 && !fixed) return;
+  net.held.forEach((fixed, joint) => {
+    if (net.bars.length > 200 && !fixed) return;
     const [x, y] = place(joint);
     g.fillStyle = fixed ? held : ink;
     g.beginPath();
@@ -70,9 +72,9 @@ function joints(g, place, ink, held, edge) {
 
 // As in the pictures: solid, hollow or dashed, in four widths. What is a billionth of the largest force is none.
 function members(g, place, axial, largest) {
-  const many = data.bars.length > 200, paper = getComputedStyle(document.body).backgroundColor;
+  const many = net.bars.length > 200, [paper, pull, push] = ["paper", "pull", "push"].map(colour);
   g.lineCap = "butt";
-  data.bars.forEach((joints, bar) => {
+  net.bars.forEach((joints, bar) => {
     const part = largest > 0 ? axial[bar] / largest : 0, size = Math.abs(part), none = !(size > 1e-9);
     const width = many ? 1 : 1.8 + Math.min(3, Math.floor(4 * size));
     const stroke = (style, wide) => {
@@ -83,8 +85,8 @@ function members(g, place, axial, largest) {
       g.stroke();
     };
     g.setLineDash(none ? [6, 3] : []);
-    if (none || part > 0 || many) return stroke(none ? "#777" : part > 0 ? "@BLUE@" : "@VERMILION@", width);
-    stroke("@VERMILION@", width + 2.6);
+    if (none || part > 0 || many) return stroke(none ? "#777" : part > 0 ? pull : push, width);
+    stroke(push, width + 2.6);
     stroke(paper, 0.45 * (width + 2.6));
   });
   g.setLineDash([]);
@@ -99,6 +101,8 @@ function largestOf(rows) {
 function scale(g, share, w, h, ink) {
   const metre = share * Math.min(w, h) / reach, ten = 10 ** Math.floor(Math.log10(80 / metre));
   const length = [1, 2, 5, 10].map(k => k * ten).find(length => length * metre >= 80), x = 10 + length * metre;
+  // A window without height.
+  if (!length) return;
   g.strokeStyle = g.fillStyle = ink;
   g.lineWidth = 1.5;
   g.beginPath();
@@ -120,6 +124,8 @@ function tick(stamp) {
 function setPlaying(on) {
   playing = on;
   play.textContent = on ? "Pause" : "Play";
+  // Nobody wants every frame read out.
+  get("now").setAttribute("aria-live", on ? "off" : "polite");
 }
 
 function begin() {
@@ -130,27 +136,39 @@ function begin() {
       setPlaying(!playing);
     }
   });
-  scene.onpointerdown = event => scene.setPointerCapture(event.pointerId);
-  scene.onpointermove = event => {
-    if (!event.buttons) return;
-    turn -= event.movementX * 0.01;
-    tilt = Math.max(-1.5, Math.min(1.5, tilt + event.movementY * 0.01));
+  const turned = (across, up) => {
+    turn -= across;
+    tilt = Math.max(-1.5, Math.min(1.5, tilt + up));
     draw();
   };
+  let hand = null;
+  scene.onpointerdown = event => {
+    scene.setPointerCapture(event.pointerId);
+    if (event.isPrimary) hand = [event.clientX, event.clientY];
+  };
+  scene.onpointermove = event => {
+    if (!event.buttons || !event.isPrimary || !hand) return;
+    turned(0.01 * (event.clientX - hand[0]), 0.01 * (event.clientY - hand[1]));
+    hand = [event.clientX, event.clientY];
+  };
   scene.addEventListener("keydown", event => {
-    const [across, up] = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] || [];
+    const [across, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] || [];
     if (across === undefined) return;
     event.preventDefault();
-    turn += 0.1 * across;
-    tilt = Math.max(-1.5, Math.min(1.5, tilt + 0.1 * up));
-    draw();
+    turned(0.1 * across, 0.1 * up);
   });
   // Quarters of a turn about the vertical, and of a tilt.
   document.querySelectorAll("[data-view]").forEach(button => button.onclick = () => {
     [turn, tilt] = button.dataset.view.split(",").map(quarters => quarters * Math.PI / 2);
     draw();
   });
-  window.onresize = draw;
+  window.onresize = matchMedia("(prefers-color-scheme: dark)").onchange = () => draw();
+  // On paper it is light.
+  const paper = on => () => {
+    document.documentElement.classList.toggle("paper", on);
+    draw();
+  };
+  [window.onbeforeprint, window.onafterprint] = [paper(true), paper(false)];
   setPlaying(playing);
   draw();
   requestAnimationFrame(tick);

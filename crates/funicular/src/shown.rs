@@ -1,14 +1,14 @@
-//! Shapes, modes and load paths of a system on one HTML page.
+//! Shapes, modes, motions and load paths of a system on one HTML page.
 
 use figures::Escaped;
 use model::Vector;
 use model::system::System;
 use serde::Serialize;
-use serde_json::Value;
 
-use crate::mode_pages::heading;
 use crate::modes::Mode;
-use crate::moving_page::{self, Data, flat, plain, six};
+use crate::moving_page::{self, Data, flat, plain, plain_lines, six};
+use crate::picture::heading;
+use crate::track::{Short, Track};
 
 const PAGE: &str = include_str!("page.html");
 /// The file beside the picture, and what asks for what becomes of it.
@@ -16,25 +16,24 @@ const PANEL: &str = include_str!("live/panel.html");
 const LIVE: &str = include_str!("live/live.js");
 
 /// What a page shows.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Shown {
     /// What stands behind the name of the system.
     #[serde(skip)]
     pub heading: &'static str,
-    /// Whether it moves from the start.
+    /// The answer in words and tables, if there is one.
+    #[serde(skip)]
+    pub words: String,
+    /// Whether what moves is shown first, moving.
     pub play: bool,
     /// Shapes at rest.
     pub shapes: Vec<Shape>,
-    /// The shapes along paths.
-    pub paths: Vec<Value>,
-    /// What varies along the paths.
-    pub load: String,
-    /// What is shown of them.
-    pub of: String,
+    /// What moves.
+    pub tracks: Vec<Track>,
 }
 
 /// A shape at rest.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct Shape {
     pub group: &'static str,
     pub label: String,
@@ -53,12 +52,12 @@ pub(crate) struct Shape {
     pub modes: Option<Vec<ModeShown>>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct ModeShown {
     name: String,
     what: String,
-    omega2: [f64; 1],
-    shape: Vec<f64>,
+    omega2: f64,
+    shape: Vec<Short>,
 }
 
 impl Shape {
@@ -89,16 +88,11 @@ impl Shape {
         let shown = modes.iter().enumerate().map(|(k, mode)| ModeShown {
             name: heading(k, mode),
             what: mode.what.clone(),
-            omega2: [six(mode.omega2_s2)],
-            shape: mode.shape.iter().flatten().copied().map(six).collect(),
+            omega2: six(mode.omega2_s2),
+            shape: mode.shape.iter().flatten().map(|x| Short::decimals(*x, 4)).collect(),
         });
         Self { modes: Some(shown.collect()), ..self }
     }
-}
-
-/// A text of several lines, none of which turns what stands around it.
-pub(crate) fn plain_lines(text: &str) -> String {
-    text.lines().map(plain).collect::<Vec<_>>().join("\n")
 }
 
 /// What a page shows first that asks for more.
@@ -114,17 +108,17 @@ pub(crate) struct Start<'a> {
     /// Whether it stands in another page, which passes its questions on.
     pub embedded: bool,
     #[serde(flatten)]
-    pub data: &'a Value,
+    pub data: &'a serde_json::Value,
 }
 
 impl Shown {
-    /// The page, with the answer in words if there are some.
-    pub fn html(&self, system: &System, words: &str) -> String {
+    /// The page.
+    pub fn html(&self, system: &System) -> String {
         let name = match self.heading {
             "" => plain(system.name()),
             heading => format!("{}: {heading}", plain(system.name())),
         };
-        page(["", ""], &name, words, &moving_page::json(&Data::new(system, self)))
+        page(["", ""], &name, &self.words, &moving_page::json(&Data::new(system, self)))
     }
 }
 

@@ -34,7 +34,7 @@ struct Stored {
 const PARTS: f64 = 1000.0;
 
 /// Where a motion begins: as words, or as places of all joints.
-fn start(word: &str, joints_m: Option<PyReadonlyArrayDyn<'_, f64>>) -> PyResult<Start> {
+pub fn start(word: &str, joints_m: Option<PyReadonlyArrayDyn<'_, f64>>) -> PyResult<Start> {
     if let Some(joints) = joints_m {
         return Ok(Start::Joints(vectors(&joints)?));
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use funicular::export::{Shape, Target};
 use funicular::live::Ask;
-use funicular::prelude::{Solve, SolveAnswer, Vector};
+use funicular::prelude::{Simulate, Solve, SolveAnswer, Vector};
 use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
@@ -19,6 +19,7 @@ use crate::arrays::{column, numbers, rows, vectors};
 use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{bad_word, internal, raise, unwritten};
+use crate::simulate::start;
 use crate::{words, work};
 
 /// One equilibrium in arrays, in the order of joints and members.
@@ -190,19 +191,28 @@ pub fn load_cases<'py>(
     })
 }
 
-/// A page to look at a system; `vary` says over what load paths are followed.
+/// A page to look at a system; `vary` says over what its shapes are shown, `motion` where a motion begins, with
+/// its time, s, and its damping, 1/s.
 #[pyfunction]
 pub fn page<'py>(
     py: Python<'py>,
     problem: &Problem,
     vary: Vec<String>,
+    motion: Option<String>,
+    time_s: f64,
+    damping_1_s: f64,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<String> {
     let of = Arc::clone(&problem.of);
+    let mut page = Page::new();
+    if let Some(word) = motion {
+        let released = Simulate::new().start(start(&word, None)?);
+        page = page.simulate(released.time_s(time_s).damping_1_s(damping_1_s));
+    }
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        watch.tell("equilibria, modes and load paths", 0, 0);
-        let page = vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;
+        watch.tell("equilibria, modes and what moves", 0, 0);
+        let page = vary.iter().try_fold(page, |page, text| page.vary(text))?;
         Ok::<_, Error>(page.run(&of)?.html().to_owned())
     })?;
     found.map_err(|error| raise(&error))

@@ -190,8 +190,14 @@ def test_a_page_to_look_at():
     system = fn.System.case("lamp")
     text = system.page("loads=0.5..2")
     assert text.startswith("<!DOCTYPE html>") and text.count("Load paths") == 1 and system.page() != text
-    with pytest.raises(fn.Error, match="range alone"):
-        fn.System.case("two-bars").page("anchors.end_m.x=0.4..1.6:5")
+    chain = fn.System.case("two-bars")
+    assert '"group":"Study"' in chain.page("anchors.end_m.x=0.4..1.6:5")
+    moved = fn.page(chain, motion="seed:3", time=0.5, damping=1)
+    assert moved.count('"group":"Motion"') == 1 and '"group":"Study"' not in moved
+    with pytest.raises(fn.Error, match="nothing hangs"):
+        chain.page("anchors.end_m.x=7,8")
+    with pytest.raises(fn.SettingError, match="start"):
+        chain.page(motion="anywhere")
 
 
 def gable():

@@ -49,6 +49,17 @@ impl Parameter {
         if self.open { Err(ParameterError::new(text, span, what, help)) } else { Ok(self) }
     }
 
+    /// The same; a range without its number of points has so many, at least both ends.
+    #[must_use]
+    pub fn sampled(&self, points: usize) -> Self {
+        match self.values[..] {
+            [from, to] if self.open => {
+                Self { values: range(from, to, points.max(2)), open: false, ..self.clone() }
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// The text it was read from.
     #[must_use]
     pub fn text(&self) -> &str {

@@ -87,7 +87,7 @@ impl Solution {
             shape = weak::settled(system, frame, &mut factor, shape);
         }
         let slope = frame.slope(&shape);
-        let second = second_order(frame, &shape, limit.as_ref(), &mut factor);
+        let second = second_order(frame, &shape, limit.as_ref(), &mut factor, settings.dense);
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });
         }

@@ -59,14 +59,15 @@ pub(super) struct SecondOrder {
     pub(super) condition: f64,
 }
 
-/// The second order at an equilibrium.
+/// The second order at an equilibrium, by dense matrices up to so many coordinates.
 pub(super) fn second_order(
     frame: &Frame,
     shape: &Shape,
     limit: Option<&Limit>,
     factor: &mut Factor,
+    most: usize,
 ) -> SecondOrder {
-    let mut second = if frame.freedom <= DENSE {
+    let mut second = if frame.freedom <= most {
         let dense = match limit {
             Some(limit) => {
                 let shape = stressed(shape, &limit.stiffening);
@@ -96,7 +97,7 @@ pub(super) fn second_order(
             condition: 1.0,
         }
     };
-    second.index_in_plane = index_in_plane(frame, shape);
+    second.index_in_plane = index_in_plane(frame, shape, most);
     second
 }
 
@@ -106,7 +107,7 @@ fn resists(frame: &Frame, shape: &Shape, rod: usize) -> bool {
 }
 
 /// Index among the motions in the vertical plane of the system, if there is one.
-fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
+fn index_in_plane(frame: &Frame, shape: &Shape, most: usize) -> Option<usize> {
     let spots = plane_spots(frame, shape)?;
     let mut freedom = 0;
     let spots: Vec<Spot> = spots
@@ -118,7 +119,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
         })
         .collect();
     let flat = Frame { spots, freedom, ..frame.clone() };
-    if freedom <= DENSE {
+    if freedom <= most {
         return Some(Dense::new(&flat, shape).count().index);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;

@@ -1,6 +1,6 @@
 //! Networks of rigid bars against closed forms and against published numbers.
 
-use energy::network::{Error, Forces, Settings, minimise, minimise_from};
+use energy::network::{Error, Forces, Settings, Solution, minimise, minimise_from, minimise_near};
 use model::Vector;
 use model::system::{Joint, Member, System};
 
@@ -49,6 +49,27 @@ fn a_tripod_hangs_from_three_anchors() {
     let Forces::Unique(rigidity) = solution.forces else { panic!("{:?}", solution.forces) };
     assert_eq!((rigidity.rank, rigidity.self_stresses, rigidity.mechanisms), (3, 0, 0));
     assert_eq!(found.stability.index_in_plane, None);
+}
+
+/// The same lamp aside under heavy and light bars, with nothing counted: an answer for who drags it.
+#[test]
+fn a_lamp_hangs_without_dense_matrices() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [8.0, 0.0, 0.0]),
+        Joint::free("lamp").with_mass(5.0),
+    ];
+    let members = vec![bar(0, 2, 5.0, 2.0), bar(2, 1, 5.0, 2.0)];
+    let system = System::new("lamp", G, joints, members).unwrap();
+    let settings = Settings { dense: 0, ..Settings::default() };
+    let near = [[0.0; 3], [8.0, 0.0, 0.0], [4.2, 0.5, -2.8]];
+    for found in [minimise(&system, &settings), minimise_near(&system, &near, &settings)] {
+        let Solution { equilibrium: found, forces, .. } = found.unwrap();
+        close(found.joints_m[2][2], -3.0);
+        close(found.axial_n[0], 35.0 * 5.0 / 3.0);
+        assert_eq!(forces, Forces::NotCounted);
+        assert!(found.evidence.rigidity.is_none() && found.stability.index_in_space == 0);
+    }
 }
 
 #[test]

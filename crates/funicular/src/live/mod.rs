@@ -2,11 +2,11 @@
 
 mod change;
 
+use energy::network::{Settings, minimise, minimise_near};
 use model::system::{Joint, Member, System};
 use model::{Bar, Vector};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use validate::{Solvers, UseCensus};
 
 pub use change::Change;
 
@@ -16,8 +16,6 @@ use crate::moving_page::Data;
 use crate::page::Page;
 use crate::problem::Problem;
 use crate::shown::{Shape, Shown, Start};
-use crate::solve::Solve;
-use crate::text;
 
 /// Members of a system that is shown while it changes, each span of a rope counted: of more an answer takes longer than
 /// a hand waits. A rope has so many spans, which all of its joints share.
@@ -152,10 +150,11 @@ impl Ask {
             ));
         }
         let (shown, words) = if self.quick || self.held.is_some() {
-            (self.moved(&problem, &system)?, String::new())
+            (self.moved(&system)?, String::new())
         } else {
-            let (answer, shown, _) = Page::new().shown(&problem).map_err(said)?;
-            (shown, text::answer(&answer, false, false))
+            let shown = Page::new().of(&problem).map_err(said)?;
+            let words = shown.words.clone();
+            (shown, words)
         };
         let data = serde_json::to_value(Data::new(&system, &shown));
         Ok((data.map_err(|error| error.to_string())?, words))
@@ -167,33 +166,32 @@ const NAME: &str = "the file";
 
 impl Ask {
     /// The shape alone.
-    fn moved(&self, problem: &Problem, system: &System) -> Result<Shown, String> {
-        let said = |error: Error| error.to_string();
-        // The other solver, proofs and checks follow when the hand rests.
-        let solve = Solve::new().solvers(Solvers::Energy).census(UseCensus::Never).threads(1);
-        let (problem, near_m) = match &self.held {
-            Some(held) => {
-                let near_m = self.near_m.iter().flatten().copied().chain([held.at_m]);
-                let near_m = self.near_m.as_ref().map(|_| near_m.collect::<Vec<_>>());
-                (Problem::from(held.of(system)?), near_m)
+    fn moved(&self, system: &System) -> Result<Shown, String> {
+        // The other solver, what is counted, checks and proofs follow when the hand rests.
+        let settings = Settings { dense: 0, ..Settings::default() };
+        let held = self.held.as_ref().map(|held| held.of(system)).transpose()?;
+        let all = held.as_ref().unwrap_or(system);
+        all.refusal().map_err(|error| error.to_string())?;
+        let found = match &self.near_m {
+            Some(near_m) => {
+                let hand = self.held.iter().map(|held| held.at_m);
+                let near_m: Vec<_> = near_m.iter().copied().chain(hand).collect();
+                minimise_near(all, &near_m, &settings)
             }
-            None => (problem.clone(), self.near_m.clone()),
+            None => match all.drawing() {
+                Some(drawing_m) => minimise_near(all, &drawing_m, &settings),
+                None => minimise(all, &settings),
+            },
         };
-        let answer = match near_m {
-            Some(places) => solve.near(&problem, &places),
-            None => solve.run(&problem),
+        let mut first = found.map_err(|error| error.to_string())?.equilibrium;
+        // Without the hand.
+        first.joints_m.truncate(system.joints().len());
+        first.axial_n.truncate(system.members().len());
+        let shape = Shape {
+            axial: Some(first.axial_n),
+            ..Shape::bare(system, "Equilibria", "moved", first.joints_m.into_iter())
         };
-        let (_, mut found) = answer.map_err(said)?.into_parts();
-        let shapes = found.first_mut().map(|first| {
-            // Without the hand.
-            first.joints_m.truncate(system.joints().len());
-            first.axial_n.truncate(system.members().len());
-            Shape {
-                axial: Some(first.axial_n.clone()),
-                ..Shape::bare(system, "Equilibria", "moved", first.joints_m.iter().copied())
-            }
-        });
-        Ok(Shown { shapes: shapes.into_iter().collect(), ..Shown::default() })
+        Ok(Shown { shapes: vec![shape], ..Shown::default() })
     }
 }
 

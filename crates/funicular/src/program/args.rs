@@ -130,7 +130,7 @@ pub enum Command {
     /// left
     #[command(after_help = ALL_OR_NOTHING)]
     Modes(crate::modes::Modes),
-    /// Set a system in motion: columns of places, forces and energies, and an animation
+    /// Set a system in motion: columns of places, forces and energies, and a page on which it moves
     ///
     /// Rigid bars are kept to their lengths at every step (RATTLE). Ctrl-C ends it and keeps what
     /// is stored so far.

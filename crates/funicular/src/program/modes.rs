@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use funicular::ModesAnswer;
+use funicular::{ModesAnswer, Page};
 use model::system::System;
 
 use crate::exit::{Exit, Failure};
@@ -47,7 +47,7 @@ pub struct Modes {
     /// Which equilibrium --svg draws, as it is numbered here: `2`, or `2'`
     #[arg(long, value_name = "LABEL", default_value = "1", requires = "svg")]
     pub equilibrium: String,
-    /// Write all modes, moving, in one HTML file
+    /// Write the page of the system, as `page` does, with these modes moving
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     #[command(flatten)]
@@ -75,8 +75,11 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
         modes = modes.lowest(count);
     }
     let answer = modes.run(&problem)?;
+    write_drawing(arguments, &funicular::system_of(&problem), &answer)?;
+    if let Some(path) = &arguments.html {
+        output::write_whole(path, Page::new().modes(modes).run(&problem)?.html())?;
+    }
     drop(progress);
-    write_pictures(arguments, &funicular::system_of(&problem), &answer)?;
     if arguments.printed.is_json() {
         output::print_json(&answer)?;
     } else {
@@ -85,8 +88,8 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     Ok(if answer.indices_agree() { Exit::Done } else { Exit::CheckFailed })
 }
 
-/// The drawing and the page that are asked for.
-fn write_pictures(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Result<(), Failure> {
+/// The drawing, if it is asked for.
+fn write_drawing(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Result<(), Failure> {
     if let Some(path) = &arguments.svg {
         let found = answer.equilibria.iter().find(|found| found.label == arguments.equilibrium);
         let Some(found) = found else {
@@ -100,9 +103,6 @@ fn write_pictures(arguments: &Modes, system: &System, answer: &ModesAnswer) -> R
         let svg = funicular::drawn_modes(system, found, arguments.view.into())
             .map_err(Failure::undecided)?;
         output::write_whole(path, &svg)?;
-    }
-    if let Some(path) = &arguments.html {
-        output::write_whole(path, &funicular::animated_modes(system, answer))?;
     }
     Ok(())
 }

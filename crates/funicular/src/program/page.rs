@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use funicular::Page;
+use funicular::{Page, Simulate, Start};
 
 use crate::exit::{Exit, Failure};
 use crate::input::{Drawn, Input};
@@ -18,7 +18,11 @@ const HELP: &str = "\
 The page shows the equilibrium that both solvers find, all others where a census is complete, each
 load case and the lowest modes: turned by dragging or the arrow keys, with the forces in the members,
 the part of their strength that they use, and how far each shape is proved. With --vary a slider
-moves along the load path. It needs nothing but itself.";
+moves along the load path, with --motion through the motion that a release begins. Where no load
+path can be followed, because one has no equilibrium at its start or is lost, over values of a chain
+or over a count of bars, the slider moves over the shapes of a study, each solved by itself, at 41
+values of a range; the page says which of the two it is. It needs nothing but itself, and stays below
+1 MB for 100 members.";
 
 /// `funicular page`.
 #[derive(Debug, Args)]
@@ -29,10 +33,21 @@ pub struct Arguments {
     /// Write the page to this HTML file
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Follow the load path over a range of a number of the file, as in `trace`: loads=0.5..1.2,
-    /// joints.P.mass_kg=1..5; given several times, all but the last have one value
-    #[arg(long, value_name = "PARAMETER=RANGE", allow_hyphen_values = true)]
+    /// Show the shapes over a range or values of a number of the file, as in `trace` and `study`:
+    /// loads=0.5..1.2, bars.A-P.length_m=4..6:21; may be given several times: each combination of
+    /// all but the last has a slider of its own
+    #[arg(long, value_name = "PARAMETER=VALUES", allow_hyphen_values = true)]
     pub vary: Vec<String>,
+    /// Show the motion from here, at rest: `equilibrium:2`, `angles=0,60,-60`, `seed:7`, as --from of
+    /// `simulate`
+    #[arg(long, value_name = "START", allow_hyphen_values = true)]
+    pub motion: Option<Start>,
+    /// How long the motion is, s
+    #[arg(long, value_name = "S", default_value_t = 10.0, requires = "motion")]
+    pub time: f64,
+    /// Drag of a medium, 1/s, as in `simulate`
+    #[arg(long, value_name = "C", default_value_t = 0.0, requires = "motion")]
+    pub damping: f64,
     #[command(flatten)]
     pub threads: Threads,
 }
@@ -43,9 +58,13 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     arguments.threads.install()?;
     let Input { problem, files } = arguments.input.read()?;
     output::check([arguments.out.as_path()], &files)?;
-    let page = arguments.vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;
+    let mut page = arguments.vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;
+    if let Some(start) = &arguments.motion {
+        let motion = Simulate::new().start(start.clone());
+        page = page.simulate(motion.time_s(arguments.time).damping_1_s(arguments.damping));
+    }
     let progress = Progress::start();
-    progress.say("equilibria, modes and load paths");
+    progress.say("equilibria, modes and what moves");
     let found = page.run(&problem)?;
     drop(progress);
     output::write_whole(&arguments.out, found.html())?;

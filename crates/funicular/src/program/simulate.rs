@@ -66,7 +66,7 @@ pub struct Simulate {
     /// of the rows, new or empty, or with --resume one that holds them
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write an animation in one HTML file
+    /// Write the page of the system, as `page` does, with this motion
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     #[command(flatten)]

@@ -2,6 +2,7 @@
 
 mod answer;
 mod figure;
+mod page;
 mod shape;
 
 pub use self::answer::{StudyAnswer, StudyPoint};
@@ -54,6 +55,7 @@ pub struct Study {
     of: Vec<String>,
     solvers: Solvers,
     threads: usize,
+    with_shapes: bool,
 }
 
 impl Study {
@@ -118,6 +120,12 @@ impl Study {
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
+    }
+
+    /// Keep places and forces of each shape.
+    #[must_use]
+    pub(crate) fn with_shapes(self) -> Self {
+        Self { with_shapes: true, ..self }
     }
 
     /// How many points each path has: each combination of all parameters but the last is a path.
@@ -192,8 +200,9 @@ impl Study {
     ) -> Result<StudyAnswer, Error> {
         let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
         let point = |path: usize, values: &Vec<f64>, before: &mut Option<Vec<Vector>>| {
-            let shape =
-                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve, &of));
+            let shape = NoShape::or(at(values), |problem| {
+                StudyShape::found(problem, before, &solve, &of, self.with_shapes)
+            });
             watch();
             StudyPoint { path, values: values.clone(), shape }
         };

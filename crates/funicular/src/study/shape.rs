@@ -1,7 +1,9 @@
 //! The hanging shape at a point of a study.
 
+use std::sync::Arc;
+
 use branches::PointError;
-use model::system::Member;
+use model::system::{Member, System, SystemEquilibrium};
 use model::{Rung, Vector};
 use serde::Serialize;
 
@@ -72,6 +74,25 @@ pub struct StudyShape {
     pub joints_differ_m: Option<f64>,
     /// Largest difference of a force, N.
     pub forces_differ_n: Option<f64>,
+    /// What a page shows, where it is asked for.
+    #[serde(skip)]
+    pub(super) drawn: Option<Drawn>,
+}
+
+/// The system at a point of a study, with places of its joints, m, and forces along its bars, N.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Drawn {
+    pub system: Arc<System>,
+    pub joints_m: Vec<Vector>,
+    pub axial_n: Vec<f64>,
+}
+
+impl Drawn {
+    fn of(answer: SolveAnswer) -> Option<Self> {
+        let (system, found) = answer.into_parts();
+        let SystemEquilibrium { joints_m, axial_n, .. } = found.into_iter().next()?;
+        Some(Self { system, joints_m, axial_n })
+    }
 }
 
 impl StudyShape {
@@ -95,6 +116,7 @@ impl StudyShape {
         before: &mut Option<Vec<Vector>>,
         solve: &Solve,
         of: &[(String, &'static str)],
+        is_drawn: bool,
     ) -> Result<Self, NoShape> {
         let joints = problem.as_system().map_or(0, |system| system.joints().len());
         let answer = match before {
@@ -114,7 +136,8 @@ impl StudyShape {
         }
         let shape = Self::of(&answer, of).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;
         let span_m = problem.as_chain().map(|chain| chain.chain().anchors().span_m());
-        Ok(Self { span_m, ..shape })
+        let drawn = is_drawn.then(|| Drawn::of(answer)).flatten();
+        Ok(Self { span_m, drawn, ..shape })
     }
 
     fn of(answer: &SolveAnswer, of: &[(String, &'static str)]) -> Option<Self> {
@@ -147,6 +170,7 @@ impl StudyShape {
             is_decided: answer.is_decided(),
             joints_differ_m: agreement.map(|both| both.joints_m),
             forces_differ_n: agreement.map(|both| both.forces_n),
+            drawn: None,
         })
     }
 }

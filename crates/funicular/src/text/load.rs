@@ -84,31 +84,31 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
         table.add_row(row);
     }
     numbers_from(&mut table, 0);
-    let mut text = format!("{table}\n");
-    let mut say = |sentence: String| {
-        text += &wrapped(&sentence, 2);
-        text.push('\n');
-    };
-    say(if path.meets_proof() {
+    let said = sentences(found, path).into_iter().map(|said| wrapped(&said, 2) + "\n");
+    format!("{table}\n") + &said.collect::<String>()
+}
+
+/// What is known of a path, and how well.
+pub(crate) fn sentences(found: &LoadPaths, path: &LoadPath) -> Vec<String> {
+    let (names, units) = found.parameters();
+    let last = names.len().saturating_sub(1);
+    let loss = if path.meets_proof() {
         first_loss(found, path)
     } else {
         "the steps of the path are too long to meet what is proved of it: take a shorter range"
             .to_owned()
-    });
-    say(match path.equilibria_at_every_load {
+    };
+    let proof = match path.equilibria_at_every_load {
         Some(count) => everywhere(count),
         None => proved(found, path),
-    });
-    if let Some(sentence) = imperfections(found, path) {
-        say(sentence);
-    }
-    if let Some(at) = path.linear_buckling {
+    };
+    let buckles = path.linear_buckling.map(|at| {
         let at = valued(&names[last], at, units[last]);
-        say(format!("linear buckling, from the stiffness at the start, estimates {at}"));
-    }
-    say(ends(found, path));
-    say(confirmed(&path.confirmed));
-    text
+        format!("linear buckling, from the stiffness at the start, estimates {at}")
+    });
+    let of_limit = imperfections(found, path).into_iter().chain(buckles);
+    let checks = [ends(found, path), confirmed(&path.confirmed)];
+    [loss, proof].into_iter().chain(of_limit).chain(checks).collect()
 }
 
 /// All points if they are few; else events, both ends and some between them.

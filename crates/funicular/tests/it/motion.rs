@@ -128,12 +128,29 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     assert!(column("bar3_axial_n") < column("joint3_fz_n"));
     let html = read("a.html");
     assert!(html.contains("<canvas") && !html.contains("http"), "the page needs nothing else");
-    // Two circles of equilibria, each with its distance at every stored time.
+    // The four equilibria with their modes beside the answer, and the two circles of them, each with its
+    // distance at every time that is shown.
     let data = html.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: Value = serde_json::from_str(data).unwrap();
-    let near = data["equilibria"].as_array().unwrap();
-    assert_eq!((near.len(), &near[0]["label"], &near[1]["label"]), (2, &"1".into(), &"2".into()));
-    assert!(near.iter().all(|e| e["distance"].as_array().unwrap().len() == 1001));
+    let shapes = data["shapes"].as_array().unwrap();
+    assert!(shapes.len() == 5 && shapes[1]["modes"].is_array() && shapes[0]["axial"].is_array());
+    let motion = &data["tracks"][0];
+    let near = motion["charts"][1]["curves"].as_array().unwrap();
+    let labels = near.iter().map(|curve| curve["label"].as_str().unwrap());
+    assert_eq!(labels.collect::<Vec<_>>(), ["from equilibrium 1 / m", "from equilibrium 2 / m"]);
+    let times = motion["at"].as_array().unwrap();
+    assert_eq!((&times[0], times.last().unwrap()), (&0.into(), &2.into()));
+    assert!(near.iter().all(|curve| curve["y"].as_array().unwrap().len() == times.len()));
+    // Places, as in the columns, to a tenth of a pixel.
+    let unit = motion["unit"].as_f64().unwrap();
+    for (k, time) in times.iter().enumerate() {
+        let time = time.as_f64().unwrap();
+        let row = rows.iter().find(|row| (row[0] - time).abs() < 1e-9).unwrap();
+        for (i, axis) in ["x", "y", "z"].iter().enumerate() {
+            let x = motion["x"][k][6 + i].as_f64().unwrap() * unit;
+            assert!((x - row[column(&format!("joint2_{axis}_m"))]).abs() < 1e-3, "{time} {axis}");
+        }
+    }
     let parquet = name("a.parquet");
     let arguments = ["simulate", "--case", "two-bars", "--from", "seed:3", "--out", &parquet];
     assert_eq!(funicular(&arguments).status.code(), Some(0));

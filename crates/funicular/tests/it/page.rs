@@ -60,12 +60,87 @@ fn equilibria_load_cases_modes_and_a_path_of_a_lamp() {
     assert_eq!(shapes.iter().filter(|shape| shape["group"] == "Load cases").count(), 2);
     // A pendulum of 4 m under 12.5 m/s^2 swings across.
     let modes = shapes.iter().find_map(|shape| shape["modes"].as_array()).unwrap();
-    assert!(modes.iter().any(|mode| near(&mode["omega2"][0], 12.5 / 4.0)), "{modes:?}");
-    let path = &data["paths"][0];
-    let last = path["load"].as_array().unwrap().len() - 1;
-    assert!(near(&path["load"][0], 0.5) && near(&path["load"][last], 2.0));
-    assert!(near(&path["axial"][last][0], 2.0 * 78.125) && path["stable"][last] == true);
-    assert_eq!(data["load"], "loads");
+    assert!(modes.iter().any(|mode| near(&mode["omega2"], 12.5 / 4.0)), "{modes:?}");
+    let path = &data["tracks"][0];
+    assert_eq!((&path["group"], &path["over"]), (&"Load paths".into(), &"loads".into()));
+    let last = path["at"].as_array().unwrap().len() - 1;
+    assert!(near(&path["at"][0], 0.5) && near(&path["at"][last], 2.0));
+    // Three digits of 156.25 N, and a place to the tenth of a pixel.
+    assert_eq!(path["axial"][last][0], 156);
+    let unit = path["unit"].as_f64().unwrap();
+    let z = path["x"][last][8].as_f64().unwrap() * unit;
+    assert!((z + 3.2).abs() <= 0.5 * unit && unit < 1e-3, "{z} {unit}");
+    let curve = &path["charts"][0]["curves"][0];
+    assert!(curve["stable"][last] == true && curve["x"].as_array().unwrap().len() == last + 1);
+    let note = path["note"].as_str().unwrap();
+    assert!(note.starts_with("A load path") && note.contains("energy: an equilibrium"), "{note}");
+}
+
+/// Under its wind the lamp is a pendulum of 4 m under 12.5 m/s^2, and is pushed along its circle.
+#[test]
+fn a_motion_of_a_lamp_beside_its_equilibrium() {
+    let problem = Problem::parse(LAMP, "lamp.toml").unwrap();
+    let push = [0.0, 8.0, 6.0];
+    let motion = Simulate::new().time_s(2.0).push("</script>", push);
+    let page = Page::new().simulate(motion).run(&problem).unwrap();
+    assert_eq!(page.contents(), "1 equilibrium with modes, 2 load cases, 1 motion");
+    let data = data(page.html());
+    let [ref motion] = data["tracks"].as_array().unwrap()[..] else { panic!("one track") };
+    assert!(motion["motion"] == true && motion["over"] == "time / s");
+    let curves = motion["charts"][0]["curves"].as_array().unwrap();
+    // 10 N s on 10 kg, 1 m/s: 5 J.
+    assert!(near(&curves[0]["y"][0], 5.0), "{}", curves[0]["y"][0]);
+    let sums = curves[2]["y"].as_array().unwrap();
+    assert!(sums.iter().all(|sum| near(sum, sums[0].as_f64().unwrap())));
+    let far = &motion["charts"][1]["curves"][0]["y"];
+    assert!(far[0].as_f64().unwrap() < 1e-9);
+    // Up the circle until it stands 5 J / 125 N higher.
+    let most = far.as_array().unwrap().iter().map(|far| far.as_f64().unwrap()).fold(0.0, f64::max);
+    let highest = 2.0 * 4.0 * ((1.0_f64 - 0.04 / 4.0).acos() / 2.0).sin();
+    assert!((most / highest - 1.0).abs() < 1e-3, "{most} {highest}");
+}
+
+/// Where no load path can be followed the shapes of a study stand there, and that they do.
+#[test]
+fn a_study_where_there_is_no_load_path() {
+    // Two bars of 1 m hang as a V; anchors 2.2 m apart are out of reach.
+    let v = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+             bars = [{ length_m = 1, mass_kg = 1, count = 2 }]";
+    let problem = Problem::parse(v, "v.toml").unwrap();
+    let page = Page::new().vary("anchors.end_m.x=0.4..2.2:10").unwrap().run(&problem).unwrap();
+    let of_page = data(page.html());
+    let study = &of_page["tracks"][0];
+    assert_eq!((&study["group"], &study["over"]), (&"Study".into(), &"anchors.end_m.x / m".into()));
+    for k in 0..10 {
+        let at = 0.4 + 0.2 * f64::from(k);
+        let k = usize::try_from(k).unwrap();
+        assert!(near(&study["at"][k], at));
+        if at > 2.0 - 1e-9 {
+            let said = study["events"][k.to_string()].as_str().unwrap();
+            assert!(study["x"][k].is_null() && said.starts_with("no shape"), "{said}");
+            continue;
+        }
+        let unit = study["unit"].as_f64().unwrap();
+        let z = study["x"][k][5].as_f64().unwrap() * unit;
+        assert!((z + (1.0 - 0.25 * at * at).sqrt()).abs() < 1.5 * unit, "{at}: {z}");
+    }
+    let note = study["note"].as_str().unwrap();
+    let told = "at each of 10 values the system is solved by itself. At 8 it hangs, and both solvers agree at 8";
+    assert!(note.contains(told) && note.contains("over a range alone"), "{note}");
+    // With more bars there are more joints.
+    let page = Page::new().vary("bars.1.count=2..4").unwrap().run(&problem).unwrap();
+    let of_page = data(page.html());
+    let nets = of_page["tracks"][0]["nets"].as_array().unwrap();
+    let bars: Vec<_> = nets.iter().map(|net| net["bars"].as_array().unwrap().len()).collect();
+    assert_eq!(bars, [2, 3, 4]);
+    assert_eq!(of_page["tracks"][0]["x"][2].as_array().unwrap().len(), 3 * 5);
+    // A path that begins where nothing hangs is none; a part of its range has shapes.
+    let page = Page::new().vary("anchors.end_m.x=2.2..1").unwrap().run(&problem).unwrap();
+    let study = &data(page.html())["tracks"][0];
+    assert!(study["group"] == "Study" && study["at"].as_array().unwrap().len() == 41);
+    assert!(study["x"][0].is_null() && study["x"][40].is_array());
+    let nowhere = Page::new().vary("anchors.end_m.x=2.2..3").unwrap().run(&problem);
+    assert!(matches!(nowhere, Err(Error::NoShapes { .. })));
 }
 
 /// A case of the paper has a census: its four equilibria stand beside the answer.
@@ -108,18 +183,28 @@ fn the_program_writes_a_page_or_says_why_not() {
         assert_eq!(code, Some(2), "{arguments:?}: {said}");
         assert!(said.contains(words), "{said}");
     }
-    let values = ["--case", "two-bars", "--vary", "anchors.end_m.x=1,1.5", "--out", "a.html"];
-    let (code, _, said) = run(folder, &[&["page"], &values[..]].concat());
-    assert!(code == Some(2) && said.contains("range alone"), "{said}");
+    let nowhere = ["--case", "two-bars", "--vary", "anchors.end_m.x=7,8", "--out", "a.html"];
+    let (code, _, said) = run(folder, &[&["page"], &nowhere[..]].concat());
+    assert!(code == Some(2) && said.contains("nothing hangs"), "{said}");
     assert!(!folder.join("a.html").exists());
+    let moved = ["--motion", "seed:7", "--time", "2", "--damping", "1"];
+    let values = ["--vary", "joints.A.at_m.x=-3..-2", "--out", "moved.html"];
+    let (code, text, said) = run(folder, &[&["page", "lamp.toml"], &moved[..], &values].concat());
+    assert_eq!(code, Some(0), "{said}");
+    assert!(text.contains("2 load cases, 1 motion, 1 load path; agreed"), "{text}");
+    let (code, _, said) =
+        run(folder, &["page", "lamp.toml", "--damping", "1", "--out", "moved.html"]);
+    assert!(code == Some(2) && said.contains("--motion"), "{said}");
     assert_eq!(std::fs::read_to_string(folder.join("lamp.toml")).unwrap(), LAMP);
 }
 
-/// A net of 112 bars with a load path stays below a megabyte.
+/// A net of 112 bars with its modes, a motion and a load path stays below a megabyte.
 #[test]
 fn a_page_of_a_hundred_members_is_small() {
     let problem = Problem::case("net").unwrap();
-    let page = Page::new().vary("loads=0.5..2").unwrap().run(&problem).unwrap();
+    let motion = Simulate::new().start(Start::Rest).time_s(0.5).push("4-4", [1.0, 0.0, 0.0]);
+    let page = Page::new().vary("loads=0.5..2").unwrap().simulate(motion).modes(Modes::new());
+    let page = page.run(&problem).unwrap();
     let members = funicular::system_of(&problem).members().len();
     assert!(page.html().len() < 10_000 * members.max(100), "{} for {members}", page.html().len());
 }

@@ -71,7 +71,7 @@ class Motion(Result):
         return Table(columns)
 
     def html(self) -> str:
-        """An animation in one page that needs nothing else."""
+        """The page of a system with this motion alone; it needs nothing else. See :func:`funicular.page`."""
         return self._page
 
     def __repr__(self) -> str:

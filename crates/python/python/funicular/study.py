@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._numbers import whole
+from ._numbers import number, whole
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
@@ -202,19 +202,37 @@ def load_cases(
     return LoadCases(system, *found)
 
 
-def page(system: Described, *vary: str, threads: int = 0, progress: Progress = None) -> str:
+def page(
+    system: Described,
+    *vary: str,
+    motion: str | None = None,
+    time: float = 10.0,
+    damping: float = 0.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> str:
     """A page to look at a system: the text of an HTML file that needs nothing else.
 
     It shows the answer of both solvers, all equilibria where a census is complete, the load cases and the lowest modes; over a
-    range, ``"loads=0.5..2"``, also the load path, with a slider.
+    range, ``"loads=0.5..2"``, also the load path, with a slider, or where none can be followed, and over values of a chain,
+    the shapes of a study, and says which. ``motion`` is a ``start`` of :func:`simulate`, with ``time`` (s) and ``damping``
+    (1/s): the motion from there is played.
 
     >>> import funicular as fn
-    >>> text = fn.page(fn.System.case("lamp"), "loads=0.5..2")
-    >>> text.startswith("<!DOCTYPE html>"), "Load paths" in text
-    (True, True)
+    >>> text = fn.page(fn.System.case("lamp"), "loads=0.5..2", motion="seed:7", time=1)
+    >>> text.startswith("<!DOCTYPE html>"), "Load paths" in text, "Motion" in text
+    (True, True, True)
     """
     with shown(progress) as callback:
-        return _native.page(described(system)._problem, list(map(str, vary)), whole("threads", threads), callback)
+        return _native.page(
+            described(system)._problem,
+            list(map(str, vary)),
+            None if motion is None else str(motion),
+            number("time", time),
+            number("damping", damping),
+            whole("threads", threads),
+            callback,
+        )
 
 
 class Tolerances(Result):

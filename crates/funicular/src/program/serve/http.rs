@@ -149,8 +149,8 @@ impl Answer {
             self.kind,
             self.body.len(),
         );
-        stream.write_all(head.as_bytes())?;
-        stream.write_all(self.body.as_bytes())?;
+        // At once: the second of two waits until the first is acknowledged.
+        stream.write_all((head + &self.body).as_bytes())?;
         stream.flush()
     }
 }

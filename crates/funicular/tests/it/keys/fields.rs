@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 27] = [
+const NOT_PRINTED: [(&str, &str); 30] = [
     ("census::Census", "`census --json` prints its own `Summary`"),
     ("census::DegenerateEquilibrium", "printed as `Merged` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
@@ -22,13 +22,16 @@ const NOT_PRINTED: [(&str, &str); 27] = [
     ("census::Undecided", "printed as `Open` of the program"),
     ("census::UndecidedPlaces", "a net prints the number of its undecided boxes"),
     ("funicular::CensusAnswer", "untagged: one object or the other"),
+    ("funicular::Chart", "for the script of a page"),
+    ("funicular::Curve", "for the script of a page"),
     ("funicular::Data", "for the script of a page"),
     ("funicular::Live", "the answer of `serve` to the script of its page"),
     ("funicular::ModeShown", "for the script of a page"),
-    ("funicular::Path", "for the script of a page"),
     ("funicular::Shape", "for the script of a page"),
     ("funicular::Shown", "for the script of a page"),
     ("funicular::Start", "for the script of a page"),
+    ("funicular::Topology", "for the script of a page"),
+    ("funicular::Track", "for the script of a page"),
     ("paper::E1State", "a value of the report's own tests"),
     ("report::Kind", "data of the figure on the report's page, looked at in a browser"),
     ("report::State", "data of the figure on the report's page, looked at in a browser"),
