@@ -22,10 +22,11 @@ The ending of the file says what is written, of the equilibrium that both solver
   .dxf         CAD: lines in a layer for each kind of member, joints with names
   .obj .gltf   3D programs: members as prisms, coloured by tension and compression
   .xml         MuJoCo: masses at the joints, members as tendons
+  .urdf        MuJoCo, Bullet: bars that hang like trees, as links on ball joints
   .txt .dat    MoorDyn: lines of one segment between points; elastic cables
   .json        COMPAS: a graph with force densities and loads
-Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be a file
-of MoorDyn or COMPAS.";
+Tables are written by `solve --csv`, pictures (.svg, .png, .pdf) by `solve --svg`, motions for
+ParaView (.pvd) by `simulate --out`. What is read may also be a file of MoorDyn or COMPAS.";
 
 /// `funicular convert`.
 #[derive(Debug, Args)]
