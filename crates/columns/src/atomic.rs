@@ -55,14 +55,14 @@ impl AtomicFile {
             Standing::Stream(file) => (file, None),
             Standing::Special => (OpenOptions::new().write(true).open(path)?, None),
             Standing::Regular(about) => {
-                let (part, file) = Part::begin(end_of_links(path)?)?;
+                let (part, file) = Part::file(end_of_links(path)?)?;
                 // What nobody else could read stays so. Best effort: not every file system has
                 // permissions.
                 let _ = file.set_permissions(about.permissions());
                 (file, Some(part))
             }
             Standing::Nothing => {
-                let (part, file) = Part::begin(end_of_links(path)?)?;
+                let (part, file) = Part::file(end_of_links(path)?)?;
                 (file, Some(part))
             }
         };
@@ -77,9 +77,7 @@ impl AtomicFile {
     pub fn check(path: &Path) -> io::Result<()> {
         match standing(path)? {
             Standing::Stream(_) | Standing::Special => Ok(()),
-            Standing::Regular(_) | Standing::Nothing => {
-                Part::begin(end_of_links(path)?).map(|_| ())
-            }
+            Standing::Regular(_) | Standing::Nothing => Part::file(end_of_links(path)?).map(|_| ()),
         }
     }
 
@@ -105,6 +103,72 @@ impl Write for AtomicFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
+    }
+}
+
+/// A folder of files that appears under its name when it is complete; until then, and if it is dropped before, as
+/// [`AtomicFile`] says.
+///
+/// ```
+/// let outer = tempfile::tempdir()?;
+/// let path = outer.path().join("grids");
+/// let folder = columns::AtomicFolder::create(&path)?;
+/// folder.write("0.vtu", b"a grid")?;
+/// assert!(!path.exists());
+/// folder.commit()?;
+/// assert_eq!(std::fs::read(path.join("0.vtu"))?, b"a grid");
+/// // What is in it stays.
+/// let error = columns::AtomicFolder::create(&path).unwrap_err();
+/// assert!(error.to_string().ends_with("is not empty"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct AtomicFolder(Part);
+
+impl AtomicFolder {
+    /// Begin a folder.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file system, and [`ErrorKind::AlreadyExists`] where something is there that is no empty folder.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let target = end_of_links(path)?;
+        match fs::read_dir(&target) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+            Ok(mut inside) => {
+                if inside.next().is_some() {
+                    let why = format!("the folder {} is not empty", path.display());
+                    return Err(io::Error::new(ErrorKind::AlreadyExists, why));
+                }
+            }
+        }
+        let (part, ()) = Part::begin(target, |builder, folder| {
+            usual_permissions(builder, 0o777);
+            Ok(((), builder.tempdir_in(folder)?.keep()))
+        })?;
+        Ok(Self(part))
+    }
+
+    /// Write a file of it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file system.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        fs::write(self.0.path.join(name), bytes)
+    }
+
+    /// Give the folder its name.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file system.
+    pub fn commit(self) -> io::Result<()> {
+        match fs::remove_dir(&self.0.target) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+            _ => self.0.name(),
+        }
     }
 }
 
@@ -167,15 +231,17 @@ fn growing() -> MutexGuard<'static, Vec<PathBuf>> {
     GROWING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Remove what is not finished; best effort: there is nobody to tell.
+fn remove(part: &Path) {
+    let _ = if part.is_dir() { fs::remove_dir_all(part) } else { fs::remove_file(part) };
+}
+
 /// Remove all files that this process has begun, and end it: `end` should not return. Until it does
 /// no file can be begun or get its name, so that nothing is left behind and nothing complete is
 /// lost.
 pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
     let growing = growing();
-    for part in growing.iter() {
-        // Best effort: there is nobody to tell.
-        let _ = fs::remove_file(part);
-    }
+    growing.iter().for_each(|part| remove(part));
     end()
 }
 
@@ -193,19 +259,27 @@ const RANDOM: usize = 12;
 const UNFINISHED: &str = ".part";
 
 impl Part {
-    fn begin(target: PathBuf) -> io::Result<(Self, File)> {
+    fn file(target: PathBuf) -> io::Result<(Self, File)> {
+        Self::begin(target, |builder, folder| {
+            usual_permissions(builder, 0o666);
+            // `drop` and `abandon` see to its end.
+            builder.tempfile_in(folder)?.keep().map_err(|error| error.error)
+        })
+    }
+
+    fn begin<T>(
+        target: PathBuf,
+        make: impl FnOnce(&mut tempfile::Builder<'_, '_>, &Path) -> io::Result<(T, PathBuf)>,
+    ) -> io::Result<(Self, T)> {
         let name = target.file_name().unwrap_or_default().to_string_lossy();
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
         let prefix = format!(".{name}.");
         let mut builder = tempfile::Builder::new();
         builder.prefix(&prefix).suffix(UNFINISHED).rand_bytes(RANDOM);
-        with_usual_permissions(&mut builder);
         let mut growing = growing();
-        let made = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
-        // `drop` and `abandon` see to its end.
-        let (file, path) = made.keep().map_err(|error| error.error)?;
+        let (made, path) = make(&mut builder, folder.unwrap_or(Path::new(".")))?;
         growing.push(path.clone());
-        Ok((Self { path, target }, file))
+        Ok((Self { path, target }, made))
     }
 
     fn name(self) -> io::Result<()> {
@@ -226,22 +300,21 @@ impl Drop for Part {
         let before = growing.len();
         growing.retain(|part| *part != self.path);
         if growing.len() < before {
-            // Best effort: there is nobody to tell.
-            let _ = fs::remove_file(&self.path);
+            remove(&self.path);
         }
     }
 }
 
-/// Those that every file has that a program makes, less what the user takes away; a temporary file
-/// could be read by its owner alone.
+/// Those that every file or folder has that a program makes, less what the user takes away; a temporary one could be read
+/// by its owner alone.
 #[cfg(unix)]
-fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>) {
+fn usual_permissions(builder: &mut tempfile::Builder<'_, '_>, mode: u32) {
     use std::os::unix::fs::PermissionsExt as _;
-    builder.permissions(fs::Permissions::from_mode(0o666));
+    builder.permissions(fs::Permissions::from_mode(mode));
 }
 
 #[cfg(not(unix))]
-fn with_usual_permissions(_: &mut tempfile::Builder<'_, '_>) {}
+fn usual_permissions(_: &mut tempfile::Builder<'_, '_>, _: u32) {}
 
 /// Of which file this is what a killed process left unfinished, by its name: `a.csv` for
 /// `.a.csv.RANDOM.part`; none if it is no such name.

@@ -36,7 +36,7 @@ mod table;
 mod unpack;
 mod writer;
 
-pub use atomic::{AtomicFile, abandon, unfinished, write_whole};
+pub use atomic::{AtomicFile, AtomicFolder, abandon, unfinished, write_whole};
 pub use bars::read_bars;
 pub use error::ColumnsError;
 pub use rows::read_rows;

@@ -1,4 +1,4 @@
-//! Pictures: one writer of SVG and PNG, one palette, one set of axes, and the drawing of a
+//! Pictures: one writer of SVG, PNG and PDF, one palette, one set of axes, and the drawing of a
 //! structure.
 //!
 //! ```
@@ -24,6 +24,7 @@
 
 mod axis;
 mod escape;
+mod file;
 mod look;
 mod palette;
 mod png;
@@ -32,6 +33,7 @@ mod svg;
 
 pub use axis::{Axes, Axis, Unit};
 pub use escape::Escaped;
+pub use file::{Format, FormatError};
 pub use look::{Colour, Look};
 pub use palette::{
     BLUE, FAILURE, GREEN, MOST_REGIONS, ORANGE, OTHER, PURPLE, SKY_BLUE, VERMILION, YELLOW, ramp,

@@ -55,13 +55,14 @@
 //!
 //! # Features
 //!
-//! All are on by default. A program that solves chains takes `default-features = false` and few
+//! All but `png-pdf` are on by default. A program that solves chains takes `default-features = false` and few
 //! dependencies.
 //!
 //! | feature | what |
 //! |---|---|
 //! | `columns` | bars from Parquet |
 //! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
+//! | `png-pdf` | pictures also as PNG and PDF ([`picture::Format`]): two minutes of a processor to compile |
 //! | `branches` | `Study`, `Derivatives`, `Trace` |
 //! | `live` | `live::Ask` |
 //! | `paper` | `Reproduce` |
@@ -89,6 +90,8 @@ mod error;
 mod extremes;
 #[cfg(feature = "sweep")]
 mod followed;
+#[cfg(feature = "columns")]
+mod frames;
 pub mod judge;
 #[cfg(feature = "live")]
 pub mod live;
@@ -179,6 +182,8 @@ pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use formats::export;
+#[cfg(feature = "columns")]
+pub use frames::Frames;
 pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
 pub use lagrange::network::Gradient;

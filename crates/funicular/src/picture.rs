@@ -1,6 +1,6 @@
 //! Drawings of answers: joints, supports, loads, reactions and axial forces, to scale.
 
-pub use figures::Seen;
+pub use figures::{Format, FormatError, Seen};
 use figures::{ModeShape, ModeShapes, StructureError, SystemShape};
 use model::system::{System, SystemEquilibrium};
 use model::{AxialForce, Vector};

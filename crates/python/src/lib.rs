@@ -52,6 +52,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve::live_answer, module)?)?;
     module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
     module.add_function(wrap_pyfunction!(solve::export, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;
     module.add_function(wrap_pyfunction!(basins::basins, module)?)?;
@@ -64,6 +65,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(store::sweep_write, module)?)?;
     module.add_function(wrap_pyfunction!(store::sweep_merge, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::save_motion, module)?)?;
     module.add_function(wrap_pyfunction!(modes::modes, module)?)?;
     module.add_function(wrap_pyfunction!(judge::judge, module)?)?;
     module.add_function(wrap_pyfunction!(reproduce::reproduce, module)?)?;

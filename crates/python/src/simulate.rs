@@ -1,16 +1,18 @@
 //! A system in motion.
 
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
+use funicular::export::{Moving, Shape};
 use funicular::prelude::{Simulate, Start, Vector};
-use funicular::{Animation, ForceTable, Order};
+use funicular::{Animation, ForceTable, Frames, Order};
 use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{column, vectors};
+use crate::arrays::{column, numbers, vectors};
 use crate::problem::Problem;
 use crate::raise::{exception, raise};
 use crate::told::{Field, Told};
@@ -132,6 +134,57 @@ pub fn simulate<'py>(
     })?;
     let (stored, page) = found.map_err(|error| raise(&error))?;
     Ok((stored.dict(py, joints, members)?, page))
+}
+
+/// Write the stored times of a motion for ParaView: a collection, and a grid of each in the folder beside it.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "arrays, one for each quantity")]
+pub fn save_motion(
+    py: Python<'_>,
+    problem: &Problem,
+    path: PathBuf,
+    time_s: PyReadonlyArrayDyn<'_, f64>,
+    joints_m: PyReadonlyArrayDyn<'_, f64>,
+    velocities_m_s: PyReadonlyArrayDyn<'_, f64>,
+    axial_n: PyReadonlyArrayDyn<'_, f64>,
+    reactions_n: PyReadonlyArrayDyn<'_, f64>,
+    kinetic_j: PyReadonlyArrayDyn<'_, f64>,
+    potential_j: PyReadonlyArrayDyn<'_, f64>,
+) -> PyResult<()> {
+    let system = problem.system();
+    let (joints, members) = (system.joints().len(), system.members().len());
+    let (places, speeds, grounds) =
+        (vectors(&joints_m)?, vectors(&velocities_m_s)?, vectors(&reactions_n)?);
+    let [time_s, axial_n, kinetic_j, potential_j] =
+        [numbers(&time_s)?, numbers(&axial_n)?, numbers(&kinetic_j)?, numbers(&potential_j)?];
+    let write = || -> std::io::Result<()> {
+        let mut frames = Frames::create(&path, &system)?;
+        for (k, time_s) in time_s.into_iter().enumerate() {
+            let at = |all: &[Vector]| all.iter().copied().skip(k * joints).take(joints).collect();
+            let [joints_m, velocities_m_s, reactions_n]: [Vec<Vector>; 3] =
+                [at(&places), at(&speeds), at(&grounds)];
+            let axial_n: Vec<f64> =
+                axial_n.iter().copied().skip(k * members).take(members).collect();
+            let [kinetic_j, potential_j] =
+                [&kinetic_j, &potential_j].map(|all| all.get(k).copied().unwrap_or(f64::NAN));
+            let numbers = [
+                ("kinetic_j", kinetic_j),
+                ("potential_j", potential_j),
+                ("energy_j", kinetic_j + potential_j),
+            ];
+            let moving = Moving { time_s, velocities_m_s: &velocities_m_s, numbers: &numbers };
+            frames.add_shape(&Shape {
+                system: &system,
+                joints_m: &joints_m,
+                axial_n: &axial_n,
+                reactions_n: &reactions_n,
+                used: &[],
+                moving: Some(moving),
+            })?;
+        }
+        frames.finish()
+    };
+    Ok(py.detach(write)?)
 }
 
 impl Stored {

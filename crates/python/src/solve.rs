@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use funicular::export::{Shape, Target};
 use funicular::live::Ask;
+use funicular::picture::Format;
 use funicular::prelude::{Simulate, Solve, SolveAnswer, Vector};
 use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
@@ -12,7 +13,7 @@ use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict as _, PyDict, PyList};
+use pyo3::types::{IntoPyDict as _, PyBytes, PyDict, PyList};
 use serde::Serialize;
 
 use crate::arrays::{column, numbers, rows, vectors};
@@ -307,6 +308,15 @@ pub fn export(
     }
     let target = Target::of_ending(ending);
     let target = target.ok_or_else(|| bad_word("ending", ending, &Target::ENDINGS))?;
-    let shape = Shape { system: &system, joints_m, axial_n, reactions_n, used };
+    let shape = Shape { system: &system, joints_m, axial_n, reactions_n, used, moving: None };
     py.detach(|| shape.text(target)).map_err(|error| raise(&Error::from(error)))
+}
+
+/// A drawing as the bytes of a file, of the format that an ending stands for.
+#[pyfunction]
+pub fn draw<'py>(py: Python<'py>, svg: &str, ending: &str) -> PyResult<Bound<'py, PyBytes>> {
+    let format = Format::of_ending(ending);
+    let format = format.ok_or_else(|| bad_word("ending", ending, &Format::ENDINGS))?;
+    let file = py.detach(|| format.file(svg)).map_err(|error| internal(&error.to_string()))?;
+    Ok(PyBytes::new(py, &file))
 }

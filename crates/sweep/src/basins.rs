@@ -55,7 +55,7 @@ pub enum Field {
 const LEFT: f64 = 100.0;
 const TOP: f64 = 80.0;
 const SIDE: f64 = 600.0;
-const WIDTH: f64 = 1010.0;
+const WIDTH: f64 = 1040.0;
 const HEIGHT: f64 = 760.0;
 
 /// Most entries of a legend with two lines for each; more of them have one.

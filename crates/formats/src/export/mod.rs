@@ -6,6 +6,7 @@
 //! | [`Dxf`](Target::Dxf) | `.dxf` | CAD | lines in a layer for each kind of member, points and names of joints; [`parse_dxf`](crate::system::parse_dxf) reads them |
 //! | [`Obj`](Target::Obj), [`Gltf`](Target::Gltf) | `.obj`, `.gltf` | 3D programs | members as prisms, coloured by tension and compression |
 //! | [`Mjcf`](Target::Mjcf) | `.xml` | MuJoCo | the mechanical model with masses at the joints, standing in this equilibrium |
+//! | [`Urdf`](Target::Urdf) | `.urdf` | MuJoCo, Bullet | bars that hang from their anchors like trees, as links on ball joints |
 //! | [`MoorDyn`](Target::MoorDyn) | `.txt`, `.dat` | MoorDyn | lines of one segment between points |
 //! | [`Compas`](Target::Compas) | `.json` | COMPAS | a graph with force densities and loads |
 //!
@@ -17,7 +18,10 @@ mod dxf;
 mod moordyn;
 mod mujoco;
 mod solids;
+mod urdf;
 mod vtu;
+
+pub use vtu::collection;
 
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
@@ -37,6 +41,8 @@ pub enum Target {
     Gltf,
     /// MuJoCo's XML.
     Mjcf,
+    /// Unified robot description format, with ball joints.
+    Urdf,
     /// Input of MoorDyn version 2.
     MoorDyn,
     /// JSON of a COMPAS graph.
@@ -69,7 +75,8 @@ pub enum ExportError {
 
 impl Target {
     /// Endings of the files that are written, for help texts.
-    pub const ENDINGS: [&str; 8] = ["vtu", "dxf", "obj", "gltf", "xml", "txt", "dat", "json"];
+    pub const ENDINGS: [&str; 9] =
+        ["vtu", "dxf", "obj", "gltf", "xml", "urdf", "txt", "dat", "json"];
 
     /// For which program it is, and what the file holds.
     #[must_use]
@@ -79,6 +86,7 @@ impl Target {
             Self::Dxf => "a drawing for CAD",
             Self::Obj | Self::Gltf => "solids for 3D programs",
             Self::Mjcf => "a model for MuJoCo",
+            Self::Urdf => "a tree of links on ball joints",
             Self::MoorDyn => "an input file of MoorDyn",
             Self::Compas => "a graph for COMPAS",
         }
@@ -100,6 +108,7 @@ impl Target {
             "obj" => Self::Obj,
             "gltf" => Self::Gltf,
             "xml" => Self::Mjcf,
+            "urdf" => Self::Urdf,
             "txt" | "dat" => Self::MoorDyn,
             "json" => Self::Compas,
             _ => return None,
@@ -120,6 +129,19 @@ pub struct Shape<'a> {
     pub reactions_n: &'a [Vector],
     /// The part of its strength that each member uses; empty where none has a strength.
     pub used: &'a [Option<f64>],
+    /// What it has besides while it moves; a grid for ParaView holds it.
+    pub moving: Option<Moving<'a>>,
+}
+
+/// A time of a motion.
+#[derive(Debug, Clone, Copy)]
+pub struct Moving<'a> {
+    /// Time since the beginning, s.
+    pub time_s: f64,
+    /// Velocity of each joint, m/s.
+    pub velocities_m_s: &'a [Vector],
+    /// Names, with their units, and values of what is one number at a time.
+    pub numbers: &'a [(&'a str, f64)],
 }
 
 impl<'a> Shape<'a> {
@@ -127,7 +149,7 @@ impl<'a> Shape<'a> {
     #[must_use]
     pub fn new(system: &'a System, found: &'a SystemEquilibrium, used: &'a [Option<f64>]) -> Self {
         let SystemEquilibrium { joints_m, axial_n, reactions_n, .. } = found;
-        Self { system, joints_m, axial_n, reactions_n, used }
+        Self { system, joints_m, axial_n, reactions_n, used, moving: None }
     }
 
     /// The text of a file.
@@ -138,8 +160,12 @@ impl<'a> Shape<'a> {
     pub fn text(&self, target: Target) -> Result<String, ExportError> {
         let (joints, members) = (self.joints_m.len(), self.axial_n.len());
         let sizes = [joints, self.reactions_n.len(), members];
+        let speeds = self.moving.map_or(joints, |moving| moving.velocities_m_s.len());
         let [of_joints, of_members] = [self.system.joints().len(), self.system.members().len()];
-        if sizes != [of_joints, of_joints, of_members] || ![0, members].contains(&self.used.len()) {
+        if sizes != [of_joints, of_joints, of_members]
+            || speeds != joints
+            || ![0, members].contains(&self.used.len())
+        {
             return Err(ExportError::Sizes { joints, members });
         }
         match target {
@@ -148,6 +174,7 @@ impl<'a> Shape<'a> {
             Target::Obj => Ok(solids::obj(self)),
             Target::Gltf => Ok(solids::gltf(self)),
             Target::Mjcf => Ok(mujoco::write(self)),
+            Target::Urdf => urdf::write(self),
             Target::MoorDyn => moordyn::write(self),
             Target::Compas => compas::write(self),
         }

@@ -4,16 +4,30 @@ use std::fmt::Write as _;
 
 use model::system::Kind;
 
-use super::{Shape, row};
+use super::{Shape, attribute, row};
 
 /// Cell of two points.
 const LINE: &str = "3";
 
 pub(super) fn write(shape: &Shape<'_>) -> String {
     let lines: Vec<_> = shape.lines().collect();
-    let mut text = format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
-         <UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+    let mut text = head("UnstructuredGrid");
+    if let Some(moving) = shape.moving {
+        // The name by which VTK knows a time.
+        let numbers = [("TimeValue", moving.time_s)];
+        text.push_str("<FieldData>\n");
+        for (name, number) in numbers.iter().chain(moving.numbers) {
+            let _ = writeln!(
+                text,
+                "<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">\n{number:?}\n</DataArray>",
+                attribute(name)
+            );
+        }
+        text.push_str("</FieldData>\n");
+    }
+    let _ = writeln!(
+        text,
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>",
         shape.joints_m.len(),
         lines.len()
     );
@@ -30,6 +44,10 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     array(&mut text, "UInt8", "types", 1, &of_lines(&|_| LINE.to_owned()));
     text.push_str("</Cells>\n<PointData>\n");
     array(&mut text, "Float64", "reaction_n", 3, &of_joints(&|k| row(&shape.reactions_n[k])));
+    if let Some(moving) = shape.moving {
+        let speeds = of_joints(&|k| row(&moving.velocities_m_s[k]));
+        array(&mut text, "Float64", "velocity_m_s", 3, &speeds);
+    }
     let joints = shape.system.joints();
     array(&mut text, "Float64", "mass_kg", 1, &of_joints(&|k| row(&[joints[k].mass_kg])));
     array(&mut text, "Float64", "force_n", 3, &of_joints(&|k| row(&joints[k].force_n)));
@@ -56,6 +74,24 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     }
     text.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     text
+}
+
+/// The collection that names a grid for each of rising times, s.
+#[must_use]
+pub fn collection(grids: impl IntoIterator<Item = (f64, String)>) -> String {
+    let mut text = head("Collection");
+    for (time_s, file) in grids {
+        let file = attribute(&file);
+        let _ = writeln!(text, "<DataSet timestep=\"{time_s:?}\" part=\"0\" file=\"{file}\"/>");
+    }
+    text.push_str("</Collection>\n</VTKFile>\n");
+    text
+}
+
+fn head(kind: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"0.1\" byte_order=\"LittleEndian\">\n<{kind}>\n"
+    )
 }
 
 fn array(text: &mut String, kind: &str, name: &str, components: usize, rows: &[String]) {

@@ -1,7 +1,7 @@
 //! Equilibria as files of other programs: of an asymmetric system in balance by hand.
 
 use formats::answer::{Forces, Joints, parse_vtu};
-use formats::export::{ExportError, Shape, Target};
+use formats::export::{ExportError, Moving, Shape, Target, collection};
 use formats::system::{parse_compas, parse_moordyn};
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
@@ -30,6 +30,10 @@ const AXIAL_N: [f64; 2] = [32.0, 24.0];
 const REACTIONS_N: [Vector; 3] = [[-19.2, 0.0, 25.6], [19.2, 0.0, 19.4], [0.0; 3]];
 
 fn text(target: Target) -> String {
+    moving_text(target, None).unwrap()
+}
+
+fn moving_text(target: Target, moving: Option<Moving<'_>>) -> Result<String, ExportError> {
     let (system, joints_m) = lamp();
     let used = [Some(0.5), None];
     let shape = Shape {
@@ -38,8 +42,16 @@ fn text(target: Target) -> String {
         axial_n: &AXIAL_N,
         reactions_n: &REACTIONS_N,
         used: &used,
+        moving,
     };
-    shape.text(target).unwrap()
+    shape.text(target)
+}
+
+/// Numbers of an array of a grid.
+fn array<'a>(text: &'a str, name: &str) -> Vec<&'a str> {
+    let (_, rest) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, rest) = rest.split_once('>').unwrap();
+    rest.split_once('<').unwrap().0.split_whitespace().collect()
 }
 
 #[test]
@@ -48,18 +60,29 @@ fn a_grid_has_places_and_forces() {
     let read = parse_vtu(&text, "x").unwrap();
     assert_eq!(read.joints, Joints::InOrder(lamp().1.to_vec()));
     assert_eq!(read.forces, Forces::Numbered(vec![(0, 2, Some(32.0)), (2, 1, Some(24.0))]));
-    let array = |name: &str| {
-        let (_, rest) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
-        let (_, rest) = rest.split_once('>').unwrap();
-        rest.split_once('<').unwrap().0.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
-    };
+    let array = |name| array(&text, name);
     assert_eq!(array("utilisation"), ["0.5", "nan"]);
     assert_eq!(array("reaction_n")[..6], ["-19.2", "0.0", "25.6", "19.2", "0.0", "19.4"]);
     assert_eq!(array("mass_kg"), ["0.0", "0.0", "2.5"]);
-    assert_eq!(
-        (array("held"), array("unstretched_m")),
-        (vec!["1".into(), "1".into(), "0".into()], vec!["2.5".into(), "3.2".into()])
-    );
+    assert_eq!((array("held"), array("unstretched_m")), (vec!["1", "1", "0"], vec!["2.5", "3.2"]));
+    assert!(!text.contains("velocity_m_s") && !text.contains("TimeValue"));
+}
+
+#[test]
+fn a_grid_of_a_motion_has_its_time() {
+    let velocities_m_s = [[0.0; 3], [0.0; 3], [0.25, -3.0, 1.5]];
+    let moving =
+        Moving { time_s: 0.5, velocities_m_s: &velocities_m_s, numbers: &[("kinetic_j", 14.0)] };
+    let text = moving_text(Target::Vtu, Some(moving)).unwrap();
+    assert_eq!((array(&text, "TimeValue"), array(&text, "kinetic_j")), (vec!["0.5"], vec!["14.0"]));
+    assert_eq!(array(&text, "velocity_m_s")[6..], ["0.25", "-3.0", "1.5"]);
+    assert_eq!(array(&text, "axial_n"), ["32.0", "24.0"]);
+    let cut = Moving { velocities_m_s: &velocities_m_s[1..], ..moving };
+    assert!(moving_text(Target::Vtu, Some(cut)).is_err());
+    let files = [(0.0, "a \"b\"/0.vtu".to_owned()), (0.1, "a/1.vtu".to_owned())];
+    let text = collection(files);
+    assert!(text.contains("timestep=\"0.0\" part=\"0\" file=\"a &quot;b&quot;/0.vtu\""));
+    assert!(text.contains("timestep=\"0.1\" part=\"0\" file=\"a/1.vtu\""));
 }
 
 #[test]
@@ -157,11 +180,83 @@ fn solids_are_prisms_around_the_members() {
     assert!(text.contains("g member_2_tension"));
 }
 
+/// A bar of 3 kg and 2 m whose centre is 0.5 m from its lower end, with 1 kg there, and a massless one of 1 m with 2 kg below it.
+#[test]
+fn links_have_the_mass_and_moments_of_bars_and_joints() {
+    let joints = vec![
+        Joint::free("P").with_mass(1.0),
+        Joint::anchor("A", [0.0, 0.0, 5.0]),
+        Joint::free("Q").with_mass(2.0),
+    ];
+    let members = vec![
+        Member::bar(0, 2, Bar::homogeneous(1.0, 0.0).unwrap()),
+        Member::bar(0, 1, Bar::new(2.0, 3.0, 0.5, [0.0, 0.75, 0.75]).unwrap()),
+    ];
+    let write = |joints: Vec<Joint>, members: Vec<Member>| {
+        let system = System::new("two", 10.0, joints, members).unwrap();
+        let joints_m = [[0.0, 0.0, 3.0], [0.0, 0.0, 5.0], [0.0, 0.0, 2.0]];
+        let (axial_n, reactions_n) = (vec![0.0; system.members().len()], [[0.0; 3]; 3]);
+        let shape = Shape {
+            system: &system,
+            joints_m: &joints_m,
+            axial_n: &axial_n,
+            reactions_n: &reactions_n,
+            used: &[],
+            moving: None,
+        };
+        shape.text(Target::Urdf).map_err(|error| error.to_string())
+    };
+    let text = write(joints.clone(), members.clone()).unwrap();
+    let tree = roxmltree::Document::parse(&text).unwrap();
+    let link = |name: &str| {
+        let is = |n: &roxmltree::Node<'_, '_>| n.attribute("name") == Some(name);
+        let within = tree.descendants().find(is).unwrap();
+        move |element: &str, attribute: &str| -> Vec<f64> {
+            let node = within.descendants().find(|n| n.has_tag_name(element)).unwrap();
+            let numbers = node.attribute(attribute).unwrap().split_whitespace();
+            numbers.map(|x| x.parse().unwrap()).collect()
+        }
+    };
+    let near = |found: Vec<f64>, told: &[f64]| {
+        assert_eq!(found.len(), told.len());
+        assert!(found.iter().zip(told).all(|(a, b)| (a - b).abs() < 1e-8), "{found:?} {told:?}");
+    };
+    // The centre is (3 × 1.5 + 1 × 2)/4 below the anchor; about it 0.75 + 3 × 0.125² + 0.375².
+    near(link("m2")("mass", "value"), &[4.0]);
+    near(link("m2")("origin", "xyz"), &[0.0, 0.0, -1.625]);
+    near(link("m2")("inertia", "ixx"), &[0.9375]);
+    near(link("m2")("inertia", "izz"), &[0.0]);
+    assert!(link("m2")("inertia", "izz")[0] > 0.0);
+    near(link("j2")("origin", "xyz"), &[0.0, 0.0, 5.0]);
+    near(link("m1")("mass", "value"), &[2.0]);
+    near(link("m1")("origin", "xyz"), &[0.0, 0.0, -1.0]);
+    near(link("j1")("origin", "xyz"), &[0.0, 0.0, -2.0]);
+    assert!(text.contains("<option gravity=\"0 0 -10.0\"/>"));
+    assert!(text.contains("<parent link=\"m2\"/>\n<child link=\"m1\"/>"));
+    let says = |joints: &[Joint], members: &[Member]| {
+        write(joints.to_vec(), members.to_vec()).unwrap_err()
+    };
+    let loops = [&members[..], &[Member::bar(1, 2, Bar::homogeneous(3.0, 1.0).unwrap())]].concat();
+    assert_eq!(says(&joints, &loops), "URDF has no loop (member 1)");
+    let changed = |k: usize, joint: Joint| {
+        let mut joints = joints.clone();
+        joints[k] = joint;
+        says(&joints, &members)
+    };
+    let pulled = Joint::free("Q").with_mass(2.0).with_force([1.0, 0.0, 0.0]);
+    assert_eq!(changed(2, pulled), "URDF has no force at rest (joint \"Q\")");
+    assert_eq!(changed(2, Joint::free("Q")), "URDF has no link without mass (member 1)");
+    let uneven = Bar::new(2.0, 3.0, 0.5, [0.0, 0.75, 0.5]).unwrap();
+    let uneven = [members[0].clone(), Member::bar(0, 1, uneven)];
+    assert!(says(&joints, &uneven).contains("no bar whose moments across differ (member 2)"));
+}
+
 #[test]
 fn what_a_format_does_not_have_is_refused() {
     let refused = |system: &System, joints_m: &[Vector], target| {
         let (axial_n, ground) = (vec![0.0; system.members().len()], vec![[0.0; 3]; joints_m.len()]);
-        let shape = Shape { system, joints_m, axial_n: &axial_n, reactions_n: &ground, used: &[] };
+        let (axial_n, reactions_n) = (&*axial_n, &*ground);
+        let shape = Shape { system, joints_m, axial_n, reactions_n, used: &[], moving: None };
         shape.text(target).unwrap_err()
     };
     let (system, joints_m) = lamp();
@@ -180,6 +275,8 @@ fn what_a_format_does_not_have_is_refused() {
         "MoorDyn has no line that does not stretch (member 1)"
     );
     assert_eq!(says(&bar, Target::MoorDyn), "MoorDyn has no line in compression (member 1)");
+    assert_eq!(says(&rigid, Target::Urdf), "URDF has no link that goes slack (member 1)");
+    assert_eq!(says(&bar, Target::Urdf), "URDF has no link that stretches (member 1)");
     let error = refused(&rigid, &[[0.0; 3]; 2], Target::Compas).to_string();
     assert_eq!(error, "a COMPAS graph has no edge without length (member 1)");
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use funicular::picture::Format;
 use funicular::{Basins, Field};
 use model::SolverName;
 
@@ -18,7 +19,7 @@ const NOTES: &str = "\
 Each pixel is a start. Of a chain between two anchors: the angles of two bars from the descending vertical, 0 to 360
 degrees; all other bars start at --others. Of any other system: the place of --joint in --plane, through where it
 hangs; all other joints start where they hang. Both solvers start there, whether or not the lengths fit. Files:
-lagrange.svg and energy.svg (the equilibrium reached), lagrange-iterations.svg and energy-iterations.svg.
+lagrange.svg and energy.svg (the equilibrium reached), lagrange-iterations.svg and energy-iterations.svg; or .png, .pdf.
 
 Examples:
   funicular basins --case three-equal-bars --size 400 --out pictures
@@ -60,6 +61,9 @@ pub struct Arguments {
     /// Write the pictures into this folder (made if it is not there)
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// The form of the pictures
+    #[arg(long, value_name = "ENDING", default_value = Format::ENDINGS[0], value_parser = Format::ENDINGS)]
+    pub format: String,
 }
 
 /// The plane of a picture.
@@ -97,8 +101,10 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     basins.check(&problem)?;
     output::make_folder(&arguments.out)?;
     let solvers = [SolverName::LAGRANGE, SolverName::ENERGY];
-    let picture =
-        |solver: &SolverName, suffix: &str| arguments.out.join(format!("{solver}{suffix}.svg"));
+    let ending = &arguments.format;
+    let picture = |solver: &SolverName, suffix: &str| {
+        arguments.out.join(format!("{solver}{suffix}.{ending}"))
+    };
     let pictures: Vec<_> = solvers
         .iter()
         .flat_map(|solver| FIELDS.iter().map(|(_, suffix)| picture(solver, suffix)))
@@ -112,7 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for solver in &solvers {
         for (field, suffix) in FIELDS {
             let path = picture(solver, suffix);
-            output::write_whole(&path, &found.svg(solver, field)?)?;
+            output::write_picture(&path, &found.svg(solver, field)?)?;
             said += &path.display().to_string();
             said.push('\n');
         }

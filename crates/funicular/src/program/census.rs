@@ -42,9 +42,9 @@ pub struct Census {
     /// neighbours are not counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
-    /// Draw the shapes into this SVG file: all up to 70, of more the first 70 by energy; those of a
-    /// chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
-    #[arg(long, value_name = "FILE")]
+    /// Draw the shapes into this file, .svg, .png or .pdf: all up to 70, of more the first 70 by energy;
+    /// those of a chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
+    #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the pictures of a system are seen; shapes of a chain are drawn in their own planes
     #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
@@ -126,7 +126,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
 fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer, view: View) -> Result<(), Failure> {
     let found = match answer {
         CensusAnswer::Chain(found) => {
-            return output::write_whole(path, &found.proven.figure(problem.name(), SHAPES));
+            return output::write_picture(path, &found.proven.figure(problem.name(), SHAPES));
         }
         CensusAnswer::System(found) => found,
     };
@@ -134,7 +134,7 @@ fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer, view: View) -> Re
     for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
         let drawn = funicular::picture::of_system(found.system(), shape, view.into())
             .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
-        output::write_whole(path, &drawn)?;
+        output::write_picture(path, &drawn)?;
     }
     Ok(())
 }

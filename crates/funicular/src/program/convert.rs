@@ -22,11 +22,13 @@ The ending of the file says what is written, of the equilibrium that both solver
   .dxf         CAD: lines in a layer for each kind of member, joints with names
   .obj .gltf   3D programs: members as prisms, coloured by tension and compression
   .xml         MuJoCo: masses at the joints, members as tendons
+  .urdf        MuJoCo, Bullet: bars that hang like trees, as links on ball joints
   .txt .dat    MoorDyn: lines of one segment between points; elastic cables
   .json        COMPAS: a graph with force densities and loads
   .toml        the system itself, as a file of ours to be edited; nothing is solved
-Tables are written by `solve --csv`, pictures by `solve --svg`. What is read may also be lines
-of DXF or OBJ, or a file of MoorDyn, MAP++, OpenSees or COMPAS.";
+Tables are written by `solve --csv`, pictures (.svg, .png, .pdf) by `solve --svg`, motions for
+ParaView (.pvd) by `simulate --out`. What is read may also be lines of DXF or OBJ, or a file of
+MoorDyn, MAP++, OpenSees or COMPAS.";
 
 /// Ending of our own system files.
 const OWN: &str = "toml";

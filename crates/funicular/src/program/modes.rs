@@ -38,8 +38,8 @@ pub struct Modes {
     /// of systems of up to 100 joints and 20 of larger ones
     #[arg(long, alias = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
     pub lowest: Option<usize>,
-    /// Draw the lowest modes of one equilibrium, up to 24, as one SVG file
-    #[arg(long, value_name = "FILE")]
+    /// Draw the lowest modes of one equilibrium, up to 24, as one file: .svg, .png or .pdf
+    #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen
     #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
@@ -102,7 +102,7 @@ fn write_drawing(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Re
         };
         let svg = funicular::drawn_modes(system, found, arguments.view.into())
             .map_err(Failure::undecided)?;
-        output::write_whole(path, &svg)?;
+        output::write_picture(path, &svg)?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use columns::AtomicFile;
+use funicular::picture::Format;
 use funicular::text::printed::{self, in_ascii};
 use serde::Serialize;
 
@@ -80,7 +81,12 @@ pub fn check<'a>(
 }
 
 /// Endings of pictures that are not written.
-const PICTURES: [&str; 7] = ["png", "pdf", "jpg", "jpeg", "gif", "eps", "webp"];
+const OTHER_PICTURES: [&str; 5] = ["jpg", "jpeg", "gif", "eps", "webp"];
+
+/// What a file's name ends in, behind the point.
+fn ending(path: &Path) -> &str {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
+}
 
 /// A file can be written only into a folder that is there, and where the system lets us; `-` is meant
 /// as standard output, not as a name.
@@ -88,14 +94,12 @@ fn check_one(path: &Path) -> Result<(), Failure> {
     if path == Path::new("-") {
         return Err(cannot_write(path, "it names no file; standard output is /dev/stdout"));
     }
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if PICTURES.contains(&ending.to_ascii_lowercase().as_str()) {
-        let svg = path.with_extension("svg");
-        let why = format!(
-            "pictures are SVG here: write {}, which a browser, Inkscape or rsvg-convert makes into that",
-            svg.display()
-        );
+    if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {
+        let why = format!("pictures are written as .{}", Format::ENDINGS.join(", ."));
         return Err(cannot_write(path, why));
+    }
+    if let Some(format) = Format::of_ending(ending(path)) {
+        format.check().map_err(|error| cannot_write(path, error))?;
     }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) if !folder.is_dir() => {
@@ -154,6 +158,13 @@ pub fn numbered(path: &Path, results: usize) -> Vec<PathBuf> {
 /// either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     write_stream(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// Write a drawing in the format that the ending of the file's name stands for: SVG if it is no other.
+pub fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
+    let format = Format::of_ending(ending(path)).unwrap_or(Format::Svg);
+    let file = format.file(svg).map_err(Failure::undecided)?;
+    write_stream(path, |out| out.write_all(&file))
 }
 
 /// The same for what is too long to be held as one text.

@@ -3,18 +3,18 @@
 mod columns;
 mod ensemble;
 
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use ::columns::{ColumnsError, Format};
+use ::columns::Format;
 use clap::Args;
 use funicular::text::motion::Summary;
-use funicular::{Animation, Error, ForceTable, Order, Problem, Start};
+use funicular::{Animation, Error, ForceTable, Frames, Order, Problem, Start};
 use model::Vector;
 use model::system::System;
 
-use self::columns::Rows;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
 use crate::input::{Drawn, Input, places};
@@ -62,7 +62,8 @@ pub struct Simulate {
     /// linear between its times, zero before and after them
     #[arg(long, value_name = "FILE")]
     pub forces: Option<PathBuf>,
-    /// Write the stored times as columns with units: `.csv` or `.parquet`; with --seeds the folder
+    /// Write the stored times as columns with units: `.csv` or `.parquet`; or for ParaView: `x.pvd`,
+    /// with a grid of each time in the folder `x` beside it, new or empty; with --seeds the folder
     /// of the rows, new or empty, or with --resume one that holds them
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -119,24 +120,52 @@ fn push(text: &str) -> Result<(String, Vector), String> {
     Ok((joint.to_owned(), impulse))
 }
 
-/// The form of a table, by the name of its file.
-fn format(path: &Path) -> Result<Format, Failure> {
-    [Format::Csv, Format::Parquet]
-        .into_iter()
-        .find(|format| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(format.extension())))
-        .ok_or_else(|| {
-            Failure::bad_input(format!(
-                "cannot write {}: its name has to end in .csv or .parquet",
-                path.display()
-            ))
-        })
+/// What the stored times are written to.
+enum Rows<'a> {
+    Table(columns::Rows),
+    Frames(Frames<'a>),
+}
+
+impl<'a> Rows<'a> {
+    /// By the ending of the file's name.
+    fn create(path: &Path, system: &'a System) -> Result<Self, Failure> {
+        let is = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+        if is("pvd") {
+            let frames = Frames::create(path, system);
+            return frames.map(Self::Frames).map_err(|error| unwritten(path, &error));
+        }
+        let formats = [Format::Csv, Format::Parquet];
+        let format =
+            formats.into_iter().find(|format| is(format.extension())).ok_or_else(|| {
+                Failure::bad_input(format!(
+                    "cannot write {}: its name has to end in .csv, .parquet or .pvd",
+                    path.display()
+                ))
+            })?;
+        let rows = columns::Rows::create(path, format, system);
+        rows.map(Self::Table).map_err(Failure::undecided)
+    }
+
+    fn add(&mut self, now: &motion::Snapshot, path: &Path) -> Result<(), Failure> {
+        match self {
+            Self::Table(rows) => rows.add(now).map_err(Failure::undecided),
+            Self::Frames(frames) => frames.add(now).map_err(|error| unwritten(path, &error)),
+        }
+    }
+
+    fn finish(self, path: &Path) -> Result<(), Failure> {
+        match self {
+            Self::Table(rows) => rows.finish().map_err(Failure::undecided),
+            Self::Frames(frames) => frames.finish().map_err(|error| unwritten(path, &error)),
+        }
+    }
 }
 
 /// What is kept of the motion while it runs.
-struct Kept {
-    rows: Option<Rows>,
+struct Kept<'a> {
+    rows: Option<(Rows<'a>, &'a Path)>,
     animation: Option<Animation>,
-    failed: Option<ColumnsError>,
+    failed: Option<Failure>,
     summary: Summary,
 }
 
@@ -203,17 +232,17 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
     simulate
 }
 
-impl Kept {
-    fn begin(arguments: &Simulate, problem: &Problem, system: &System) -> Result<Self, Failure> {
-        let rows = match &arguments.out {
-            Some(path) => {
-                Some(Rows::create(path, format(path)?, system).map_err(|e| unwritten(&e))?)
-            }
-            None => None,
-        };
+impl<'a> Kept<'a> {
+    fn begin(
+        arguments: &'a Simulate,
+        problem: &Problem,
+        system: &'a System,
+    ) -> Result<Self, Failure> {
+        let rows = arguments.out.as_deref();
+        let rows = rows.map(|path| Ok::<_, Failure>((Rows::create(path, system)?, path)));
         let animated = arguments.html.is_some();
         Ok(Self {
-            rows,
+            rows: rows.transpose()?,
             animation: animated.then(|| Animation::new(system).with_equilibria(problem)),
             failed: None,
             summary: Summary::new(system),
@@ -222,8 +251,8 @@ impl Kept {
 
     fn add(&mut self, now: &motion::Snapshot) {
         self.summary.add(now);
-        if let Some(rows) = &mut self.rows {
-            self.failed = rows.add(now).err();
+        if let Some((rows, path)) = &mut self.rows {
+            self.failed = rows.add(now, path).err();
         }
         if let Some(animation) = &mut self.animation {
             animation.add(now);
@@ -232,10 +261,10 @@ impl Kept {
 
     fn finish(&mut self, arguments: &Simulate) -> Result<(), Failure> {
         if let Some(error) = self.failed.take() {
-            return Err(unwritten(&error));
+            return Err(error);
         }
-        if let Some(rows) = self.rows.take() {
-            rows.finish().map_err(|e| unwritten(&e))?;
+        if let Some((rows, path)) = self.rows.take() {
+            rows.finish(path)?;
         }
         if let (Some(animation), Some(path)) = (&self.animation, &arguments.html) {
             output::write_whole(path, &animation.page())?;
@@ -244,6 +273,6 @@ impl Kept {
     }
 }
 
-fn unwritten(error: &ColumnsError) -> Failure {
-    Failure::undecided(error)
+fn unwritten(path: &Path, error: &io::Error) -> Failure {
+    output::not_written(&path.display().to_string(), error)
 }

@@ -123,8 +123,9 @@ pub struct Solve {
     /// How the random values are distributed
     #[arg(long, value_enum, value_name = "WHICH", requires = "monte_carlo", default_value_t)]
     pub distribution: Distribution,
-    /// Draw the system to scale with loads, reactions and axial forces into this SVG file
-    #[arg(long, value_name = "FILE")]
+    /// Draw the system to scale with loads, reactions and axial forces into this file: .svg, .png or
+    /// .pdf
+    #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen
     #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
@@ -303,7 +304,7 @@ fn write_files(
     }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
         let drawn = picture::of_system(answer.system(), first, arguments.view.into());
-        output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
+        output::write_picture(path, &drawn.map_err(Failure::undecided)?)?;
     }
     Ok(())
 }

@@ -94,9 +94,9 @@ pub struct Arguments {
     /// Write a line per point to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Draw sag, forces and angles over the last parameter to this SVG file (with several paths:
+    /// Draw sag, forces and angles over the last parameter to this file, .svg, .png or .pdf (with several paths:
     /// FILE-1.svg, FILE-2.svg, ...)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     #[command(flatten)]
     pub threads: Threads,
@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         output::write_stream(path, |file| found.write_csv(file))?;
     }
     for (path, file) in figures.iter().enumerate() {
-        output::write_whole(file, &found.figure(path + 1))?;
+        output::write_picture(file, &found.figure(path + 1))?;
     }
     if arguments.printed.is_json() {
         output::print_json(&found)?;

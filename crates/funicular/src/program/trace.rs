@@ -107,9 +107,9 @@ pub struct Arguments {
     /// Write all points of all branches or load paths, a line each, to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Write the diagram to this SVG file: all branches, or load over displacement (with several paths: FILE-1.svg, FILE-2.svg,
+    /// Write the diagram to this file, .svg, .png or .pdf: all branches, or load over displacement (with several paths: FILE-1.svg, FILE-2.svg,
     /// ...)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write one HTML file in which the shape moves along its load paths
     #[arg(long, value_name = "FILE")]
@@ -171,7 +171,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
     for (path, file) in diagrams.iter().enumerate() {
         if let Some(drawn) = found.diagram(path, abscissa, arguments.bar) {
-            output::write_whole(file, &drawn)?;
+            output::write_picture(file, &drawn)?;
         }
     }
     if let (Some(file), Some(paths)) = (&arguments.html, found.load_paths()) {

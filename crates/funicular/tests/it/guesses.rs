@@ -65,12 +65,44 @@ fn what_is_no_system_is_named() {
     let output = run(&folder, &["solve", "bars.csv"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(said(&output).contains("is a table") && said(&output).contains("bars_file"));
-    for picture in ["shape.png", "shape.PDF"] {
-        let output = run(&folder, &["solve", "--case", "lamp", "--svg", picture]);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(said(&output).contains("write shape.svg"), "{}", said(&output));
-        assert!(!folder.join(picture).exists());
+    let output = run(&folder, &["solve", "--case", "lamp", "--svg", "shape.jpg"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("written as .svg, .png, .pdf"), "{}", said(&output));
+    assert!(!folder.join("shape.jpg").exists());
+}
+
+/// Pictures of every command are written as their names end; what is not built says how it is had.
+#[test]
+fn a_picture_is_written_as_its_name_ends() {
+    let folder = folder("pictures");
+    let heads = [("svg", &b"<svg"[..]), ("png", b"\x89PNG"), ("PDF", b"%PDF-")];
+    for (ending, head) in heads {
+        let file = |name: &str| format!("{name}.{ending}");
+        for (arguments, written) in [
+            (&["solve", "--case", "lamp", "--svg"][..], "solve"),
+            (&["solve", "--case", "lamp", "--picture"], "picture"),
+            (&["census", "--case", "two-bars", "--svg"], "census"),
+            (&["census", "--case", "lamp", "--svg"], "each"),
+            (&["modes", "--case", "lamp", "--svg"], "modes"),
+            (&["study", "--case", "lamp", "--vary", "loads=1,2", "--svg"], "study"),
+            (&["trace", "--case", "lamp", "--vary", "loads=1..2", "--svg"], "trace"),
+        ] {
+            let built = cfg!(feature = "png-pdf") || ending == "svg";
+            let name = file(written);
+            let output = run(&folder, &[arguments, &[&name]].concat());
+            let code = if built { 0 } else { 2 };
+            assert_eq!(output.status.code(), Some(code), "{name}: {}", said(&output));
+            assert!(built || said(&output).contains("cargo build --release --features png-pdf"));
+            let bytes = std::fs::read(folder.join(file(written)));
+            assert_eq!(bytes.is_ok_and(|bytes| bytes.starts_with(head)), built, "{name}");
+        }
     }
+    let basins = ["basins", "--case", "two-bars", "--size", "4", "--out", ".", "--format", "png"];
+    let output = run(&folder, &basins);
+    let built = cfg!(feature = "png-pdf");
+    assert_eq!(output.status.code(), Some(if built { 0 } else { 2 }), "{}", said(&output));
+    let bytes = std::fs::read(folder.join("energy-iterations.png"));
+    assert_eq!(bytes.is_ok_and(|bytes| bytes.starts_with(b"\x89PNG")), built);
 }
 
 #[test]

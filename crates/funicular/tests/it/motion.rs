@@ -157,6 +157,61 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     assert!(std::fs::read(&parquet).unwrap().starts_with(b"PAR1"));
 }
 
+/// The attribute of each element of a kind.
+fn attributes(text: &str, element: &str, attribute: &str) -> Vec<String> {
+    let tree = roxmltree::Document::parse(text).unwrap();
+    let all = tree.descendants().filter(|node| node.has_tag_name(element));
+    all.map(|node| node.attribute(attribute).unwrap().to_owned()).collect()
+}
+
+#[test]
+fn a_motion_for_paraview_is_that_of_the_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let run = |out: &str| {
+        let run = ["simulate", "--case", "lamp", "--push", "lamp=0.3,0.2,0", "--time", "0.5"];
+        funicular(&[&run[..], &["--step", "0.01", "--store", "0.1", "--out", &name(out)]].concat())
+    };
+    let output = run("motion.pvd");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(run("motion.csv").status.code(), Some(0));
+    let text = std::fs::read_to_string(name("motion.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let number = |text: &str| -> f64 { text.parse().unwrap() };
+    let text = std::fs::read_to_string(name("motion.pvd")).unwrap();
+    let times = attributes(&text, "DataSet", "timestep");
+    let files = attributes(&text, "DataSet", "file");
+    assert_eq!((times.len(), rows.len()), (6, 7));
+    for ((time, file), row) in times.iter().zip(&files).zip(&rows[1..]) {
+        let text = std::fs::read_to_string(name(file)).unwrap();
+        let tree = roxmltree::Document::parse(&text).unwrap();
+        let array = |name: &str| -> Vec<f64> {
+            let is = |node: &roxmltree::Node<'_, '_>| node.attribute("Name") == Some(name);
+            let node = tree.descendants().find(is).unwrap();
+            node.text().unwrap().split_whitespace().map(number).collect()
+        };
+        let is = |found: f64, column_name: &str| {
+            let told = number(row[column(column_name)]);
+            assert!((found - told).abs() <= 1e-12 * told.abs(), "{column_name}: {found} {told}");
+        };
+        is(number(time), "time_s");
+        is(array("TimeValue")[0], "time_s");
+        is(array("energy_j")[0], "energy_j");
+        is(array("kinetic_j")[0], "kinetic_j");
+        is(array("axial_n")[1], "bar2_axial_n");
+        // The lamp is the third joint.
+        is(array("joints_m")[7], "joint_lamp_y_m");
+        is(array("velocity_m_s")[6], "joint_lamp_vx_m_s");
+    }
+    // What is there stays, and nothing is left beside it.
+    let output = run("motion.pvd");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not empty"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
+    assert_eq!(std::fs::read_dir(name("motion")).unwrap().count(), 6);
+}
+
 #[test]
 fn simulate_refuses_what_it_cannot_do_and_says_why() {
     for (arguments, told) in [
@@ -168,7 +223,7 @@ fn simulate_refuses_what_it_cannot_do_and_says_why() {
         (vec!["--push", "1=0,0"], "JOINT=X,Y,Z"),
         (vec!["--time", "0"], "must be positive"),
         (vec!["--damping=-1"], "zero or positive"),
-        (vec!["--out", "motion.txt"], ".csv or .parquet"),
+        (vec!["--out", "motion.txt"], ".csv, .parquet or .pvd"),
         (vec!["--from", "angles=0,60,-60", "--step", "2", "--time", "40"], "shorter step"),
     ] {
         let mut all = vec!["simulate", "--case", "three-equal-bars"];

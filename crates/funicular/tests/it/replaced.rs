@@ -9,7 +9,7 @@ use std::path::Path;
 use assert_cmd::Command;
 
 /// Every option of every command that names a file or folder of results; `FILE` is the input.
-const COMMANDS: [&[&str]; 16] = [
+const COMMANDS: [&[&str]; 17] = [
     &["solve", "FILE", "--csv", "old.csv", "--bars-csv", "bars.csv", "--svg", "old.svg"],
     &["census", "FILE", "--csv", "old.csv", "--svg", "old.svg"],
     &["judge", "FILE", "--answer", "answer.csv", "--html", "old.html"],
@@ -22,6 +22,7 @@ const COMMANDS: [&[&str]; 16] = [
     &["modes", "FILE", "--svg", "old.svg", "--html", "old.html"],
     &["simulate", "FILE", "--time", "0.1", "--out", "old.csv", "--html", "old.html"],
     &["simulate", "FILE", "--time", "0.1", "--out", "old.parquet"],
+    &["simulate", "FILE", "--time", "0.1", "--out", "old.pvd"],
     &["simulate", "FILE", "--seeds", "10", "--damping", "1", "--out", "folder"],
     &["simulate", "FILE", "--seeds", "10", "--damping", "1", "--out", "folder", "--resume"],
     &["merge", "folder", "other", "--out", "folder"],
@@ -74,7 +75,8 @@ fn what_is_refused_replaces_nothing() {
             std::fs::write(at(inner).join(name), format!("an older {name}")).unwrap();
         }
     }
-    for name in ["old.csv", "bars.csv", "old.svg", "old.html", "old.json", "old.parquet"] {
+    for name in ["old.csv", "bars.csv", "old.svg", "old.html", "old.json", "old.parquet", "old.pvd"]
+    {
         std::fs::write(at(name), format!("an older {name}")).unwrap();
     }
     let mut before = BTreeMap::new();

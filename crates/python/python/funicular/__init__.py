@@ -17,7 +17,7 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the loss of each member | :func:`losses` |
 | load cases and their envelope | :func:`load_cases` |
 | a page to look at it; a widget to change it | :func:`page`; :func:`live` |
-| files for ParaView, CAD, MuJoCo, MoorDyn, COMPAS | :meth:`Answer.export` |
+| pictures; files for ParaView, CAD, MuJoCo, MoorDyn, COMPAS | :meth:`Answer.save` |
 | guaranteed ranges over tolerances | :func:`tolerances` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
@@ -46,6 +46,7 @@ from .judge import Judgement, judge
 from .live import live
 from .motion import Modes, ModesOf, Motion, modes, simulate
 from .reproduce import Reproduction, reproduce
+from ._picture import Picture
 from .rows import SystemBatch
 from .study import Gradient, LoadCases, Losses, Study, Tolerances, anchor_stiffness, change, gradient
 from .study import load_cases, losses, page, study, tolerances
@@ -82,6 +83,7 @@ __all__ = [
     "Modes",
     "ModesOf",
     "Motion",
+    "Picture",
     "Proof",
     "Proofs",
     "Record",

@@ -19,6 +19,7 @@ __all__ = [
     "basins",
     "census",
     "derivatives",
+    "draw",
     "export",
     "get_threads",
     "judge",
@@ -31,6 +32,7 @@ __all__ = [
     "page",
     "pullback",
     "reproduce",
+    "save_motion",
     "set_threads",
     "simulate",
     "solve",
@@ -123,6 +125,7 @@ def export(
     ending: str,
     view: str,
 ) -> str: ...
+def draw(svg: str, ending: str) -> bytes: ...
 def solve_many(
     chains: int,
     bars: int,
@@ -223,6 +226,17 @@ def simulate(
     threads: int,
     progress: _Progress,
 ) -> tuple[dict[str, Any], str]: ...
+def save_motion(
+    problem: Problem,
+    path: _Path,
+    time_s: _Array,
+    joints_m: _Array,
+    velocities_m_s: _Array,
+    axial_n: _Array,
+    reactions_n: _Array,
+    kinetic_j: _Array,
+    potential_j: _Array,
+) -> None: ...
 def modes(
     problem: Problem, max_bars: int | None, lowest: int | None, threads: int, progress: _Progress
 ) -> tuple[str, str]: ...

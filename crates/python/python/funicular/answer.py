@@ -6,6 +6,7 @@ import json
 from difflib import get_close_matches
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 from . import _native
 from ._html import ladder, page
 from ._numbers import Array, Numbers, Vector, whole
+from ._picture import FORMATS, File, Picture, ending
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
@@ -211,17 +213,24 @@ class Equilibrium(Result):
         forces = {"start_force_n": self.start_forces_n[k], "end_force_n": self.end_forces_n[k]}
         return Record({"number": k, **numbers, **forces})
 
-    def svg(self, view: str = "best") -> str:
+    def svg(self, view: str = "best") -> Picture:
         """The picture to scale: joints, supports, loads, reactions, tension and compression.
 
         ``view``: from where it is seen, ``best``, ``front`` (x to the right, z up), ``side`` (y, z) or ``top`` (x, y).
         """
-        return self._file(self.axial_max_n, "svg", view)
+        return Picture(self._file(self.axial_max_n, "svg", view))
+
+    def save(self, path: File, view: str = "best") -> None:
+        """Write a file: a picture (``.svg``, ``.png``, ``.pdf``; see :meth:`svg`), or one for another program (:meth:`export`)."""
+        if ending(path) in FORMATS:
+            self.svg(view).save(path)
+        else:
+            Path(path).write_text(self.export(ending(path)), encoding="utf-8", newline="\n")
 
     def export(self, ending: str) -> str:
         """The text of a file for another program, of the format that the ending of its name stands for.
 
-        ``vtu`` ParaView, ``dxf`` CAD, ``obj`` and ``gltf`` solids, ``xml`` MuJoCo, ``txt`` MoorDyn, ``json`` COMPAS.
+        ``vtu`` ParaView, ``dxf`` CAD, ``obj`` and ``gltf`` solids, ``xml`` MuJoCo, ``urdf`` links, ``txt`` MoorDyn, ``json`` COMPAS.
 
         >>> import funicular as fn
         >>> text = fn.System.case("lamp").solve().export("vtu")
@@ -444,9 +453,13 @@ class Answer(Result):
         """Whether all members are as strong as wanted; see :class:`Equilibrium`."""
         return self.equilibria[0].is_strong
 
-    def svg(self, view: str = "best") -> str:
+    def svg(self, view: str = "best") -> Picture:
         """The picture to scale; see :meth:`Equilibrium.svg`."""
         return self.equilibria[0].svg(view)
+
+    def save(self, path: File, view: str = "best") -> None:
+        """Write a picture or a file for another program; see :meth:`Equilibrium.save`."""
+        self.equilibria[0].save(path, view)
 
     def export(self, ending: str) -> str:
         """The text of a file for another program; see :meth:`Equilibrium.export`."""

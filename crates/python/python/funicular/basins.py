@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._numbers import Array, number, whole
+from ._picture import Picture
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError, SettingError
@@ -79,9 +80,9 @@ class Basins(Result):
             }
         )
 
-    def svg(self, solver: str, iterations: bool = False) -> str:
+    def svg(self, solver: str, iterations: bool = False) -> Picture:
         """The picture of one solver: the equilibrium reached, or the iterations spent."""
-        return str(self._of(solver)["svg"][bool(iterations)])
+        return Picture(self._of(solver)["svg"][bool(iterations)])
 
     def plot(self, solver: str = "lagrange", ax: Any = None, *, iterations: bool = False) -> Any:
         """Draw into axes of matplotlib, which must be installed."""

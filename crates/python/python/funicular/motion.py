@@ -7,6 +7,7 @@ import io
 import json
 from collections.abc import Mapping
 from html import escape
+from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, vector, whole
+from ._picture import File, ending
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import SettingError
@@ -27,6 +29,9 @@ MOST_BYTES = 16e9
 Start = Union[str, "npt.NDArray[Any]", list[Any]]
 
 TIMES = ("time_s", "joints_m", "velocities_m_s", "reactions_n", "axial_n", "kinetic_j", "potential_j")
+
+MOVING = ("time_s", "joints_m", "velocities_m_s", "axial_n", "reactions_n", "kinetic_j", "potential_j")
+"""What files for ParaView have."""
 
 
 class Motion(Result):
@@ -73,6 +78,17 @@ class Motion(Result):
     def html(self) -> str:
         """The page of a system with this motion alone; it needs nothing else. See :func:`funicular.page`."""
         return self._page
+
+    def save(self, path: File) -> None:
+        """Write a file: ``.html``, the animation; or ``x.pvd`` for ParaView, with a grid of each stored time in the folder ``x``
+        beside it, which must be new or empty: forces and velocities as fields, and the energies of the time."""
+        if ending(path) == "html":
+            Path(path).write_text(self._page, encoding="utf-8", newline="\n")
+        elif ending(path) == "pvd":
+            arrays = (getattr(self, name) for name in MOVING)
+            _native.save_motion(self.system._problem, path, *map(np.ascontiguousarray, arrays))
+        else:
+            raise SettingError(f"path: its name must end in .pvd or .html, got {str(path)!r:.80}", setting="path", value=str(path))
 
     def __repr__(self) -> str:
         return f"<Motion of {printable(self.system.name)!r}: {self.time_s[-1]:g} s, {len(self.time_s)} stored times>"

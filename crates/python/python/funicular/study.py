@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _native
 from ._numbers import number, whole
+from ._picture import Picture
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .errors import InputError
@@ -61,11 +62,11 @@ class Study(Result):
         """A row for each point."""
         return read_csv(self._points, counts=COUNTS, texts=TEXTS)
 
-    def svg(self, path: int = 1) -> str:
+    def svg(self, path: int = 1) -> Picture:
         """Sag, forces and angles over the last parameter, along one path."""
         if not 1 <= whole("path", path, 1) <= len(self._figures):
             raise InputError(f"there is no path {path}: there are {len(self._figures)}")
-        return self._figures[path - 1]
+        return Picture(self._figures[path - 1])
 
     def plot(self, *columns: str, path: int = 1) -> Any:
         """Draw columns of the table (sag and largest tension if none are given) over the last parameter, each into axes of

@@ -97,7 +97,7 @@ pub fn of_many(
         .run_large(problem, SHAPES, &|now| progress.say(&how_far(now)))
         .map_err(refuse_census)?;
     if let Some(path) = &arguments.svg {
-        output::write_whole(path, &answer.proven.figure(problem.name(), SHAPES))?;
+        output::write_picture(path, &answer.proven.figure(problem.name(), SHAPES))?;
     }
     let list = listed(arguments, &answer);
     if let Some(path) = &arguments.csv {

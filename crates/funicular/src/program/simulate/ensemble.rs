@@ -17,6 +17,8 @@ pub const HELP: &str = "\
 Columns of --out FILE: time_s; kinetic_j, potential_j, energy_j; joint_NAME_x_m ... the places of all joints (of a
 chain joint0_x_m ...), joint_NAME_vx_m_s ... their velocities; bar1_axial_n ... the axial forces, tension positive;
 joint_NAME_fx_n ... the forces of the ground on the joints that are held. Parquet holds unit and description of each.
+For ParaView (.pvd): points with velocity_m_s, reaction_n, mass_kg; lines with axial_n; of each time kinetic_j,
+potential_j, energy_j, and lost_j in impacts.
 
 With --seeds the folder --out holds manifest.json, part-000000.parquet and so on, and at the end summary.json, the same to
 the last byte for any number of threads and shards, interrupted or not; `funicular merge` joins shards. Columns: seed;

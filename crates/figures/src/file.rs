@@ -1,0 +1,148 @@
+//! Pictures as files: SVG as it is drawn, PNG and PDF of that.
+
+#[cfg(feature = "png-pdf")]
+mod converted;
+#[cfg(feature = "png-pdf")]
+mod pdf;
+
+/// What a picture is written as.
+///
+/// ```
+/// use figures::{Format, Svg};
+/// let svg = Svg::new([200.0, 100.0], "white").finish();
+/// assert_eq!(Format::of_ending("SVG"), Some(Format::Svg));
+/// assert_eq!(Format::Svg.file(&svg).unwrap(), svg.as_bytes());
+/// match Format::Png.file(&svg) {
+///     Ok(png) => assert!(png.starts_with(b"\x89PNG")),
+///     Err(error) => assert!(error.to_string().contains("--features png-pdf")),
+/// }
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// The drawing itself.
+    Svg,
+    /// Two pixels to a side of each of the drawing's, on white.
+    Png,
+    /// A page as large as the drawing, 96 px to an inch; its texts can be searched.
+    Pdf,
+}
+
+/// Why a picture is not written in a format.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// Occurs when the crate is built without its feature `png-pdf`.
+    #[error(
+        "PNG and PDF are not in this build: releases have them, and `cargo build --release --features png-pdf`"
+    )]
+    NotBuilt,
+    /// Occurs when the drawing cannot be converted, such as for want of memory.
+    #[error("the picture cannot be converted: {0}")]
+    NotConverted(String),
+}
+
+impl Format {
+    /// Endings of the files, for help texts.
+    pub const ENDINGS: [&str; 3] = ["svg", "png", "pdf"];
+
+    /// The format that the ending of a file's name stands for.
+    #[must_use]
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        let number = Self::ENDINGS.iter().position(|known| ending.eq_ignore_ascii_case(known))?;
+        [Self::Svg, Self::Png, Self::Pdf].get(number).copied()
+    }
+
+    /// Whether this build writes it.
+    ///
+    /// # Errors
+    ///
+    /// [`FormatError::NotBuilt`].
+    pub fn check(self) -> Result<(), FormatError> {
+        if self == Self::Svg || cfg!(feature = "png-pdf") {
+            Ok(())
+        } else {
+            Err(FormatError::NotBuilt)
+        }
+    }
+
+    /// The bytes of a file with this drawing. PNG and PDF have the letters of `DejaVu Sans Condensed`, whatever the machine has;
+    /// characters that it lacks are shown as boxes.
+    ///
+    /// # Errors
+    ///
+    /// [`FormatError`] of PNG and PDF.
+    pub fn file(self, svg: &str) -> Result<Vec<u8>, FormatError> {
+        match self {
+            Self::Svg => Ok(svg.as_bytes().to_vec()),
+            #[cfg(not(feature = "png-pdf"))]
+            Self::Png | Self::Pdf => Err(FormatError::NotBuilt),
+            #[cfg(feature = "png-pdf")]
+            Self::Png => converted::png(svg),
+            #[cfg(feature = "png-pdf")]
+            Self::Pdf => converted::pdf(svg),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Anchor, Colour, Look, Raster, Svg};
+
+    fn drawing() -> String {
+        let mut svg = Svg::new([200.0, 100.0], "a");
+        svg.rectangle(Look::fill(Colour([200, 0, 0])), [10.0, 10.0], [40.0, 20.0]);
+        svg.text(Look::fill(Colour::BLACK), [150.0, 60.0], Anchor::Middle, "\u{2212}25 °C <Grüße>");
+        let palette = [Colour([0, 0, 250]), Colour([0, 120, 0])];
+        let raster = Raster { width: 2, height: 1, pixels: &[0, 1], palette: &palette };
+        svg.raster([10.0, 50.0], [40.0, 40.0], &raster);
+        svg.finish()
+    }
+
+    #[test]
+    fn what_is_not_built_is_refused() {
+        let built = cfg!(feature = "png-pdf");
+        for format in [Format::Png, Format::Pdf] {
+            assert_eq!((format.check().is_ok(), format.file(&drawing()).is_ok()), (built, built));
+        }
+        let broken = Format::Png.file("<svg").unwrap_err().to_string();
+        assert!(broken.contains(if built { "cannot be converted" } else { "not in this build" }));
+    }
+
+    #[cfg(feature = "png-pdf")]
+    #[test]
+    fn pixels_are_those_of_the_drawing() {
+        let png = Format::Png.file(&drawing()).unwrap();
+        let pixels = resvg::tiny_skia::Pixmap::decode_png(&png).unwrap();
+        assert_eq!((pixels.width(), pixels.height()), (400, 200));
+        let at = |x, y| pixels.pixel(x, y).map(|c| [c.red(), c.green(), c.blue(), c.alpha()]);
+        assert_eq!(at(0, 0), Some([255; 4]));
+        assert_eq!(at(60, 40), Some([200, 0, 0, 255]));
+        // Both pixels of the raster, sharp at their edge.
+        assert_eq!((at(58, 140), at(62, 140)), (Some([0, 0, 250, 255]), Some([0, 120, 0, 255])));
+        let dark = |x: std::ops::Range<u32>| {
+            let within = x.flat_map(|x| (100..124).map(move |y| (x, y)));
+            within.filter(|(x, y)| at(*x, *y).is_some_and(|[r, ..]| r < 100)).count()
+        };
+        // The text is centred on x = 300, some 100 px of letters to each side, of strokes 2 px wide.
+        assert!(
+            dark(200..300) > 300 && dark(300..400) > 300,
+            "{} {}",
+            dark(200..300),
+            dark(300..400)
+        );
+        assert_eq!(dark(110..180), 0);
+    }
+
+    #[cfg(feature = "png-pdf")]
+    #[test]
+    fn a_page_has_the_size_of_the_drawing() {
+        let pdf = Format::Pdf.file(&drawing()).unwrap();
+        assert_eq!(pdf, Format::Pdf.file(&drawing()).unwrap());
+        let text = String::from_utf8_lossy(&pdf);
+        assert!(text.starts_with("%PDF-") && text.contains("/MediaBox [0 0 150 75]"));
+        assert!(text.contains("/Width 2") && text.trim_end().ends_with("%%EOF"));
+        // The minus is among the letters of the texts.
+        assert!(text.contains("<2212>"));
+    }
+}
