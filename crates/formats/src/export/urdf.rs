@@ -23,59 +23,36 @@ const SLENDER: f64 = 1e-5;
 /// Moments of a bar across are one where they differ by no more than their rounding.
 const ROUNDING: f64 = 1e-12;
 
+fn refuse(what: String) -> ExportError {
+    ExportError::NoCounterpart { format: "URDF", what }
+}
+
 pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
     let (system, joints_m) = (shape.system, shape.joints_m);
-    let refuse = |what| Err(ExportError::NoCounterpart { format: "URDF", what });
-    if let Some(floor_m) = system.floor_m() {
-        return refuse(format!("floor (z = {floor_m} m)"));
-    }
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n<mujoco>\n<compiler balanceinertia=\"false\"/>\n\
          <option gravity=\"0 0 {:?}\"/>\n</mujoco>\n<link name=\"world\"/>\n",
         attribute(system.name()),
         -system.gravity_m_s2()
     );
-    // Of each joint that is reached: the link that it is on, and where that begins.
-    let mut reached: Vec<Option<(String, Vector)>> = vec![None; joints_m.len()];
-    let mut next = VecDeque::new();
-    for (k, joint) in system.joints().iter().enumerate() {
-        if joint.support.is_fixed() {
-            reached[k] = Some(("world".to_owned(), [0.0; 3]));
-            next.push_back(k);
-        } else if joint.support.at_m().is_some() {
-            return refuse(format!("joint that slides and turns (joint {:?})", joint.name));
-        } else if norm(joint.force_n) > 0.0 {
-            return refuse(format!("force at rest (joint {:?})", joint.name));
-        }
+    let (mut reached, mut next) = anchors(shape)?;
+    let mut at_joint = vec![vec![]; joints_m.len()];
+    for (k, member) in system.members().iter().enumerate() {
+        at_joint[member.from].push(k);
+        at_joint[member.to].push(k);
     }
-    let mut left: Vec<(usize, &Member)> = system.members().iter().enumerate().collect();
+    let mut written = vec![false; system.members().len()];
     while let Some(from) = next.pop_front() {
         let Some((parent, begin_m)) = reached[from].clone() else { continue };
-        let (here, others): (Vec<_>, Vec<_>) =
-            left.into_iter().partition(|(_, member)| [member.from, member.to].contains(&from));
-        left = others;
-        for (k, member) in here {
-            let number = k + 1;
-            if member.kind != Kind::Bar || member.rope.is_some() {
-                return refuse(format!("link that goes slack (member {number})"));
+        for k in std::mem::take(&mut at_joint[from]) {
+            if std::mem::replace(&mut written[k], true) {
+                continue;
             }
-            if member.stiffness_n.is_some() {
-                return refuse(format!("link that stretches (member {number})"));
-            }
-            if !member.loads.is_empty() {
-                return refuse(format!("force at rest (member {number})"));
-            }
+            let (number, member) = (k + 1, &system.members()[k]);
             let to = if member.from == from { member.to } else { member.from };
-            if reached[to].is_some() {
-                return refuse(format!("loop (member {number})"));
-            }
-            let [_, across, other] = member.body.inertia_kg_m2();
-            if (across - other).abs() > ROUNDING * across {
-                return refuse(format!("bar whose moments across differ (member {number})"));
-            }
-            let Some(inertia) = inertial(shape, member, from, to) else {
-                return refuse(format!("link without mass (member {number})"));
-            };
+            let why = if reached[to].is_some() { Some("loop") } else { unlike_a_link(member) };
+            let inertia = why.map_or_else(|| inertial(shape, member, from, to), Err);
+            let inertia = inertia.map_err(|why| refuse(format!("{why} (member {number})")))?;
             let at = row(&minus(joints_m[from], begin_m));
             let _ = write!(
                 text,
@@ -90,8 +67,51 @@ pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
     Ok(text)
 }
 
-/// Mass, centre and moments of a bar with the mass at its far joint, about the joint where it begins; none if it has no mass.
-fn inertial(shape: &Shape<'_>, member: &Member, from: usize, to: usize) -> Option<String> {
+/// Of each joint that is reached: the link that it is on, and where that begins, m.
+type Reached = Vec<Option<(String, Vector)>>;
+
+/// The anchors, from which everything hangs.
+fn anchors(shape: &Shape<'_>) -> Result<(Reached, VecDeque<usize>), ExportError> {
+    if let Some(floor_m) = shape.system.floor_m() {
+        return Err(refuse(format!("floor (z = {floor_m} m)")));
+    }
+    let mut reached = vec![None; shape.joints_m.len()];
+    for (joint, reached) in shape.system.joints().iter().zip(&mut reached) {
+        if joint.support.is_fixed() {
+            *reached = Some(("world".to_owned(), [0.0; 3]));
+        } else if joint.support.at_m().is_some() {
+            return Err(refuse(format!("joint that slides and turns (joint {:?})", joint.name)));
+        } else if norm(joint.force_n) > 0.0 {
+            return Err(refuse(format!("force at rest (joint {:?})", joint.name)));
+        }
+    }
+    let held = (0..reached.len()).filter(|k| reached[*k].is_some()).collect();
+    Ok((reached, held))
+}
+
+/// What a member has that no link has.
+fn unlike_a_link(member: &Member) -> Option<&'static str> {
+    let [_, across, other] = member.body.inertia_kg_m2();
+    if member.kind != Kind::Bar || member.rope.is_some() {
+        Some("link that goes slack")
+    } else if member.stiffness_n.is_some() {
+        Some("link that stretches")
+    } else if !member.loads.is_empty() {
+        Some("force at rest")
+    } else if (across - other).abs() > ROUNDING * across {
+        Some("bar whose moments across differ")
+    } else {
+        None
+    }
+}
+
+/// Mass, centre and moments about it of a bar with the mass at its far joint, in axes that begin at the near one.
+fn inertial(
+    shape: &Shape<'_>,
+    member: &Member,
+    from: usize,
+    to: usize,
+) -> Result<String, &'static str> {
     let body = &member.body;
     let along = minus(shape.joints_m[to], shape.joints_m[from]);
     let length_m = norm(along);
@@ -101,7 +121,7 @@ fn inertial(shape: &Shape<'_>, member: &Member, from: usize, to: usize) -> Optio
     let point_kg = shape.system.joints()[to].mass_kg;
     let mass_kg = body.mass_kg() + point_kg;
     if mass_kg <= 0.0 {
-        return None;
+        return Err("link without mass");
     }
     let middle_m = (body.mass_kg() * centre_m + point_kg * length_m) / mass_kg;
     let [axial, across, _] = body.inertia_kg_m2();
@@ -126,5 +146,5 @@ fn inertial(shape: &Shape<'_>, member: &Member, from: usize, to: usize) -> Optio
         let _ = write!(text, " {name}=\"{:?}\"", moment(i, k));
     }
     text.push_str("/>\n</inertial>\n");
-    Some(text)
+    Ok(text)
 }

@@ -223,6 +223,7 @@ fn our_own_drawing_is_read_again() {
         axial_n: &axial_n,
         reactions_n: &reactions_n,
         used: &[],
+        moving: None,
     };
     let text = shape.text(Target::Dxf).unwrap();
     let read = Source::Dxf.parse(&text, "mast.dxf").unwrap().system;
