@@ -6,7 +6,7 @@ use model::Vector;
 use model::system::System;
 use serde::{Serialize, Serializer};
 
-use crate::moving_page::{Topology, flat, plain};
+use crate::moving_page::{Topology, flat};
 
 /// Numbers in the frames of one group of tracks: some 300 kB.
 const NUMBERS: usize = 60_000;
@@ -88,14 +88,6 @@ impl Short {
     /// So many digits.
     pub fn digits(x: f64, digits: usize) -> Self {
         Self(format!("{x:.*e}", digits - 1).parse().unwrap_or(f64::NAN))
-    }
-}
-
-/// A name with its unit.
-pub(crate) fn named(name: &str, unit: &str) -> String {
-    match unit {
-        "1" => plain(name),
-        _ => plain(&format!("{name} / {unit}")),
     }
 }
 

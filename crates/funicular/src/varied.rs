@@ -4,6 +4,7 @@ use branches::Number;
 
 use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::moving_page::plain;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
 use crate::study::Study;
@@ -47,4 +48,12 @@ fn followed(problem: &Problem, parameters: &Parameters) -> Result<Vec<Track>, St
         return Err("`energy` does not confirm it".to_owned());
     }
     Ok(found.load_paths().map(LoadPaths::tracks).unwrap_or_default())
+}
+
+/// A name with its unit.
+pub(crate) fn named(name: &str, unit: &str) -> String {
+    match unit {
+        "1" => plain(name),
+        _ => plain(&format!("{name} / {unit}")),
+    }
 }

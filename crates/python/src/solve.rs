@@ -192,22 +192,20 @@ pub fn load_cases<'py>(
     })
 }
 
-/// A page to look at a system; `vary` says over what its shapes are shown, `motion` where a motion begins, with
-/// its time, s, and its damping, 1/s.
+/// A page to look at a system; `vary` says over what its shapes are shown, `motion` where a motion begins, how long
+/// it is, s, and its damping, 1/s.
 #[pyfunction]
 pub fn page<'py>(
     py: Python<'py>,
     problem: &Problem,
     vary: Vec<String>,
-    motion: Option<String>,
-    time_s: f64,
-    damping_1_s: f64,
+    motion: Option<(String, f64, f64)>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<String> {
     let of = Arc::clone(&problem.of);
     let mut page = Page::new();
-    if let Some(word) = motion {
+    if let Some((word, time_s, damping_1_s)) = motion {
         let released = Simulate::new().start(start(&word, None)?);
         page = page.simulate(released.time_s(time_s).damping_1_s(damping_1_s));
     }

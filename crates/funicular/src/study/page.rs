@@ -4,7 +4,8 @@ use model::system::System;
 
 use super::{StudyAnswer, StudyPoint, StudyShape};
 use crate::moving_page::{Topology, plain, plain_lines};
-use crate::track::{Chart, Curve, Short, Track, kept, named};
+use crate::track::{Chart, Curve, Short, Track, kept};
+use crate::varied::named;
 
 impl StudyAnswer {
     /// The paths; `because` says why they are no load paths.

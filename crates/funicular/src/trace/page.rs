@@ -4,7 +4,8 @@ use super::load::{LoadPath, LoadPaths};
 use crate::moving_page::{plain, plain_lines};
 use crate::shown::Shown;
 use crate::text::load::{happens, sentences};
-use crate::track::{Chart, Curve, Short, Track, kept, named};
+use crate::track::{Chart, Curve, Short, Track, kept};
+use crate::varied::named;
 
 /// The HTML of the page.
 pub(super) fn page(found: &LoadPaths) -> String {

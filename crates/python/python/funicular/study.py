@@ -224,16 +224,9 @@ def page(
     >>> text.startswith("<!DOCTYPE html>"), "Load paths" in text, "Motion" in text
     (True, True, True)
     """
+    moved = None if motion is None else (str(motion), number("time", time), number("damping", damping))
     with shown(progress) as callback:
-        return _native.page(
-            described(system)._problem,
-            list(map(str, vary)),
-            None if motion is None else str(motion),
-            number("time", time),
-            number("damping", damping),
-            whole("threads", threads),
-            callback,
-        )
+        return _native.page(described(system)._problem, list(map(str, vary)), moved, whole("threads", threads), callback)
 
 
 class Tolerances(Result):
