@@ -25,13 +25,15 @@ The ending of the file says what is written, of the equilibrium that both solver
   .urdf        MuJoCo, Bullet: bars that hang like trees, as links on ball joints
   .txt .dat    MoorDyn: lines of one segment between points; elastic cables
   .json        COMPAS: a graph with force densities and loads
+  .csv         a table of the joints with both answers, as `solve --csv` writes it
   .toml        the system itself, as a file of ours to be edited; nothing is solved
-Tables are written by `solve --csv`, pictures (.svg, .png, .pdf) by `solve --svg`, motions for
-ParaView (.pvd) by `simulate --out`. What is read may also be lines of DXF or OBJ, or a file of
+Members as a table are written by `solve --bars-csv`, pictures (.svg, .png, .pdf) by `solve --svg`,
+motions for ParaView (.pvd) by `simulate --out`. What is read may also be lines of DXF or OBJ, or a file of
 MoorDyn, MAP++, OpenSees or COMPAS.";
 
-/// Ending of our own system files.
+/// Endings of our own system files, and of tables.
 const OWN: &str = "toml";
+const TABLE: &str = "csv";
 
 /// `funicular convert`.
 #[derive(Debug, Args)]
@@ -51,29 +53,39 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     arguments.threads.install()?;
     let ending = arguments.to.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let own = ending.eq_ignore_ascii_case(OWN);
-    let Some(target) = Target::of_ending(ending).map(Some).or(own.then_some(None)) else {
+    let is = |own: &str| ending.eq_ignore_ascii_case(own);
+    let target = Target::of_ending(ending);
+    if target.is_none() && !is(OWN) && !is(TABLE) {
         let message = format!("no format has the ending of {}", arguments.to.display());
-        let help = format!("there are .{}, .{OWN}", Target::ENDINGS.join(", ."));
+        let help = format!("there are .{}, .{TABLE}, .{OWN}", Target::ENDINGS.join(", ."));
         return Err(Failure::bad_input(Diagnostic::from(message).with_help(help)));
-    };
+    }
     let Input { problem, files } = arguments.input.read()?;
     output::check([arguments.to.as_path()], &files)?;
-    let Some(target) = target else {
+    if is(OWN) {
         output::write_whole(&arguments.to, &problem.to_toml())?;
         output::print(&format!("{}: a system file\n", arguments.to.display()))?;
         return Ok(Exit::Done);
-    };
+    }
     let progress = Progress::start();
     progress.say("the equilibrium");
     let found = Solve::new().run(&problem)?;
     drop(progress);
-    let Some(text) = found.export(target)? else {
+    if found.equilibria().is_empty() {
         eprint!("{}", funicular::text::answer(&found, false, false));
         return Ok(solve::verdict(&found));
+    }
+    let what = match target {
+        Some(target) => {
+            output::write_whole(&arguments.to, &found.export(target)?.unwrap_or_default())?;
+            target.describe()
+        }
+        None => {
+            output::write_stream(&arguments.to, |to| found.write_csv(to))?;
+            "a table of joints"
+        }
     };
-    output::write_whole(&arguments.to, &text)?;
     let verdict = found.agreement().map_or_else(String::new, |both| format!("; {}", both.verdict));
-    output::print(&format!("{}: {}{verdict}\n", arguments.to.display(), target.describe()))?;
+    output::print(&format!("{}: {what}{verdict}\n", arguments.to.display()))?;
     Ok(solve::verdict(&found))
 }

@@ -53,7 +53,7 @@ fn note(points: &[&StudyPoint], because: &str) -> String {
     let (all, found) = (points.len(), shapes().count());
     let agreed = shapes().filter(|shape| shape.agrees).count();
     format!(
-        "A study, not a load path: at each of {all} values the system is solved by itself. At {found} it hangs, and both \
+        "A study, not a load path: at each of {all} values the system is solved by itself. It has a shape at {found} of them, and both \
          solvers agree at {agreed}. Between them nothing is followed or proved.\nNo load path: {because}."
     )
 }

@@ -24,11 +24,18 @@ fn what_is_written_is_read_again() {
         ("lamp.xml", "a model for MuJoCo"),
         ("lamp.txt", "an input file of MoorDyn"),
         ("lamp.json", "a graph for COMPAS"),
+        ("lamp.csv", "a table of joints"),
     ] {
         let (code, text, said) = run(folder, &["convert", "lamp.toml", "--to", file]);
         assert_eq!((code, text), (Some(0), format!("{file}: {what}; agreed\n")), "{said}");
         assert!(folder.join(file).metadata().unwrap().len() > 200);
     }
+    // Both answers, and no forces.
+    let table = std::fs::read_to_string(folder.join("lamp.csv")).unwrap();
+    assert!(
+        table.starts_with("solver,joint,x_m,y_m,z_m,") && table.lines().count() == 7,
+        "{table}"
+    );
     let (code, text, _) = run(folder, &["judge", "lamp.toml", "--answer", "lamp.vtu"]);
     assert_eq!(code, Some(0), "{text}");
     for file in ["lamp.txt", "lamp.json"] {
