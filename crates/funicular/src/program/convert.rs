@@ -75,15 +75,12 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         eprint!("{}", funicular::text::answer(&found, false, false));
         return Ok(solve::verdict(&found));
     }
-    let what = match target {
-        Some(target) => {
-            output::write_whole(&arguments.to, &found.export(target)?.unwrap_or_default())?;
-            target.describe()
-        }
-        None => {
-            output::write_stream(&arguments.to, |to| found.write_csv(to))?;
-            "a table of joints"
-        }
+    let what = if let Some(target) = target {
+        output::write_whole(&arguments.to, &found.export(target)?.unwrap_or_default())?;
+        target.describe()
+    } else {
+        output::write_stream(&arguments.to, |to| found.write_csv(to))?;
+        "a table of joints"
     };
     let verdict = found.agreement().map_or_else(String::new, |both| format!("; {}", both.verdict));
     output::print(&format!("{}: {what}{verdict}\n", arguments.to.display()))?;
