@@ -103,7 +103,6 @@ fn energy(found: &SystemEquilibrium) -> String {
 }
 
 /// What stands out in an equilibrium, and its energy.
-#[cfg(feature = "branches")]
 pub fn facts(system: &System, found: &SystemEquilibrium) -> String {
     shape(system, found, None) + &energy(found)
 }

@@ -33,7 +33,6 @@ mod trace;
 use model::system::System;
 
 pub use answer::answer;
-#[cfg(feature = "branches")]
 pub(crate) use answer::facts;
 
 /// The member of a system that is nearest to breaking, in a sentence.
