@@ -151,16 +151,16 @@ fn an_empty_batch_is_done_and_a_missing_one_is_bad_input() {
 #[test]
 fn an_interrupted_batch_leaves_whole_lines() {
     let folder = folder("interrupt");
-    let mut child = command(&folder, &["solve", "--batch", "-"])
+    let mut child = command(&folder, &["solve", "--batch", "-", "--summary"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
     let mut to = child.stdin.take().unwrap();
-    // More than are answered in seconds, and few enough to be held where nothing is interrupted.
+    // More than are answered while `kill` begins on a loaded machine, and few enough to be held where nothing is interrupted.
     let feed = std::thread::spawn(move || {
-        (0..100_000).take_while(|_| writeln!(to, "{}", chain(1.0)).is_ok()).count()
+        (0..1_000_000).take_while(|_| writeln!(to, "{}", chain(1.0)).is_ok()).count()
     });
     let mut from = BufReader::new(child.stdout.take().unwrap());
     let mut first = String::new();
