@@ -1,7 +1,9 @@
-//! Pictures as files: SVG as it is drawn, PNG and PDF of that.
+//! Pictures as files: SVG as it is drawn, PNG, PDF and DXF of that.
 
 #[cfg(feature = "png-pdf")]
 mod converted;
+#[cfg(feature = "png-pdf")]
+mod dxf;
 #[cfg(feature = "png-pdf")]
 mod pdf;
 
@@ -25,6 +27,8 @@ pub enum Format {
     Png,
     /// A page as large as the drawing, 96 px to an inch; its texts can be searched.
     Pdf,
+    /// Lines and texts for CAD, in a layer for each colour; a unit is a pixel. Rasters are left out.
+    Dxf,
 }
 
 /// Why a picture is not written in a format.
@@ -33,7 +37,7 @@ pub enum Format {
 pub enum FormatError {
     /// Occurs when the crate is built without its feature `png-pdf`.
     #[error(
-        "PNG and PDF are not in this build: releases have them, and `cargo build --release --features png-pdf`"
+        "PNG, PDF and DXF of pictures are not in this build: releases have them, and `cargo build --release --features png-pdf`"
     )]
     NotBuilt,
     /// Occurs when the drawing cannot be converted, such as for want of memory.
@@ -43,13 +47,13 @@ pub enum FormatError {
 
 impl Format {
     /// Endings of the files, for help texts.
-    pub const ENDINGS: [&str; 3] = ["svg", "png", "pdf"];
+    pub const ENDINGS: [&str; 4] = ["svg", "png", "pdf", "dxf"];
 
     /// The format that the ending of a file's name stands for.
     #[must_use]
     pub fn of_ending(ending: &str) -> Option<Self> {
         let number = Self::ENDINGS.iter().position(|known| ending.eq_ignore_ascii_case(known))?;
-        [Self::Svg, Self::Png, Self::Pdf].get(number).copied()
+        [Self::Svg, Self::Png, Self::Pdf, Self::Dxf].get(number).copied()
     }
 
     /// Whether this build writes it.
@@ -70,16 +74,18 @@ impl Format {
     ///
     /// # Errors
     ///
-    /// [`FormatError`] of PNG and PDF.
+    /// [`FormatError`] of all but SVG.
     pub fn file(self, svg: &str) -> Result<Vec<u8>, FormatError> {
         match self {
             Self::Svg => Ok(svg.as_bytes().to_vec()),
             #[cfg(not(feature = "png-pdf"))]
-            Self::Png | Self::Pdf => Err(FormatError::NotBuilt),
+            Self::Png | Self::Pdf | Self::Dxf => Err(FormatError::NotBuilt),
             #[cfg(feature = "png-pdf")]
             Self::Png => converted::png(svg),
             #[cfg(feature = "png-pdf")]
             Self::Pdf => converted::pdf(svg),
+            #[cfg(feature = "png-pdf")]
+            Self::Dxf => converted::dxf(svg),
         }
     }
 }
@@ -102,7 +108,7 @@ mod tests {
     #[test]
     fn what_is_not_built_is_refused() {
         let built = cfg!(feature = "png-pdf");
-        for format in [Format::Png, Format::Pdf] {
+        for format in [Format::Png, Format::Pdf, Format::Dxf] {
             assert_eq!((format.check().is_ok(), format.file(&drawing()).is_ok()), (built, built));
         }
         let broken = Format::Png.file("<svg").unwrap_err().to_string();
@@ -144,5 +150,23 @@ mod tests {
         assert!(text.contains("/Width 2") && text.trim_end().ends_with("%%EOF"));
         // The minus is among the letters of the texts.
         assert!(text.contains("<2212>"));
+    }
+
+    /// A rectangle of 40 by 20 px, 10 px from the left and from the top.
+    #[cfg(feature = "png-pdf")]
+    #[test]
+    fn a_drawing_for_cad_has_lines_and_texts() {
+        let dxf = String::from_utf8(Format::Dxf.file(&drawing()).unwrap()).unwrap();
+        let corner =
+            |x: &str, y: &str| format!("0\nVERTEX\n8\nc80000\n10\n{x}\n20\n{y}\n30\n0.0\n");
+        for (x, y) in [("10.0", "-10.0"), ("50.0", "-10.0"), ("50.0", "-30.0"), ("10.0", "-30.0")] {
+            assert!(dxf.contains(&corner(x, y)), "{dxf}");
+        }
+        assert!(
+            dxf.contains("8\ntexts\n")
+                && dxf.contains("1\n\\U+221225 \\U+00B0C <Gr\\U+00FC\\U+00DFe>\n"),
+            "{dxf}"
+        );
+        assert!(dxf.ends_with("0\nEOF\n"));
     }
 }

@@ -1,4 +1,4 @@
-//! Pictures: one writer of SVG, PNG and PDF, one palette, one set of axes, and the drawing of a
+//! Pictures: one writer of SVG, PNG, PDF and DXF, one palette, one set of axes, and the drawing of a
 //! structure.
 //!
 //! ```

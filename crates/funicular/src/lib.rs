@@ -62,7 +62,7 @@
 //! |---|---|
 //! | `columns` | bars from Parquet |
 //! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
-//! | `png-pdf` | pictures also as PNG and PDF ([`picture::Format`]): two minutes of a processor to compile |
+//! | `png-pdf` | pictures also as PNG, PDF and DXF ([`picture::Format`]): two minutes of a processor to compile |
 //! | `branches` | `Study`, `Derivatives`, `Trace` |
 //! | `live` | `live::Ask` |
 //! | `paper` | `Reproduce` |

@@ -72,9 +72,15 @@ def test_pictures(tmp_path):
     assert any("\N{MINUS SIGN}" in text for text in texts)
     answer.svg().save(tmp_path / "drawing.svg")
     assert (tmp_path / "drawing.svg").read_text(encoding="utf-8") == answer.svg()
+    flat = ezdxf.readfile(written(tmp_path, answer.svg(), "dxf"))
+    assert not flat.audit().has_errors
+    assert sorted(text.dxf.text for text in flat.modelspace().query("TEXT")) == sorted(texts)
+    # Every member in tension is a line of its blue.
+    blue = [line for line in flat.modelspace().query("POLYLINE") if line.dxf.layer == "0072b2"]
+    assert len(blue) >= np.count_nonzero(answer.axial_n > 1e-6 * np.abs(answer.axial_n).max())
     basins = fn.basins(fn.System.case("two-bars"), size=4).svg("energy")
     assert basins.png().startswith(b"\x89PNG") and basins.pdf().startswith(b"%PDF-")
-    with pytest.raises(fn.SettingError, match="one of svg, png, pdf"):
+    with pytest.raises(fn.SettingError, match="one of svg, png, pdf, dxf"):
         basins.save(tmp_path / "basins.gif")
 
 

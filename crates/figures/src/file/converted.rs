@@ -6,7 +6,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
 
-use super::{FormatError, pdf};
+use super::{FormatError, dxf, pdf};
 
 /// Pixels of a PNG to one of the drawing.
 const SCALE: f32 = 2.0;
@@ -47,4 +47,8 @@ pub(super) fn png(svg: &str) -> Result<Vec<u8>, FormatError> {
 
 pub(super) fn pdf(svg: &str) -> Result<Vec<u8>, FormatError> {
     pdf::write(&tree(svg)?).ok_or_else(|| failed("a raster cannot be read"))
+}
+
+pub(super) fn dxf(svg: &str) -> Result<Vec<u8>, FormatError> {
+    Ok(dxf::write(&tree(svg)?).into_bytes())
 }

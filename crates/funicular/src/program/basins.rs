@@ -19,7 +19,7 @@ const NOTES: &str = "\
 Each pixel is a start. Of a chain between two anchors: the angles of two bars from the descending vertical, 0 to 360
 degrees; all other bars start at --others. Of any other system: the place of --joint in --plane, through where it
 hangs; all other joints start where they hang. Both solvers start there, whether or not the lengths fit. Files:
-lagrange.svg and energy.svg (the equilibrium reached), lagrange-iterations.svg and energy-iterations.svg; or .png, .pdf.
+lagrange.svg and energy.svg (the equilibrium reached), lagrange-iterations.svg and energy-iterations.svg; or .png, .pdf, .dxf.
 
 Examples:
   funicular basins --case three-equal-bars --size 400 --out pictures

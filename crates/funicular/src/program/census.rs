@@ -42,7 +42,7 @@ pub struct Census {
     /// neighbours are not counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
-    /// Draw the shapes into this file, .svg, .png or .pdf: all up to 70, of more the first 70 by energy;
+    /// Draw the shapes into this file, .svg, .png, .pdf or .dxf: all up to 70, of more the first 70 by energy;
     /// those of a chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,

@@ -27,9 +27,9 @@ The ending of the file says what is written, of the equilibrium that both solver
   .json        COMPAS: a graph with force densities and loads
   .csv         a table of the joints with both answers, as `solve --csv` writes it
   .toml        the system itself, as a file of ours to be edited; nothing is solved
-Members as a table are written by `solve --bars-csv`, pictures (.svg, .png, .pdf) by `solve --svg`,
-motions for ParaView (.pvd) by `simulate --out`. What is read may also be lines of DXF or OBJ, or a file of
-MoorDyn, MAP++, OpenSees or COMPAS.";
+Members as a table are written by `solve --bars-csv`, pictures (.svg, .png, .pdf, flat .dxf) by
+`solve --svg`, motions for ParaView (.pvd) by `simulate --out`. What is read may also be lines of
+DXF or OBJ, or a file of MoorDyn, MAP++, OpenSees or COMPAS.";
 
 /// Endings of our own system files, and of tables.
 const OWN: &str = "toml";

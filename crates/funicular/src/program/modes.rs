@@ -38,7 +38,7 @@ pub struct Modes {
     /// of systems of up to 100 joints and 20 of larger ones
     #[arg(long, alias = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
     pub lowest: Option<usize>,
-    /// Draw the lowest modes of one equilibrium, up to 24, as one file: .svg, .png or .pdf
+    /// Draw the lowest modes of one equilibrium, up to 24, as one file: .svg, .png, .pdf or .dxf
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen

@@ -123,8 +123,8 @@ pub struct Solve {
     /// How the random values are distributed
     #[arg(long, value_enum, value_name = "WHICH", requires = "monte_carlo", default_value_t)]
     pub distribution: Distribution,
-    /// Draw the system to scale with loads, reactions and axial forces into this file: .svg, .png or
-    /// .pdf
+    /// Draw the system to scale with loads, reactions and axial forces into this file: .svg, .png,
+    /// .pdf or .dxf
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen

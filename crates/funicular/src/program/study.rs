@@ -94,7 +94,7 @@ pub struct Arguments {
     /// Write a line per point to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Draw sag, forces and angles over the last parameter to this file, .svg, .png or .pdf (with several paths:
+    /// Draw sag, forces and angles over the last parameter to this file, .svg, .png, .pdf or .dxf (with several paths:
     /// FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,

@@ -107,7 +107,7 @@ pub struct Arguments {
     /// Write all points of all branches or load paths, a line each, to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Write the diagram to this file, .svg, .png or .pdf: all branches, or load over displacement (with several paths: FILE-1.svg, FILE-2.svg,
+    /// Write the diagram to this file, .svg, .png, .pdf or .dxf: all branches, or load over displacement (with several paths: FILE-1.svg, FILE-2.svg,
     /// ...)
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,

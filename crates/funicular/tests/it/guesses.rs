@@ -67,7 +67,7 @@ fn what_is_no_system_is_named() {
     assert!(said(&output).contains("is a table") && said(&output).contains("bars_file"));
     let output = run(&folder, &["solve", "--case", "lamp", "--svg", "shape.jpg"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(said(&output).contains("written as .svg, .png, .pdf"), "{}", said(&output));
+    assert!(said(&output).contains("written as .svg, .png, .pdf, .dxf"), "{}", said(&output));
     assert!(!folder.join("shape.jpg").exists());
 }
 

@@ -20,7 +20,7 @@ def ending(path: File) -> str:
 
 
 class Picture(str):
-    """A drawing: the text of an SVG file, written as PNG and PDF too.
+    """A drawing: the text of an SVG file, written as PNG, PDF and, for CAD, DXF too.
 
     >>> import funicular as fn
     >>> p = fn.System.case("lamp").solve().svg()
@@ -39,7 +39,7 @@ class Picture(str):
         return _native.draw(self, "pdf")
 
     def save(self, path: File) -> None:
-        """Write a file: ``.svg``, ``.png`` or ``.pdf``."""
+        """Write a file: ``.svg``, ``.png``, ``.pdf``, or ``.dxf`` (flat, a unit a pixel; in space: :meth:`Equilibrium.save`)."""
         Path(path).write_bytes(_native.draw(self, ending(path)))
 
     def _repr_svg_(self) -> str:

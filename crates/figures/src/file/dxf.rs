@@ -1,0 +1,128 @@
+//! DXF of a drawing: lines and edges of areas as polylines, in a layer for each colour, and texts as such. A unit is a pixel, y is up;
+//! rasters are left out.
+//!
+//! # References
+//!
+//! AutoCAD R12 Customization Manual, "Drawing Interchange and File Formats".
+
+use std::fmt::Write as _;
+
+use resvg::tiny_skia::{PathSegment, Point, Transform};
+use resvg::usvg::{self, Group, Node, Paint, Tree};
+
+/// Straight pieces to a curve.
+const PIECES: u8 = 8;
+/// What closes a polyline, in its group 70.
+const CLOSED: u8 = 1;
+
+pub(super) fn write(tree: &Tree) -> String {
+    let mut dxf = "0\nSECTION\n2\nENTITIES\n".to_owned();
+    group(&mut dxf, tree.root());
+    dxf + "0\nENDSEC\n0\nEOF\n"
+}
+
+fn group(dxf: &mut String, all: &Group) {
+    for node in all.children() {
+        match node {
+            Node::Group(inner) => group(dxf, inner),
+            Node::Path(path) => outline(dxf, path),
+            Node::Text(text) => words(dxf, text),
+            Node::Image(_) => {}
+        }
+    }
+}
+
+/// Every piece of a path without a gap.
+fn outline(dxf: &mut String, path: &usvg::Path) {
+    let paint = path.stroke().map(usvg::Stroke::paint).or(path.fill().map(usvg::Fill::paint));
+    let Some(layer) = paint.map(layer) else { return };
+    let mut way = vec![];
+    for segment in path.data().segments() {
+        match segment {
+            PathSegment::MoveTo(to) => {
+                polyline(
+                    dxf,
+                    &layer,
+                    path.abs_transform(),
+                    &std::mem::replace(&mut way, vec![to]),
+                    0,
+                );
+            }
+            PathSegment::LineTo(to) => way.push(to),
+            PathSegment::QuadTo(by, to) => curve(&mut way, [by, by, to], [2.0, 0.0]),
+            PathSegment::CubicTo(by, then, to) => curve(&mut way, [by, then, to], [3.0, 3.0]),
+            PathSegment::Close => {
+                polyline(dxf, &layer, path.abs_transform(), &way, CLOSED);
+                way.truncate(1);
+            }
+        }
+    }
+    polyline(dxf, &layer, path.abs_transform(), &way, 0);
+}
+
+/// Points of a Bezier curve from the last point, of the second or third degree by the factors of its inner points.
+fn curve(way: &mut Vec<Point>, [by, then, to]: [Point; 3], [first, second]: [f32; 2]) {
+    let Some(from) = way.last().copied() else { return };
+    let third = second > 0.0;
+    for piece in 1..=PIECES {
+        let t = f32::from(piece) / f32::from(PIECES);
+        let s = 1.0 - t;
+        let weights = if third {
+            [s * s * s, first * s * s * t, second * s * t * t, t * t * t]
+        } else {
+            [s * s, first * s * t, 0.0, t * t]
+        };
+        let at = |of: fn(Point) -> f32| {
+            [from, by, then, to].into_iter().zip(weights).map(|(p, w)| w * of(p)).sum()
+        };
+        way.push(Point::from_xy(at(|p| p.x), at(|p| p.y)));
+    }
+}
+
+fn polyline(dxf: &mut String, layer: &str, at: Transform, way: &[Point], closed: u8) {
+    if way.len() < 2 {
+        return;
+    }
+    let _ =
+        write!(dxf, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{closed}\n10\n0.0\n20\n0.0\n30\n0.0\n");
+    for point in way {
+        let _ = write!(dxf, "0\nVERTEX\n8\n{layer}\n");
+        place(dxf, at, *point);
+    }
+    dxf.push_str("0\nSEQEND\n");
+}
+
+fn place(dxf: &mut String, at: Transform, mut point: Point) {
+    at.map_point(&mut point);
+    // Not the negative zero.
+    let _ = write!(dxf, "10\n{:?}\n20\n{:?}\n30\n0.0\n", point.x, 0.0 - point.y);
+}
+
+/// A text from the lower left corner of its letters, as high as these.
+fn words(dxf: &mut String, text: &usvg::Text) {
+    let letters: String = text.chunks().iter().map(usvg::TextChunk::text).map(escaped).collect();
+    let within = text.bounding_box();
+    let at = text.abs_transform();
+    let turn = 0.0 - at.ky.atan2(at.sx).to_degrees();
+    dxf.push_str("0\nTEXT\n8\ntexts\n");
+    place(dxf, at, Point::from_xy(within.left(), within.bottom()));
+    let _ = write!(dxf, "40\n{:?}\n50\n{turn:?}\n1\n{letters}\n", within.height());
+}
+
+/// Other letters than those of ASCII by their numbers: R12 knows no UTF-8.
+fn escaped(text: &str) -> String {
+    let one = |c: char| {
+        if c.is_ascii() { c.to_string() } else { format!("\\U+{:04X}", u32::from(c)) }
+    };
+    text.chars().filter(|c| !c.is_control()).map(one).collect()
+}
+
+/// The layer of a colour, such as `0072b2`.
+fn layer(paint: &Paint) -> String {
+    match paint {
+        Paint::Color(colour) => {
+            format!("{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue)
+        }
+        _ => "other".to_owned(),
+    }
+}
