@@ -1,7 +1,7 @@
 //! Positions that meet the constraints, near a guess or at random.
 
 use model::Vector;
-use model::system::{Kind, Support, System};
+use model::system::{Joint, Kind, Support, System};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -12,7 +12,7 @@ use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::simulation::at_the_beginning;
 use crate::state::State;
-use numerics::vector::{add_times, norm, plus, times};
+use numerics::vector::{add_times, dot, minus, norm, plus, times};
 
 /// Corrections of a guess: far ones move at most [`Stepper::LARGEST_CORRECTION`] of a bar each.
 const MOST_CORRECTIONS: usize = 400;
@@ -106,7 +106,12 @@ fn guess(system: &System, seed: u64, stream: u64) -> Vec<Vector> {
     generator.set_stream(stream);
     let random = &mut generator;
     let joints = system.joints();
-    let mut at: Vec<Option<Vector>> = joints.iter().map(|joint| joint.support.at_m()).collect();
+    // A plane leaves nearly all open: its joints hang on others, as those that are free.
+    let begins = |joint: &Joint| {
+        let in_plane = matches!(joint.support, Support::Plane { .. });
+        joint.support.at_m().filter(|_| !in_plane)
+    };
+    let mut at: Vec<Option<Vector>> = joints.iter().map(begins).collect();
     let mut members = vec![Vec::new(); joints.len()];
     for member in system.members() {
         let length_m = member.body.length_m() / member.spans().count() as f64;
@@ -142,6 +147,7 @@ fn guess(system: &System, seed: u64, stream: u64) -> Vec<Vector> {
         match joint.support {
             // Somewhere on its support, not where the file happens to name a point of it.
             Support::Line { direction, .. } => add_times(at, along, direction),
+            Support::Plane { at_m, normal } => add_times(at, dot(minus(at_m, at), normal), normal),
             _ => at,
         }
     });

@@ -49,3 +49,29 @@ fn rings_begin_along_their_lines() {
     let (least, most) = places.fold((0.0_f64, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
     assert!(least < -0.3 && most > 0.3, "{least} {most}");
 }
+
+/// A triangle in an upright plane through its anchors: P is above or below, as the intersection of two
+/// circles says.
+#[test]
+fn joints_in_a_plane_begin_anywhere_in_it() {
+    let normal = [0.6, -0.8, 0.0];
+    let support = Support::Plane { at_m: [0.0; 3], normal };
+    let top = Joint { support, ..Joint::free("P").with_mass(5.0) };
+    let end_m = [1.6, 1.2, 0.0];
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", end_m), top];
+    let rod = |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.5).unwrap());
+    let system =
+        System::new("triangle", 9.81, joints, vec![rod(0, 2, 1.5), rod(2, 1, 1.2)]).unwrap();
+    let along = (1.5 * 1.5 - 1.2 * 1.2 + 4.0) / 4.0;
+    let height = f64::sqrt(1.5 * 1.5 - along * along);
+    let mut ways = [0; 2];
+    for seed in 0..20 {
+        let at = random_position(&system, seed).unwrap()[2];
+        let found = [0.8 * at[0] + 0.6 * at[1], at[2].abs(), 0.6 * at[0] - 0.8 * at[1]];
+        for (found, wanted) in found.into_iter().zip([along, height, 0.0]) {
+            assert!((found - wanted).abs() < 1e-9, "{at:?}");
+        }
+        ways[usize::from(at[2] > 0.0)] += 1;
+    }
+    assert!(ways[0] > 3 && ways[1] > 3, "{ways:?}");
+}
