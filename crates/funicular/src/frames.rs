@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use columns::AtomicFolder;
 use formats::export::{Moving, Shape, Target, collection};
-use model::system::System;
+use model::system::{Member, System};
 use motion::Snapshot;
 
 /// Writes a motion for ParaView: `motion.pvd`, with the grid of each stored time in the folder `motion` beside it. Both appear
-/// when they are whole. A grid has the velocities of the joints (`velocity_m_s`), and as fields of its time the energies, J.
+/// when they are whole. A grid has the forces, the velocities of the joints (`velocity_m_s`), the part of their strength that members
+/// without mass use (`utilisation`), and as fields of its time the energies, J.
 ///
 /// ```
 /// use funicular::{Frames, prelude::*};
@@ -61,13 +62,25 @@ impl<'a> Frames<'a> {
             joints_m: &now.joints_m,
             axial_n: &now.axial_n,
             reactions_n: &now.reactions_n,
-            used: &[],
+            used: &self.used(now),
             moving: Some(Moving {
                 time_s: now.time_s,
                 velocities_m_s: &now.velocities_m_s,
                 numbers: &numbers,
             }),
         })
+    }
+
+    /// The part of its strength that each member without mass uses. In one with mass the force varies along it as it moves, and
+    /// nothing is said of that.
+    fn used(&self, now: &Snapshot) -> Vec<Option<f64>> {
+        let one = |(member, force_n): (&Member, &f64)| {
+            let strength = member.strength.as_deref()?;
+            let is_even = member.body.mass_kg() <= 0.0 && member.loads.is_empty();
+            is_even.then(|| strength.utilisation(*force_n, *force_n))
+        };
+        let members = self.system.members().iter().zip(&now.axial_n);
+        if self.system.has_strengths() { members.map(one).collect() } else { vec![] }
     }
 
     /// Write a shape of a system with what it has while it moves.

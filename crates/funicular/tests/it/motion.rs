@@ -212,6 +212,30 @@ fn a_motion_for_paraview_is_that_of_the_columns() {
     assert_eq!(std::fs::read_dir(name("motion")).unwrap().count(), 6);
 }
 
+/// Of a cable without mass the part of its strength is known as it moves; the force in a heavy bar varies along it.
+#[test]
+fn strength_as_it_moves_is_that_of_members_without_mass() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let text = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2 }, Q = { mass_kg = 1 } }\nbars = [\
+                { from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"cable\", strength_n = 80 }, \
+                { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 3, strength_n = 80 }]";
+    std::fs::write(name("two.toml"), text).unwrap();
+    let (system, out) = (name("two.toml"), name("two.pvd"));
+    let run = ["simulate", &system, "--push", "Q=0.3,0,0", "--time", "0.1", "--out", &out];
+    assert_eq!(funicular(&run).status.code(), Some(0));
+    let text = std::fs::read_to_string(name("two/000005.vtu")).unwrap();
+    let tree = roxmltree::Document::parse(&text).unwrap();
+    let array = |name: &str| -> Vec<f64> {
+        let is = |node: &roxmltree::Node<'_, '_>| node.attribute("Name") == Some(name);
+        let text = tree.descendants().find(is).unwrap().text().unwrap();
+        text.split_whitespace().map(|number| number.parse().unwrap()).collect()
+    };
+    let (used, axial_n) = (array("utilisation"), array("axial_n"));
+    assert!(axial_n[0] > 50.0 && used[1].is_nan(), "{axial_n:?} {used:?}");
+    assert!((used[0] - axial_n[0] / 80.0).abs() < 1e-12, "{axial_n:?} {used:?}");
+}
+
 #[test]
 fn simulate_refuses_what_it_cannot_do_and_says_why() {
     for (arguments, told) in [
