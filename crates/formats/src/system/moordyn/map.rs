@@ -1,9 +1,9 @@
 //! MAP++ input files: the statics of its lines, which are read as those of MoorDyn.
 //!
 //! A line is [`SEGMENTS`] elastic cables in a row. Nodes that are fixed or on the vessel are anchors; those that connect
-//! have their mass, and are lifted by the water they displace, and bear their force. Gravity, the density of the water and its depth come
-//! from the program around MAP++: they are standard gravity, 1025 kg/m³, and the height of the lowest fixed node, unless
-//! all lines have the flag `OMIT_CONTACT`. Friction on the bottom (`CB`) is not part of the system.
+//! have their mass, are lifted by the water they displace, and bear their force. Gravity, the density of the water and
+//! its depth come from the program around MAP++: they are standard gravity, 1025 kg/m³, and the height of the lowest
+//! fixed node, unless all lines have the flag `OMIT_CONTACT`. Friction on the bottom (`CB`) is not part of the system.
 //!
 //! # References
 //!
@@ -176,9 +176,9 @@ fn node(
     let turned = |[x, y, z]: Vector| [cos * x + sin * y, cos * y - sin * x, z];
     let kind = row.text("type")?.to_lowercase();
     let at_m = turned([place(row, "x")?, place(row, "y")?, place(row, "z")?]);
-    let mut load = super::load(row, options)?;
     if HELD.contains(&kind.as_str()) {
-        // What is no number is looked for.
+        // What is no number there is looked for.
+        let mut load = super::load(row, options).unwrap_or_default();
         for (column, force_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
             *force_n += row.number(column).unwrap_or_default();
         }
@@ -189,6 +189,7 @@ fn node(
         let what = format!("the type {kind:?} of node {name}");
         return Err(row.error(Wrong::Unknown { what }));
     }
+    let mut load = super::load(row, options)?;
     for (column, sum_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
         let force_n = row.optional(column)?.unwrap_or_default();
         *sum_n += force_n;

@@ -128,7 +128,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
     for row in sections.need(Section::Points)?.rows(POINT_COLUMNS)? {
         let joint = point(&row, &bodies, &options)?;
         if joint.support.is_fixed() {
-            held_n.push(load(&row, &options)?.in_water_n(&options));
+            held_n.push(load(&row, &options).unwrap_or_default().in_water_n(&options));
         }
         if numbers.insert(joint.name.clone(), joints.len()).is_some() {
             return Err(row.error(Wrong::Repeated { what: format!("point {}", joint.name) }));
@@ -255,6 +255,7 @@ fn point(
 }
 
 /// What acts on a point.
+#[derive(Default)]
 struct Load {
     mass_kg: f64,
     /// Buoyancy and constant force, N.

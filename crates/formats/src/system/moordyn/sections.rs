@@ -105,7 +105,7 @@ impl<'a> Sections<'a> {
                 Some(table) if current != Section::Frame => table.lines.push((number, bare)),
                 // Free text before the first section: its first line is the title.
                 _ => {
-                    sections.title = sections.title.take().or_else(|| Some(bare.trim().to_owned()))
+                    sections.title = sections.title.take().or_else(|| Some(bare.trim().to_owned()));
                 }
             }
         }
