@@ -52,6 +52,12 @@ impl ForceDensityNet {
         self.nodes.iter().map(|node| node.at_m).collect()
     }
 
+    /// What there is to say of the loads on nodes that are held: one sentence, if there are any.
+    #[must_use]
+    pub fn held_loads(&self) -> Option<String> {
+        super::held_loads(self.nodes.iter().filter(|node| node.held).map(|node| node.force_n))
+    }
+
     /// The system of elastic members that carry `q d` at these places: a member that pulls has half
     /// of its distance `d` as its unstretched length, one that pushes twice, and one without force
     /// density is a slack cable.

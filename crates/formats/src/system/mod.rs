@@ -22,7 +22,9 @@ mod nodes;
 mod obj;
 mod opensees;
 
+use model::Vector;
 use model::system::System;
+use numerics::vector::{norm, plus};
 
 pub use compas::parse_compas;
 pub use dxf::parse_dxf;
@@ -133,7 +135,8 @@ impl Source {
                 let system = drawn.map_err(|error| no_system(file, &error))?;
                 let note = "each edge is an elastic member that carries its force density times its length at the places \
                             of the file";
-                Ok(ForeignSystem { system, notes: vec![note.to_owned()], floor_m: None })
+                let notes = std::iter::once(note.to_owned()).chain(net.held_loads()).collect();
+                Ok(ForeignSystem { system, notes, floor_m: None })
             }
         }
     }
@@ -166,6 +169,22 @@ impl ForeignSystem {
         system.refusal().map_err(|refusal| no_system(file, &refusal))?;
         Ok(system)
     }
+}
+
+/// What there is to say of loads on nodes that cannot move.
+fn held_loads(loads_n: impl Iterator<Item = Vector>) -> Option<String> {
+    let (mut count, mut sum_n) = (0, [0.0; 3]);
+    for load_n in loads_n.filter(|load_n| norm(*load_n) > 0.0) {
+        count += 1;
+        sum_n = plus(sum_n, load_n);
+    }
+    let [x, y, z] = sum_n;
+    let says = || {
+        format!(
+            "loads on held nodes ({count}), in sum ({x}, {y}, {z}) N, go to the ground and are not in the reactions"
+        )
+    };
+    (count > 0).then(says)
 }
 
 fn no_system(file: &str, reason: &dyn std::fmt::Display) -> FormatError {

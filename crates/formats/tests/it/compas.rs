@@ -1,6 +1,6 @@
 //! COMPAS JSON.
 
-use formats::system::{Edge, parse_compas};
+use formats::system::{Edge, Source, parse_compas};
 
 const NETWORK: &str = r#"{"dtype": "jax_fdm.datastructures/FDNetwork", "data": {
     "attributes": {"name": "lamp"},
@@ -20,6 +20,18 @@ fn a_network_has_nodes_loads_supports_and_force_densities() {
     assert_eq!((net.nodes[2].at_m, net.nodes[2].force_n), ([0.0, 0.0, -4.0], [0.0, 0.0, -16.0]));
     let edge = |from, density_n_m| Edge { from, to: 2, density_n_m };
     assert_eq!(net.edges, [edge(0, 2.0), edge(1, 2.5)]);
+}
+
+#[test]
+fn loads_on_supports_are_told_with_their_sum() {
+    assert_eq!(parse_compas(NETWORK, "x").unwrap().held_loads(), None);
+    let text = NETWORK
+        .replace(r#""x": -3,"#, r#""x": -3, "px": 1.5, "pz": -8,"#)
+        .replace(r#""x": 3,"#, r#""x": 3, "px": -1.5, "pz": 8,"#);
+    let says = "loads on held nodes (2), in sum (0, 0, 0) N, go to the ground and are not in the reactions";
+    assert_eq!(parse_compas(&text, "x").unwrap().held_loads().as_deref(), Some(says));
+    let read = Source::Compas.parse(&text, "x").unwrap();
+    assert!(read.notes.iter().any(|note| note == says), "{:?}", read.notes);
 }
 
 #[test]

@@ -38,10 +38,10 @@ fn nodes_are_joints_and_lines_are_cables_in_a_row() {
     assert_eq!(names, ["1", "2", "3", "4", "5", "6"]);
     assert_eq!((system.members().len(), system.joints().len()), (200, 6 + 4 * 49));
     let g = STANDARD_GRAVITY_M_S2;
-    // 500 litres of the buoy's 100 kg float; a metre of line displaces 1025 pi/100 kg.
-    let (lift_n, water_kg_m) = ((0.5 * 1025.0 - 100.0) * g, 10.25 * std::f64::consts::PI);
-    let force_n = system.joints()[1].force_n;
-    assert_eq!(force_n[..2], [300.0, 0.0]);
+    // The water lifts 500 litres of a buoy of 100 kg; a metre of line displaces 1025 pi/100 kg.
+    let (lift_n, water_kg_m) = (0.5 * 1025.0 * g, 10.25 * std::f64::consts::PI);
+    let (force_n, mass_kg) = (system.joints()[1].force_n, system.joints()[1].mass_kg);
+    assert_eq!((&force_n[..2], mass_kg), (&[300.0, 0.0][..], 100.0));
     assert!((force_n[2] - (lift_n - 20.0)).abs() < 1e-9);
     let (chain, rope) = (&system.members()[0], &system.members()[50]);
     assert_eq!((chain.stiffness_n, chain.body.length_m()), (Some(1e9), 1.4));
@@ -58,6 +58,9 @@ fn nodes_are_joints_and_lines_are_cables_in_a_row() {
     assert_eq!(found.floor_m, Some(-80.0));
     assert!(found.notes[0].contains("1025 kg/m^3") && found.notes[0].contains("friction"));
     assert!(found.notes[1].starts_with("line 1: 50 elastic cables of 1.4 m"));
+    assert!(
+        found.notes.last().unwrap().contains("lack the mass of the line that the water carries")
+    );
     let free =
         DECK.replace("gx_pos plot", "plot omit_CONTACT").replace("3\n---", "3 OMIT_CONTACT\n---");
     assert_eq!(parse_map(&free, "x").unwrap().floor_m, None);
@@ -68,9 +71,43 @@ fn nodes_are_joints_and_lines_are_cables_in_a_row() {
     );
 }
 
+/// Mass, volume and force of nodes that do not move, those of the copy turned.
+#[test]
+fn loads_on_held_nodes_are_told_with_their_sum() {
+    let held =
+        |text: &str| parse_map(text, "x").unwrap().notes.into_iter().find(|n| n.contains("held"));
+    assert_eq!(held(DECK), None);
+    let text = DECK.replace("-10   0    0    #    #    #", "-10   2000 1    700  -20  #9");
+    assert_ne!(text, DECK);
+    let note = held(&text).unwrap();
+    let (_, rest) = note.split_once("loads on held nodes (2), in sum (").unwrap();
+    let sum: Vec<f64> =
+        rest.split_once(')').unwrap().0.split(", ").map(|x| x.parse().unwrap()).collect();
+    // The copy has (y, -x).
+    let wanted = [700.0 - 20.0, -20.0 - 700.0, -2.0 * (2000.0 - 1025.0) * STANDARD_GRAVITY_M_S2];
+    for (sum, wanted) in sum.iter().zip(wanted) {
+        assert!((sum - wanted).abs() < 1e-9, "{note}");
+    }
+}
+
+#[test]
+fn options_that_begin_with_a_space_or_a_hash_are_comments() {
+    let angles = |to: &str| {
+        let found = parse_map(&DECK.replace("repeat 90 ", to), "x").unwrap();
+        let says = found.notes.iter().any(|note| note.starts_with("line 22 begins with a space"));
+        (found.system.members().len() / 100 - 1, says)
+    };
+    assert_eq!(angles("repeat 90 180 "), (2, false));
+    assert_eq!(angles(" repeat 90 "), (0, true));
+    assert_eq!(angles("# repeat 90 "), (0, false));
+    assert_eq!(angles(" my own remark "), (0, true));
+}
+
 #[test]
 fn what_is_wrong_in_a_deck_has_its_line() {
     for (from, to, says) in [
+        ("gx_pos plot", "plot frobnicate", "x:15: the flag \"frobnicate\" is not understood"),
+        ("gx_pos plot", "Linear_Spring", "x:15: the flag \"Linear_Spring\" is not understood"),
         ("-80   0", "depth 0", "x:9: there is no depth of the water"),
         (
             "gx_pos plot",
@@ -104,6 +141,21 @@ fn what_is_wrong_in_a_deck_has_its_line() {
     ] {
         assert!(DECK.contains(from), "{from}");
         assert_eq!(parse_map(&DECK.replacen(from, to, 1), "x").unwrap_err().to_string(), says);
+    }
+}
+
+/// What flags there are, and what to do about a spring.
+#[test]
+fn flags_of_output_pass_and_others_have_help() {
+    let outputs =
+        "gx_a_pos GY_FORCE h_fair v_anch tension_fair x_excursion azimuth altitude_a line_tension";
+    let same = parse_map(&DECK.replace("gx_pos plot", outputs), "x").unwrap();
+    assert_eq!(same.system, parse_map(DECK, "x").unwrap().system);
+    for (flag, says) in
+        [("frobnicate", "known are: OMIT_CONTACT, plot,"), ("LINEAR_SPRING", "an elastic member")]
+    {
+        let error = parse_map(&DECK.replace("plot", flag), "x").unwrap_err();
+        assert!(error.help.unwrap().contains(says), "{flag}");
     }
 }
 

@@ -54,11 +54,37 @@ fn lines_are_runs_of_elastic_cables_with_their_weight_in_water() {
     // In the middle of a piece of 15 m.
     assert!((rope.body.length_m() - 15.0).abs() < 1e-12);
     assert!((rope.loads[0].at_m - 7.5).abs() < 1e-12);
-    // A float of a cubic metre that weighs 100 kg: 900 kg of lift.
-    assert!((system.joints()[2].force_n[2] - 9000.0).abs() < 1e-9);
+    // A float of 100 kg, and of a cubic metre that the water lifts.
+    assert!((system.joints()[2].force_n[2] - 10_000.0).abs() < 1e-9);
+    assert!((system.joints()[2].mass_kg - 100.0).abs() < 1e-12);
+    assert!(
+        found.notes.last().unwrap().contains("lack the mass of the line that the water carries")
+    );
     assert_eq!(system.joints()[1].support.at_m(), Some([60.0, 0.0, -10.0]));
     assert_eq!(found.floor_m, Some(-60.0));
     assert!(found.notes.iter().any(|note| note.starts_with("line 1: 4 elastic cables of 20 m")));
+}
+
+/// What floats in water of no density, as our own files have it, has no inertia from its lift.
+#[test]
+fn a_negative_mass_is_lift_alone() {
+    let text = FILE.replace("-20.0   100    1 ", "-20.0   -90    1 ");
+    let read = parse_moordyn(&text, "x").unwrap();
+    let float = &read.system.joints()[2];
+    assert!(float.mass_kg.abs() <= 0.0 && (float.force_n[2] - 10_900.0).abs() < 1e-9, "{float:?}");
+}
+
+/// A vessel that weighs 500 kg more than its water, an anchor of 20 kg.
+#[test]
+fn loads_on_held_points_are_told_with_their_sum() {
+    let text = FILE
+        .replace("-10.0   0      0 ", "-10.0   1500      1 ")
+        .replace("-50.0   0 ", "-50.0   20");
+    let says = "loads on held nodes (2), in sum (0, 0, -5200) N, go to the ground and are not in the reactions";
+    for (text, told) in [(FILE, false), (&text, true)] {
+        let notes = parse_moordyn(text, "x").unwrap().notes;
+        assert_eq!(notes.iter().any(|note| note == says), told, "{notes:?}");
+    }
 }
 
 #[test]

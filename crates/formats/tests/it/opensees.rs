@@ -57,10 +57,51 @@ fn trusses_are_elastic_bars_and_nothing_weighs() {
         }
     }
     assert!(system.members().iter().all(|member| member.body.mass_kg() <= 0.0));
-    for says in
-        ["nothing weighs", "truss is linear in OpenSees", "not read: analyze, integrator, wipe"]
-    {
+    for says in [
+        "units: N, m and kg as written",
+        "nothing weighs",
+        "truss is linear in OpenSees",
+        "not read: analyze, integrator, wipe",
+    ] {
         assert!(read.notes.iter().any(|note| note.contains(says)), "{:?}", read.notes);
+    }
+}
+
+/// Two on anchors, which are summed, and one on a slider, which acts.
+#[test]
+fn loads_on_held_nodes_are_told_with_their_sum() {
+    let held = |read: &formats::system::ForeignSystem| {
+        read.notes.iter().find(|note| note.contains("held")).cloned()
+    };
+    let read = parse_opensees(DECK, "x").unwrap();
+    assert_eq!(held(&read), None);
+    let text = DECK
+        .replace("fix 3 0 0 1", "fix 3 1 1 1")
+        .replace("load 4 0 0.5 0", "load 1 2 0 -5\nload 2 30 4 0\nload 3 -0.5 1 0");
+    let read = parse_opensees(&text, "x").unwrap();
+    let says = "loads on held nodes (2), in sum (1.5, 1, -5) N, go to the ground and are not in the reactions";
+    assert_eq!(held(&read).as_deref(), Some(says));
+    // Of pattern 2 there are 200 N.
+    assert_eq!(read.system.joints()[1].force_n[..2], [230.0, 4.0]);
+}
+
+/// A comment goes on behind one backslash at the end of its line, and not behind two.
+#[test]
+fn comments_go_on_as_those_of_tcl() {
+    let of = |text: &str| {
+        let text = DECK.replace("# down and aside\n", text);
+        parse_opensees(&text, "x").unwrap().system.joints()[3].force_n[0]
+    };
+    let load = "    load 4 999 0 0\n";
+    for (comment, x) in [
+        ("# down\n", 1000.0),
+        ("# down \\\n", 1.0),
+        ("# down \\\r\n", 1.0),
+        ("# down \\\\\n", 1000.0),
+        ("# down \\ and\n", 1000.0),
+        ("# down \\\nand \\\n", 1.0),
+    ] {
+        assert!((of(&format!("{comment}{load}")) - x).abs() < 1e-12, "{comment:?}");
     }
 }
 

@@ -60,10 +60,11 @@ impl Subject {
     pub fn notes(&self) -> Vec<String> {
         match &self.0 {
             Kind::System { notes, .. } => notes.clone(),
-            Kind::Net { .. } => vec![
-                "each edge is an elastic member that carries its force density times its length at the places judged"
-                    .to_owned(),
-            ],
+            Kind::Net { net, .. } => {
+                let note = "each edge is an elastic member that carries its force density times its length at the places \
+                            judged";
+                std::iter::once(note.to_owned()).chain(net.held_loads()).collect()
+            }
         }
     }
 

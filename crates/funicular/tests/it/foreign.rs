@@ -197,3 +197,31 @@ fn a_mass_of_opensees_swings_and_does_not_weigh() {
     }
     assert_eq!(squares.len(), 2);
 }
+
+/// A weight on a light rope swings as a rigid pendulum: `omega^2 = (W + w L/2)/((M + m/3) L)` with the weights W and w L
+/// in water, and of inertia the whole mass M of the weight.
+#[test]
+fn a_weight_in_water_swings_with_its_whole_mass() {
+    let (length_m, mass_kg, w, stiffness_n) = (50.0, 1000.0, 0.1, 1e6);
+    let deck = line(0.0, 0.0, length_m, stiffness_n, w, "OMIT_CONTACT");
+    let deck =
+        deck.replace("2 Vessel 0.0 0 -300.0 0 0 # # #", "2 connect #0 #0 #-350 1000 0.9 0 0 0");
+    assert!(deck.contains("connect"), "{deck}");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("pendulum.map"), deck).unwrap();
+    let problem = Problem::read(folder.path().join("pendulum.map")).unwrap();
+    let found = Modes::new().run(&problem).unwrap();
+    let weight_n = (mass_kg - 0.9 * 1025.0) * STANDARD_GRAVITY_M_S2;
+    let stretched_m = length_m * (1.0 + weight_n / stiffness_n);
+    let rope_n = w * length_m;
+    let moment = (weight_n + 0.5 * rope_n) * stretched_m;
+    let inertia = (mass_kg + rope_n / STANDARD_GRAVITY_M_S2 / 3.0) * stretched_m.powi(2);
+    let mut squares: Vec<f64> = found.equilibria[0].modes.iter().map(|m| m.omega2_s2).collect();
+    squares.sort_by(f64::total_cmp);
+    // In x and in y. The rope bends under its weight across the chord, which takes away a part of some (w L/W)^2/12.
+    let within = (rope_n / weight_n).powi(2);
+    for square in &squares[..2] {
+        assert!((square * inertia / moment - 1.0).abs() < within, "{squares:?}");
+    }
+    assert!(squares[2] > 10.0 * squares[1], "{squares:?}");
+}

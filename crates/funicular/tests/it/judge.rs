@@ -275,6 +275,30 @@ fn a_mooring_line_is_judged_and_one_on_the_floor_is_not() {
     assert_eq!(code, Some(2), "{err}");
 }
 
+/// A plane deck with loads on its supports: answers are wanted as (x, 0, y), and both are said.
+#[test]
+fn a_deck_of_a_plane_says_what_it_wants_and_leaves_out() {
+    let folder = folder("judge-plane");
+    // Trusses of 5 m, and the load by which they are as long as from (3, 3.9).
+    let (stiffness_n, found_m) = (1e6, 3.9_f64.hypot(3.0));
+    let load_n = 2.0 * stiffness_n * (found_m / 5.0 - 1.0) * 3.9 / found_m;
+    let deck = format!(
+        "model basic -ndm 2\nnode 1 0 0\nnode 2 6 0\nnode 3 3 4\nfix 1 1 1\nfix 2 1 1\n\
+        uniaxialMaterial Elastic 1 {stiffness_n:?}\nelement truss 1 1 3 1 1\nelement truss 2 2 3 1 1\n\
+        pattern Plain 1 Linear {{ load 1 0 -100; load 2 7 -50; load 3 0 {load_n:?} }}\n"
+    );
+    write(&folder, "plane.tcl", &deck);
+    write(&folder, "answer.csv", "joint,x_m,y_m,z_m\n1,0,0,0\n2,6,0,0\n3,3,0,3.9\n");
+    let (code, out, err) = judge(&folder, &["plane.tcl", "--answer", "answer.csv"]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    let said = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for says in
+        ["(x, y) is (x, 0, y), of answers too", "loads on held nodes (2), in sum (7, 0, -150) N"]
+    {
+        assert!(said.contains(says), "{out}");
+    }
+}
+
 #[test]
 fn the_net_of_olympia_is_in_balance_and_one_force_changed_is_not() {
     let folder = folder("judge-olympia");

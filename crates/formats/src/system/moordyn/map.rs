@@ -1,9 +1,9 @@
 //! MAP++ input files: the statics of its lines, which are read as those of MoorDyn.
 //!
 //! A line is [`SEGMENTS`] elastic cables in a row. Nodes that are fixed or on the vessel are anchors; those that connect
-//! carry their mass less the water they displace, and their force. Gravity, the density of the water and its depth come
-//! from the program around MAP++: they are standard gravity, 1025 kg/m³, and the height of the lowest fixed node, unless
-//! all lines have the flag `OMIT_CONTACT`. Friction on the bottom (`CB`) is not part of the system.
+//! have their mass, are lifted by the water they displace, and bear their force. Gravity, the density of the water and
+//! its depth come from the program around MAP++: they are standard gravity, 1025 kg/m³, and the height of the lowest
+//! fixed node, unless all lines have the flag `OMIT_CONTACT`. Friction on the bottom (`CB`) is not part of the system.
 //!
 //! # References
 //!
@@ -27,6 +27,35 @@ const SEGMENTS: usize = 50;
 const COMMENTS: &[char] = &['!', '%'];
 /// A line that touches no bottom.
 const NO_CONTACT: &str = "OMIT_CONTACT";
+/// A line that does not weigh, and may push.
+const SPRING: &str = "LINEAR_SPRING";
+/// Flags that ask for output alone.
+const OUTPUTS: &[&str] = &[
+    "plot",
+    "gx_pos",
+    "gy_pos",
+    "gz_pos",
+    "gx_a_pos",
+    "gy_a_pos",
+    "gz_a_pos",
+    "gx_force",
+    "gy_force",
+    "gz_force",
+    "h_fair",
+    "v_fair",
+    "h_anch",
+    "v_anch",
+    "tension_fair",
+    "tension_anch",
+    "x_excursion",
+    "z_excursion",
+    "azimuth",
+    "altitude",
+    "altitude_a",
+    "altitude_anch",
+    "line_tension",
+    "lay_length",
+];
 /// The head of the table of options, and what its solver does.
 const NO_BEARING: &[&str] = &[
     "option",
@@ -72,11 +101,13 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
     let copies = joints.saturating_add(members).saturating_mul(angles.len());
     let room = budget.fits_members(copies, BYTES_PER_MEMBER);
     room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
-    let (mut joints, mut members) = (Vec::new(), Vec::new());
+    lines.iter().try_for_each(flags)?;
+    let (mut joints, mut members, mut held_n) = (Vec::new(), Vec::new(), Vec::new());
     let mut numbers = HashMap::new();
     for (copy, angle) in angles.iter().enumerate() {
         for (k, row) in nodes.iter().enumerate() {
-            let joint = node(row, numbered(row, copy, nodes.len(), k)?, *angle, &options)?;
+            let name = numbered(row, copy, nodes.len(), k)?;
+            let joint = node(row, name, *angle, &options, &mut held_n)?;
             if numbers.insert(joint.name.clone(), joints.len()).is_some() {
                 return Err(row.error(Wrong::Repeated { what: format!("node {}", joint.name) }));
             }
@@ -88,6 +119,12 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
         "in still water of {density_kg_m3} kg/m^3, g = {gravity_m_s2} m/s^2, which the file does not say; without the \
          friction of the bottom"
     )];
+    notes.extend(crate::system::held_loads(held_n.into_iter()));
+    let indented = sections.lines(Section::Options).iter().find(|(_, text)| text.starts_with(' '));
+    let comment = |(line, _): &(usize, _)| {
+        format!("line {line} begins with a space: MAP++ takes such options for comments")
+    };
+    notes.extend(indented.map(comment));
     for (copy, k) in (0..angles.len()).flat_map(|copy| (0..lines.len()).map(move |k| (copy, k))) {
         let row = &lines[k];
         let line = Line {
@@ -110,7 +147,8 @@ fn numbered(row: &Row<'_>, copy: usize, count: usize, k: usize) -> Result<String
 /// The angles of all copies, rad: that of the file itself is 0.
 fn angles(sections: &Sections<'_>) -> Result<Vec<f64>, FormatError> {
     let mut angles = vec![0.0];
-    for (line, text) in sections.lines(Section::Options) {
+    let options = sections.lines(Section::Options).iter();
+    for (line, text) in options.filter(|(_, text)| !text.starts_with([' ', '#'])) {
         let mut words = text.split_whitespace();
         let word = words.next().unwrap_or_default().to_lowercase();
         if word == "repeat" {
@@ -127,30 +165,54 @@ fn angles(sections: &Sections<'_>) -> Result<Vec<f64>, FormatError> {
 }
 
 /// A node of a copy.
-fn node(row: &Row<'_>, name: String, angle: f64, options: &Options) -> Result<Joint, FormatError> {
+fn node(
+    row: &Row<'_>,
+    name: String,
+    angle: f64,
+    options: &Options,
+    held_n: &mut Vec<Vector>,
+) -> Result<Joint, FormatError> {
     let (sin, cos) = angle.sin_cos();
     let turned = |[x, y, z]: Vector| [cos * x + sin * y, cos * y - sin * x, z];
     let kind = row.text("type")?.to_lowercase();
     let at_m = turned([place(row, "x")?, place(row, "y")?, place(row, "z")?]);
     if HELD.contains(&kind.as_str()) {
+        // What is no number there is looked for.
+        let mut load = super::load(row, options).unwrap_or_default();
+        for (column, force_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
+            *force_n += row.number(column).unwrap_or_default();
+        }
+        held_n.push(turned(load.in_water_n(options)));
         return Ok(Joint::anchor(name, at_m));
     }
     if kind != "connect" {
         let what = format!("the type {kind:?} of node {name}");
         return Err(row.error(Wrong::Unknown { what }));
     }
-    let mut force_n = [0.0; 3];
-    for (column, force_n) in ["fx", "fy", "fz"].into_iter().zip(&mut force_n) {
-        *force_n = row.optional(column)?.unwrap_or_default();
+    let mut load = super::load(row, options)?;
+    for (column, sum_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
+        let force_n = row.optional(column)?.unwrap_or_default();
+        *sum_n += force_n;
         // MAP++ takes N, whatever the head of its table says.
         if force_n.abs() > 0.0 && row.unit(column) != "N" {
             let what = format!("the force {column} on node {name} in {:?}", row.unit(column));
             return Err(row.error(Wrong::Unknown { what }).with_help("MAP++ takes N: write (N)"));
         }
     }
-    let mut force_n = turned(force_n);
-    force_n[2] -= super::weight_n(row, options)?;
-    Ok(Joint::free(name).with_force(force_n))
+    Ok(Joint::free(name).with_mass(load.mass_kg).with_force(turned(load.force_n)))
+}
+
+/// Refuse a line with a flag that has a bearing on statics and is not read.
+fn flags(row: &Row<'_>) -> Result<(), FormatError> {
+    let read = |flag: &str| OUTPUTS.contains(&flag.to_lowercase().as_str());
+    let known = |flag: &str| read(flag) || flag.eq_ignore_ascii_case(NO_CONTACT);
+    let Some(flag) = row.flags().iter().find(|flag| !known(flag)) else { return Ok(()) };
+    let error = row.error(Wrong::Unknown { what: format!("the flag {:?}", shortened(flag)) });
+    Err(if flag.eq_ignore_ascii_case(SPRING) {
+        error.with_help("a spring without weight is an elastic member: write it into a system file")
+    } else {
+        error.with_help(format!("known are: {NO_CONTACT}, {}", OUTPUTS.join(", ")))
+    })
 }
 
 /// A coordinate; where it is a first guess it has a `#` before it.

@@ -3,7 +3,7 @@
 //! A line becomes a run of as many elastic cables as the file has segments for it, with its weight
 //! in water at the middle of each; a line lighter than water is pulled up there. Points that are
 //! fixed, coupled to a vessel, or attached to a body that is, are anchors where the file puts them.
-//! Free points carry their mass less the water they displace.
+//! Free points have their mass, and are lifted by the water they displace.
 //!
 //! Bending stiffness, rods, free bodies, waves, currents, non-linear stiffness and everything that
 //! is not known is named and refused. The floor is not part of the system: see
@@ -96,6 +96,10 @@ const FREE: &[&str] = &["free", "connect", "point", "con"];
 /// Segments of one line.
 const MOST_SEGMENTS: f64 = 1e6;
 
+/// What members that weigh as in water lack.
+const MOTION: &str = "members weigh as in water: modes and motions lack the mass of the line that the water carries, and the \
+                      water that moves with it";
+
 /// Room for the words and the number around the name of a line in that of a joint.
 const DIGITS: usize = 16;
 
@@ -119,15 +123,19 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
         "in still water of {} kg/m^3, g = {} m/s^2",
         options.density_kg_m3, options.gravity_m_s2
     )];
-    let mut joints = Vec::new();
+    let (mut joints, mut held_n) = (Vec::new(), Vec::new());
     let mut numbers = HashMap::new();
     for row in sections.need(Section::Points)?.rows(POINT_COLUMNS)? {
         let joint = point(&row, &bodies, &options)?;
+        if joint.support.is_fixed() {
+            held_n.push(load(&row, &options).unwrap_or_default().in_water_n(&options));
+        }
         if numbers.insert(joint.name.clone(), joints.len()).is_some() {
             return Err(row.error(Wrong::Repeated { what: format!("point {}", joint.name) }));
         }
         joints.push(joint);
     }
+    notes.extend(super::held_loads(held_n.into_iter()));
     let (mut members, budget) = (Vec::new(), Budget::default());
     let lines = sections.need(Section::Lines)?.rows(LINE_COLUMNS)?;
     // Of all lines, before the first is made.
@@ -153,8 +161,9 @@ fn foreign(
     sections: &Sections<'_>,
     gravity_m_s2: f64,
     (joints, members): (Vec<Joint>, Vec<Member>),
-    (notes, floor_m): (Vec<String>, Option<f64>),
+    (mut notes, floor_m): (Vec<String>, Option<f64>),
 ) -> Result<ForeignSystem, FormatError> {
+    notes.push(MOTION.to_owned());
     let system = System::new(sections.title(), gravity_m_s2, joints, members).map_err(|error| {
         FormatError::new(sections.file, None, Wrong::NoSystem { reason: error.to_string() })
     })?;
@@ -241,14 +250,32 @@ fn point(
         let what = format!("the type {kind:?} of point {name}");
         return Err(row.error(Wrong::Unknown { what }));
     }
-    Ok(Joint::free(name).with_force([0.0, 0.0, -weight_n(row, options)?]))
+    let Load { mass_kg, force_n } = load(row, options)?;
+    Ok(Joint::free(name).with_mass(mass_kg).with_force(force_n))
 }
 
-/// Weight of a point in water, N.
-fn weight_n(row: &Row<'_>, options: &Options) -> Result<f64, FormatError> {
+/// What acts on a point.
+#[derive(Default)]
+struct Load {
+    mass_kg: f64,
+    /// Buoyancy and constant force, N.
+    force_n: Vector,
+}
+
+impl Load {
+    /// The force with the weight, N.
+    fn in_water_n(&self, options: &Options) -> Vector {
+        let [x, y, z] = self.force_n;
+        [x, y, z - self.mass_kg * options.gravity_m_s2]
+    }
+}
+
+/// Mass and buoyancy of a point; a negative mass is lift alone.
+fn load(row: &Row<'_>, options: &Options) -> Result<Load, FormatError> {
     let mass_kg = row.optional("mass")?.unwrap_or_default();
     let displaced_kg = row.optional("volume")?.unwrap_or_default() * options.density_kg_m3;
-    Ok((mass_kg - displaced_kg) * options.gravity_m_s2)
+    let lift_n = (displaced_kg - mass_kg.min(0.0)) * options.gravity_m_s2;
+    Ok(Load { mass_kg: mass_kg.max(0.0), force_n: [0.0, 0.0, lift_n] })
 }
 
 /// Segments of a line.

@@ -85,7 +85,7 @@ impl Options {
                     }
                 }
                 _ => {
-                    let what = format!("the option {:?}", shortened(text));
+                    let what = format!("the option {:?}", shortened(text.trim()));
                     return Err(FormatError::new(file, at, Wrong::Unknown { what }));
                 }
             }

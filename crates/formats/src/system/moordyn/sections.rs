@@ -96,20 +96,23 @@ impl<'a> Sections<'a> {
                 sections.tables.entry(current).or_insert_with(table);
                 continue;
             }
-            let bare = line.split(comments).next().unwrap_or_default().trim();
+            // MAP++ has a use for what a line begins with.
+            let bare = line.split(comments).next().unwrap_or_default().trim_end();
             if bare.is_empty() {
                 continue;
             }
             match sections.tables.get_mut(&current) {
                 Some(table) if current != Section::Frame => table.lines.push((number, bare)),
                 // Free text before the first section: its first line is the title.
-                _ => sections.title = sections.title.take().or_else(|| Some(bare.to_owned())),
+                _ => {
+                    sections.title = sections.title.take().or_else(|| Some(bare.trim().to_owned()));
+                }
             }
         }
         if let Some(rods) = sections.tables.get(&Section::Rods)
             && let Some((line, rod)) = rods.lines.get(HEAD)
         {
-            let what = format!("the rod {:?}", shortened(rod));
+            let what = format!("the rod {:?}", shortened(rod.trim()));
             return Err(FormatError::new(file, Some(*line), Wrong::OutOfScope { what }));
         }
         Ok(sections)
@@ -206,10 +209,15 @@ impl Row<'_> {
         Ok(self.words[place])
     }
 
+    /// The flags.
+    pub(super) fn flags(&self) -> &[&str] {
+        let flags = self.columns.get(FLAGS).and_then(|place| self.words.get(*place..));
+        flags.unwrap_or_default()
+    }
+
     /// Whether a word is among the flags, in any case.
     pub(super) fn has_flag(&self, flag: &str) -> bool {
-        let flags = self.columns.get(FLAGS).and_then(|place| self.words.get(*place..));
-        flags.is_some_and(|flags| flags.iter().any(|word| word.eq_ignore_ascii_case(flag)))
+        self.flags().iter().any(|word| word.eq_ignore_ascii_case(flag))
     }
 
     /// The unit of a column as the line below its name says.

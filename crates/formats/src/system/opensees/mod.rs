@@ -1,7 +1,8 @@
 //! OpenSees decks of trusses: Tcl with `node`, `fix`, `element truss`, `uniaxialMaterial Elastic`, `mass` and loads.
 //!
 //! A truss is an elastic bar of EA, as long as its nodes are apart; nothing weighs, as in OpenSees, where loads alone act:
-//! masses are held up by forces of their weights, so that they only swing. In a deck of two dimensions Y is up. Loads
+//! masses are held up by forces of their weights, so that they only swing. In a deck of two dimensions Y is up. Numbers
+//! are N, m and kg, since a deck has no units. Loads on nodes that are held are told and are not in the reactions. Loads
 //! act by the factors of their series at the time 1. The linear `truss` is read as the `corotTruss`, whose balance
 //! is that of the displaced shape.
 //!
@@ -363,11 +364,13 @@ impl Deck<'_> {
             return missing("element");
         }
         let mut notes = vec![
+            "units: N, m and kg as written; a deck has none of its own".to_owned(),
             "nothing weighs: a force of its weight holds up each mass, and loads act by their factors at the time 1"
                 .to_owned(),
         ];
         if self.dimensions == 2 {
-            notes.push("of two dimensions y is up, and nodes stay in their plane".to_owned());
+            let note = "of two dimensions y is up, and nodes stay in their plane: (x, y) is (x, 0, y), of answers too";
+            notes.push(note.to_owned());
         }
         if self.linear {
             let note = "truss is linear in OpenSees; here balance is in the displaced shape, as that of corotTruss";
@@ -377,6 +380,8 @@ impl Deck<'_> {
             let skipped: Vec<_> = self.skipped.iter().map(String::as_str).collect();
             notes.push(format!("not read: {}", skipped.join(", ")));
         }
+        let held = self.nodes.iter().filter(|node| support(node.at_m, node.free).is_fixed());
+        notes.extend(super::held_loads(held.map(|node| node.force_n)));
         let joints = self.nodes.into_iter().map(joint).collect();
         let name = Path::new(self.file).file_stem().unwrap_or_default().to_string_lossy();
         let system = System::new(name, STANDARD_GRAVITY_M_S2, joints, self.members);

@@ -61,7 +61,7 @@ impl<'a> Script<'a> {
             self.skip(|c| c.is_whitespace() || c == ';');
             match self.rest.chars().next() {
                 None => return Ok(None),
-                Some('#') => self.skip(|c| c != '\n'),
+                Some('#') => self.comment(),
                 Some(_) => break,
             }
         }
@@ -195,7 +195,17 @@ impl<'a> Script<'a> {
         Err(self.error(Wrong::Missing { what: format!("{close:?} that closes {open:?}") }))
     }
 
-    fn skip(&mut self, skipped: impl Fn(char) -> bool) {
+    /// A comment, which goes on behind a backslash at the end of its line.
+    fn comment(&mut self) {
+        let mut escaped = false;
+        self.skip(|c| {
+            let inside = c != '\n' || escaped;
+            escaped = if escaped { c == '\r' } else { c == '\\' };
+            inside
+        });
+    }
+
+    fn skip(&mut self, mut skipped: impl FnMut(char) -> bool) {
         let end = self.rest.find(|c| !skipped(c)).unwrap_or(self.rest.len());
         self.take(end);
     }
