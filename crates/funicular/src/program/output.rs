@@ -53,8 +53,22 @@ pub fn no_json(error: &serde_json::Error) -> Failure {
 }
 
 /// Refuse, before the work, what cannot be written after it, and what would overwrite a file that
-/// is read or another that is written.
+/// is read or another that is written. What ends as a picture does is one.
 pub fn check<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
+    let outputs: Vec<&Path> = outputs.into_iter().collect();
+    for path in &outputs {
+        if let Some(format) = Format::of_ending(ending(path)) {
+            format.check().map_err(|error| cannot_write(path, error))?;
+        }
+    }
+    check_files(outputs, inputs)
+}
+
+/// The same of files that are no pictures, also where they end in `.dxf`.
+pub fn check_files<'a>(
     outputs: impl IntoIterator<Item = &'a Path>,
     inputs: &[PathBuf],
 ) -> Result<(), Failure> {
@@ -97,9 +111,6 @@ fn check_one(path: &Path) -> Result<(), Failure> {
     if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {
         let why = format!("pictures are written as .{}", Format::ENDINGS.join(", ."));
         return Err(cannot_write(path, why));
-    }
-    if let Some(format) = Format::of_ending(ending(path)) {
-        format.check().map_err(|error| cannot_write(path, error))?;
     }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) if !folder.is_dir() => {
