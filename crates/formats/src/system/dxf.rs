@@ -128,10 +128,8 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
                 sheet.blocks.close();
                 section = "";
             }
-            ("TABLES", "LAYER") => {
-                if entity.text(62).starts_with('-') || entity.flags()? & FROZEN != 0 {
-                    sheet.off.insert(entity.text(2).to_lowercase());
-                }
+            ("TABLES", "LAYER") if entity.is_off()? => {
+                sheet.off.insert(entity.text(2).to_lowercase());
             }
             ("BLOCKS", _) => sheet.blocks.read(&entity),
             ("ENTITIES", _) => entity.read(&mut sheet)?,
@@ -246,6 +244,11 @@ impl<'a> Entity<'a> {
             let error = FormatError::new(self.file, Some(group.line + 1), Wrong::Unknown { what });
             error.with_help("draw in m, dm, cm, mm, km, in, ft or yd")
         })
+    }
+
+    /// Whether it is a layer that is not shown.
+    fn is_off(&self) -> Result<bool, FormatError> {
+        Ok(self.text(62).starts_with('-') || self.flags()? & FROZEN != 0)
     }
 
     /// Why it is not seen with the model.

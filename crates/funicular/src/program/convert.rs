@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::bad_input(Diagnostic::from(message).with_help(help)));
     }
     let Input { problem, files } = arguments.input.read()?;
-    output::check([arguments.to.as_path()], &files)?;
+    output::check_files([arguments.to.as_path()], &files)?;
     if is(OWN) {
         output::write_whole(&arguments.to, &problem.to_toml())?;
         output::print(&format!("{}: a system file\n", arguments.to.display()))?;
