@@ -1,7 +1,10 @@
 //! What drawings of CAD programs have besides lines: layers that are off, blocks, code pages, texts beside their joints.
 
+use std::fmt::Write as _;
+
 use formats::FormatError;
 use formats::system::{ForeignSystem, Source};
+use model::system::Joint;
 
 /// Legs of 5 and 13 m from a top to two anchors.
 const LEGS: &str = "0 LINE;8 bars;10 0;20 0;30 0;11 3;21 0;31 4;0 LINE;8 bars;10 3;20 0;30 4;11 3;21 12;31 -1;\
@@ -107,15 +110,15 @@ fn the_nearest_of_many_joints() {
     for k in 1..24 {
         let [x, y, z] = place(k);
         let [a, b, c] = last;
-        entities += &format!("0 LINE;8 0;10 {a};20 {b};30 {c};11 {x};21 {y};31 {z};");
+        let _ = write!(entities, "0 LINE;8 0;10 {a};20 {b};30 {c};11 {x};21 {y};31 {z};");
         last = [x, y, z];
         entities += &named(&format!("n{k}"), [x - 0.2, y + 0.1 * f64::from(k % 5), z - 0.3]);
     }
-    let text = dxf("", "", &entities).replace("bars", "bars of the legs");
+    let text = dxf("", "", &entities);
     let read = read(&text).unwrap().system;
     for k in 1..24 {
         let found = read.joints().iter().find(|joint| joint.name == format!("n{k}"));
-        assert_eq!(found.and_then(|joint| joint.drawn_m()), Some(place(k)), "{k}");
+        assert_eq!(found.and_then(Joint::drawn_m), Some(place(k)), "{k}");
     }
 }
 
