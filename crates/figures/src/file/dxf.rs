@@ -100,21 +100,14 @@ fn place(dxf: &mut String, at: Transform, mut point: Point) {
 
 /// A text from the lower left corner of its letters, as high as these.
 fn words(dxf: &mut String, text: &usvg::Text) {
-    let letters: String = text.chunks().iter().map(usvg::TextChunk::text).map(escaped).collect();
+    let letters: String =
+        text.chunks().iter().map(usvg::TextChunk::text).map(formats::export::dxf_text).collect();
     let within = text.bounding_box();
     let at = text.abs_transform();
     let turn = 0.0 - at.ky.atan2(at.sx).to_degrees();
     dxf.push_str("0\nTEXT\n8\ntexts\n");
     place(dxf, at, Point::from_xy(within.left(), within.bottom()));
     let _ = write!(dxf, "40\n{:?}\n50\n{turn:?}\n1\n{letters}\n", within.height());
-}
-
-/// Other letters than those of ASCII by their numbers: R12 knows no UTF-8.
-fn escaped(text: &str) -> String {
-    let one = |c: char| {
-        if c.is_ascii() { c.to_string() } else { format!("\\U+{:04X}", u32::from(c)) }
-    };
-    text.chars().filter(|c| !c.is_control()).map(one).collect()
 }
 
 /// The layer of a colour, such as `0072b2`.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use model::system::Support;
 use numerics::vector::{minus, norm};
 use serde_json::{Map, Value, json};
 
@@ -17,7 +18,13 @@ pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
         let [x, y, z] = at_m;
         let [px, py, mut pz] = forces[k];
         pz -= masses[k] * shape.system.gravity_m_s2();
-        let held = joint.support.at_m().is_some();
+        let held = match joint.support {
+            Support::Free => false,
+            Support::Fixed { .. } => true,
+            Support::Line { .. } | Support::Plane { .. } => {
+                return refuse(format!("support that slides (joint {:?})", joint.name));
+            }
+        };
         let node =
             json!({ "x": x, "y": y, "z": z, "px": px, "py": py, "pz": pz, "is_support": held });
         nodes.insert(k.to_string(), node);

@@ -35,14 +35,36 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
         let layer = layer(&joint.support);
         let _ = write!(text, "0\nPOINT\n8\n{layer}\n");
         place(&mut text, 0, *at_m);
-        // A line of its own for each value: a name cannot have another.
-        let name: String = joint.name.chars().filter(|c| !c.is_control()).collect();
+        let name = escaped(&joint.name);
         let _ = write!(text, "0\nTEXT\n8\nnames\n");
         place(&mut text, 0, *at_m);
         let _ = write!(text, "40\n{height:?}\n1\n{name}\n");
     }
     text.push_str("0\nENDSEC\n0\nEOF\n");
     text
+}
+
+/// A text as the value of a group of DXF: without control characters, since each value has one line, and with other
+/// letters than those of ASCII as units of UTF-16, since R12 knows no UTF-8.
+///
+/// ```
+/// assert_eq!(formats::export::dxf_text("Spitze \u{e4}\n"), "Spitze \\U+00E4");
+/// ```
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut units = [0; 2];
+    for c in text.chars().filter(|c| !c.is_control()) {
+        // A backslash of the text itself begins no number.
+        if c.is_ascii() && c != '\\' {
+            out.push(c);
+            continue;
+        }
+        for unit in c.encode_utf16(&mut units) {
+            let _ = write!(out, "\\U+{unit:04X}");
+        }
+    }
+    out
 }
 
 /// The layer of a joint: a support that slides along axes has these in its name.

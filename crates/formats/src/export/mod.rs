@@ -21,6 +21,7 @@ mod solids;
 mod urdf;
 mod vtu;
 
+pub use dxf::escaped as dxf_text;
 pub use vtu::collection;
 
 use model::Vector;

@@ -3,6 +3,8 @@
 //! A drawing says where things are and, by the name of a layer or group, what they are. Its members have the lengths
 //! as drawn and one mass a metre, so that forces are in units of that weight.
 
+mod nearest;
+
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -22,6 +24,9 @@ const ONE_PLACE: f64 = 1e-6;
 const MASS_KG_M: f64 = 1.0;
 /// What the name of a layer or group has in it where its points mark anchors: the second is that of our own drawings.
 const ANCHORS: [&str; 2] = ["anchor", "support"];
+/// What to do about a rope.
+const ROPES: &str = "a drawing does not say over what a rope runs: write it into a system file (`via`), or draw it as \
+                     \"cables\" that end at their joints";
 /// Kinds of other things that a note names.
 const MOST_SKIPPED: usize = 30;
 /// What stands there before the axes along which a support slides, and where it slides across them.
@@ -76,9 +81,13 @@ impl<'a> Drawing<'a> {
         let room = self.budget.fits_members(self.lines.len() + 1, BYTES_PER_MEMBER);
         room.map_err(|error| FormatError::new(self.file, Some(line), Wrong::Memory(error)))?;
         let layer = layer.to_lowercase();
-        // The spans of a rope are cables here.
         let kind = match () {
-            () if layer.contains("cable") || layer.contains("rope") => Kind::Cable,
+            () if layer.contains("rope") => {
+                let what = format!("a rope ({:?}), over whatever it runs,", shortened(&layer));
+                let error = self.error(line, Wrong::Unknown { what });
+                return Err(error.with_help(ROPES));
+            }
+            () if layer.contains("cable") => Kind::Cable,
             () if layer.contains("strut") => Kind::Strut,
             () => Kind::Bar,
         };
@@ -126,8 +135,8 @@ impl<'a> Drawing<'a> {
     }
 
     /// The name of a joint.
-    pub(super) fn name(&mut self, at_m: Vector, name: &str) {
-        self.names.push((at_m, name.to_owned()));
+    pub(super) fn name(&mut self, at_m: Vector, name: String) {
+        self.names.push((at_m, name));
     }
 
     /// Something that is not a line.
@@ -179,7 +188,8 @@ impl<'a> Drawing<'a> {
             let what = format!("{word} that has a length");
             return Err(FormatError::new(self.file, None, Wrong::Missing { what }));
         }
-        let joints = self.joints(&places, mark)?;
+        let (names, nameless) = self.named(&places, &ends);
+        let joints = self.joints(&places, names, mark)?;
         let members = ends.iter().map(|&(a, b, line)| {
             let length_m = norm(minus(places.at_m[b], places.at_m[a]));
             let body = Bar::homogeneous(length_m, MASS_KG_M * length_m)
@@ -199,28 +209,68 @@ impl<'a> Drawing<'a> {
         if short > 0 {
             notes.push(format!("{short} lines without a length are left out"));
         }
+        if nameless > 0 {
+            notes
+                .push(format!("{nameless} names are not next to a joint without a name: left out"));
+        }
         let name = Path::new(self.file).file_stem().unwrap_or_default().to_string_lossy();
         let system = System::new(name, STANDARD_GRAVITY_M_S2, joints, members)
             .map_err(|error| self.no_system(None, &error))?;
         Ok(ForeignSystem { system, notes, floor_m: None })
     }
 
-    /// The joints where they are drawn, anchors as marked.
-    fn joints(&self, places: &Places, mark: &str) -> Result<Vec<Joint>, FormatError> {
-        let count = places.at_m.len();
-        // Of a flat drawing every joint stays in its plane.
-        let unmarked = [true, !places.level, true];
-        let (mut names, mut free) = (vec![None; count], vec![unmarked; count]);
-        for (at_m, name) in &self.names {
-            if let Some(joint) = places.find(*at_m) {
-                names[joint].get_or_insert_with(|| name.clone());
+    /// The name of each joint, and how many names are left over. Each is that of the nearest joint, the nearest name
+    /// first, if it is nearer than the middle of the shortest member there.
+    fn named(
+        &self,
+        places: &Places,
+        ends: &[(usize, usize, &Segment)],
+    ) -> (Vec<Option<String>>, usize) {
+        let mut reach_m = vec![f64::INFINITY; places.at_m.len()];
+        for &(a, b, _) in ends {
+            let half_m = 0.5 * norm(minus(places.at_m[b], places.at_m[a]));
+            for k in [a, b] {
+                reach_m[k] = half_m.min(reach_m[k]);
             }
         }
+        let sorted = nearest::Sorted::of(&places.at_m);
+        let near = self.names.iter().filter_map(|(at_m, name)| {
+            let (distance_m, joint) = sorted.nearest(places.world(*at_m))?;
+            (distance_m < reach_m[joint]).then_some((distance_m, joint, name))
+        });
+        let mut near: Vec<_> = near.collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut names, mut left) = (vec![None; reach_m.len()], self.names.len());
+        for (_, joint, name) in near {
+            if names[joint].is_none() {
+                names[joint] = Some(name.clone());
+                left -= 1;
+            }
+        }
+        (names, left)
+    }
+
+    /// The joints where they are drawn, anchors as marked.
+    fn joints(
+        &self,
+        places: &Places,
+        mut names: Vec<Option<String>>,
+        mark: &str,
+    ) -> Result<Vec<Joint>, FormatError> {
+        // Of a flat drawing every joint stays in its plane.
+        let unmarked = [true, !places.level, true];
+        let mut free = vec![unmarked; places.at_m.len()];
+        let mut marked: HashMap<usize, &Anchor> = HashMap::new();
         for anchor in &self.anchors {
             let Some(joint) = places.find(anchor.at_m) else {
                 let what = "line that ends at this anchor".to_owned();
                 return Err(self.error(anchor.line, Wrong::Missing { what }));
             };
+            let other = *marked.entry(joint).or_insert(anchor);
+            if other.free != anchor.free {
+                let what = format!("the anchor in line {}, held in another way,", other.line);
+                return Err(self.error(anchor.line, Wrong::Repeated { what }));
+            }
             let [x, y, z] = anchor.free;
             free[joint] = if places.level { [x, false, y] } else { [x, y, z] };
         }

@@ -1,21 +1,29 @@
 //! DXF in ASCII: `LINE`, `LWPOLYLINE` and `POLYLINE` as members, `POINT` as anchors, `TEXT` as names of joints.
 //!
 //! The layer says what a line is. `$INSUNITS` says in which unit it is drawn: without one it is m. What else is in the
-//! drawing is counted, curves within polylines are refused. What is in blocks and in paper space is not read.
+//! drawing is counted, curves within polylines and references to blocks with lines are refused. What is in paper space,
+//! invisible or on a layer that is off or frozen is not read.
 //!
 //! # References
 //!
 //! Autodesk, "DXF Reference".
 
+mod blocks;
+mod letters;
+
+use std::collections::HashSet;
+
 use model::Vector;
 
+use self::blocks::Blocks;
+pub(super) use self::letters::decoded;
 use crate::error::{FormatError, Wrong, number, shortened};
 use crate::system::ForeignSystem;
 use crate::system::drawing::Drawing;
 
 /// Values of `$INSUNITS`: their names and lengths, m.
 const UNITS: &[(&str, &str, f64)] = &[
-    ("0", "m", 1.0),
+    ("0", "no unit: read in m", 1.0),
     ("1", "in", 0.0254),
     ("2", "ft", 0.3048),
     ("4", "mm", 1e-3),
@@ -28,8 +36,14 @@ const UNITS: &[(&str, &str, f64)] = &[
 /// How an anchor is marked.
 const MARK: &str = "mark each anchor by a POINT at the end of its line, on a layer whose name has \"anchor\" or \"support\" \
                     in it";
+/// What to do about a block.
+const EXPLODE: &str = "it holds lines or is not in the file: explode the blocks";
 /// What a layer has in its name whose texts are names of joints.
 const NAMES: &str = "name";
+/// What is a member or several.
+const WAYS: [&str; 3] = ["LINE", "LWPOLYLINE", "POLYLINE"];
+/// Group 70 of a `LAYER`.
+const FROZEN: u32 = 1;
 /// Group 70 of a `POLYLINE`: closed, in space, a net or faces; of a `VERTEX`: no corner, but what bends a spline.
 const CLOSED: u32 = 1;
 const IN_SPACE: u32 = 8;
@@ -59,10 +73,21 @@ struct Entity<'a> {
     groups: Vec<Group<'a>>,
 }
 
-/// A `POLYLINE` whose vertices are being read.
+/// A `POLYLINE` whose vertices are being read, and why it is not seen.
 struct Polyline<'a> {
     head: Entity<'a>,
     corners: Vec<Vector>,
+    unseen: Option<&'static str>,
+}
+
+/// What was read so far.
+struct Sheet<'a> {
+    drawing: Drawing<'a>,
+    open: Option<Polyline<'a>>,
+    /// Layers that are off or frozen.
+    off: HashSet<String>,
+    blocks: Blocks<'a>,
+    unit: (&'static str, &'static str, f64),
 }
 
 /// Read the lines of a drawing.
@@ -78,30 +103,43 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
     }
     let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines().enumerate();
     let mut groups = Groups { file, lines, next: None };
-    let (mut drawing, mut open) = (Drawing::new(file), None);
-    let (mut section, mut unit) = ("", UNITS[0]);
+    let mut sheet = Sheet {
+        drawing: Drawing::new(file),
+        open: None,
+        off: HashSet::new(),
+        blocks: Blocks::default(),
+        unit: UNITS[0],
+    };
+    let mut section = "";
     loop {
         let Some(entity) = groups.entity()? else {
             let missing = Wrong::Missing { what: "end of the drawing (EOF)".to_owned() };
             return Err(FormatError::new(file, None, missing));
         };
-        match entity.kind {
-            "EOF" => break,
-            "SECTION" => {
+        match (section, entity.kind) {
+            (_, "EOF") => break,
+            (_, "SECTION") => {
                 section = entity.text(2);
                 if section == "HEADER" {
-                    unit = entity.unit()?.unwrap_or(unit);
+                    sheet.unit = entity.unit()?.unwrap_or(sheet.unit);
                 }
             }
-            "ENDSEC" => section = "",
-            _ if section == "ENTITIES" => entity.read(&mut drawing, &mut open, unit.2)?,
+            (_, "ENDSEC") => {
+                sheet.blocks.close();
+                section = "";
+            }
+            ("TABLES", "LAYER") if entity.is_off()? => {
+                sheet.off.insert(entity.text(2).to_lowercase());
+            }
+            ("BLOCKS", _) => sheet.blocks.read(&entity),
+            ("ENTITIES", _) => entity.read(&mut sheet)?,
             _ => {}
         }
     }
-    if let Some(Polyline { head, .. }) = open {
+    if let Some(Polyline { head, .. }) = sheet.open {
         return Err(head.missing("end of a polyline (SEQEND)"));
     }
-    drawing.system("line", MARK, vec![format!("drawn in {}", unit.1)])
+    sheet.drawing.system("line", MARK, vec![format!("drawn in {}", sheet.unit.1)])
 }
 
 impl<'a> Groups<'a> {
@@ -208,46 +246,54 @@ impl<'a> Entity<'a> {
         })
     }
 
-    fn read(
-        self,
-        drawing: &mut Drawing<'a>,
-        open: &mut Option<Polyline<'a>>,
-        unit_m: f64,
-    ) -> Result<(), FormatError> {
+    /// Whether it is a layer that is not shown.
+    fn is_off(&self) -> Result<bool, FormatError> {
+        Ok(self.text(62).starts_with('-') || self.flags()? & FROZEN != 0)
+    }
+
+    /// Why it is not seen with the model.
+    fn unseen(&self, off: &HashSet<String>) -> Option<&'static str> {
+        match () {
+            () if self.text(67) == "1" => Some("on paper"),
+            () if self.text(60) == "1" => Some("invisible"),
+            () if off.contains(&self.text(8).to_lowercase()) => Some("on layers that are off"),
+            () => None,
+        }
+    }
+
+    fn read(self, sheet: &mut Sheet<'a>) -> Result<(), FormatError> {
+        let Sheet { drawing, open, off, blocks, unit: (.., unit_m) } = sheet;
         if let Some(polyline) = open {
             return match self.kind {
-                "VERTEX" => {
-                    self.straight()?;
-                    if self.flags()? & CONTROL == 0 {
-                        polyline.corners.push(self.place(0, unit_m)?);
-                    }
-                    Ok(())
-                }
+                "VERTEX" => polyline.corner(&self, *unit_m),
                 "SEQEND" => match open.take() {
-                    Some(polyline) => polyline.read(drawing, unit_m),
+                    Some(polyline) => polyline.read(drawing, *unit_m),
                     None => Ok(()),
                 },
                 _ => Err(self.missing("end of the polyline before it (SEQEND)")),
             };
         }
-        let layer = self.text(8);
-        match self.kind {
-            // On a sheet beside the model.
-            kind if self.text(67) == "1" => drawing.skip(&format!("{} on paper", shortened(kind))),
-            "LINE" => {
+        let (layer, unit_m, unseen) = (self.text(8), *unit_m, self.unseen(off));
+        match (self.kind, unseen) {
+            ("POLYLINE", unseen) => *open = Some(Polyline { head: self, corners: vec![], unseen }),
+            (kind, Some(why)) => drawing.skip(&format!("{} {why}", shortened(kind))),
+            ("LINE", _) => {
                 let ends = [self.place(0, unit_m)?, self.place(1, unit_m)?];
                 drawing.line(self.line, layer, ends)?;
             }
-            "POINT" => drawing.point(self.line, layer, self.place(0, unit_m)?)?,
-            "TEXT" if layer.to_lowercase().contains(NAMES) => {
-                drawing.name(self.place(0, unit_m)?, self.text(1));
+            ("POINT", _) => drawing.point(self.line, layer, self.place(0, unit_m)?)?,
+            ("TEXT", _) if layer.to_lowercase().contains(NAMES) => {
+                drawing.name(self.place(0, unit_m)?, letters::unescaped(self.text(1)));
             }
-            "LWPOLYLINE" => {
+            ("LWPOLYLINE", _) => {
                 let corners = self.corners(unit_m)?;
                 drawing.way(self.line, layer, &corners, self.flags()? & CLOSED != 0)?;
             }
-            "POLYLINE" => *open = Some(Polyline { head: self, corners: vec![] }),
-            kind => drawing.skip(&shortened(kind)),
+            ("INSERT", _) if !blocks.is_plain(self.text(2)) => {
+                let what = format!("the block {:?}", shortened(self.text(2)));
+                return Err(self.error(Wrong::Unknown { what }).with_help(EXPLODE));
+            }
+            (kind, _) => drawing.skip(&shortened(kind)),
         }
         Ok(())
     }
@@ -293,8 +339,22 @@ impl<'a> Entity<'a> {
 }
 
 impl<'a> Polyline<'a> {
+    fn corner(&mut self, vertex: &Entity<'a>, unit_m: f64) -> Result<(), FormatError> {
+        if self.unseen.is_none() {
+            vertex.straight()?;
+            if vertex.flags()? & CONTROL == 0 {
+                self.corners.push(vertex.place(0, unit_m)?);
+            }
+        }
+        Ok(())
+    }
+
     fn read(self, drawing: &mut Drawing<'a>, unit_m: f64) -> Result<(), FormatError> {
-        let Self { head, mut corners } = self;
+        let Self { head, mut corners, unseen } = self;
+        if let Some(why) = unseen {
+            drawing.skip(&format!("POLYLINE {why}"));
+            return Ok(());
+        }
         let flags = head.flags()?;
         if flags & SURFACE != 0 {
             drawing.skip("POLYLINE of faces");

@@ -99,8 +99,8 @@ impl Source {
         endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
     }
 
-    /// The text of a file with this ending. In drawings, which may be in any code page, letters that are no UTF-8 are
-    /// replaced.
+    /// The text of a file with this ending. A DXF drawing that is no UTF-8 is read in the code page 1252; where it names
+    /// another one (`$DWGCODEPAGE`), letters that are no ASCII are replaced.
     ///
     /// # Errors
     ///
@@ -108,9 +108,7 @@ impl Source {
     pub fn text(ending: &str, bytes: Vec<u8>) -> Result<String, std::str::Utf8Error> {
         match String::from_utf8(bytes) {
             Ok(text) => Ok(text),
-            Err(error) if ending.eq_ignore_ascii_case("dxf") => {
-                Ok(String::from_utf8_lossy(error.as_bytes()).into_owned())
-            }
+            Err(error) if ending.eq_ignore_ascii_case("dxf") => Ok(dxf::decoded(error.as_bytes())),
             Err(error) => Err(error.utf8_error()),
         }
     }

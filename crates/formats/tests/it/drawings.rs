@@ -202,7 +202,7 @@ fn our_own_drawing_is_read_again() {
     let places = [[0.0, 0.1, 0.0], [0.25, 0.0, 3.0], [4.0, 1.0, -0.5], [-2.0, 0.5, 0.75]];
     let joints = vec![
         Joint::anchor("foot", places[0]),
-        Joint::free("the top").with_mass(2.0),
+        Joint::free("the t\u{f6}p \\U+00E4 \u{1f3aa}").with_mass(2.0),
         Joint {
             support: Support::Line { at_m: places[2], direction: [0.0, 0.0, 1.0] },
             ..Joint::free("A")
@@ -226,6 +226,7 @@ fn our_own_drawing_is_read_again() {
         moving: None,
     };
     let text = shape.text(Target::Dxf).unwrap();
+    assert!(text.is_ascii());
     let read = Source::Dxf.parse(&text, "mast.dxf").unwrap().system;
     assert_eq!(ends(&read), ends(&system));
     for ((joint, other), at_m) in read.joints().iter().zip(system.joints()).zip(places) {
@@ -239,4 +240,11 @@ fn our_own_drawing_is_read_again() {
     );
     let length_m = (0.25_f64 * 0.25 + 0.1 * 0.1 + 9.0).sqrt();
     assert!((read.members()[0].body.length_m() - length_m).abs() < 1e-15);
+    // No drawing says over what a rope runs.
+    let rope = parse_dxf(&text.replacen("cables", "ropes", 1), "x").unwrap_err();
+    assert_eq!((rope.line, text.lines().nth(rope.line.unwrap())), (Some(23), Some("LINE")));
+    assert!(
+        rope.to_string().ends_with("a rope (\"ropes\"), over whatever it runs, is not understood")
+    );
+    assert!(rope.help.unwrap().contains("`via`"));
 }

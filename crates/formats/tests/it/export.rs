@@ -3,7 +3,7 @@
 use formats::answer::{Forces, Joints, parse_vtu};
 use formats::export::{ExportError, Moving, Shape, Target, collection};
 use formats::system::{parse_compas, parse_moordyn};
-use model::system::{Joint, Kind, Member, System};
+use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, Vector};
 
 /// A lamp of 40 N on two cables of 3 and 4 m between anchors 5 m apart, at 10 m/s²: forces of 32 and 24 N. The second weighs 10 N
@@ -277,6 +277,18 @@ fn what_a_format_does_not_have_is_refused() {
     assert_eq!(says(&bar, Target::MoorDyn), "MoorDyn has no line in compression (member 1)");
     assert_eq!(says(&rigid, Target::Urdf), "URDF has no link that goes slack (member 1)");
     assert_eq!(says(&bar, Target::Urdf), "URDF has no link that stretches (member 1)");
+    let held = |support: Support| {
+        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint { support, ..Joint::free("P") }];
+        let body = Bar::homogeneous(1.0, 2.0).unwrap();
+        let system = System::new("p", 10.0, joints, vec![Member::bar(0, 1, body)]).unwrap();
+        refused(&system, &hung, Target::Compas).to_string()
+    };
+    let (at_m, along) = (hung[1], [1.0, 0.0, 0.0]);
+    for support in
+        [Support::Line { at_m, direction: along }, Support::Plane { at_m, normal: [0.0, 1.0, 0.0] }]
+    {
+        assert_eq!(held(support), "a COMPAS graph has no support that slides (joint \"P\")");
+    }
     let error = refused(&rigid, &[[0.0; 3]; 2], Target::Compas).to_string();
     assert_eq!(error, "a COMPAS graph has no edge without length (member 1)");
 }

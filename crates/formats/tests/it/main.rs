@@ -5,6 +5,7 @@
 mod answers;
 mod compas;
 mod drawings;
+mod drawn_in_cad;
 mod export;
 mod forces;
 mod map;

@@ -58,16 +58,12 @@ pub fn check<'a>(
     outputs: impl IntoIterator<Item = &'a Path>,
     inputs: &[PathBuf],
 ) -> Result<(), Failure> {
-    let outputs: Vec<&Path> = outputs.into_iter().collect();
-    for path in &outputs {
-        if let Some(format) = Format::of_ending(ending(path)) {
-            format.check().map_err(|error| cannot_write(path, error))?;
-        }
-    }
+    let outputs: Vec<_> = outputs.into_iter().collect();
+    outputs.iter().try_for_each(|path| check_picture(path))?;
     check_files(outputs, inputs)
 }
 
-/// The same of files that are no pictures, also where they end in `.dxf`.
+/// The same of what is no picture, whatever its name ends in.
 pub fn check_files<'a>(
     outputs: impl IntoIterator<Item = &'a Path>,
     inputs: &[PathBuf],
@@ -102,15 +98,23 @@ fn ending(path: &Path) -> &str {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }
 
+/// A picture can be written only in a format of this build.
+fn check_picture(path: &Path) -> Result<(), Failure> {
+    if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {
+        let why = format!("pictures are written as .{}", Format::ENDINGS.join(", ."));
+        return Err(cannot_write(path, why));
+    }
+    if let Some(format) = Format::of_ending(ending(path)) {
+        format.check().map_err(|error| cannot_write(path, error))?;
+    }
+    Ok(())
+}
+
 /// A file can be written only into a folder that is there, and where the system lets us; `-` is meant
 /// as standard output, not as a name.
 fn check_one(path: &Path) -> Result<(), Failure> {
     if path == Path::new("-") {
         return Err(cannot_write(path, "it names no file; standard output is /dev/stdout"));
-    }
-    if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {
-        let why = format!("pictures are written as .{}", Format::ENDINGS.join(", ."));
-        return Err(cannot_write(path, why));
     }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) if !folder.is_dir() => {

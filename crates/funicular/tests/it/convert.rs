@@ -57,6 +57,7 @@ fn what_cannot_be_written_leaves_no_file() {
         (&["lamp.toml", "--to", "lamp"], "no format has the ending of lamp"),
         (&["lamp.toml", "--to", "lamp.toml"], "it is lamp.toml, which is read"),
         (&["--case", "lamp", "--to", "out.txt"], "MoorDyn has no line that does not stretch"),
+        (&["--case", "pratt-truss", "--to", "out.json"], "graph has no support that slides"),
         (&["lamp.toml"], "--to"),
     ] {
         let (code, _, said) = run(folder, &[&["convert"], arguments].concat());
@@ -146,6 +147,13 @@ fn a_drawing_is_a_system_to_be_edited() {
         };
         assert_eq!(ends(drawn), ends(first));
     }
+    assert_eq!(run(folder, &["convert", "--case", "tackle", "--to", "rope.dxf"]).0, Some(0));
+    let (code, _, said) = run(folder, &["solve", "rope.dxf"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        said.contains("a rope (\"ropes\"), over whatever it runs, is not understood"),
+        "{said}"
+    );
     let all = model::cases::all().iter().map(|case| case.name);
     for name in all.chain(model::cases::exhibits().map(|exhibit| exhibit.name)) {
         let problem = Problem::case(name).unwrap();
