@@ -74,7 +74,8 @@ def test_pictures(tmp_path):
     assert (tmp_path / "drawing.svg").read_text(encoding="utf-8") == answer.svg()
     flat = ezdxf.readfile(written(tmp_path, answer.svg(), "dxf"))
     assert not flat.audit().has_errors
-    assert sorted(text.dxf.text for text in flat.modelspace().query("TEXT")) == sorted(texts)
+    letters = [ezdxf.decode_dxf_unicode(text.dxf.text) for text in flat.modelspace().query("TEXT")]
+    assert sorted(letters) == sorted(texts)
     # Every member in tension is a line of its blue.
     blue = [line for line in flat.modelspace().query("POLYLINE") if line.dxf.layer == "0072b2"]
     assert len(blue) >= np.count_nonzero(answer.axial_n > 1e-6 * np.abs(answer.axial_n).max())
