@@ -125,6 +125,7 @@ pub(super) fn loads_alone(a: &System, b: &System) -> bool {
     };
     // A product of gravity and masses is not on a straight line.
     a.gravity_m_s2().to_bits() == b.gravity_m_s2().to_bits()
+        && a.floor_m().map(f64::to_bits) == b.floor_m().map(f64::to_bits)
         && a.joints().iter().zip(b.joints()).all(joint)
         && a.members().iter().zip(b.members()).all(member)
 }

@@ -367,6 +367,25 @@ fn a_joint_meets_the_floor() {
     near(path.points.last().unwrap().joints_m[1][2], -1.5);
 }
 
+/// 8 N stretch a spring of 10 N/m and 1 m to 1.8 m: what lies on a floor above that moves with it, and hangs where it is deeper.
+#[test]
+fn a_floor_moves_what_lies_on_it() {
+    let file = "floor_m = -1.5\n[joints]\nT = { at_m = [0, 0, 0] }\n\
+                P = { at_m = [0, 0, -1], near_m = [0, 0, -1.5], free = \"z\", force_n = [0, 0, -8] }\n\
+                [[bars]]\nfrom = \"T\"\nto = \"P\"\nlength_m = 1\nstiffness_n = 10\n";
+    let up = path(file, "floor_m=-1.5..-1.2");
+    assert!(up.events.is_empty(), "{:?}", up.events);
+    for point in &up.points {
+        near(point.joints_m[1][2], point.values[0]);
+    }
+    near(up.points.last().unwrap().joints_m[1][2], -1.2);
+    let down = path(file, "floor_m=-1.5..-2");
+    let [kink] = &down.events[..] else { panic!("{:?}", down.events) };
+    assert_eq!(kink.kind, LoadEventKind::Kink);
+    near(kink.values[0], -1.8);
+    near(down.points.last().unwrap().joints_m[1][2], -1.8);
+}
+
 /// The asymmetric shapes of three equal bars end where the squared distance of level anchors is 3/2:
 /// the census of the chain knows them, and the chain cut into a system has the same fold.
 #[test]
