@@ -223,7 +223,7 @@ impl Basins {
             let ends: Vec<_> = (0..side * side).into_par_iter().map(follow).collect();
             let [lagrange, energy] = <[Outcomes; 2]>::try_from(starts.outcomes(&ends))
                 .unwrap_or_else(|_| unreachable!("both solvers are asked"));
-            let name_of = system.joints()[joint].name.clone();
+            let name_of = system.joints()[joint].name.to_string();
             let over = Over {
                 labels: axes.map(|(_, axis)| format!("start of joint {name_of}: {axis} / m")),
                 ranges,

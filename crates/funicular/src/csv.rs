@@ -1,6 +1,5 @@
 //! Numbers and names as cells of CSV.
 
-use std::borrow::Cow;
 use std::fmt;
 
 /// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
@@ -50,12 +49,13 @@ impl fmt::Display for Three {
 }
 
 /// A name, in quotes where it has to be (RFC 4180), and never a formula.
-pub(crate) fn quoted(name: &str) -> Cow<'_, str> {
-    let name = model::text_cell(name);
+pub(crate) fn quoted(name: impl fmt::Display) -> String {
+    let name = name.to_string();
+    let name = model::text_cell(&name);
     if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\"")).into()
+        format!("\"{}\"", name.replace('"', "\"\""))
     } else {
-        name
+        name.into_owned()
     }
 }
 

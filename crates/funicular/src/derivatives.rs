@@ -197,8 +197,8 @@ impl DerivativesAnswer {
             columns.push(moved);
         }
         let pair = |of: usize, by: usize| AnchorStiffness {
-            of: joints[anchors[of]].name.clone(),
-            by: joints[anchors[by]].name.clone(),
+            of: joints[anchors[of]].name.to_string(),
+            by: joints[anchors[by]].name.to_string(),
             stiffness_n_m: std::array::from_fn(|i| {
                 std::array::from_fn(|k| columns[by][k][anchors[of]][i])
             }),
@@ -272,7 +272,7 @@ impl DerivativesAnswer {
             }
         }
         for (k, joint) in self.system.joints().iter().enumerate() {
-            let number = |field| Number::Joint(joint.name.clone(), field);
+            let number = |field| Number::Joint(joint.name.to_string(), field);
             if joint.support.is_fixed() {
                 for axis in 0..3 {
                     add(number(JointField::Place(axis)), gradient.by_anchor[k][axis]);
@@ -304,7 +304,7 @@ impl DerivativesAnswer {
         let change = derivatives.change(parameter)?;
         let joints = self.system.joints();
         let scaled = |v: Vector| v.map(|x| scale * x);
-        let named = |k: usize, v: Vector| (joints[k].name.clone(), scaled(v));
+        let named = |k: usize, v: Vector| (joints[k].name.to_string(), scaled(v));
         let held = (0..joints.len()).filter(|k| joints[*k].support.at_m().is_some());
         Ok(ParameterChange {
             by: number.to_string(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::system::{Joint, System, SystemEquilibrium};
+use model::system::{System, SystemEquilibrium};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use validate::UseCensus;
@@ -193,7 +193,7 @@ impl Answered<'_> {
         let member = &self.system.members()[bar];
         Some(BarEnvelope {
             bar,
-            ends: [member.from, member.to].map(|end| self.system.joints()[end].name.clone()),
+            ends: [member.from, member.to].map(|end| self.system.joints()[end].name.to_string()),
             least_n: Governing { value: -least.value, ..least },
             most_n: self.largest(|system, found| Some(found.axial_force(system, bar).most_n))?,
             utilisation: self.largest(|system, found| found.utilisation(system, bar)),
@@ -201,13 +201,13 @@ impl Answered<'_> {
     }
 
     fn support(&self, joint: usize) -> Option<SupportEnvelope> {
-        let Joint { name, support, .. } = &self.system.joints()[joint];
-        support.at_m()?;
+        let held = &self.system.joints()[joint];
+        held.support.at_m()?;
         let most_n = self.largest(|_, found| {
             let [x, y, z] = found.reactions_n[joint];
             Some(x.hypot(y).hypot(z))
         })?;
-        Some(SupportEnvelope { joint: name.clone(), most_n })
+        Some(SupportEnvelope { joint: held.name.to_string(), most_n })
     }
 }
 

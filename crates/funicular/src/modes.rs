@@ -143,7 +143,8 @@ impl Modes {
         };
         let (enclosed, between) = enclose(system, joints_m, &equilibrium.axial_n);
         let joints = system.joints().iter().zip(joints_m);
-        let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
+        let joints =
+            joints.map(|(joint, at_m)| JointAt { name: joint.name.to_string(), at_m: *at_m });
         Ok(WithModes {
             label: label.clone(),
             solver: equilibrium.solver.clone(),

@@ -39,7 +39,7 @@ impl Topology {
         Self {
             bars: members.iter().map(|member| member.path().collect()).collect(),
             held: joints.iter().map(|joint| u8::from(joint.support.at_m().is_some())).collect(),
-            names: joints.iter().map(|joint| plain(&joint.name)).collect(),
+            names: joints.iter().map(|joint| plain(&joint.name.text())).collect(),
         }
     }
 }

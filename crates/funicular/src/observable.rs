@@ -46,7 +46,8 @@ impl Observable {
             let quoted = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
             let name = quoted.unwrap_or(name);
             system.joint(name).ok_or_else(|| {
-                let names: Vec<_> = system.joints().iter().map(|j| j.name.as_str()).collect();
+                let names: Vec<_> = system.joints().iter().map(|j| j.name.text()).collect();
+                let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
                 let help = nearest(name, &names)
                     .map_or_else(|| HELP.to_owned(), |meant| format!("did you mean `{meant}`?"));
                 wrong(format!("there is no joint `{name}`"), help)

@@ -69,7 +69,8 @@ impl Shape {
         let rungs = statements.into_iter().map(|s| (s.reached, s.rung.to_string(), plain(&s.how)));
         let held = system.joints().iter().zip(&found.reactions_n);
         let held = held.filter(|(joint, _)| joint.support.at_m().is_some());
-        let ground = held.map(|(joint, force_n)| (plain(&joint.name), force_n.map(six).to_vec()));
+        let ground =
+            held.map(|(joint, force_n)| (plain(&joint.name.text()), force_n.map(six).to_vec()));
         Self {
             axial: Some(found.axial_n.iter().copied().map(six).collect()),
             used: found.utilisations(system),

@@ -118,7 +118,7 @@ impl Settled {
         let (moves, moves_m) = moved
             .enumerate()
             .reduce(|most, next| if next.1 > (1.0 + ROUNDING) * most.1 { next } else { most })?;
-        let name = |joint: usize| system.joints()[joint].name.clone();
+        let name = |joint: usize| system.joints()[joint].name.to_string();
         Some(Self {
             lowest_joint: name(extremes.lowest_joint),
             extremes,

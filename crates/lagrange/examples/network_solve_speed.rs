@@ -144,7 +144,7 @@ fn crumpled(n: usize) -> Result<System, Box<dyn Error>> {
     let mut cable = |from, to| -> Result<(), Box<dyn Error>> {
         let spread = (members.len() as f64 * 0.618_033_988_749_894_9).fract();
         let body = Bar::homogeneous(1.0 + 0.5 * spread, 1.0)?;
-        members.push(Member { kind: Kind::Cable, ..Member::bar(from, to, body) });
+        members.push(Member::bar(from, to, body).of_kind(Kind::Cable));
         Ok(())
     };
     for i in 0..n {
@@ -205,10 +205,10 @@ fn net(n: usize, kind: Kind, span: f64) -> Result<System, Box<dyn Error>> {
                 Joint::free(name)
             });
             if i + 1 < n {
-                members.push(Member { kind, ..Member::bar(i * n + j, (i + 1) * n + j, bar) });
+                members.push(Member::bar(i * n + j, (i + 1) * n + j, bar).of_kind(kind));
             }
             if j + 1 < n {
-                members.push(Member { kind, ..Member::bar(i * n + j, i * n + j + 1, bar) });
+                members.push(Member::bar(i * n + j, i * n + j + 1, bar).of_kind(kind));
             }
         }
     }

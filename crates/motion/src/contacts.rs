@@ -15,7 +15,7 @@
 //! opens again where its force would change its sign.
 
 use model::Vector;
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Kind, Member, Support, System};
 
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
@@ -150,7 +150,7 @@ impl Contacts {
                     let at_m = [0.0, 0.0, self.system.floor_m().unwrap_or_default()];
                     let normal = [0.0, 0.0, 1.0];
                     let support = Support::Plane { at_m, normal };
-                    joints[number] = Joint { support, ..joints[number].clone() };
+                    joints[number] = joints[number].clone().held_by(support);
                 }
             }
         }
@@ -291,7 +291,7 @@ mod tests {
             Joint::anchor("B", [4.0, 0.0, 4.0]),
         ];
         let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-        let strut = Member { kind: Kind::Strut, ..Member::bar(2, 1, body(4.0)) };
+        let strut = Member::bar(2, 1, body(4.0)).of_kind(Kind::Strut);
         let members = vec![Member::cable(0, 1, body(2.0)), strut];
         let system = System::new("gaps", 10.0, joints, members).unwrap().with_floor(-0.25).unwrap();
         let mut contacts = Contacts::of(&system).unwrap();

@@ -256,7 +256,7 @@ impl Mechanism {
 
     /// Name of the joint in a slot.
     pub(crate) fn name(&self, slot: usize) -> String {
-        self.system.joints()[self.joint_at[slot]].name.clone()
+        self.system.joints()[self.joint_at[slot]].name.to_string()
     }
 
     /// The spans of a member.

@@ -1,7 +1,7 @@
 //! A motion in time.
 
 use model::Vector;
-use model::system::{Member, System};
+use model::system::System;
 
 use crate::composition::parts;
 use crate::contacts::{Contacts, Impact};
@@ -145,16 +145,16 @@ impl Simulation {
     pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
         let refused = |reason| MotionError::Input { what: "a moment of time", reason };
         let system = self.mechanism.system();
-        let Some(Member { from, to, rope, .. }) = system.members().get(member) else {
+        let Some(of) = system.members().get(member) else {
             return Err(refused(format!("there is no member number {member}")));
         };
-        if rope.is_some() {
+        if of.rope.is_some() {
             return Err(refused(format!("a rope, member number {member}, bears none")));
         }
         if self.mechanism.cornered.iter().any(|cornered| cornered.member == member) {
             return Err(refused(format!("the moments across member number {member} differ")));
         }
-        let [a, b] = [*from, *to].map(|joint| self.mechanism.slot_of[joint]);
+        let [a, b] = [of.from, of.to].map(|joint| self.mechanism.slot_of[joint]);
         self.forces.moments.push(MomentOfTime { a, b, member, of_time });
         self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
         Ok(())

@@ -70,7 +70,7 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
         let [x, y, z] = joints_m[k];
         match system.floor_m() {
             Some(floor_m) if !joint.support.is_fixed() && z < floor_m - near_m(system) => {
-                let (name, below_m) = (&joint.name, floor_m - z);
+                let (name, below_m) = (joint.name.clone(), floor_m - z);
                 return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
             }
             Some(floor_m) if lies(system, joint, z) => {
@@ -112,7 +112,7 @@ pub(crate) fn check_pushes(
         let push_n = -left.forces[mechanism.slot_of[k]][2];
         let is_pushed = push_n > BALANCE * left.unit_n;
         if lies(system, joint, joints_m[k][2]) && !is_pushed {
-            return Err(MotionError::NotPushed { joint: joint.name.clone(), push_n });
+            return Err(MotionError::NotPushed { joint: joint.name.to_string(), push_n });
         }
     }
     Ok(())
@@ -168,8 +168,7 @@ mod tests {
     fn what_spares_more_than_rounding_is_slack() {
         for (kind, sign) in [(Kind::Cable, -1.0), (Kind::Strut, 1.0)] {
             for (part, holds) in [(0.5, true), (-3.0, true), (2.0, false)] {
-                let member =
-                    Member { kind, ..Member::bar(0, 1, Bar::homogeneous(2.0, 1.0).unwrap()) };
+                let member = Member::bar(0, 1, Bar::homogeneous(2.0, 1.0).unwrap()).of_kind(kind);
                 let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
                 let system = System::new("", 9.81, joints, vec![member]).unwrap();
                 let at = [[0.0; 3], [0.0, 0.0, -2.0 * (1.0 + sign * part * LENGTHS)]];

@@ -30,7 +30,7 @@ fn paths(system: &System, name: &str) -> Option<Vec<String>> {
     // What acts at an anchor goes into the ground, and what is free has no place to hold it.
     let joint = |k: usize, field| match (system.joints()[k].support.is_fixed(), field) {
         (true, JointField::Place(_)) | (false, JointField::Mass | JointField::Force(_)) => {
-            Number::Joint(system.joints()[k].name.clone(), field).to_string()
+            Number::Joint(system.joints()[k].name.to_string(), field).to_string()
         }
         _ => String::new(),
     };

@@ -140,18 +140,18 @@ impl Problem {
             ],
         )?;
         let build = || {
-            let joints = names.into_iter().enumerate().map(|(k, name)| Joint {
-                support: support(supports[k], at_m[k], directions[k]),
-                mass_kg: joint_masses[k],
-                force_n: forces[k],
-                ..Joint::free(name)
+            let joints = names.into_iter().enumerate().map(|(k, name)| {
+                Joint::free(name)
+                    .held_by(support(supports[k], at_m[k], directions[k]))
+                    .with_mass(joint_masses[k])
+                    .with_force(forces[k])
             });
             let joints = joints.collect();
             let bodies = bars(&lengths, &masses, centres.as_deref(), None)?;
-            let members = bodies.into_iter().enumerate().map(|(k, body)| Member {
-                kind: kind(kinds[k]),
-                stiffness_n: stiffnesses.as_ref().map(|all| all[k]).filter(|x| !x.is_nan()),
-                ..Member::bar(from[k], to[k], body)
+            let members = bodies.into_iter().enumerate().map(|(k, body)| {
+                Member::bar(from[k], to[k], body)
+                    .of_kind(kind(kinds[k]))
+                    .stretching(stiffnesses.as_ref().map(|all| all[k]).filter(|x| !x.is_nan()))
             });
             let system = System::new(name, gravity_m_s2, joints, members.collect())?;
             system.refusal()?;
@@ -237,7 +237,7 @@ impl Problem {
 
     /// Names of the joints; those of a chain are `0`, `1`, ...
     fn joint_names(&self) -> Vec<String> {
-        self.system().joints().iter().map(|joint| joint.name.clone()).collect()
+        self.system().joints().iter().map(|joint| joint.name.to_string()).collect()
     }
 
     /// Points of the supports, shape (joints, 3), NaN for free joints, m.

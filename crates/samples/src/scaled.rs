@@ -1,6 +1,6 @@
 //! The same system in other units.
 
-use model::system::{Joint, Member, PointLoad, Support, System};
+use model::system::{Joint, PointLoad, Support, System};
 use model::{Bar, Vector};
 
 /// A system with its lengths, masses and gravity times these factors: where they are powers of two, not a digit
@@ -33,13 +33,11 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
                 *at_m = times(*at_m, length);
             }
         }
-        Joint {
-            support,
-            mass_kg: joint.mass_kg * mass,
-            force_n: times(joint.force_n, force),
-            near_m: joint.near_m.map(|at_m| times(at_m, length)),
-            ..Joint::free(joint.name.clone())
-        }
+        Joint::free(joint.name.to_string())
+            .held_by(support)
+            .with_mass(joint.mass_kg * mass)
+            .with_force(times(joint.force_n, force))
+            .drawn(joint.near_m.map(|at_m| times(at_m, length)))
     });
     let members = system.members().iter().map(|member| {
         let given = member.clone().as_given();
@@ -52,13 +50,11 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             force_n: times(load.force_n, force),
         };
         let within_m = given.length_tolerance_m().map(|within_m| within_m * length);
-        let mut scaled = Member {
-            body: body.expect("a bar in other units"),
-            stiffness_n: given.stiffness_n.map(|stiffness_n| stiffness_n * force),
-            loads: given.loads.iter().map(load).collect(),
-            tolerances: None,
-            ..given
-        };
+        let stiffness_n = given.stiffness_n.map(|stiffness_n| stiffness_n * force);
+        let loads = given.loads.iter().map(load).collect();
+        let mut scaled = given.clone().stretching(stiffness_n).with_loads(loads);
+        scaled.body = body.expect("a bar in other units");
+        scaled.tolerances = None;
         scaled.set_length_tolerance(within_m);
         match member.prestress_n() {
             Some(prestress_n) => scaled.with_prestress(prestress_n * force).expect("as before"),

@@ -74,7 +74,7 @@ impl Base for System {
             AnchorEnd::End => last,
         });
         let field = JointField::Place(*axis);
-        ends.map_or(number.clone(), |k| Number::Joint(self.joints()[k].name.clone(), field))
+        ends.map_or(number.clone(), |k| Number::Joint(self.joints()[k].name.to_string(), field))
     }
 
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
@@ -105,7 +105,8 @@ impl Base for System {
                     }
                     return held(parameter, &self.joints()[number], *field);
                 }
-                let names: Vec<_> = self.joints().iter().map(|joint| joint.name.as_str()).collect();
+                let names: Vec<_> = self.joints().iter().map(|joint| joint.name.text()).collect();
+                let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
                 let help = match nearest(name, &names) {
                     Some(meant) => format!("did you mean `{meant}`?"),
                     None if names.len() <= MOST_NAMES => format!("joints: {}", names.join(", ")),

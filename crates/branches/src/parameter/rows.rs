@@ -24,7 +24,7 @@ pub(super) fn run(of: usize, bars: usize, belongs: impl Fn(usize) -> bool) -> [u
 
 /// The row of equal members that a member is of, as a `count` of a file makes it.
 pub(super) fn row(joints: &[Joint], members: &[Member], of: usize) -> [usize; 2] {
-    let anywhere = |member: &Member| Member { from: 0, to: 0, ..member.clone() };
+    let anywhere = |member: &Member| member.clone().between(0, 0);
     let follows = in_row(joints, members);
     run(of, members.len(), |k| follows(k) && anywhere(&members[k]) == anywhere(&members[k + 1]))
 }
@@ -43,7 +43,7 @@ fn in_row<'a>(joints: &'a [Joint], members: &'a [Member]) -> impl Fn(usize) -> b
         here.to == next.from
             && [here, next].iter().all(|member| member.rope.is_none())
             && meet[here.to] == 2
-            && is_between(&joints[here.to], &joints[here.from].name)
+            && is_between(&joints[here.to], &joints[here.from].name.text())
     }
 }
 
@@ -81,12 +81,13 @@ pub(super) fn share(
 /// Whether a joint is one of those that a count makes, behind the joint of this name.
 fn is_between(joint: &Joint, before: &str) -> bool {
     let bare = joint.mass_kg <= 0.0 && joint.force_n.iter().all(|x| x.abs() <= 0.0);
-    let follows = match joint.name.rsplit_once('.') {
+    let name = joint.name.text();
+    let follows = match name.rsplit_once('.') {
         Some((row, "1")) => row.strip_prefix(before).is_some_and(|rest| rest.starts_with('-')),
         Some((row, k)) => {
             k.parse().is_ok_and(|k: usize| k > 0 && before == format!("{row}.{}", k - 1))
         }
-        None => joint.name.parse().is_ok_and(|k: usize| k > 0 && before == (k - 1).to_string()),
+        None => name.parse().is_ok_and(|k: usize| k > 0 && before == (k - 1).to_string()),
     };
     bare && follows && matches!(joint.support, Support::Free | Support::Plane { .. })
 }
@@ -143,8 +144,7 @@ pub(super) fn set(
         _ if k == count => goes[ends[1]],
         _ => begins + k - 1,
     };
-    let all_new: Vec<_> =
-        (0..count).map(|k| Member { from: at(k), to: at(k + 1), ..model.clone() }).collect();
+    let all_new: Vec<_> = (0..count).map(|k| model.clone().between(at(k), at(k + 1))).collect();
     let moved = std::mem::take(members).into_iter().map(|member| member.renumbered(|k| goes[k]));
     *members = moved.collect();
     members.splice(first..=last, all_new);
@@ -159,8 +159,9 @@ fn divided(member: &Member, part: f64, bar: usize) -> Result<Member, PointError>
     let body = UncheckedBar::new(&member.body).divided(part).bar();
     member.body = body.map_err(|error| PointError::Bar { bar, error })?;
     member.set_length_tolerance(member.length_tolerance_m().map(|within_m| part * within_m));
+    let length_m = member.body.length_m();
     for PointLoad { at_m, force_n } in &mut member.loads {
-        *at_m = (part * *at_m).min(member.body.length_m());
+        *at_m = (part * *at_m).min(length_m);
         *force_n = force_n.map(|x| part * x);
     }
     match prestress_n {
@@ -178,21 +179,20 @@ fn joints_between(
     like: Option<&Joint>,
     count: usize,
 ) -> Vec<Joint> {
-    let name = |k: usize| joints[k].name.as_str();
-    let row = match like.and_then(|joint| joint.name.rsplit_once('.')) {
+    let name = |k: usize| joints[k].name.text();
+    let like_name = like.map(|joint| joint.name.text());
+    let row = match like_name.as_deref().and_then(|name| name.rsplit_once('.')) {
         Some((row, _)) => row.to_owned(),
         None => format!("{}-{}", name(from), name(to)),
     };
     let support = like.map_or(Support::Free, |joint| joint.support);
     let drawn = joints.iter().any(|joint| joint.near_m.is_some());
     let ends_m = joints[from].drawn_m().zip(joints[to].drawn_m()).filter(|_| drawn);
-    let joint = |k: usize| Joint {
-        support,
-        near_m: ends_m.map(|(a, b)| {
+    let joint = |k: usize| {
+        Joint::free(format!("{row}.{k}")).held_by(support).drawn(ends_m.map(|(a, b)| {
             let part = k as f64 / count as f64;
             std::array::from_fn(|c| a[c] + part * (b[c] - a[c]))
-        }),
-        ..Joint::free(format!("{row}.{k}"))
+        }))
     };
     (1..count).map(joint).collect()
 }
@@ -249,7 +249,7 @@ mod tests {
             assert!(!is_between(&joint.clone().with_force([0.0, -1.0, 0.0]), before));
             assert!(!is_between(&Joint::anchor(name, [0.0; 3]), before), "{before} {name}");
             let support = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
-            assert_eq!(is_between(&Joint { support, ..joint }, before), follows);
+            assert_eq!(is_between(&joint.held_by(support), before), follows);
         }
     }
 
@@ -257,10 +257,10 @@ mod tests {
     /// is drawn they are not.
     #[test]
     fn new_joints_are_drawn_between_the_ends() {
-        let drawn = Joint { near_m: Some([4.0, 8.0, -3.0]), ..Joint::free("B") };
+        let drawn = Joint::free("B").near([4.0, 8.0, -3.0]);
         let joints = [Joint::anchor("A", [1.0, 2.0, 3.0]), Joint::free("A-R.1"), drawn];
         let new = joints_between(&joints, [0, 2], Some(&joints[1]), 3);
-        let names: Vec<&str> = new.iter().map(|joint| joint.name.as_str()).collect();
+        let names: Vec<_> = new.iter().map(|joint| joint.name.text()).collect();
         assert_eq!(names, ["A-R.1", "A-R.2"]);
         for (joint, wanted) in new.iter().zip([[2.0, 4.0, 1.0], [3.0, 6.0, -1.0]]) {
             let at = joint.near_m.unwrap();

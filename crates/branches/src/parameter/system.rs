@@ -143,9 +143,10 @@ fn with(
         }
     }
     member.body = body.bar().map_err(|error| PointError::Bar { bar, error })?;
+    let new_half_m = 0.5 * member.body.length_m();
     for load in &mut member.loads {
         if load.at_m.to_bits() == half_m.to_bits() {
-            load.at_m = 0.5 * member.body.length_m();
+            load.at_m = new_half_m;
         }
     }
     match prestress_n {

@@ -313,7 +313,7 @@ mod tests {
         let joints = vec![
             Joint::anchor("A", [0.0, 0.0, 0.0]),
             Joint::free("P").with_mass(0.3),
-            Joint { support: slope, ..Joint::free("Q").with_mass(0.2) },
+            Joint::free("Q").with_mass(0.2).held_by(slope),
             Joint::free("R").with_mass(0.1),
         ];
         let members = vec![

@@ -4,7 +4,7 @@
 //! one of the system above the floor as well, if in all of it the floor pushes what lies and the
 //! other joints are above.
 
-use model::system::{Joint, Support, System};
+use model::system::{Support, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
@@ -62,7 +62,7 @@ pub(super) fn laid(
         } else {
             joint.support
         };
-        Joint { support, ..joint.clone() }
+        joint.clone().held_by(support)
     });
     let members = system.members().to_vec();
     let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members);

@@ -216,7 +216,7 @@ mod tests {
             let joints = vec![
                 Joint::anchor("A", at_m[0]),
                 Joint::free("P").with_mass(1.0),
-                Joint { support, ..Joint::free("Q").with_mass(1.0) },
+                Joint::free("Q").with_mass(1.0).held_by(support),
             ];
             let members = vec![Member::bar(0, 1, light(1.0)), Member::bar(1, 2, light(1.0))];
             let system = System::new("two", 10.0, joints, members).unwrap();

@@ -301,7 +301,7 @@ fn a_boom_on_an_elastic_tackle_is_scanned() {
     let members = vec![
         rope(&[0, 1, 2], 3.0).with_stiffness(50.0),
         lift(3),
-        Member { kind: Kind::Strut, ..Member::bar(0, 1, light(0.5)).with_stiffness(50.0) },
+        Member::bar(0, 1, light(0.5)).with_stiffness(50.0).of_kind(Kind::Strut),
     ];
     assert_eq!(refusal(&system(joints, members)), NoCensus::Elastic { member: 1 });
 }
@@ -324,7 +324,7 @@ fn linkage(random: &mut ChaCha8Rng, winds: bool, stiffness_n: Option<f64>) -> Sy
         Member::bar(1, 2, light(range(1.1, 1.4))),
         Member::bar(2, 3, light(range(1.4, 1.7))),
     ];
-    members.push(Member { stiffness_n, ..rope(&[1, 4, 2], range(3.0, 3.4)) });
+    members.push(rope(&[1, 4, 2], range(3.0, 3.4)).stretching(stiffness_n));
     system(joints, members)
 }
 
@@ -340,7 +340,7 @@ fn mast(random: &mut ChaCha8Rng) -> System {
         Joint::anchor("B", b),
         Joint::anchor("C", c),
     ];
-    let strut = Member { kind: Kind::Strut, ..Member::bar(0, 1, light(range(2.0, 2.4))) };
+    let strut = Member::bar(0, 1, light(range(2.0, 2.4))).of_kind(Kind::Strut);
     let members = vec![strut, rope(&[2, 1, 3], range(6.0, 6.8))];
     system(joints, members)
 }
@@ -562,7 +562,7 @@ fn what_does_not_reach_has_no_position() {
         Joint::anchor("T", [2.0, 0.5, 1.0]),
         Joint::free("P").with_mass(2.0),
     ];
-    let strut = Member { kind: Kind::Strut, ..Member::bar(1, 3, light(1.5)) };
+    let strut = Member::bar(1, 3, light(1.5)).of_kind(Kind::Strut);
     let members = vec![Member::bar(0, 3, light(1.0)), strut, rope(&[1, 2, 3], 12.0)];
     let census = whole(&system(joints, members));
     let heights: Vec<f64> = census.equilibria.iter().map(|e| e.joints_m[3][2].mid()).collect();

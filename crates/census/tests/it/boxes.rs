@@ -39,10 +39,8 @@ fn hanger(second: Kind) -> System {
         Joint::anchor("B", [3.0, 0.0, 0.0]),
         Joint::free("P").with_mass(0.2),
     ];
-    let members = vec![
-        Member::bar(0, 2, light(5.0)),
-        Member { kind: second, ..Member::bar(2, 1, light(5.0)) },
-    ];
+    let members =
+        vec![Member::bar(0, 2, light(5.0)), Member::bar(2, 1, light(5.0)).of_kind(second)];
     system(joints, members)
 }
 
@@ -119,7 +117,7 @@ fn a_symmetric_bridle_and_a_tripod() {
 fn a_hanger_of_springs() {
     let spring = |from, to| Member::bar(from, to, light(4.0)).with_stiffness(5.0);
     let joints = hanger(Kind::Bar).joints().to_vec();
-    let members = vec![spring(0, 2), Member { kind: Kind::Cable, ..spring(2, 1) }];
+    let members = vec![spring(0, 2), spring(2, 1).of_kind(Kind::Cable)];
     let springs = system(joints.clone(), members);
     proved(&springs, &below(-4.0), &[1.25; 2]);
     // A third one between the anchors bears what its law says, 5 (6 - 4)/4 N, and a cable of 7 m
@@ -146,17 +144,14 @@ fn sliders() {
     let line = Support::Line { at_m, direction: [0.0, 0.0, 1.0] };
     let plane = Support::Plane { at_m, normal: [1.0, 0.0, 0.0] };
     for support in [line, plane] {
-        let slider = Joint { support, ..Joint::free("P").with_mass(0.1) };
+        let slider = Joint::free("P").with_mass(0.1).held_by(support);
         let joints = vec![Joint::anchor("A", at[0]), slider];
         proved(&system(joints, vec![Member::bar(0, 1, light(5.0))]), &at, &[1.25]);
     }
     // A floor that slopes by 3/4: the bar is drawn down along it by 1 N (3/5), normal to it nothing
     // is asked.
     let normal = [-0.6, 0.0, 0.8];
-    let slider = Joint {
-        support: Support::Plane { at_m: [0.0; 3], normal },
-        ..Joint::free("P").with_mass(0.1)
-    };
+    let slider = Joint::free("P").with_mass(0.1).held_by(Support::Plane { at_m: [0.0; 3], normal });
     let joints = vec![Joint::anchor("A", [4.0, 0.0, 3.0]), slider];
     let slope = system(joints, vec![Member::bar(0, 1, light(5.0))]);
     proved(&slope, &[[4.0, 0.0, 3.0], [0.0, 0.0, 0.0]], &[0.6]);
@@ -301,7 +296,7 @@ fn slack_struts_are_proved_slack() {
     joints.push(Joint::anchor("C", [0.0, 0.0, 1.0]));
     let with = |kind: Kind, length_m: f64| {
         let mut members = hanger(Kind::Bar).members().to_vec();
-        members.push(Member { kind, ..Member::bar(2, 3, light(length_m)) });
+        members.push(Member::bar(2, 3, light(length_m)).of_kind(kind));
         system(joints.clone(), members)
     };
     let at = |z: f64| [below(z).to_vec(), vec![[0.0, 0.0, 1.0]]].concat();
@@ -333,7 +328,7 @@ fn a_cable_that_an_answer_draws_tight_may_be_pushed() {
     let at = [below(-4.0).to_vec(), vec![[0.0, 1.0, -4.0]]].concat();
     let refused = prove(&pushed, &at, &[1.25, 1.25, 1e-4]);
     assert_eq!(refused, Err(NoBox::WrongSign { member: 3 }));
-    members[2] = Member { kind: Kind::Strut, ..members[2].clone() };
+    members[2] = members[2].clone().of_kind(Kind::Strut);
     proved(&system(joints, members), &at, &[1.25, 1.25, -1e-4]);
 }
 

@@ -80,7 +80,7 @@ fn rings_that_are_drawn_apart_have_one_equilibrium() {
     // A bar beside them may push.
     let mut members = system.members().to_vec();
     let bar = Bar::homogeneous(9.0, 0.0).unwrap();
-    members.push(Member { kind: Kind::Strut, ..Member::bar(1, 3, bar) });
+    members.push(Member::bar(1, 3, bar).of_kind(Kind::Strut));
     let beside = System::new("beside", 10.0, system.joints().to_vec(), members).unwrap();
     assert_eq!(SystemCensus::of_cables(&beside, &at_m, &[10.0, 0.0]), None);
     assert!(prove(&beside, &at_m, &[10.0, 0.0]).is_ok());

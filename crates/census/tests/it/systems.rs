@@ -204,7 +204,7 @@ fn cables_are_taut_or_slack() {
         ];
         let members = vec![
             Member::cable(0, 1, light(2.0)),
-            Member { kind, ..Member::bar(1, 2, light(length_m)) },
+            Member::bar(1, 2, light(length_m)).of_kind(kind),
             Member::cable(2, 3, light(2.0)),
         ];
         system(joints, members)

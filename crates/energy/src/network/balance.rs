@@ -101,7 +101,7 @@ impl Frame {
             let allowed = (searched * most / scale).min(kept) + rounded;
             let here = Balance { unbalance: rest / scale, allowed };
             if here.unbalance > kept + rounded {
-                let joint = system.joints()[joint].name.clone();
+                let joint = system.joints()[joint].name.to_string();
                 return Err(Error::Unbalanced { joint, unbalance: here.unbalance });
             }
             if here.unbalance * worst.allowed > worst.unbalance * here.allowed {

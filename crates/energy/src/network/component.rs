@@ -79,7 +79,7 @@ pub(super) fn check_held(system: &System, frame: &Frame) -> Result<(), Error> {
         let free = space.unwrap_or_default();
         let falling = free.iter().map(|b| dot(load[joint], *b).powi(2)).sum::<f64>().sqrt();
         if falling > NO_LOAD {
-            let joint = system.joints()[joint].name.clone();
+            let joint = system.joints()[joint].name.to_string();
             return Err(Error::Falls { joint, force_n: falling * frame.force_n });
         }
     }

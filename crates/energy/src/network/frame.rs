@@ -130,7 +130,7 @@ fn across(direction: Vector) -> [Vector; 2] {
 /// The directions that a support leaves free, and their number.
 pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
     let straight = |direction| {
-        unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.clone(), direction })
+        unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.to_string(), direction })
     };
     Ok(match joint.support {
         Support::Free => (3, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),

@@ -451,7 +451,7 @@ mod tests {
     fn a_strut_that_pushes_is_taken_back() {
         let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
         let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q")];
-        let strut = Member { kind: Kind::Strut, ..Member::bar(1, 2, bar(0.5)) };
+        let strut = Member::bar(1, 2, bar(0.5)).of_kind(Kind::Strut);
         let members = vec![Member::bar(0, 1, bar(1.0)), strut];
         let system = System::new("row", 10.0, joints, members).unwrap();
         let frame = Frame::new(&system).unwrap();

@@ -99,7 +99,7 @@ impl Solution {
             let member = if frame.rods[member].ground { member } else { frame.member_of(member) };
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
-                let joint = system.joints()[frame.rods[member].to].name.clone();
+                let joint = system.joints()[frame.rods[member].to].name.to_string();
                 return Err(Error::FloorPulls { joint, force_n });
             }
             return Err(Error::WrongSign { member: member + 1, force_n });

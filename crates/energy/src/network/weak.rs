@@ -229,7 +229,7 @@ mod tests {
         };
         for (stiffness_n, wanted_m) in [(Some(50.0), 0.07), (None, 0.07 + 0.07 * 0.07 / 14.0)] {
             let members =
-                vec![Member { stiffness_n, ..bar(0, 1, 7.0) }, bar(1, 2, 3.0).with_stiffness(9.0)];
+                vec![bar(0, 1, 7.0).stretching(stiffness_n), bar(1, 2, 3.0).with_stiffness(9.0)];
             let system = System::new("moved", 10.0, joints.clone(), members).expect("a system");
             let frame = Frame::new(&system).expect("a frame");
             let by = |part: f64| -> Vector {

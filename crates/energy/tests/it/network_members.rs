@@ -7,7 +7,7 @@ use model::system::{Joint, Kind, Member, Support, System};
 use crate::network_support::{G, bar, close, solve};
 
 fn weightless(from: usize, to: usize, length_m: f64, kind: Kind) -> Member {
-    Member { kind, ..bar(from, to, length_m, 0.0) }
+    bar(from, to, length_m, 0.0).of_kind(kind)
 }
 
 #[test]
@@ -56,10 +56,9 @@ fn a_standing_spring_holds_a_weight_that_its_guide_keeps_upright() {
     // Compression: the spring is shorter by W l / EA.
     let joints = vec![
         Joint::anchor("ground", [0.0; 3]),
-        Joint {
-            support: Support::Line { at_m: [0.0, 0.0, 1.0], direction: [0.0, 0.0, 1.0] },
-            ..Joint::free("top").with_mass(3.0)
-        },
+        Joint::free("top")
+            .with_mass(3.0)
+            .held_by(Support::Line { at_m: [0.0, 0.0, 1.0], direction: [0.0, 0.0, 1.0] }),
     ];
     for kind in [Kind::Bar, Kind::Strut] {
         let member = weightless(0, 1, 2.0, kind).with_stiffness(300.0);
@@ -178,10 +177,10 @@ fn a_bead_on_a_level_line_pulled_aside() {
     // are carried.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
-        Joint {
-            support: Support::Line { at_m: [1.0, 0.0, -3.0], direction: [1.0, 0.0, 0.0] },
-            ..Joint::free("bead").with_mass(2.0).with_force([12.0, 0.0, 0.0])
-        },
+        Joint::free("bead")
+            .with_mass(2.0)
+            .with_force([12.0, 0.0, 0.0])
+            .held_by(Support::Line { at_m: [1.0, 0.0, -3.0], direction: [1.0, 0.0, 0.0] }),
     ];
     for kind in [Kind::Bar, Kind::Cable] {
         let (_, solution) = solve(joints.clone(), vec![weightless(0, 1, 5.0, kind)]);
@@ -199,10 +198,9 @@ fn a_bead_on_a_wall_hangs_as_low_as_its_bar_lets_it() {
     // pushes W 3/4.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
-        Joint {
-            support: Support::Plane { at_m: [3.0, 1.0, 1.0], normal: [1.0, 0.0, 0.0] },
-            ..Joint::free("bead").with_mass(2.0)
-        },
+        Joint::free("bead")
+            .with_mass(2.0)
+            .held_by(Support::Plane { at_m: [3.0, 1.0, 1.0], normal: [1.0, 0.0, 0.0] }),
     ];
     let (_, solution) = solve(joints, vec![bar(0, 1, 5.0, 0.0)]);
     let found = &solution.equilibrium;
@@ -215,10 +213,9 @@ fn a_bead_on_a_wall_hangs_as_low_as_its_bar_lets_it() {
 #[test]
 fn a_bead_on_a_slope_without_end_falls() {
     let joints = vec![
-        Joint {
-            support: Support::Line { at_m: [0.0; 3], direction: [0.6, 0.0, -0.8] },
-            ..Joint::free("bead").with_mass(1.0)
-        },
+        Joint::free("bead")
+            .with_mass(1.0)
+            .held_by(Support::Line { at_m: [0.0; 3], direction: [0.6, 0.0, -0.8] }),
         Joint::free("lamp").with_mass(1.0),
     ];
     let system = System::new("slope", G, joints, vec![bar(0, 1, 1.0, 0.0)]).expect("a system");
@@ -231,9 +228,10 @@ fn a_bead_on_a_slope_without_end_falls() {
 /// Of parts that hang side by side the one that falls is named with its own load, wherever it stands.
 #[test]
 fn the_part_that_falls_is_named_by_its_own_load() {
-    let slider = |name: &str, mass_kg| Joint {
-        support: Support::Line { at_m: [3.0, 0.0, 0.0], direction: [0.6, 0.0, -0.8] },
-        ..Joint::free(name).with_mass(mass_kg)
+    let slider = |name: &str, mass_kg| {
+        Joint::free(name)
+            .with_mass(mass_kg)
+            .held_by(Support::Line { at_m: [3.0, 0.0, 0.0], direction: [0.6, 0.0, -0.8] })
     };
     let held = || [Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(5.0)];
     let falls = || [slider("bead", 2.0), Joint::free("lamp").with_mass(1.0)];

@@ -177,7 +177,7 @@ impl Drawn {
     fn system(&self, change: impl Fn(usize) -> f64, tolerance_m: Option<f64>) -> System {
         let members = self.members.iter().enumerate().map(|(e, &(from, to, stiffness_n))| {
             let length = norm(difference(self.shape[to], self.shape[from])) * (1.0 + change(e));
-            let mut member = Member { stiffness_n, ..bar(from, to, length, 0.0) };
+            let mut member = bar(from, to, length, 0.0).stretching(stiffness_n);
             member.set_length_tolerance(tolerance_m.filter(|_| stiffness_n.is_none()));
             member
         });
@@ -213,10 +213,7 @@ fn draw(rng: &mut ChaCha8Rng, style: usize) -> Drawn {
     let mut joints: Vec<Joint> = (0..free)
         .map(|k| {
             let force = place(rng, style);
-            Joint {
-                force_n: force,
-                ..Joint::free(format!("P{k}")).with_mass(rng.random_range(1.0..3.0))
-            }
+            Joint::free(format!("P{k}")).with_mass(rng.random_range(1.0..3.0)).with_force(force)
         })
         .collect();
     let mut members: Vec<(usize, usize, Option<f64>)> =
@@ -262,7 +259,7 @@ fn tower(bays: usize) -> Drawn {
             drawn.joints.push(if level == 0 {
                 Joint::anchor(name, at)
             } else {
-                Joint { force_n, ..Joint::free(name) }
+                Joint::free(name).with_force(force_n)
             });
         }
     }
@@ -420,7 +417,7 @@ fn bars_in_a_plane_are_read_as_such() {
 fn a_gap_above_the_floor_is_a_gap() {
     for gap in [1e-14, 1e-13, 1e-12, 3e-12, 1e-11, 3e-10, 1e-8, 1e-6] {
         let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
-        let cable = Member { kind: Kind::Cable, ..bar(0, 1, 1.0, 0.0) };
+        let cable = bar(0, 1, 1.0, 0.0).of_kind(Kind::Cable);
         let system =
             System::new("gap", G, joints, vec![cable]).unwrap().with_floor(-1.0 - gap).unwrap();
         let solution = minimise(&system, &Settings::default()).expect("a minimum");

@@ -53,7 +53,7 @@ fn variants(system: System) -> [System; 6] {
     let struts = with(&system, |e, bar| {
         let stiffness_n = (e % 3 == 1).then_some(500.0);
         let kind = if e % 3 == 2 { Kind::Bar } else { Kind::Strut };
-        Member { kind, stiffness_n, ..bar.clone() }
+        bar.clone().of_kind(kind).stretching(stiffness_n)
     });
     let lowest = system.joints().iter().filter_map(|joint| match joint.support {
         Support::Fixed { at_m } => Some(at_m[2]),
@@ -174,9 +174,10 @@ fn enlarged(system: &System) -> System {
         }
         joint
     });
-    let members = system.members().iter().map(|member| Member {
-        body: Bar::homogeneous(4.0 * member.body.length_m(), member.body.mass_kg()).expect("a bar"),
-        ..member.clone()
+    let members = system.members().iter().map(|member| {
+        member.clone().with_body(
+            Bar::homogeneous(4.0 * member.body.length_m(), member.body.mass_kg()).expect("a bar"),
+        )
     });
     let system = System::new("4", G, joints.collect(), members.collect());
     system.expect("a system")

@@ -21,11 +21,10 @@ fn mixed(system: &System) -> System {
     let members = system.members().iter().enumerate().map(|(k, member)| {
         let kind = if k % 2 == 1 { Kind::Cable } else { Kind::Bar };
         let stiffness_n = (k % 3 == 2).then_some(300.0);
-        Member { kind, stiffness_n, ..member.clone() }
+        member.clone().of_kind(kind).stretching(stiffness_n)
     });
-    let joints = system.joints().iter().enumerate().map(|(k, joint)| Joint {
-        force_n: if k == 2 { [0.5, -1.5, 0.25] } else { joint.force_n },
-        ..joint.clone()
+    let joints = system.joints().iter().enumerate().map(|(k, joint)| {
+        joint.clone().with_force(if k == 2 { [0.5, -1.5, 0.25] } else { joint.force_n })
     });
     System::new("mixed", system.gravity_m_s2(), joints.collect(), members.collect())
         .expect("a system")

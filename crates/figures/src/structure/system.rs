@@ -80,11 +80,13 @@ impl SystemShape<'_> {
     fn draw(&self, id: Option<&str>) -> Result<String, StructureError> {
         let gravity = self.system.gravity_m_s2();
         let placed = self.system.joints().iter().zip(self.joints_m).zip(self.reactions_n);
+        let names: Vec<_> = self.system.joints().iter().map(|joint| joint.name.text()).collect();
         let joints: Vec<Joint<'_>> = placed
-            .map(|((joint, at_m), reaction_n)| {
+            .zip(&names)
+            .map(|(((joint, at_m), reaction_n), name)| {
                 let [x, y, z] = joint.force_n;
                 Joint {
-                    name: &joint.name,
+                    name,
                     at_m: *at_m,
                     support: match joint.support {
                         Held::Free => None,

@@ -34,7 +34,7 @@ pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
     for line in shape.lines() {
         let [a, b] = line.ends;
         if !taken.insert([a.min(b), a.max(b)]) {
-            let [a, b] = line.ends.map(|k| shape.system.joints()[k].name.as_str());
+            let [a, b] = line.ends.map(|k| shape.system.joints()[k].name.text());
             return refuse(format!("two edges between the same nodes ({a:?} and {b:?})"));
         }
         let distance_m = norm(minus(shape.joints_m[b], shape.joints_m[a]));

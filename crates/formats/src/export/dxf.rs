@@ -35,7 +35,7 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
         let layer = layer(&joint.support);
         let _ = write!(text, "0\nPOINT\n8\n{layer}\n");
         place(&mut text, 0, *at_m);
-        let name = escaped(&joint.name);
+        let name = escaped(&joint.name.text());
         let _ = write!(text, "0\nTEXT\n8\nnames\n");
         place(&mut text, 0, *at_m);
         let _ = write!(text, "40\n{height:?}\n1\n{name}\n");

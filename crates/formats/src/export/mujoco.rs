@@ -60,7 +60,8 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
         let mass_kg = masses[k].max(least_kg[k]);
         let off = 1.0 - masses[k] / mass_kg;
         // MuJoCo's own name for what does not move.
-        let name = if joint.name == "world" { "world of the system" } else { &joint.name };
+        let name = joint.name.text();
+        let name = if name == "world" { "world of the system" } else { &name };
         let _ =
             writeln!(text, "<body name=\"{}\" pos=\"{at}\" gravcomp=\"{off:?}\">", attribute(name));
         for (n, axis) in axes.iter().enumerate() {

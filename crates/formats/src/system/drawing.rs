@@ -194,7 +194,7 @@ impl<'a> Drawing<'a> {
             let length_m = norm(minus(places.at_m[b], places.at_m[a]));
             let body = Bar::homogeneous(length_m, MASS_KG_M * length_m)
                 .map_err(|error| self.no_system(Some(line.line), &error))?;
-            Ok(Member { kind: line.kind, ..Member::bar(a, b, body) })
+            Ok(Member::bar(a, b, body).of_kind(line.kind))
         });
         let members = members.collect::<Result<Vec<_>, FormatError>>()?;
         let mut notes = vec![format!(
@@ -282,7 +282,7 @@ impl<'a> Drawing<'a> {
             let name = names[k].take().unwrap_or_else(|| (k + 1).to_string());
             match support(at_m, free[k]) {
                 Support::Fixed { at_m } => Joint::anchor(name, at_m),
-                support => Joint { support, ..Joint::free(name).near(at_m) },
+                support => Joint::free(name).near(at_m).held_by(support),
             }
         };
         Ok(places.at_m.iter().enumerate().map(joint).collect())

@@ -62,7 +62,7 @@ fn lines_of_a_drawing_are_members_by_their_layers() {
     assert_eq!((guy.body.length_m(), guy.body.mass_kg(), guy.stiffness_n), (5.0, 5.0, None));
     let held = system.joints().iter().map(|joint| joint.support.is_fixed()).collect::<Vec<_>>();
     assert_eq!(held, [false, false, true, true]);
-    let names: Vec<&str> = system.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.text()).collect();
     assert_eq!(names, ["1", "top", "3", "4"]);
     for says in
         ["drawn in mm", "has 1 kg/m", "not read: 1 CIRCLE, 1 POINT", "6 members between 4 joints"]
@@ -203,17 +203,11 @@ fn our_own_drawing_is_read_again() {
     let joints = vec![
         Joint::anchor("foot", places[0]),
         Joint::free("the t\u{f6}p \\U+00E4 \u{1f3aa}").with_mass(2.0),
-        Joint {
-            support: Support::Line { at_m: places[2], direction: [0.0, 0.0, 1.0] },
-            ..Joint::free("A")
-        },
-        Joint {
-            support: Support::Plane { at_m: places[3], normal: [1.0, 0.0, 0.0] },
-            ..Joint::free("B")
-        },
+        Joint::free("A").held_by(Support::Line { at_m: places[2], direction: [0.0, 0.0, 1.0] }),
+        Joint::free("B").held_by(Support::Plane { at_m: places[3], normal: [1.0, 0.0, 0.0] }),
     ];
     let body = Bar::homogeneous(9.0, 0.0).unwrap();
-    let strut = Member { kind: Kind::Strut, ..Member::bar(0, 1, body) };
+    let strut = Member::bar(0, 1, body).of_kind(Kind::Strut);
     let members = vec![strut, Member::cable(1, 2, body), Member::bar(3, 1, body)];
     let system = System::new("mast", 9.0, joints, members).unwrap();
     let (axial_n, reactions_n) = ([0.0; 3], [[0.0; 3]; 4]);

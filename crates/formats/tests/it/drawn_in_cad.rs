@@ -32,7 +32,7 @@ fn members(text: &str) -> (usize, String) {
 
 fn names(text: &str) -> (Vec<String>, Vec<String>) {
     let read = read(text).unwrap();
-    let names = read.system.joints().iter().map(|joint| joint.name.clone()).collect();
+    let names = read.system.joints().iter().map(|joint| joint.name.to_string()).collect();
     (names, read.notes)
 }
 

@@ -278,7 +278,7 @@ fn what_a_format_does_not_have_is_refused() {
     assert_eq!(says(&rigid, Target::Urdf), "URDF has no link that goes slack (member 1)");
     assert_eq!(says(&bar, Target::Urdf), "URDF has no link that stretches (member 1)");
     let held = |support: Support| {
-        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint { support, ..Joint::free("P") }];
+        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").held_by(support)];
         let body = Bar::homogeneous(1.0, 2.0).unwrap();
         let system = System::new("p", 10.0, joints, vec![Member::bar(0, 1, body)]).unwrap();
         refused(&system, &hung, Target::Compas).to_string()

@@ -34,7 +34,7 @@ ref_position 0 0 0
 fn nodes_are_joints_and_lines_are_cables_in_a_row() {
     let found = parse_map(DECK, "x.map").unwrap();
     let system = &found.system;
-    let names: Vec<_> = system.joints()[..6].iter().map(|joint| joint.name.as_str()).collect();
+    let names: Vec<_> = system.joints()[..6].iter().map(|joint| joint.name.text()).collect();
     assert_eq!(names, ["1", "2", "3", "4", "5", "6"]);
     assert_eq!((system.members().len(), system.joints().len()), (200, 6 + 4 * 49));
     let g = STANDARD_GRAVITY_M_S2;

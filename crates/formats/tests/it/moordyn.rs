@@ -39,7 +39,7 @@ fn lines_are_runs_of_elastic_cables_with_their_weight_in_water() {
     let found = parse_moordyn(FILE, "lines.txt").unwrap();
     let system = &found.system;
     assert_eq!(system.name(), "two lines, written for a test");
-    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.text()).collect();
     assert_eq!(names, ["1", "2", "3", "line 1.1", "line 1.2", "line 1.3", "line 2.1"]);
     assert_eq!(system.members().len(), 6);
     let displaced_kg_m = 1000.0 * std::f64::consts::PI * 0.01;

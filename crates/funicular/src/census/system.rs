@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use census::network::{ChainCensus, NetCensus, PartCensus, SystemCensus};
-use model::system::{System, SystemEquilibrium};
+use model::system::{Name, System, SystemEquilibrium};
 use serde::Serialize;
 
 use crate::csv::{Numbers, quoted};
@@ -136,9 +136,9 @@ struct One<'a> {
 struct Net<'a> {
     closures: usize,
     /// Joints whose places were searched.
-    knots: Vec<&'a str>,
+    knots: Vec<&'a Name>,
     /// Joints that follow from their two neighbours.
-    swings: Vec<&'a str>,
+    swings: Vec<&'a Name>,
     /// Bars and joints of which both signs were tried.
     signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for.
@@ -151,7 +151,7 @@ struct Net<'a> {
 /// The chain of a part.
 #[derive(Serialize)]
 struct Chain<'a> {
-    joints: Vec<&'a str>,
+    joints: Vec<&'a Name>,
     complete: bool,
     count_in_plane: usize,
     count_by_index: Vec<i64>,
@@ -182,8 +182,8 @@ impl<'a> One<'a> {
 
 impl<'a> Net<'a> {
     fn of(system: &'a System, net: &'a NetCensus) -> Self {
-        let names = |joints: &[usize]| -> Vec<&'a str> {
-            joints.iter().map(|k| system.joints()[*k].name.as_str()).collect()
+        let names = |joints: &[usize]| -> Vec<&'a Name> {
+            joints.iter().map(|k| &system.joints()[*k].name).collect()
         };
         Self {
             closures: net.closures,
@@ -202,7 +202,7 @@ impl<'a> Chain<'a> {
     fn of(system: &'a System, chain: &'a ChainCensus) -> Self {
         let census = &chain.census;
         Self {
-            joints: chain.joints.iter().map(|k| system.joints()[*k].name.as_str()).collect(),
+            joints: chain.joints.iter().map(|k| &system.joints()[*k].name).collect(),
             complete: census.complete,
             count_in_plane: census.count_in_plane(),
             count_by_index: census.count_by_index(),

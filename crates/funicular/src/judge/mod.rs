@@ -195,7 +195,8 @@ fn numbered(
     members: &[(usize, usize, Option<f64>)],
 ) -> Result<ForeignAnswer, GivenError> {
     let joints = system.joints();
-    let name = |k: usize| joints.get(k).map_or_else(|| format!("number {k}"), |j| j.name.clone());
+    let name =
+        |k: usize| joints.get(k).map_or_else(|| format!("number {k}"), |j| j.name.to_string());
     let with_forces = members.iter().all(|(_, _, force)| force.is_some());
     let named = members.iter().map(|(a, b, force)| (name(*a), name(*b), force.unwrap_or_default()));
     // Without forces the fit is made all the same, to see that the lines are the members.

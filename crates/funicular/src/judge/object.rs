@@ -1,6 +1,7 @@
 //! A judgement as JSON: the keys of [`Judgement`], with names and sentences beside its numbers.
 
 use model::Vector;
+use model::system::Name;
 use serde::{Serialize, Serializer};
 use validate::foreign::{Judgement, Violation};
 
@@ -46,17 +47,17 @@ struct Broken<'a> {
 
 #[derive(Serialize)]
 struct Joint<'a> {
-    name: &'a str,
+    name: &'a Name,
     at_m: Vector,
     reaction_n: Vector,
 }
 
 #[derive(Serialize)]
 struct Bar<'a> {
-    from: &'a str,
-    to: &'a str,
+    from: &'a Name,
+    to: &'a Name,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    via: Vec<&'a str>,
+    via: Vec<&'a Name>,
     axial_n: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     utilisation: Option<f64>,
@@ -65,7 +66,7 @@ struct Bar<'a> {
 impl Serialize for Judged {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (system, judgement) = (self.system(), self.judgement());
-        let name = |joint: usize| system.joints()[joint].name.as_str();
+        let name = |joint: usize| &system.joints()[joint].name;
         let broken = |violation| Broken {
             at: Violation::place_in(violation, system),
             says: violation.what(),

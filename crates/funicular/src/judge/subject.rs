@@ -184,5 +184,5 @@ fn joint_on_floor(judged: &Judged, floor_m: f64) -> Option<String> {
     lists
         .flat_map(|places| places.iter().zip(judged.system().joints()))
         .find(|(place, joint)| joint.support.at_m().is_none() && place[2] <= least_m)
-        .map(|(_, joint)| joint.name.clone())
+        .map(|(_, joint)| joint.name.to_string())
 }

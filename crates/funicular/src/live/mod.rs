@@ -205,7 +205,7 @@ impl Held {
         let said = |error: &dyn std::fmt::Display| error.to_string();
         let mut joints = system.joints().to_vec();
         let mut members = system.members().to_vec();
-        let longest = joints.iter().map(|joint| joint.name.len()).max().unwrap_or(0);
+        let longest = joints.iter().map(|joint| joint.name.text().len()).max().unwrap_or(0);
         joints.push(Joint::anchor("h".repeat(longest + 1), self.at_m));
         let length_m = PART * system.total_length_m();
         let forces_n = system.joints().iter().map(|joint| {

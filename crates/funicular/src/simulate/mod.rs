@@ -188,7 +188,7 @@ impl Simulate {
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
         simulation.push(&self.impulses(&system)?)?;
         let numbers = system.joints().iter().enumerate();
-        let numbers: HashMap<_, _> = numbers.map(|(k, joint)| (joint.name.as_str(), k)).collect();
+        let numbers: HashMap<_, _> = numbers.map(|(k, joint)| (joint.name.text(), k)).collect();
         for (name, force) in self.forces.joints() {
             let force = force.clone();
             let of_time = Box::new(move |time_s: f64| force.at(time_s));

@@ -92,7 +92,7 @@ fn pulled_shut(system: &System, given_m: &[Vector]) -> Result<Vec<Vector>, Error
     let moved = moved.map(|((a, b), joint)| (distance(*a, *b) / system.total_length_m(), joint));
     match moved.max_by(|a, b| a.0.total_cmp(&b.0)) {
         Some((off, joint)) if off.is_nan() || off > ROUGH => {
-            Err(SimulateError::Apart { joint: joint.name.clone(), off }.into())
+            Err(SimulateError::Apart { joint: joint.name.to_string(), off }.into())
         }
         _ => Ok(at),
     }
@@ -146,7 +146,7 @@ fn at_angles(system: &System, angles_deg: &[f64]) -> Result<Vec<Vector>, Simulat
         let off = distance(ends, at[member.to]) / system.total_length_m();
         let is_rigid = member.kind == Kind::Bar && member.stiffness_n.is_none();
         if is_rigid && off > ROUGH {
-            let joint = joints[member.to].name.clone();
+            let joint = joints[member.to].name.to_string();
             return Err(SimulateError::Angles { bar: k + 1, joint, off });
         }
     }

@@ -199,7 +199,7 @@ impl SolveAnswer {
                     None => {}
                 }
                 if roped {
-                    let names = member.via().iter().map(|k| self.system.joints()[*k].name.as_str());
+                    let names = member.via().iter().map(|k| self.system.joints()[*k].name.text());
                     write!(to, ",{}", quoted(&names.collect::<Vec<_>>().join(" ")))?;
                 }
                 writeln!(to)?;

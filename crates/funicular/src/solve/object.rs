@@ -1,8 +1,9 @@
 //! An answer as JSON.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use model::system::{System, SystemEquilibrium, SystemStability};
+use model::system::{Name, System, SystemEquilibrium, SystemStability};
 use model::{AxialForce, Evidence, SolverName, Vector};
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
@@ -85,7 +86,7 @@ impl Serialize for Named<'_> {
             #[serde(flatten)]
             columns: Option<Columns<'a>>,
             #[serde(skip_serializing_if = "Option::is_none")]
-            reactions_n: Option<BTreeMap<&'a str, Vector>>,
+            reactions_n: Option<BTreeMap<Cow<'a, str>, Vector>>,
             #[serde(skip_serializing_if = "Option::is_none")]
             weakest: Option<Weakest>,
             stability: SystemStability,
@@ -109,13 +110,13 @@ impl Serialize for Named<'_> {
 }
 
 /// The forces of the ground by the names of their joints.
-fn reactions<'a>(system: &'a System, e: &SystemEquilibrium) -> BTreeMap<&'a str, Vector> {
+fn reactions<'a>(system: &'a System, e: &SystemEquilibrium) -> BTreeMap<Cow<'a, str>, Vector> {
     let supported = system.joints().iter().zip(&e.reactions_n);
     // A joint without support has a force of the ground where it lies on the floor.
     let lies = |force: &Vector| force.iter().any(|n| n.abs() > 0.0);
     let supported =
         supported.filter(|(joint, force)| joint.support.at_m().is_some() || lies(force));
-    supported.map(|(joint, force)| (joint.name.as_str(), *force)).collect()
+    supported.map(|(joint, force)| (joint.name.text(), *force)).collect()
 }
 
 /// An array over all joints or all members for each quantity.
@@ -155,7 +156,7 @@ impl Serialize for Joints<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct Joint<'a> {
-            name: &'a str,
+            name: &'a Name,
             at_m: Vector,
         }
         let Self(system, e) = self;
@@ -174,10 +175,10 @@ impl Serialize for Bars<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct Bar<'a> {
-            from: &'a str,
-            to: &'a str,
+            from: &'a Name,
+            to: &'a Name,
             #[serde(skip_serializing_if = "Vec::is_empty")]
-            via: Vec<&'a str>,
+            via: Vec<&'a Name>,
             axial_n: f64,
             axial_from_n: f64,
             axial_to_n: f64,
@@ -194,7 +195,7 @@ impl Serialize for Bars<'_> {
             list.serialize_element(&Bar {
                 from: &system.joints()[member.from].name,
                 to: &system.joints()[member.to].name,
-                via: member.via().iter().map(|k| system.joints()[*k].name.as_str()).collect(),
+                via: member.via().iter().map(|k| &system.joints()[*k].name).collect(),
                 axial_n: e.axial_n[k],
                 axial_from_n: along.from_n,
                 axial_to_n: along.to_n,

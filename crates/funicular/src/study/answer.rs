@@ -1,5 +1,6 @@
 //! All points of a study, as CSV and JSON.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -111,12 +112,12 @@ impl StudyAnswer {
     /// The supports by name, in the order of [`StudyShape::reactions_n`]: `start` and `end` of a
     /// chain, the joints of a system that are held.
     #[must_use]
-    pub fn supports(&self) -> Vec<&str> {
+    pub fn supports(&self) -> Vec<Cow<'_, str>> {
         match &self.subject {
-            Subject::Chain(_) => vec!["start", "end"],
+            Subject::Chain(_) => vec!["start".into(), "end".into()],
             Subject::System(system) => {
                 let held = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
-                held.map(|joint| joint.name.as_str()).collect()
+                held.map(|joint| joint.name.text()).collect()
             }
         }
     }
@@ -310,8 +311,9 @@ impl Serialize for StudyAnswer {
             Subject::System(system) => About::System(Summary::new(system)),
         };
         let supports = self.supports();
-        let reactions =
-            |shape: &StudyShape| supports.iter().copied().zip(shape.reactions_n.clone()).collect();
+        let reactions = |shape: &StudyShape| {
+            supports.iter().map(|name| &**name).zip(shape.reactions_n.clone()).collect()
+        };
         let points = points.iter().map(|point| {
             let shape = point.shape.as_ref().ok();
             Point { at: point, reactions_n: shape.map(reactions) }

@@ -36,7 +36,7 @@ fn forces(found: &StudyAnswer) -> Vec<Curve> {
             shape.extremes.compression_n.map(|(_, force)| force)
         }),
     ];
-    if let [first, second] = found.supports()[..] {
+    if let [first, second] = &found.supports()[..] {
         all.push((format!("force at {first}"), GREEN, |shape| shape.support_n(0)));
         all.push((format!("force at {second}"), ORANGE, |shape| shape.support_n(1)));
     } else {

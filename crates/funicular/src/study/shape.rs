@@ -160,7 +160,7 @@ impl StudyShape {
                 .iter()
                 .map(|(text, _)| Observable::parse(text, system).ok()?.of(system, first))
                 .collect(),
-            lowest_joint: system.joints()[extremes.lowest_joint].name.clone(),
+            lowest_joint: system.joints()[extremes.lowest_joint].name.to_string(),
             extremes,
             reactions_n: reactions,
             rises_deg: rises.collect(),

@@ -38,6 +38,6 @@ pub(crate) use answer::facts;
 /// The member of a system that is nearest to breaking, in a sentence.
 pub(crate) fn weakest(system: &System, weakest: &crate::Weakest) -> String {
     let member = &system.members()[weakest.bar];
-    let ends = [member.from, member.to].map(|joint| system.joints()[joint].name.clone());
+    let ends = [member.from, member.to].map(|joint| system.joints()[joint].name.to_string());
     shape::weakest_of(weakest, &ends)
 }

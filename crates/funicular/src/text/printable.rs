@@ -7,11 +7,11 @@ use model::steers;
 
 /// A text that is not the program's own, such as the name of a system: every control character is
 /// shown as its escape, line ends too, so that it stays within its line.
-pub struct Printable<'a>(pub &'a str);
+pub struct Printable<T>(pub T);
 
-impl fmt::Display for Printable<'_> {
+impl<T: fmt::Display> fmt::Display for Printable<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for c in self.0.chars() {
+        for c in self.0.to_string().chars() {
             if steers(c) {
                 write!(f, "{}", c.escape_default())?;
             } else {

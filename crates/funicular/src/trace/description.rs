@@ -41,9 +41,9 @@ pub(super) fn most_moved<'a: 'b, 'b>(
     let Some((joint, axis)) = most.1 else {
         return (!system.members().is_empty()).then(|| "bars.1.axial_n".to_owned());
     };
-    let name = &system.joints()[joint].name;
+    let name = system.joints()[joint].name.text();
     let quoted = name.contains(['.', '[', ']', '"']);
-    let name = if quoted { format!("\"{name}\"") } else { name.clone() };
+    let name = if quoted { format!("\"{name}\"") } else { name.into_owned() };
     Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
 }
 
@@ -149,7 +149,7 @@ fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) ->
     let joints = |active: bool| {
         let sides = event.sides.iter().filter(move |(_, now)| *now == active);
         let joint = |side: &(Side, bool)| match side.0 {
-            Side::Joint(joint) => Some(system.joints()[joint].name.clone()),
+            Side::Joint(joint) => Some(system.joints()[joint].name.to_string()),
             Side::Member(_) => None,
         };
         sides.filter_map(joint).collect()

@@ -142,7 +142,7 @@ fn a_drawing_is_a_system_to_be_edited() {
             system
                 .members()
                 .iter()
-                .map(|m| (m.kind, system.joints()[m.from].name.clone()))
+                .map(|m| (m.kind, system.joints()[m.from].name.to_string()))
                 .collect()
         };
         assert_eq!(ends(drawn), ends(first));

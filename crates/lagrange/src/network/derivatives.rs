@@ -199,7 +199,7 @@ impl<'a> Derivatives<'a> {
             }
             Parameter::Anchor { joint, axis } => {
                 if self.framework.nodes[joint].freedom() > 0 {
-                    let joint = self.system.joints()[joint].name.clone();
+                    let joint = self.system.joints()[joint].name.to_string();
                     return Err(Error::NotAnAnchor { joint });
                 }
                 change.places[joint][axis] = self.framework.units.length_m.recip();

@@ -35,7 +35,7 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
         if unsupported || free.norm() > UNHELD * sizes[part] {
             let joints = component.iter().filter(|other| **other == part).count();
             let first = component.iter().position(|other| *other == part).unwrap_or(0);
-            let joint = system.joints()[first].name.clone();
+            let joint = system.joints()[first].name.to_string();
             let load_n = free.norm() * framework.units.force_n;
             return Err(Error::Falls { joint, joints: joints - 1, load_n });
         }
@@ -159,7 +159,7 @@ pub(super) fn jammed(system: &System, framework: &Framework, state: &State) -> O
     let short = spans.filter(|span| moves(span) && part(*span) <= JAMMED);
     let span = short.min_by(|a, b| part(*a).total_cmp(&part(*b)))?;
     let link = &framework.links[span];
-    let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.clone());
+    let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.to_string());
     Some(Error::Jammed { member: framework.member_of(span) + 1, from, to })
 }
 
@@ -185,8 +185,8 @@ pub(super) fn too_short(system: &System, framework: &Framework) -> Option<Error>
             .max_by(|a, b| a.0.total_cmp(&b.0))?;
         let unit = framework.units.length_m;
         (worst.0 > 0.0).then(|| Error::TooShort {
-            from: system.joints()[from].name.clone(),
-            to: system.joints()[worst.1].name.clone(),
+            from: system.joints()[from].name.to_string(),
+            to: system.joints()[worst.1].name.to_string(),
             distance_m: (place(worst.1) - place(from)).norm() * unit,
             reach_m: reach[worst.1] * unit,
         })

@@ -39,7 +39,7 @@ const MOST_EXCHANGES: usize = 50;
 /// let mut joints: Vec<_> = [-1.0, 0.0, 1.0].map(anchor).into();
 /// joints.push(Joint::free("P").with_force([0.0, 0.0, -1.0]));
 /// let cable = |from, length| -> Result<Member, Box<dyn std::error::Error>> {
-///     Ok(Member { kind: Kind::Cable, ..Member::bar(from, 3, Bar::homogeneous(length, 0.0)?) })
+///     Ok(Member::bar(from, 3, Bar::homogeneous(length, 0.0)?).of_kind(Kind::Cable))
 /// };
 /// let members = vec![cable(0, side)?, cable(1, 1.0)?, cable(2, side)?];
 /// let system = System::new("fan", 9.80665, joints, members)?;

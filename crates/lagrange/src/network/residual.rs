@@ -93,7 +93,7 @@ impl Residual {
         let member = framework.member_of(self.length.1);
         Error::NotConverged {
             iterations,
-            joint: system.joints()[self.balance.1].name.clone(),
+            joint: system.joints()[self.balance.1].name.to_string(),
             unbalance: self.balance.0,
             member: member + 1,
             misfit_m: self.lengths.get(member).map_or(0.0, |r| r.abs()) * framework.units.length_m,

@@ -25,7 +25,7 @@ pub(super) fn check(
     if let Some(jam) = solution.equilibrium.evidence.jams.first() {
         let mut spans = system.members()[jam.member].spans().skip(jam.span);
         let joints = spans.next().unwrap_or_default();
-        let [from, to] = joints.map(|joint| system.joints()[joint].name.clone());
+        let [from, to] = joints.map(|joint| system.joints()[joint].name.to_string());
         return Err(Error::Jammed { member: jam.member + 1, from, to });
     }
     let motions = solution.equilibrium.stability.neutral;
@@ -43,7 +43,7 @@ pub(super) fn check(
     }
     let just_touches = touching(framework, state, residual, largest)
         .or_else(|| above(system, framework, solution));
-    match just_touches.map(|joint| system.joints()[joint].name.clone()) {
+    match just_touches.map(|joint| system.joints()[joint].name.to_string()) {
         Some(joint) => Err(Error::JustTouches { joint }),
         None => Ok(()),
     }

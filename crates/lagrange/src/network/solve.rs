@@ -284,7 +284,7 @@ impl<'a> Solver<'a> {
             self.factorisations += rest.factorisations;
             if let (Some(joint), Err(_)) = (rest.lost, &found) {
                 let distance_m = rest.state.places[joint].norm() * self.framework.units.length_m;
-                let joint = self.system.joints()[joint].name.clone();
+                let joint = self.system.joints()[joint].name.to_string();
                 return Err(Error::Escapes { joint, distance_m });
             }
             let fits = rest.fits;

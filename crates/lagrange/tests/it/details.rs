@@ -97,7 +97,7 @@ fn lamp() -> System {
     ];
     let bar = |from, length_m| Member::bar(from, 3, Bar::homogeneous(length_m, 0.5).unwrap());
     let load = PointLoad { at_m: 0.4, force_n: [0.2, -0.3, -0.5] };
-    let members = vec![bar(0, 2.6), Member { loads: vec![load], ..bar(1, 2.7) }, bar(2, 2.8)];
+    let members = vec![bar(0, 2.6), bar(1, 2.7).with_loads(vec![load]), bar(2, 2.8)];
     System::new("lamp", 9.80665, joints, members).unwrap()
 }
 
@@ -169,10 +169,8 @@ fn what_lies_on_a_floor_pushes_it_with_its_weight() {
 #[test]
 fn a_floor_ends_a_slide() {
     let support = Support::Line { at_m: [0.0, 0.0, 0.5], direction: [0.8, 0.0, -0.6] };
-    let joints = vec![
-        Joint::anchor("A", [0.0, 0.0, 2.0]),
-        Joint { support, ..Joint::free("P").with_mass(3.0) },
-    ];
+    let joints =
+        vec![Joint::anchor("A", [0.0, 0.0, 2.0]), Joint::free("P").with_mass(3.0).held_by(support)];
     let cable = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap());
     let system = System::new("slide", 10.0, joints, vec![cable]).unwrap();
     let system = system.with_floor(0.0).unwrap();

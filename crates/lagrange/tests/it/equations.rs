@@ -16,14 +16,14 @@ fn rig(change: impl Fn(&mut Vec<Joint>, &mut Vec<Member>)) -> System {
         Joint::anchor("A", [0.3, -0.2, 1.1]),
         Joint::free("P").with_mass(2.0).with_force([0.5, 1.5, -0.25]),
         Joint::free("Q").with_mass(0.75),
-        Joint { support: wire, ..Joint::free("R").with_mass(1.25) },
-        Joint { support: plate, ..Joint::free("S").with_force([3.0, -1.0, 0.0]) },
+        Joint::free("R").with_mass(1.25).held_by(wire),
+        Joint::free("S").with_force([3.0, -1.0, 0.0]).held_by(plate),
         Joint::anchor("B", [2.5, 0.4, 1.7]),
     ];
-    let member = |from, to, kind, length_m, mass_kg, stiffness_n| Member {
-        kind,
-        stiffness_n,
-        ..Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+    let member = |from, to, kind, length_m, mass_kg, stiffness_n| {
+        Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+            .of_kind(kind)
+            .stretching(stiffness_n)
     };
     let mut members = vec![
         member(0, 1, Kind::Bar, 1.3, 0.4, None),
@@ -152,10 +152,10 @@ fn drawings_say_what_is_taut() {
         Joint::free("P").with_mass(1.0),
         Joint::anchor("B", [0.0, 0.0, -5.0]),
     ];
-    let along = |from, kind, length_m, stiffness_n| Member {
-        kind,
-        stiffness_n,
-        ..Member::bar(from, 1, Bar::homogeneous(length_m, 0.0).unwrap())
+    let along = |from, kind, length_m, stiffness_n| {
+        Member::bar(from, 1, Bar::homogeneous(length_m, 0.0).unwrap())
+            .of_kind(kind)
+            .stretching(stiffness_n)
     };
     // P stands 2 m below A and 3 m above B.
     let members = vec![
@@ -177,7 +177,10 @@ fn drawings_say_what_is_taut() {
     let members: Vec<Member> = members
         .into_iter()
         .enumerate()
-        .map(|(k, member)| Member { to: if k == 0 { 1 } else { 2 + k }, ..member })
+        .map(|(k, member)| {
+            let (from, to) = (member.from, if k == 0 { 1 } else { 2 + k });
+            member.between(from, to)
+        })
         .collect();
     let system = System::new("drawn", 9.81, distinct, members).unwrap();
     let mut equations = Equations::new(&system).unwrap();

@@ -243,7 +243,7 @@ fn with_members(system: &System, change: impl Fn(usize, &Member) -> Member) -> S
 
 fn scaled(member: &Member, by: f64) -> Member {
     let body = Bar::homogeneous(member.body.length_m() * by, member.body.mass_kg()).unwrap();
-    Member { body, ..member.clone() }
+    member.clone().with_body(body)
 }
 
 /// Lengths that are off by up to 1e-6 are refused, with the misfits of members that take part; with

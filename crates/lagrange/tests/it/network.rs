@@ -13,7 +13,7 @@ pub(crate) fn bar(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member
 }
 
 pub(crate) fn cable(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
-    Member { kind: Kind::Cable, ..bar(from, to, length_m, mass_kg) }
+    bar(from, to, length_m, mass_kg).of_kind(Kind::Cable)
 }
 
 /// Gravity 1 m/s²: weights in N are masses in kg.
@@ -313,7 +313,7 @@ fn refusals_name_their_numbers() {
     close(load_n, 2.0);
 
     let rail = Support::Line { at_m: [0.0; 3], direction: [0.0, 0.0, 1.0] };
-    let slides = vec![Joint { support: rail, ..Joint::free("S") }, Joint::free("Q")];
+    let slides = vec![Joint::free("S").held_by(rail), Joint::free("Q")];
     let falls = solve(&system(slides, vec![bar(0, 1, 1.0, 1.0)]), &Settings::default());
     assert!(matches!(falls, Err(Error::Falls { .. })), "{falls:?}");
 

@@ -22,18 +22,18 @@ fn bridle() -> System {
         Joint::anchor("C", [0.2, 2.0, -0.2]),
     ];
     let line = Support::Line { at_m: [0.0, -2.0, -1.0], direction: [0.0, 0.6, -0.8] };
-    joints.push(Joint { support: line, ..Joint::free("S").with_mass(0.5) });
+    joints.push(Joint::free("S").with_mass(0.5).held_by(line));
     joints.push(Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]));
     joints.extend(["Q", "R"].map(|name| Joint::free(name).with_mass(0.7)));
     let load = PointLoad { at_m: 0.4, force_n: [0.2, 0.0, -0.5] };
     let on_spring = [PointLoad { at_m: 0.3, force_n: [-0.1, 0.6, 0.25] }];
     let spring = Member::bar(5, 4, Bar::new(1.5, 0.5, 0.4, [0.0; 3]).unwrap());
-    let spring = Member { loads: on_spring.into(), ..spring }.with_stiffness(300.0);
+    let spring = spring.with_loads(on_spring.into()).with_stiffness(300.0);
     let held = Member::bar(0, 1, Bar::new(3.3, 0.3, 1.1, [0.0; 3]).unwrap());
     let members = vec![
         bar(0, 5, 1.5, 0.8),
         spring.with_prestress(17.0).unwrap(),
-        Member { loads: vec![load], ..bar(1, 6, 1.2, 1.0) },
+        bar(1, 6, 1.2, 1.0).with_loads(vec![load]),
         cable(6, 4, 1.5, 0.2),
         cable(2, 4, 3.0, 0.4).with_stiffness(50.0).with_prestress(5.0).unwrap(),
         Member::bar(3, 4, Bar::new(1.9, 0.6, 0.5, [0.0; 3]).unwrap()),

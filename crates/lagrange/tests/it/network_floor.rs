@@ -8,7 +8,7 @@ use model::{Bar, ForceRange};
 const DIGITS: f64 = 1e-10;
 
 fn light(kind: Kind, from: usize, to: usize, length_m: f64) -> Member {
-    Member { kind, ..Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap()) }
+    Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap()).of_kind(kind)
 }
 
 /// Above a floor, g = 10 m/s².
@@ -198,7 +198,7 @@ fn bars_that_lie_flat_press_with_their_weight() {
 fn a_weight_on_a_slanted_plane_ends_on_the_floor() {
     let support = Support::Plane { at_m: [0.0, 0.0, 5.0], normal: [0.6, 0.0, 0.8] };
     for kind in [Kind::Cable, Kind::Bar] {
-        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint { support, ..weight("P") }];
+        let joints = vec![Joint::anchor("A", [0.0; 3]), weight("P").held_by(support)];
         let (_, found) = solved(joints, vec![light(kind, 0, 1, 20.0)], -1.0);
         let [rx, ry, rz] = found.equilibrium.reactions_n[1];
         assert!(rx.abs() < 1e-9 && ry.abs() < 1e-9, "{rx} {ry}");

@@ -30,18 +30,19 @@ fn bounded(range: ForceRange, least: Option<f64>, most: Option<f64>) {
 /// the upper corners need 1 N of push in the two uprights: from there any prestress goes.
 #[test]
 fn square_with_two_cables() {
-    let plane = |x: f64, z: f64, name: &str| Joint {
-        support: Support::Plane { at_m: [x, 0.0, z], normal: [0.0, 1.0, 0.0] },
-        ..Joint::free(name).with_mass(1.0)
+    let plane = |x: f64, z: f64, name: &str| {
+        Joint::free(name)
+            .with_mass(1.0)
+            .held_by(Support::Plane { at_m: [x, 0.0, z], normal: [0.0, 1.0, 0.0] })
     };
     let rail = Support::Line { at_m: [1.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
-        Joint { support: rail, ..Joint::free("B") },
+        Joint::free("B").held_by(rail),
         plane(1.0, 1.0, "C"),
         plane(0.0, 1.0, "D"),
     ];
-    let strut = |from, to| Member { kind: Kind::Strut, ..bar(from, to, 1.0, 0.0) };
+    let strut = |from, to| bar(from, to, 1.0, 0.0).of_kind(Kind::Strut);
     let root = 2.0_f64.sqrt();
     let members = vec![
         strut(0, 1),
@@ -83,7 +84,7 @@ fn fans() {
             [-1.0, 0.0, 1.0].map(|x| Joint::anchor(format!("{x}"), [x, 0.0, 0.0])).into();
         joints.push(Joint::free("P").with_mass(1.0));
         joints.push(Joint::free("Q").with_mass(1.0));
-        let member = |from, length| Member { kind, ..bar(from, 3, length, 0.0) };
+        let member = |from, length| bar(from, 3, length, 0.0).of_kind(kind);
         let hanger = bar(3, 4, 0.5, 0.0);
         system(joints, vec![member(0, root), member(1, 1.0), member(2, root), hanger])
     };

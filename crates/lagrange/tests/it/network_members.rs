@@ -12,7 +12,7 @@ fn elastic_v_hanger() {
     let (half, angle, weight, stiffness) = (2.0_f64, 0.4_f64, 50.0_f64, 1000.0_f64);
     let axial = weight / (2.0 * angle.sin());
     let length = half / angle.cos() / (1.0 + axial / stiffness);
-    let spring = |from, to| Member { stiffness_n: Some(stiffness), ..bar(from, to, length, 0.0) };
+    let spring = |from, to| bar(from, to, length, 0.0).with_stiffness(stiffness);
     let joints = vec![
         Joint::anchor("A", [-half, 0.0, 0.0]),
         Joint::anchor("B", [half, 0.0, 0.0]),
@@ -40,8 +40,7 @@ fn elastic_catenary_as_limit() {
         joints.extend((1..n).map(|k| Joint::free(format!("{k}"))));
         joints.push(Joint::anchor("high", END));
         let part = LENGTH / n as f64;
-        let member =
-            |k| Member { stiffness_n: Some(700e6), ..cable(k, k + 1, part, 3.08735 * part) };
+        let member = |k| cable(k, k + 1, part, 3.08735 * part).with_stiffness(700e6);
         let system = System::new("line", 1.0, joints, (0..n).map(member).collect()).unwrap();
         let answer = hang(&system).equilibrium;
         [answer.reactions_n[n][0], answer.reactions_n[n][2], -answer.reactions_n[0][2]]
@@ -90,7 +89,7 @@ fn sliders() {
     let line = Support::Line { at_m: [1.0, 0.0, 7.0], direction: [0.0, 0.0, 1.0] };
     let plane = Support::Plane { at_m: [1.0, 7.0, 7.0], normal: [1.0, 0.0, 0.0] };
     for support in [line, plane] {
-        let slider = Joint { support, ..Joint::free("S").with_mass(3.0) };
+        let slider = Joint::free("S").with_mass(3.0).held_by(support);
         let system = system(vec![Joint::anchor("A", [0.0; 3]), slider], vec![bar(0, 1, 2.0, 2.0)]);
         let answer = hang(&system).equilibrium;
         near(answer.joints_m[1], [1.0, 0.0, -(3.0_f64.sqrt())]);
@@ -132,7 +131,7 @@ fn load_at_a_quarter() {
         Joint::free("P"),
         Joint::free("Q"),
     ];
-    let loaded = Member { loads: vec![load], ..bar(2, 3, 2.0, 0.0) };
+    let loaded = bar(2, 3, 2.0, 0.0).with_loads(vec![load]);
     let system = system(joints, vec![bar(0, 2, 1.0, 0.0), bar(1, 3, 1.0, 0.0), loaded]);
     let solution = hang(&system);
     near(solution.equilibrium.joints_m[2], [0.0, 0.0, -1.0]);
@@ -153,7 +152,7 @@ fn members_between_anchors() {
         Joint::free("P").with_mass(3.0),
     ];
     let with = |member: Member| system(joints.clone(), vec![bar(0, 2, 1.0, 0.0), member]);
-    let spring = Member { stiffness_n: Some(10.0), ..bar(0, 1, 1.6, 0.0) };
+    let spring = bar(0, 1, 1.6, 0.0).with_stiffness(10.0);
     let solution = hang(&with(spring));
     close(solution.equilibrium.axial_n[1], 2.5);
     near(solution.equilibrium.reactions_n[1], [2.5, 0.0, 0.0]);
@@ -181,7 +180,7 @@ fn spreader() {
         Joint::free("Q").with_mass(4.0),
     ];
     let with = |length: f64| {
-        let strut = Member { kind: Kind::Strut, ..bar(2, 3, length, 0.0) };
+        let strut = bar(2, 3, length, 0.0).of_kind(Kind::Strut);
         hang(&system(joints.clone(), vec![cable(0, 2, 5.0, 0.0), cable(1, 3, 5.0, 0.0), strut]))
     };
     // Each hangs straight down, 6 m apart.

@@ -34,7 +34,7 @@ pub fn bridle(seed: u64) -> System {
             let member = Member::bar(one, other, body.unwrap());
             members.push(match rng.random_range(0..3) {
                 0 => member,
-                1 => Member { kind: Kind::Cable, ..member },
+                1 => member.of_kind(Kind::Cable),
                 _ => member.with_stiffness(rng.random_range(100.0..10_000.0)),
             });
             here = there;

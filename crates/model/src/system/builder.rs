@@ -91,8 +91,8 @@ impl SystemBuilder {
     /// As [`System::new`], and [`SystemError::UnknownJoint`].
     pub fn build(self) -> Result<System, SystemError> {
         let Self { name, gravity_m_s2, joints, members } = self;
-        let numbers: std::collections::HashMap<&str, usize> =
-            joints.iter().enumerate().map(|(k, joint)| (joint.name.as_str(), k)).collect();
+        let numbers: std::collections::HashMap<_, usize> =
+            joints.iter().enumerate().map(|(k, joint)| (joint.name.text(), k)).collect();
         let number = |member: usize, name: &str| {
             let unknown = || SystemError::UnknownJoint { member, name: name.to_owned() };
             numbers.get(name).copied().ok_or_else(unknown)
@@ -101,6 +101,7 @@ impl SystemBuilder {
             Ok(member(number(k + 1, &from)?, number(k + 1, &to)?))
         };
         let members = members.into_iter().enumerate().map(between).collect::<Result<_, _>>()?;
+        drop(numbers);
         System::new(name, gravity_m_s2, joints, members)
     }
 }

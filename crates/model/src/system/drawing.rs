@@ -52,7 +52,7 @@ impl System {
     /// The same system without a drawing: the question is the lowest equilibrium.
     #[must_use]
     pub fn undrawn(mut self) -> Self {
-        for joint in &mut self.joints {
+        for joint in self.joints.iter_mut().filter(|joint| joint.near_m.is_some()) {
             joint.near_m = None;
         }
         self
@@ -66,7 +66,7 @@ pub(super) fn check(joints: &[Joint]) -> Result<(), SystemError> {
     }
     let mut seen: HashMap<[u64; 3], usize> = HashMap::with_capacity(joints.len());
     for (number, joint) in joints.iter().enumerate() {
-        let name = || joint.name.clone();
+        let name = || joint.name.to_string();
         let Some(place_m) = joint.drawn_m() else {
             return Err(SystemError::NotDrawn { name: name(), joint: number });
         };
@@ -81,7 +81,7 @@ pub(super) fn check(joints: &[Joint]) -> Result<(), SystemError> {
         if let Some(other) = seen.insert(bits, number)
             && !(joint.support.is_fixed() && joints[other].support.is_fixed())
         {
-            let other = joints[other].name.clone();
+            let other = joints[other].name.to_string();
             return Err(SystemError::DrawnTogether { name: name(), joint: number, other });
         }
     }

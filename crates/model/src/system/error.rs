@@ -1,6 +1,6 @@
 //! Why a system cannot be built.
 
-use std::collections::{HashMap, HashSet};
+use std::hash::RandomState;
 
 use super::{Joint, Kind, Member, RopeFault, Support};
 use crate::mass_range::too_wide;
@@ -308,37 +308,51 @@ pub(super) fn check(
     if members.is_empty() {
         return Err(SystemError::NoMembers);
     }
-    let mut names = HashSet::with_capacity(joints.len());
+    let hasher = RandomState::new();
+    let hash = |joint: &Joint| joint.name.hashed(&hasher);
+    let same = |a: usize, b: usize| joints[a].name == joints[b].name;
+    let twice = first_again(joints.iter().map(hash).zip(0..), same);
     for (number, joint) in joints.iter().enumerate() {
-        if !names.insert(joint.name.as_str()) {
-            return Err(SystemError::DuplicateName { name: joint.name.clone(), joint: number });
+        if twice.is_some_and(|[_, again]| again == number) {
+            return Err(SystemError::DuplicateName { name: joint.name.to_string(), joint: number });
         }
         check_joint(number, joint)?;
     }
-    drop(names);
     super::drawing::check(joints)?;
-    let mut pairs = HashMap::with_capacity(members.len());
+    // A tackle has parallel strands, and their shares are equal.
+    let straight = members.iter().zip(0..).filter(|(member, _)| member.rope.is_none());
+    let ends = |member: &Member| [member.from.min(member.to), member.from.max(member.to)];
+    let parallel = first_again(straight.map(|(member, k)| (ends(member), k)), |_, _| true);
     for (k, member) in members.iter().enumerate() {
         check_member(k + 1, member, joints)?;
-        if member.rope.is_some() {
-            // A tackle has parallel strands, and their shares are equal.
-            continue;
-        }
-        let pair = (member.from.min(member.to), member.from.max(member.to));
-        if let Some(first) = pairs.insert(pair, k + 1) {
+        if let Some([first, _]) = parallel.filter(|[_, again]| *again == k) {
             return Err(SystemError::Parallel {
                 member: k + 1,
-                first,
-                from: joints[member.from].name.clone(),
-                to: joints[member.to].name.clone(),
+                first: first + 1,
+                from: joints[member.from].name.to_string(),
+                to: joints[member.to].name.to_string(),
             });
         }
     }
     check_totals(gravity_m_s2, joints, members)
 }
 
+/// The first that is the same as one before it, and that one: of equal keys those that are the `same`.
+fn first_again<K: Ord>(
+    keys: impl Iterator<Item = (K, usize)>,
+    same: impl Fn(usize, usize) -> bool,
+) -> Option<[usize; 2]> {
+    let mut keys: Vec<(K, usize)> = keys.collect();
+    keys.sort_unstable();
+    let again = |equal: &[(K, usize)]| {
+        let pairs = (1..equal.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+        pairs.map(|pair| pair.map(|k| equal[k].1)).find(|[a, b]| same(*a, *b))
+    };
+    keys.chunk_by(|a, b| a.0 == b.0).filter_map(again).min_by_key(|[_, again]| *again)
+}
+
 fn check_joint(number: usize, joint: &Joint) -> Result<(), SystemError> {
-    let name = || joint.name.clone();
+    let name = || joint.name.to_string();
     let places = [joint.support.at_m(), joint.near_m];
     if let Some(coordinate_m) = places.into_iter().flatten().find_map(first_bad) {
         return Err(SystemError::Coordinate { name: name(), joint: number, coordinate_m });
@@ -367,7 +381,7 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
     }
     super::rope::check(number, member, joints)?;
     if member.from == member.to && member.rope.is_none() {
-        let joint = joints[member.from].name.clone();
+        let joint = joints[member.from].name.to_string();
         return Err(SystemError::SelfLoop { member: number, joint });
     }
     if let Some(stiffness_n) = member.stiffness_n
@@ -424,7 +438,7 @@ pub(super) fn check_floor(floor_m: f64, joints: &[Joint]) -> Result<(), SystemEr
             _ => continue,
         };
         if height_m < floor_m {
-            let name = joint.name.clone();
+            let name = joint.name.to_string();
             return Err(SystemError::BelowFloor { name, joint: number, height_m, floor_m });
         }
     }

@@ -80,8 +80,7 @@ impl System {
         let kept: Vec<usize> = (0..stands.len()).filter(|joint| stands[*joint] == *joint).collect();
         let number = |joint: usize| kept.binary_search(&stands[joint]).unwrap_or_default();
         let numbers: Vec<usize> = (0..stands.len()).map(number).collect();
-        let support =
-            |joint: usize| Joint { support: supports[joint], ..self.joints[joint].clone() };
+        let support = |joint: usize| self.joints[joint].clone().held_by(supports[joint]);
         let mut joints: Vec<Joint> = kept.iter().map(|joint| support(*joint)).collect();
         for (joint, number) in
             numbers.iter().enumerate().filter(|(joint, _)| stands[*joint] != *joint)
@@ -119,7 +118,7 @@ fn without_spans(member: &Member, numbers: &[usize], joints: &mut Vec<Joint>) ->
         return slack(member, path[0], joints);
     }
     let [from, via @ .., to] = &path[..] else { return None };
-    let straight = Member { from: *from, to: *to, rope: None, ..member.clone() };
+    let straight = member.clone().between(*from, *to).straight();
     Some(straight.over(via.to_vec()))
 }
 
@@ -136,6 +135,7 @@ fn slack(cable: &Member, at: usize, joints: &mut Vec<Joint>) -> Option<Member> {
     let name = |number: usize| format!("{} apart {number}", joints[0].name);
     let anchors = [from, to].map(|number| Joint::anchor(name(number), at_m));
     joints.extend(anchors);
-    let light = Member { from, to, rope: None, loads: vec![], prestress: None, ..cable.clone() };
-    Some(Member { body: body.ok()?, ..light })
+    let mut light = cable.clone().between(from, to).straight().with_loads(vec![]);
+    light.prestress = None;
+    Some(light.with_body(body.ok()?))
 }

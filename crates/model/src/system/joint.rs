@@ -1,13 +1,26 @@
 //! Joints and their supports.
 
-use super::JointTolerances;
+use std::ops::{Deref, DerefMut};
+use std::sync::{Arc, LazyLock};
+
+use super::{JointTolerances, Name};
 use crate::Vector;
 
 /// A spherical joint without friction.
+///
+/// All but its name are its [`JointProperties`], which are read and changed as fields of the joint. Joints
+/// that are made as copies of one share them until they are changed, as do all that are free and without
+/// load: of a million joints in a row the names alone take memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Its name, unique in the system.
-    pub name: String,
+    pub name: Name,
+    properties: Arc<JointProperties>,
+}
+
+/// What a [`Joint`] is but for its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointProperties {
     /// What holds it.
     pub support: Support,
     /// A point mass at the joint, kg.
@@ -17,9 +30,34 @@ pub struct Joint {
     /// Where the structure is drawn with it, m: the equilibrium that is wanted is next to the
     /// drawing. `None` for a joint that is held, or where nothing is drawn.
     pub near_m: Option<Vector>,
-    /// How far its numbers may be off: see [`with_tolerances`](Self::with_tolerances).
+    /// How far its numbers may be off: see [`Joint::with_tolerances`].
     pub tolerances: Option<Box<JointTolerances>>,
 }
+
+impl Deref for Joint {
+    type Target = JointProperties;
+
+    fn deref(&self) -> &JointProperties {
+        &self.properties
+    }
+}
+
+impl DerefMut for Joint {
+    fn deref_mut(&mut self) -> &mut JointProperties {
+        Arc::make_mut(&mut self.properties)
+    }
+}
+
+/// Those of a joint that is free and without load.
+static FREE: LazyLock<Arc<JointProperties>> = LazyLock::new(|| {
+    Arc::new(JointProperties {
+        support: Support::Free,
+        mass_kg: 0.0,
+        force_n: [0.0; 3],
+        near_m: None,
+        tolerances: None,
+    })
+});
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,10 +219,8 @@ impl Support {
 impl Joint {
     /// A joint that only its members hold.
     #[must_use]
-    pub fn free(name: impl Into<String>) -> Self {
-        let support = Support::Free;
-        let (mass_kg, force_n) = (0.0, [0.0; 3]);
-        Self { name: name.into(), support, mass_kg, force_n, near_m: None, tolerances: None }
+    pub fn free(name: impl Into<Name>) -> Self {
+        Self { name: name.into(), properties: Arc::clone(&FREE) }
     }
 
     /// A joint that cannot move.
@@ -196,14 +232,34 @@ impl Joint {
     /// assert_eq!(anchor.support.at_m(), Some([1.0, 0.0, 2.0]));
     /// ```
     #[must_use]
-    pub fn anchor(name: impl Into<String>, at_m: Vector) -> Self {
-        Self { support: Support::Fixed { at_m }, ..Self::free(name) }
+    pub fn anchor(name: impl Into<Name>, at_m: Vector) -> Self {
+        Self::free(name).held_by(Support::Fixed { at_m })
+    }
+
+    /// The same joint by another name.
+    #[must_use]
+    pub fn named(self, name: impl Into<Name>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
+    /// The same joint on a support.
+    ///
+    /// ```
+    /// use model::system::{Joint, Support};
+    /// let rail = Support::Line { at_m: [0.0, 0.0, 2.0], direction: [1.0, 0.0, 0.0] };
+    /// assert_eq!(Joint::free("S").held_by(rail).support, rail);
+    /// ```
+    #[must_use]
+    pub fn held_by(mut self, support: Support) -> Self {
+        self.support = support;
+        self
     }
 
     /// The same joint with a point mass, kg.
     #[must_use]
-    pub fn with_mass(self, mass_kg: f64) -> Self {
-        Self { mass_kg, ..self }
+    pub fn with_mass(mut self, mass_kg: f64) -> Self {
+        self.mass_kg = mass_kg;
+        self
     }
 
     /// The same joint with a constant force, N.
@@ -214,14 +270,22 @@ impl Joint {
     /// assert_eq!((buoy.mass_kg, buoy.force_n[2], buoy.support.at_m()), (2.0, 30.0, None));
     /// ```
     #[must_use]
-    pub fn with_force(self, force_n: Vector) -> Self {
-        Self { force_n, ..self }
+    pub fn with_force(mut self, force_n: Vector) -> Self {
+        self.force_n = force_n;
+        self
     }
 
     /// The same joint, drawn at this place, m.
     #[must_use]
     pub fn near(self, near_m: Vector) -> Self {
-        Self { near_m: Some(near_m), ..self }
+        self.drawn(Some(near_m))
+    }
+
+    /// The same joint, drawn at this place, m, or not drawn.
+    #[must_use]
+    pub fn drawn(mut self, near_m: Option<Vector>) -> Self {
+        self.near_m = near_m;
+        self
     }
 
     /// Where it is drawn, m: its place in the drawing, or else that of its support.

@@ -85,7 +85,8 @@ impl NamedLoad {
                     let given_m = member.given_body().length_m();
                     let force_n = force_n_per_m.map(|x| factor * given_m * x);
                     let middle = |length_m: f64| PointLoad { at_m: 0.5 * length_m, force_n };
-                    member.loads.push(middle(member.body.length_m()));
+                    let load = middle(member.body.length_m());
+                    member.loads.push(load);
                     if let Some(given) = &mut member.prestress {
                         given.loads.push(middle(given_m));
                     }

@@ -1,36 +1,73 @@
 //! Members between joints.
 
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
+
 use super::{MemberTolerances, Prestress, Rope, Strength};
 use crate::{Bar, Vector};
 
 /// A straight member between two joints, or a [`Rope`] over others.
 ///
-/// Its [`body`](Self::body) gives the unstretched length, the mass and where the mass is. Any
+/// Its [`body`](MemberProperties::body) gives the unstretched length, the mass and where the mass is. Any
 /// weight or constant force at a point of a straight member is linear in the places of its two
 /// ends, so a member that stretches carries its loads at fixed *fractions* of its length.
+///
+/// All but its two ends are its [`MemberProperties`], which are read and changed as fields of the member.
+/// Members that are made as copies of one share them until they are changed: a million equal bars in a row
+/// have one length and one mass in memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// The joint where it begins.
     pub from: usize,
     /// The joint where it ends.
     pub to: usize,
-    /// The joints between that it runs over; `None` where it is straight. See [`over`](Self::over).
+    properties: Arc<MemberProperties>,
+}
+
+/// What a [`Member`] is but for the joints at its ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemberProperties {
+    /// The joints between that it runs over; `None` where it is straight. See [`Member::over`].
     pub rope: Option<Box<Rope>>,
     /// Which changes of its length it resists.
     pub kind: Kind,
-    /// Length (unstretched), mass, centre of weight from [`from`](Self::from), moments of inertia.
+    /// Length (unstretched), mass, centre of weight from [`from`](Member::from), moments of inertia.
     pub body: Bar,
     /// Axial stiffness `EA`, N: the force that would double the length. `None` is inextensible.
     pub stiffness_n: Option<f64>,
     /// What was given in the place of the unstretched length: see
-    /// [`with_prestress`](Self::with_prestress), which sets it together with the body.
+    /// [`Member::with_prestress`], which sets it together with the body.
     pub prestress: Option<Box<Prestress>>,
     /// What it bears before it breaks; nothing that a solver looks at.
     pub strength: Option<Box<Strength>>,
-    /// How far its other numbers may be off: see [`with_tolerances`](Self::with_tolerances).
+    /// How far its other numbers may be off: see [`Member::with_tolerances`].
     pub tolerances: Option<Box<MemberTolerances>>,
     /// Constant forces at points of the member, besides its weight.
     pub loads: Vec<PointLoad>,
+}
+
+impl Deref for Member {
+    type Target = MemberProperties;
+
+    fn deref(&self) -> &MemberProperties {
+        &self.properties
+    }
+}
+
+/// Give members that follow one another and are equal the same properties in memory.
+pub(super) fn share_equal(members: &mut [Member]) {
+    for k in 1..members.len() {
+        let (before, member) = (&members[k - 1].properties, &members[k].properties);
+        if !Arc::ptr_eq(before, member) && before == member {
+            members[k].properties = Arc::clone(before);
+        }
+    }
+}
+
+impl DerefMut for Member {
+    fn deref_mut(&mut self) -> &mut MemberProperties {
+        Arc::make_mut(&mut self.properties)
+    }
 }
 
 /// How far a length may be off, as a part of it, where the file gives no tolerance. Bars of a frame
@@ -83,9 +120,7 @@ impl Member {
     /// A rigid bar.
     #[must_use]
     pub fn bar(from: usize, to: usize, body: Bar) -> Self {
-        Self {
-            from,
-            to,
+        let properties = MemberProperties {
             rope: None,
             kind: Kind::Bar,
             body,
@@ -94,19 +129,63 @@ impl Member {
             strength: None,
             tolerances: None,
             loads: Vec::new(),
-        }
+        };
+        Self { from, to, properties: Arc::new(properties) }
     }
 
     /// An inextensible cable.
     #[must_use]
     pub fn cable(from: usize, to: usize, body: Bar) -> Self {
-        Self { kind: Kind::Cable, ..Self::bar(from, to, body) }
+        Self::bar(from, to, body).of_kind(Kind::Cable)
+    }
+
+    /// The same member between two other joints.
+    #[must_use]
+    pub fn between(self, from: usize, to: usize) -> Self {
+        Self { from, to, ..self }
+    }
+
+    /// The same member, of a kind.
+    #[must_use]
+    pub fn of_kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// The same member with another body.
+    #[must_use]
+    pub fn with_body(mut self, body: Bar) -> Self {
+        self.body = body;
+        self
     }
 
     /// The same member with an axial stiffness `EA`, N.
     #[must_use]
     pub fn with_stiffness(self, stiffness_n: f64) -> Self {
-        Self { stiffness_n: Some(stiffness_n), ..self }
+        self.stretching(Some(stiffness_n))
+    }
+
+    /// The same member with an axial stiffness `EA`, N, or inextensible.
+    #[must_use]
+    pub fn stretching(mut self, stiffness_n: Option<f64>) -> Self {
+        self.stiffness_n = stiffness_n;
+        self
+    }
+
+    /// The same member with constant forces at points of it.
+    ///
+    /// ```
+    /// use model::{Bar, system::{Kind, Member, PointLoad}};
+    /// let load = PointLoad { at_m: 0.5, force_n: [0.0, 2.0, 0.0] };
+    /// let strut = Member::bar(0, 1, Bar::homogeneous(2.0, 1.0)?).of_kind(Kind::Strut);
+    /// let strut = strut.with_loads(vec![load]).between(3, 4);
+    /// assert_eq!((strut.from, strut.kind, strut.loads[0]), (3, Kind::Strut, load));
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    #[must_use]
+    pub fn with_loads(mut self, loads: Vec<PointLoad>) -> Self {
+        self.loads = loads;
+        self
     }
 
     /// The same member with a length known to within this, m.
@@ -119,7 +198,14 @@ impl Member {
     /// The same member with what it bears before it breaks.
     #[must_use]
     pub fn with_strength(self, strength: Strength) -> Self {
-        Self { strength: Some(Box::new(strength)), ..self }
+        self.bearing(Some(strength))
+    }
+
+    /// The same member with what it bears before it breaks, if that is known.
+    #[must_use]
+    pub fn bearing(mut self, strength: Option<Strength>) -> Self {
+        self.strength = strength.map(Box::new);
+        self
     }
 
     /// How far the length may be off where lengths of inextensible members overdetermine a shape, m: the tolerance given, or

@@ -23,6 +23,7 @@ mod jam;
 mod joint;
 mod load_case;
 mod member;
+mod name;
 mod prestress;
 mod refusal;
 mod rope;
@@ -36,9 +37,10 @@ pub use builder::SystemBuilder;
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use jam::Joined;
-pub use joint::{Joint, Support};
+pub use joint::{Joint, JointProperties, Support};
 pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
-pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
+pub use member::{Kind, LENGTH_ROUNDING, Member, MemberProperties, Misfit, PointLoad};
+pub use name::Name;
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
 pub use rope::{Rope, RopeFault};
@@ -48,6 +50,8 @@ pub use symmetry::Part;
 pub use tolerance::{
     JointTolerances, MemberTolerances, ToleranceError, Uncertain, UncertainNumber,
 };
+
+use member::share_equal;
 
 use crate::Vector;
 
@@ -103,8 +107,9 @@ impl System {
         name: String,
         gravity_m_s2: f64,
         joints: Vec<Joint>,
-        members: Vec<Member>,
+        mut members: Vec<Member>,
     ) -> Self {
+        share_equal(&mut members);
         let masses = members.iter().map(|member| member.body.mass_kg());
         let total_mass_kg = crate::sum(joints.iter().map(|joint| joint.mass_kg).chain(masses));
         let total_length_m = crate::sum(members.iter().map(|member| member.body.length_m()));

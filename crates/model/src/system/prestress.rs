@@ -79,7 +79,7 @@ impl Member {
     ///
     /// Its mass stays, and with the length the places of its weight and of its loads are scaled:
     /// they are at the same parts of it. The moments of inertia across it are scaled by the square.
-    /// The member as it was is kept in [`prestress`](Self::prestress); give the stiffness before.
+    /// The member as it was is kept in [`prestress`](super::MemberProperties::prestress); give the stiffness before.
     ///
     /// # Errors
     ///
@@ -118,7 +118,9 @@ impl Member {
     /// without a prestress itself.
     #[must_use]
     pub fn as_given(mut self) -> Self {
-        if let Some(given) = self.prestress.take() {
+        if self.prestress.is_some()
+            && let Some(given) = self.prestress.take()
+        {
             (self.body, self.loads) = (given.body, given.loads);
         }
         self

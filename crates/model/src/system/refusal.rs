@@ -229,13 +229,13 @@ impl System {
     fn connected(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
         let joints = self.joints();
         if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).len() == 0) {
-            return Err(SystemRefusal::Unconnected { name: joints[joint].name.clone(), joint });
+            return Err(SystemRefusal::Unconnected { name: joints[joint].name.to_string(), joint });
         }
         for part in graph.components() {
             if part.iter().all(|joint| joints[*joint].support.at_m().is_none()) {
                 let (joint, joints_of_part) = (part[0], part.len());
                 return Err(SystemRefusal::Falls {
-                    name: joints[joint].name.clone(),
+                    name: joints[joint].name.to_string(),
                     joint,
                     joints: joints_of_part,
                 });
@@ -258,7 +258,7 @@ impl System {
             for &joint in &anchors[k + 1..] {
                 let Some(reach_m) = ways.get(joint) else { continue };
                 let distance_m = self.distance_m(start, joint);
-                let ends = || (joints[start].name.clone(), joints[joint].name.clone());
+                let ends = || (joints[start].name.to_string(), joints[joint].name.to_string());
                 let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
                 if (reach_m - distance_m).abs() <= near {
                     if self.holds_inner(graph, &ways.way(joint), None) {
@@ -320,7 +320,7 @@ impl System {
             if folded && self.holds_inner(graph, &ways.way(member.to), Some(k)) {
                 continue;
             }
-            let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.clone());
+            let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.to_string());
             let (from, to) = (name(member.from), name(member.to));
             let way = shortened(ways.way(member.to).into_iter().map(name).collect());
             return Err(if folded {

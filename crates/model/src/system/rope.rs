@@ -71,9 +71,17 @@ impl Member {
     /// # Ok::<(), model::BarError>(())
     /// ```
     #[must_use]
-    pub fn over(self, via: Vec<usize>) -> Self {
-        let rope = (!via.is_empty()).then(|| Box::new(Rope { via }));
-        Self { rope, ..self }
+    pub fn over(mut self, via: Vec<usize>) -> Self {
+        if self.via() != via {
+            self.rope = (!via.is_empty()).then(|| Box::new(Rope { via }));
+        }
+        self
+    }
+
+    /// The same member straight from its first joint to its last.
+    #[must_use]
+    pub fn straight(self) -> Self {
+        self.over(vec![])
     }
 
     /// The joints between its ends that it runs over; none of a member that is straight.
@@ -94,19 +102,17 @@ impl Member {
 
     /// The same member where its joints have other numbers.
     #[must_use]
-    pub fn renumbered(mut self, number: impl Fn(usize) -> usize) -> Self {
-        let via = self.rope.iter_mut().flat_map(|rope| &mut rope.via);
-        for joint in via.chain([&mut self.from, &mut self.to]) {
-            *joint = number(*joint);
-        }
-        self
+    pub fn renumbered(self, number: impl Fn(usize) -> usize) -> Self {
+        let via = self.via().iter().map(|joint| number(*joint)).collect();
+        let (from, to) = (number(self.from), number(self.to));
+        self.between(from, to).over(via)
     }
 
     /// What of a rope is not modelled.
     pub(crate) fn rope_fault(&self, joints: &[Joint]) -> Option<RopeFault> {
         self.rope.as_ref()?;
         let repeated = self.spans().find(|[a, b]| a == b);
-        if let Some(joint) = repeated.map(|[joint, _]| joints[joint].name.clone()) {
+        if let Some(joint) = repeated.map(|[joint, _]| joints[joint].name.to_string()) {
             return Some(RopeFault::Repeated { joint });
         }
         let faults = [

@@ -89,8 +89,14 @@ impl Member {
     /// Say how far the length may be off, m, or that nothing is known of it.
     pub fn set_length_tolerance(&mut self, length_m: Option<f64>) {
         let others = self.tolerances.as_deref().copied().unwrap_or_default();
-        let all = MemberTolerances { length_m, ..others };
-        self.tolerances = (all != MemberTolerances::default()).then(|| Box::new(all));
+        self.set_tolerances(MemberTolerances { length_m, ..others });
+    }
+
+    fn set_tolerances(&mut self, all: MemberTolerances) {
+        let all = (all != MemberTolerances::default()).then(|| Box::new(all));
+        if self.tolerances != all {
+            self.tolerances = all;
+        }
     }
 
     /// The same member with a stiffness known to within a part of it, and a mass to within `mass_kg`, kg, as
@@ -109,7 +115,7 @@ impl Member {
     ///
     /// [`ToleranceError`] for a number that is not positive, and where a stiffness or mass could vanish.
     pub fn with_tolerances(
-        self,
+        mut self,
         stiffness: Option<f64>,
         mass_kg: Option<f64>,
     ) -> Result<Self, ToleranceError> {
@@ -118,16 +124,17 @@ impl Member {
         let stiffness = checked("stiffness_tolerance", wanted, stiffness, part)?;
         let mass_kg = checked("mass_tolerance_kg", OF_MASS, mass_kg, self.body.mass_kg())?;
         let length_m = self.length_tolerance_m();
-        let tolerances = MemberTolerances { length_m, stiffness, mass_kg };
-        let given = tolerances != MemberTolerances::default();
-        Ok(Self { tolerances: given.then(|| Box::new(tolerances)), ..self })
+        self.set_tolerances(MemberTolerances { length_m, stiffness, mass_kg });
+        Ok(self)
     }
 }
 
 impl Member {
     /// The mass is so many times as large, and so is what it may be off.
     pub(super) fn scale_tolerances(&mut self, factor: f64) {
-        if let Some(tolerances) = &mut self.tolerances {
+        if self.tolerances.is_some()
+            && let Some(tolerances) = &mut self.tolerances
+        {
             tolerances.mass_kg *= factor;
         }
     }
@@ -138,7 +145,9 @@ const OF_MASS: &str = "positive and not more than the mass";
 impl Joint {
     /// Its loads are up to so many times as large, and so is what they may be off.
     pub(super) fn scale_tolerances(&mut self, factor: f64) {
-        if let Some(tolerances) = &mut self.tolerances {
+        if self.tolerances.is_some()
+            && let Some(tolerances) = &mut self.tolerances
+        {
             tolerances.mass_kg *= factor;
             tolerances.force_n *= factor;
         }
@@ -161,7 +170,7 @@ impl Joint {
     /// [`ToleranceError`] for a number that is not positive and finite, where a mass could become negative,
     /// and for the place of a joint that no support holds, or the force on one that none moves.
     pub fn with_tolerances(
-        self,
+        mut self,
         mass_kg: Option<f64>,
         at_m: Option<f64>,
         force_n: Option<f64>,
@@ -179,8 +188,11 @@ impl Joint {
                 moves,
             )?,
         };
-        let given = tolerances != JointTolerances::default();
-        Ok(Self { tolerances: given.then(|| Box::new(tolerances)), ..self })
+        let given = (tolerances != JointTolerances::default()).then(|| Box::new(tolerances));
+        if self.tolerances != given {
+            self.tolerances = given;
+        }
+        Ok(self)
     }
 }
 
@@ -265,7 +277,7 @@ impl System {
                 UncertainNumber::Force(k, axis) => joints[k].force_n[axis] = *value,
             }
         }
-        for joint in &mut joints {
+        for joint in joints.iter_mut().filter(|joint| joint.tolerances.is_some()) {
             joint.tolerances = None;
         }
         for member in &mut members {

@@ -1,7 +1,7 @@
 //! What a file says with a drawing: the plane of its joints, and the lengths of members.
 
 use super::kind::SystemFileErrorKind as Kind;
-use crate::system::{Joint, Support};
+use crate::system::{Joint, Name, Support};
 use crate::{Anchors, Vector};
 
 /// What `plane` may be, with the coordinate that is the same for all joints.
@@ -20,12 +20,17 @@ pub(super) fn keep_to_plane(joints: &mut [Joint], word: &str) -> Result<(), (Opt
     let through = joints.iter().find_map(Joint::drawn_m).map_or(0.0, |place_m| place_m[axis]);
     let normal: Vector = std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 });
     for (number, joint) in joints.iter_mut().enumerate() {
-        let name = joint.name.clone();
         if let Some(place_m) = joint.drawn_m()
             && (place_m[axis] - through).abs() > 0.0
         {
             let (axis, at_m) = (AXES[axis], place_m[axis]);
-            let kind = Kind::OffPlane { joint: name, plane, axis, at_m, plane_m: through };
+            let kind = Kind::OffPlane {
+                joint: joint.name.to_string(),
+                plane,
+                axis,
+                at_m,
+                plane_m: through,
+            };
             return Err((Some(number), kind));
         }
         let at_m = joint.near_m.unwrap_or_else(|| normal.map(|part| part * through));
@@ -43,7 +48,12 @@ pub(super) fn keep_to_plane(joints: &mut [Joint], word: &str) -> Result<(), (Opt
                 (direction[k], direction[j]) = (-n[j], n[k]);
                 Support::Line { at_m, direction }
             }
-            _ => return Err((Some(number), Kind::LeavesPlane { joint: name, plane })),
+            _ => {
+                return Err((
+                    Some(number),
+                    Kind::LeavesPlane { joint: joint.name.to_string(), plane },
+                ));
+            }
         };
     }
     Ok(())
@@ -56,16 +66,16 @@ pub(super) fn length_m(from: &Joint, to: &Joint, count: usize) -> Result<Option<
     if distance_m > 0.0 {
         return Ok(Some(distance_m / count as f64));
     }
-    Err(Kind::NoDrawnLength { from: from.name.clone(), to: to.name.clone() })
+    Err(Kind::NoDrawnLength { from: from.name.to_string(), to: to.name.to_string() })
 }
 
 /// Joint `k` of those between `count` members in a row, drawn on the straight line between its ends.
-pub(super) fn between(name: String, from: &Joint, to: &Joint, k: usize, count: usize) -> Joint {
+pub(super) fn between(name: Name, from: &Joint, to: &Joint, k: usize, count: usize) -> Joint {
     let near_m = ends_m(from, to).map(|[start_m, end_m]| {
         let part = k as f64 / count as f64;
         std::array::from_fn(|c| start_m[c] + part * (end_m[c] - start_m[c]))
     });
-    Joint { near_m, ..Joint::free(name) }
+    Joint::free(name).drawn(near_m)
 }
 
 fn ends_m(from: &Joint, to: &Joint) -> Option<[Vector; 2]> {

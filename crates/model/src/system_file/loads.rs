@@ -63,8 +63,8 @@ pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System, System
         return Ok(system);
     }
     let joints = system.joints().to_vec();
-    let numbers: HashMap<&str, usize> =
-        joints.iter().enumerate().map(|(k, joint)| (joint.name.as_str(), k)).collect();
+    let numbers: HashMap<_, usize> =
+        joints.iter().enumerate().map(|(k, joint)| (joint.name.text(), k)).collect();
     put(root, system, &|table, value| {
         let Some(name) = value.get_ref().as_str() else {
             return Err(table.wrong_type("joint", value, "the name of a joint"));

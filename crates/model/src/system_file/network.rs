@@ -22,7 +22,7 @@ use super::tolerance::{self, Tolerances};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
-    Joint, Member, PointLoad, RopeFault, Support, System, SystemError, SystemRefusal,
+    Joint, Member, Name, PointLoad, RopeFault, Support, System, SystemError, SystemRefusal,
     UNIT_TOLERANCE,
 };
 
@@ -173,10 +173,10 @@ impl Reading<'_> {
         let mut take = |row: &Row<'_>| {
             let joint = tolerances.joint(network_rows::joint(row)?, row)?;
             // A joint of a file need have no member.
-            let bytes = size_of::<Joint>() + joint.name.len();
+            let bytes = size_of::<Joint>() + joint.name.text().len();
             let asked = root.source().budget.take_names(1, bytes);
             asked.map_err(|error| (Some("name"), Kind::Memory(error)))?;
-            numbers.insert(joint.name.clone(), joints.len());
+            numbers.insert(joint.name.to_string(), joints.len());
             joints.push(joint);
             Ok(())
         };
@@ -238,7 +238,7 @@ impl Reading<'_> {
             let path = [&[from], via.as_slice(), &[to]].concat();
             self.drawn_m(&path, count).map_err(|kind| table.error(kind, "length_m"))
         };
-        let read = Member { from, to, ..member(table, &drawn, self.safety)? }.over(via);
+        let read = member(table, &drawn, self.safety)?.between(from, to).over(via);
         let rope = self.rope(&read, self.members.len() + 1);
         rope.map_err(|(key, kind)| table.error(kind, key))?;
         let model = self.tolerances.member(read, table)?;
@@ -247,6 +247,7 @@ impl Reading<'_> {
         let asked = budget.take_members(count);
         let asked = asked.and_then(|()| budget.take_names(count, run.len() + DIGITS));
         asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
+        let stem = format!("{run}.").into();
         self.joints.reserve(count - 1);
         self.members.reserve(count);
         let mut here = from;
@@ -254,14 +255,14 @@ impl Reading<'_> {
             let there = if k == count {
                 to
             } else {
-                let name = format!("{run}.{k}");
+                let name = Name::numbered(&stem, k);
                 self.joints.push(match &ends {
                     Some([from, to]) => drawing::between(name, from, to, k, count),
                     None => Joint::free(name),
                 });
                 self.joints.len() - 1
             };
-            self.members.push(Member { from: here, to: there, ..model.clone() });
+            self.members.push(model.clone().between(here, there));
             here = there;
         }
         Ok(())
@@ -343,7 +344,7 @@ impl Reading<'_> {
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
         let Self { root, mut joints, joint_spans, members, tables, joints_file, bars_file, .. } =
             self;
-        let names: Vec<String> =
+        let names: Vec<Name> =
             joints.iter().take(joint_spans.len()).map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.
         let at_joint = |kind, joint: usize| match joint_spans.get(joint) {
@@ -440,8 +441,9 @@ impl Reading<'_> {
 
 /// A joint that is not there, with the one that was meant.
 pub(super) fn unknown_joint(name: &str, joints: &[Joint]) -> Kind {
-    let names = joints.iter().take(MOST_NAMES).map(|joint| joint.name.as_str());
-    let suggestion = nearest(name, &names.collect::<Vec<_>>()).map(str::to_owned);
+    let names: Vec<_> = joints.iter().take(MOST_NAMES).map(|joint| joint.name.text()).collect();
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    let suggestion = nearest(name, &names).map(str::to_owned);
     Kind::UnknownJoint { joint: name.to_owned(), suggestion }
 }
 
@@ -462,7 +464,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
         return Err(table.error(Kind::Conflict { key: "near_m", other: "at_m" }, "near_m"));
     }
     let (force_n, mass_kg) = (force_n.unwrap_or_default(), mass.unwrap_or(0.0));
-    Ok(Joint { support, mass_kg, force_n, near_m, ..Joint::free(name) })
+    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).drawn(near_m))
 }
 
 fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
@@ -555,9 +557,9 @@ fn member(
     }
     loads.extend(material::spread(table, length_m, body.length_m())?);
     let stiffness_n = material::stiffness_n(table)?;
-    let strength = strength::of(table, &body, safety)?.map(Box::new);
-    let bar = Member::bar(0, 0, body);
-    let member = Member { kind, stiffness_n, strength, loads, ..bar };
+    let strength = strength::of(table, &body, safety)?;
+    let member = Member::bar(0, 0, body).of_kind(kind).stretching(stiffness_n);
+    let member = member.bearing(strength).with_loads(loads);
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -5,7 +5,7 @@ use super::row_table::{Known, Row, Wrong};
 use super::strength;
 use super::suggest::nearest;
 use crate::system::{
-    Joint, Kind as MemberKind, Member, PointLoad, PrestressError, Strength, Support,
+    Joint, Kind as MemberKind, Member, Name, PointLoad, PrestressError, Strength, Support,
 };
 use crate::{Bar, BarError, Vector};
 
@@ -95,8 +95,11 @@ pub(super) const FREE: &str = "\"x\", \"y\", \"z\" (a line), \"xy\", \"xz\" or \
 
 /// The joint of a row; without a column of names they are numbered from 0.
 pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
-    let name =
-        if row.has("name") { row.name("name")?.into_owned() } else { (row.number - 1).to_string() };
+    let name = if row.has("name") {
+        row.name("name")?.into_owned().into()
+    } else {
+        Name::number(row.number - 1)
+    };
     let support = support(row)?;
     let mass_kg = row.number("mass_kg")?.unwrap_or(0.0);
     let force_n = row.vector(FORCE)?.unwrap_or_default();
@@ -107,8 +110,9 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
         return Err((Some(FORCE[bad]), Kind::Force { component_n: force_n[bad] }));
     }
     if support.is_fixed() {
-        let loaded =
-            |is: bool| if is { Err(Kind::LoadedAnchor { joint: name.clone() }) } else { Ok(()) };
+        let loaded = |is: bool| {
+            if is { Err(Kind::LoadedAnchor { joint: name.to_string() }) } else { Ok(()) }
+        };
         loaded(mass_kg > 0.0).map_err(|kind| (Some("mass_kg"), kind))?;
         for k in 0..3 {
             loaded(force_n[k].abs() > 0.0).map_err(|kind| (Some(FORCE[k]), kind))?;
@@ -118,7 +122,7 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
     if support.is_fixed() && near_m.is_some() {
         return Err((Some(NEAR[0]), Kind::Conflict { key: NEAR[0], other: PLACE[0] }));
     }
-    Ok(Joint { support, mass_kg, force_n, near_m, ..Joint::free(name) })
+    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).drawn(near_m))
 }
 
 /// A joint with a place is held there, unless `fixed` says that the place is only where it was
@@ -213,7 +217,7 @@ pub(super) fn member(
     let loads = load(row, length_m)?;
     let bar = Member::bar(from, to, body).over(via);
     let strength = strength_of(row, safety)?;
-    let member = Member { kind, stiffness_n, strength, loads, ..bar };
+    let member = bar.of_kind(kind).stretching(stiffness_n).bearing(strength).with_loads(loads);
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 
@@ -235,7 +239,7 @@ pub(super) fn prestressed(
 }
 
 /// What the bar of a row bears.
-fn strength_of(row: &Row<'_>, safety: f64) -> Result<Option<Box<Strength>>, Wrong> {
+fn strength_of(row: &Row<'_>, safety: f64) -> Result<Option<Strength>, Wrong> {
     let numbers = [row.number("strength_n")?, row.number("compression_n")?];
     let own = row.number("safety")?;
     if numbers == [None; 2] {
@@ -243,8 +247,7 @@ fn strength_of(row: &Row<'_>, safety: f64) -> Result<Option<Box<Strength>>, Wron
     }
     let strength = Strength::new(numbers[0], numbers[1], own.unwrap_or(safety));
     let strength = strength.map_err(strength::wrong);
-    let strength = strength.map_err(|(column, kind)| (Some(column), kind))?;
-    Ok(Some(Box::new(strength)))
+    strength.map(Some).map_err(|(column, kind)| (Some(column), kind))
 }
 
 /// The force on a bar, in the middle if no place is given.

@@ -37,7 +37,8 @@ fn write_load(text: &mut String, system: &System, load: &NamedLoad) {
     let _ = write!(text, "\n[[loads]]\nname = {}\n", text_of(&load.name));
     let _ = match &load.on {
         LoadOn::Joints { joints, mass_kg, force_n } => {
-            let names = joints.iter().map(|k| text_of(&system.joints()[*k].name).to_string());
+            let names =
+                joints.iter().map(|k| text_of(&system.joints()[*k].name.text()).to_string());
             let (names, force_n) = (names.collect::<Vec<_>>().join(", "), vector(*force_n));
             writeln!(text, "joint = [{names}]\nmass_kg = {mass_kg:?}\nforce_n = {force_n}")
         }
@@ -62,7 +63,7 @@ fn write_permanent(system: &System) -> String {
     }
     text.push_str("\n[joints]\n");
     for joint in system.joints() {
-        let _ = writeln!(text, "{} = {}", toml::Value::from(joint.name.as_str()), entry(joint));
+        let _ = writeln!(text, "{} = {}", text_of(&joint.name.text()), entry(joint));
     }
     for member in system.members() {
         write_member(&mut text, system, member);
@@ -102,7 +103,7 @@ fn entry(joint: &Joint) -> String {
 }
 
 fn write_member(text: &mut String, system: &System, member: &Member) {
-    let name = |joint: usize| toml::Value::from(system.joints()[joint].name.as_str());
+    let name = |joint: usize| text_of(&system.joints()[joint].name.text());
     let body = member.given_body();
     let (length_m, mass_kg) = (body.length_m(), body.mass_kg());
     let _ = write!(

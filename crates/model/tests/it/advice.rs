@@ -104,7 +104,7 @@ fn runs_between_the_same_joints_are_told_apart() {
     let joints = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\n";
     let text = format!("{joints}{run}{run}{run}");
     let Described::System(system) = parse(&text, "f").unwrap() else { panic!("{text}") };
-    let names: Vec<_> = system.joints().iter().skip(2).map(|joint| joint.name.as_str()).collect();
+    let names: Vec<_> = system.joints().iter().skip(2).map(|joint| joint.name.text()).collect();
     let expected = ["A-B.1", "A-B.2", "A-B#2.1", "A-B#2.2", "A-B#3.1", "A-B#3.2"];
     assert_eq!(names, expected);
 }

@@ -56,7 +56,7 @@ fn registries_are_not_empty() {
 fn cables_pull_and_struts_push() {
     let member = |kind| {
         let bar = Member::bar(0, 1, Bar::homogeneous(5.0, 2.0).unwrap());
-        Member { kind, ..bar }.with_stiffness(800.0)
+        bar.of_kind(kind).with_stiffness(800.0)
     };
     for kind in [Kind::Bar, Kind::Cable, Kind::Strut] {
         let rest = member(kind).with_prestress(0.0).unwrap();

@@ -50,24 +50,20 @@ fn every_column_arrives_where_it_belongs() {
         Joint::anchor("A", [0.0; 3]),
         // Where it was drawn says nothing of where it hangs.
         Joint::free("lamp, old").with_mass(5.0).with_force([0.0, 12.0, 0.0]),
-        Joint { support: Support::Plane { at_m, normal: [0.0, 1.0, 0.0] }, ..Joint::free("C") },
+        Joint::free("C").held_by(Support::Plane { at_m, normal: [0.0, 1.0, 0.0] }),
         Joint::free("4"),
     ];
     let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
     let load = |at_m, force_n| vec![PointLoad { at_m, force_n }];
     let off = Bar::new(1.5, 1.0, 0.5, Bar::slender_inertia(1.5, 1.0)).unwrap();
     // A quarter of its stiffness makes it a quarter longer.
-    let cable = Member { loads: load(0.75, [1.0, 0.0, 0.0]), ..Member::cable(1, 2, bar(1.5)) };
+    let cable = Member::cable(1, 2, bar(1.5)).with_loads(load(0.75, [1.0, 0.0, 0.0]));
     let cable = cable.with_stiffness(1e5).with_prestress(2.5e4).unwrap();
     assert_eq!((cable.body.length_m(), cable.loads[0].at_m), (1.2, 0.6));
     let members = vec![
         Member::bar(0, 1, off),
         cable,
-        Member {
-            kind: Kind::Strut,
-            loads: load(0.25, [0.0, 0.0, 1.0]),
-            ..Member::bar(2, 3, bar(0.25))
-        },
+        Member::bar(2, 3, bar(0.25)).of_kind(Kind::Strut).with_loads(load(0.25, [0.0, 0.0, 1.0])),
     ];
     assert_eq!(found, System::new("unnamed", 9.80665, joints, members).unwrap());
 }

@@ -8,7 +8,7 @@ fn bar(from: usize, to: usize) -> Member {
 }
 
 fn held(name: &str, support: Support) -> Joint {
-    Joint { support, ..Joint::free(name) }
+    Joint::free(name).held_by(support)
 }
 
 /// A joint held as told, and a free one 1 m from it on a bar.
@@ -86,7 +86,7 @@ fn a_load_that_is_not_vertical_stops_the_turn() {
     let on_member = |force_n| {
         let loads = vec![PointLoad { at_m: 0.5, force_n }];
         let joints = vec![anchor.clone(), Joint::free("P")];
-        let members = vec![Member { loads, ..bar(0, 1) }];
+        let members = vec![bar(0, 1).with_loads(loads)];
         axis(&System::new("", 9.81, joints, members).unwrap())
     };
     for load in [&with as &dyn Fn([f64; 3]) -> Option<[f64; 2]>, &on_member] {

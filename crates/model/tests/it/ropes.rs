@@ -122,7 +122,7 @@ fn ropes_that_do_not_reach_past_their_pulleys_are_refused() {
 
 /// Two joints on these supports as one.
 fn joined(first: Support, second: Support) -> Option<Support> {
-    let on = |name: &str, support| Joint { support, ..Joint::free(name).with_mass(1.0) };
+    let on = |name: &str, support| Joint::free(name).with_mass(1.0).held_by(support);
     let joints = vec![on("P", first), on("Q", second), Joint::anchor("A", [9.0, 0.0, 0.0])];
     let rope = Member::cable(0, 2, Bar::homogeneous(50.0, 0.0).unwrap()).over(vec![1]);
     let system = System::new("", 10.0, joints, vec![rope]).unwrap().with_floor(-50.0).unwrap();
@@ -180,7 +180,7 @@ fn a_slack_cable_hangs_in_the_joint_that_its_ends_are() {
     ];
     let body = |mass_kg| Bar::homogeneous(2.0, mass_kg).unwrap();
     let load = PointLoad { at_m: 0.5, force_n: [0.0, 3.0, 0.0] };
-    let cable = Member { loads: vec![load], ..Member::cable(2, 3, body(0.5)) };
+    let cable = Member::cable(2, 3, body(0.5)).with_loads(vec![load]);
     let ropes = [0, 1].map(|anchor| Member::cable(anchor, 2, body(0.0)).over(vec![3]));
     let with = |member: Member| {
         let members = ropes.iter().cloned().chain([member]).collect();
@@ -196,7 +196,7 @@ fn a_slack_cable_hangs_in_the_joint_that_its_ends_are() {
     // At A the other anchor in its place is one with it.
     let held = with(cable).joined(&[[0, 3]]).unwrap();
     assert_eq!((held.numbers, held.kept), (vec![0, 0, 1, 0], vec![0, 2]));
-    let strut = Member { kind: Kind::Strut, ..Member::cable(2, 3, body(0.0)) };
+    let strut = Member::cable(2, 3, body(0.0)).of_kind(Kind::Strut);
     assert!(with(strut).joined(&[[2, 3]]).is_none());
 }
 

@@ -62,8 +62,7 @@ fn joints_refuse_what_is_no_number() {
 /// Rounding gives a unit vector a length within some units in the last place of 1.
 #[test]
 fn directions_have_the_length_one() {
-    let slides =
-        |direction| Joint { support: Support::Line { at_m: [0.0; 3], direction }, ..free() };
+    let slides = |direction| free().held_by(Support::Line { at_m: [0.0; 3], direction });
     let within = 8.0 * f64::EPSILON;
     for off in [within, -within, 0.0] {
         assert!(accepted(9.81, [anchor(), slides([0.0, 0.0, 1.0 + off])], bar(1.0, 1.0)), "{off}");
@@ -86,8 +85,7 @@ fn members_refuse_what_cannot_be() {
         assert_eq!(found, SystemError::Stiffness { member: 1, stiffness_n });
     }
     assert!(accepted(9.81, joints(), bar(1.0, 1.0).with_stiffness(f64::MIN_POSITIVE)));
-    let loaded =
-        |at_m, force_n| Member { loads: vec![PointLoad { at_m, force_n }], ..bar(2.0, 1.0) };
+    let loaded = |at_m, force_n| bar(2.0, 1.0).with_loads(vec![PointLoad { at_m, force_n }]);
     for at_m in [0.0, 2.0] {
         assert!(accepted(9.81, joints(), loaded(at_m, [1.0, 2.0, -3.0])));
     }
@@ -135,7 +133,7 @@ fn totals_are_numbers_with_digits_to_spare() {
 fn a_floor_is_below_what_is_held() {
     let at_m = [0.0, 0.0, 2.0];
     let above = |support, floor_m: f64| {
-        let joints = vec![Joint { support, ..Joint::free("A") }, free()];
+        let joints = vec![Joint::free("A").held_by(support), free()];
         System::new("", 9.81, joints, vec![bar(1.0, 1.0)]).unwrap().with_floor(floor_m)
     };
     let (up, level) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
@@ -164,7 +162,7 @@ fn a_floor_is_below_what_is_held() {
 
 #[test]
 fn rigid_bars_and_struts_alone_keep_their_ends_apart() {
-    let member = |kind| Member { kind, ..bar(1.0, 1.0) };
+    let member = |kind| bar(1.0, 1.0).of_kind(kind);
     assert!(member(Kind::Bar).keeps_apart() && member(Kind::Strut).keeps_apart());
     assert!(!member(Kind::Cable).keeps_apart());
     for kind in [Kind::Bar, Kind::Strut, Kind::Cable] {

@@ -14,7 +14,7 @@ fn windows(n: usize) -> (System, Vec<[f64; 3]>) {
     let mut joints: Vec<Joint> =
         (0..=n).map(|k| Joint::anchor(format!("A{k}"), [x(k), 0.0, 0.0])).collect();
     let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
-    joints.extend((0..=n).map(|k| Joint { support: plane, ..Joint::free(format!("B{k}")) }));
+    joints.extend((0..=n).map(|k| Joint::free(format!("B{k}")).held_by(plane)));
     let at = (0..=n).map(|k| [x(k), 0.0, 0.0]).chain((0..=n).map(|k| [x(k), 0.0, 1.0])).collect();
     let rod = rods(1)[0];
     let uprights = (0..=n).map(|k| Member::bar(k, n + 1 + k, rod));

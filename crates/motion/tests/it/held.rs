@@ -20,7 +20,7 @@ fn lamp(kind: Kind, third_m: f64) -> System {
         Joint::free("P").with_mass(2.0),
     ];
     let body = |l| Bar::homogeneous(l, 0.0).unwrap();
-    let member = |a, l| Member { kind, ..Member::bar(a, 3, body(l)) };
+    let member = |a, l| Member::bar(a, 3, body(l)).of_kind(kind);
     let mut members = vec![member(0, 5.0), member(1, 5.0)];
     members.push(Member::cable(2, 3, body(third_m)));
     System::new("lamp", G, joints, members).unwrap()

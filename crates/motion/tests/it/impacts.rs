@@ -16,7 +16,7 @@ fn cord(length_m: f64) -> Bar {
 /// A weight on a cable of 1 m, or on a prop of 1 m that it is above of.
 fn weight(kind: Kind) -> System {
     let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(MASS_KG)];
-    let member = Member { kind, ..Member::bar(0, 1, cord(1.0)) };
+    let member = Member::bar(0, 1, cord(1.0)).of_kind(kind);
     System::new("weight", G, joints, vec![member]).unwrap()
 }
 
@@ -280,7 +280,7 @@ fn a_light_weight_above_its_cable_falls_beside_a_heavy_one() {
         Joint::free("P").with_mass(1e-7),
         Joint::free("Q").with_mass(1000.0),
     ];
-    let light = Member { kind: Kind::Cable, ..Member::bar(0, 1, cord(1.0)) };
+    let light = Member::bar(0, 1, cord(1.0)).of_kind(Kind::Cable);
     let members = vec![light, Member::bar(0, 2, cord(1.0))];
     let system = System::new("light", G, joints, members).unwrap();
     let mut fall = at_rest(&system, &[[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]], Order::Second);

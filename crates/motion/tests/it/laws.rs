@@ -33,8 +33,8 @@ fn mixed() -> (System, Vec<[f64; 3]>) {
     let joints = vec![
         Joint::anchor("A", [0.1, 0.0, 0.2]),
         Joint::free("P").with_mass(0.5).with_force([1.0, -2.0, 0.5]),
-        Joint { support: line, ..Joint::free("Q") },
-        Joint { support: plane, ..Joint::free("R").with_mass(0.3) },
+        Joint::free("Q").held_by(line),
+        Joint::free("R").with_mass(0.3).held_by(plane),
         Joint::free("S"),
     ];
     let at = vec![

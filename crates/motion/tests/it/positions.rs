@@ -36,7 +36,7 @@ fn random_positions_of_loops_and_long_chains() {
 fn rings_begin_along_their_lines() {
     let (at_m, direction) = ([1.0, 2.0, 3.0], [0.6, 0.8, 0.0]);
     let support = Support::Line { at_m, direction };
-    let ring = Joint { support, ..Joint::free("R").with_mass(1.0) };
+    let ring = Joint::free("R").with_mass(1.0).held_by(support);
     let rod = Member::bar(0, 1, Bar::homogeneous(0.5, 0.1).unwrap());
     let joints = vec![ring, Joint::free("P").with_mass(1.0)];
     let system = System::new("ring", 9.81, joints, vec![rod]).unwrap();
@@ -56,7 +56,7 @@ fn rings_begin_along_their_lines() {
 fn joints_in_a_plane_begin_anywhere_in_it() {
     let normal = [0.6, -0.8, 0.0];
     let support = Support::Plane { at_m: [0.0; 3], normal };
-    let top = Joint { support, ..Joint::free("P").with_mass(5.0) };
+    let top = Joint::free("P").with_mass(5.0).held_by(support);
     let end_m = [1.6, 1.2, 0.0];
     let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", end_m), top];
     let rod = |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.5).unwrap());

@@ -31,10 +31,9 @@ fn rig() -> (System, Vec<[f64; 3]>) {
         Joint::anchor("O", o),
         Joint::free("P").with_mass(0.35),
         Joint::free("Q").with_force([0.4, 0.15, -0.3]),
-        Joint {
-            support: Support::Line { at_m: ring, direction: [0.6, 0.0, 0.8] },
-            ..Joint::free("ring").with_mass(0.2)
-        },
+        Joint::free("ring")
+            .with_mass(0.2)
+            .held_by(Support::Line { at_m: ring, direction: [0.6, 0.0, 0.8] }),
         Joint::anchor("D", held),
         Joint::anchor("C", caught),
     ];
@@ -207,7 +206,7 @@ fn mobile() -> (System, Vec<[f64; 3]>) {
         Joint::free("P").with_mass(0.2),
         Joint::free("Q"),
         Joint::free("R").with_mass(0.15),
-        Joint { support: wire, ..Joint::free("ring").with_mass(0.5) },
+        Joint::free("ring").with_mass(0.5).held_by(wire),
         Joint::free("W").with_mass(0.9),
         Joint::free("S"),
     ];

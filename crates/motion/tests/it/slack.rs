@@ -20,7 +20,7 @@ fn bouncing(prop: bool) -> (System, [[f64; 3]; 2]) {
     let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(MASS_KG)];
     let body = Bar::homogeneous(LENGTH_M, 0.0).unwrap();
     let kind = if prop { Kind::Strut } else { Kind::Cable };
-    let member = Member { kind, ..Member::bar(0, 1, body) };
+    let member = Member::bar(0, 1, body).of_kind(kind);
     let members = vec![member.with_stiffness(STIFFNESS_N)];
     let z = if prop { 2.0 * LENGTH_M } else { 0.0 };
     (System::new("bouncing", G, joints, members).unwrap(), [[0.0; 3], [0.0, 0.0, z]])

@@ -95,9 +95,7 @@ fn squeezer() -> System {
     let fixed = |name: &str, [x, y]: [f64; 2]| Joint::anchor(name, [x, y, 0.0]);
     let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     let mut joints = vec![fixed("O", [0.0; 2]), fixed("A", A), fixed("B", B), fixed("C", C)];
-    joints.extend(
-        ["F", "E", "D", "G", "H"].map(|name| Joint { support: plane, ..Joint::free(name) }),
-    );
+    joints.extend(["F", "E", "D", "G", "H"].map(|name| Joint::free(name).held_by(plane)));
     let [o, a, b, c, f, e, d, g, h] = std::array::from_fn(|k| k);
     let triangle = 0.5 * (I[2] + M[2] * (SA * SA + SB * SB));
     let members = vec![

@@ -217,7 +217,7 @@ fn moments_that_no_body_has_and_those_of_members_that_stretch_are_refused() {
     let system = |moments, stiffness: Option<f64>| {
         let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P")];
         let bar = Bar::new(1.0, 1.0, 0.5, moments).unwrap();
-        let member = Member { stiffness_n: stiffness, ..Member::bar(0, 1, bar) };
+        let member = Member::bar(0, 1, bar).stretching(stiffness);
         System::new("one", G, joints, vec![member]).unwrap()
     };
     let at = [[0.0; 3], [0.0, 0.0, -1.0]];

@@ -222,7 +222,7 @@ fn heavy(cable: &HeavyCable) -> Entry {
 fn square(force_n: f64) -> Result<System, SystemError> {
     let at = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
     let in_plane = |k: usize| Support::Plane { at_m: at[k], normal: [0.0, 0.0, 1.0] };
-    let held = |name: &str, support| Joint { support, ..Joint::free(name) };
+    let held = |name: &str, support| Joint::free(name).held_by(support);
     let joints = vec![
         Joint::anchor("1", at[0]),
         held("2", in_plane(1)),

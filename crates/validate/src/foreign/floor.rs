@@ -20,7 +20,7 @@ pub(super) fn laid(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Sys
         let level_m = [at_m[0], at_m[1], floor_m];
         let level = Support::Plane { at_m: level_m, normal: UP };
         let support = if lies { meeting(joint.support, level) } else { joint.support };
-        Joint { support, ..joint.clone() }
+        joint.clone().held_by(support)
     };
     let joints = system.joints().iter().zip(joints_m).map(joint).collect();
     let members = system.members().to_vec();

@@ -1,5 +1,6 @@
 //! An answer from elsewhere, by the names of joints.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap, VecDeque};
 
 use model::system::{Joint, Member, System};
@@ -129,7 +130,7 @@ impl ForeignAnswer {
         let joints_m = vectors(system, places)?.into_iter().zip(system.joints());
         let joints_m: Vec<_> = joints_m.map(|(at, joint)| at.or_else(|| anchored(joint))).collect();
         let missing = joints_m.iter().zip(system.joints()).filter(|(place, _)| place.is_none());
-        let missing: Vec<_> = missing.map(|(_, joint)| joint.name.clone()).collect();
+        let missing: Vec<_> = missing.map(|(_, joint)| joint.name.to_string()).collect();
         if !missing.is_empty() {
             let (count, names) = shortened(missing);
             return Err(GivenError::MissingJoints { names, count });
@@ -276,8 +277,8 @@ fn pieces(system: &System, by_span: bool) -> Vec<(usize, [usize; 2])> {
     system.members().iter().enumerate().flat_map(of_member).collect()
 }
 
-fn joint_numbers(system: &System) -> HashMap<&str, usize> {
-    system.joints().iter().enumerate().map(|(k, joint)| (joint.name.as_str(), k)).collect()
+fn joint_numbers(system: &System) -> HashMap<Cow<'_, str>, usize> {
+    system.joints().iter().enumerate().map(|(k, joint)| (joint.name.text(), k)).collect()
 }
 
 /// Vectors by the names of joints, in the order of the system.
@@ -302,7 +303,8 @@ fn vectors(
 }
 
 fn unknown(system: &System, name: &str) -> GivenError {
-    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.text()).collect();
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     let suggestion = model::system_file::nearest(name, &names).map(str::to_owned);
     GivenError::UnknownJoint { name: name.to_owned(), suggestion }
 }

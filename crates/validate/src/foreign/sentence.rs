@@ -237,7 +237,10 @@ impl Judgement {
         let found = self.nearest.equilibria.iter().map(|one| {
             let rung = one.equilibrium.evidence.rung();
             let rung = rung.map_or_else(|| "no rung".to_owned(), |rung| rung.to_string());
-            let joint = system.joints().get(one.joint).map_or("", |joint| &joint.name);
+            let joint = system
+                .joints()
+                .get(one.joint)
+                .map_or_else(String::new, |joint| joint.name.to_string());
             let forces = match one.member.checked_sub(1) {
                 Some(k) if k < system.members().len() => format!(
                     "; forces differ by up to {} N, in member {}",

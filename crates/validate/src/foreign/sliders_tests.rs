@@ -22,13 +22,11 @@ fn drawn(random: &mut ChaCha8Rng) -> System {
             _ => Support::Fixed { at_m },
         };
         let mass_kg = random.random_range(0.5..5.0);
-        joints.push(Joint { support, ..Joint::free(format!("A{k}")).with_mass(mass_kg) });
+        joints.push(Joint::free(format!("A{k}")).with_mass(mass_kg).held_by(support));
         let (length_m, mass_kg) = (random.random_range(2.0..8.0), random.random_range(0.0..3.0));
         let kind = if random.random_bool(0.5) { Kind::Bar } else { Kind::Cable };
-        members.push(Member {
-            kind,
-            ..Member::bar(k, arms, Bar::homogeneous(length_m, mass_kg).unwrap())
-        });
+        members
+            .push(Member::bar(k, arms, Bar::homogeneous(length_m, mass_kg).unwrap()).of_kind(kind));
     }
     joints.push(Joint::free("P").with_mass(random.random_range(0.5..10.0)));
     System::new("sliders", 9.81, joints, members).unwrap()

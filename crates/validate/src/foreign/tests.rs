@@ -353,7 +353,7 @@ fn the_error_of_what_does_not_fit_is_not_enclosed() {
 fn a_strut_bears_what_presses_it() {
     let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.3)];
     let rod = Member::bar(0, 1, Bar::homogeneous(2.0, 0.0).unwrap());
-    let strut = Member { kind: Kind::Strut, ..rod };
+    let strut = rod.of_kind(Kind::Strut);
     let system = System::new("prop", 10.0, joints, vec![strut]).unwrap();
     for (z, wanted_n) in [(2.0, -3.0), (2.5, 0.0)] {
         let at_m = [[0.0; 3], [0.0, 0.0, z]];
@@ -410,7 +410,7 @@ fn forces_are_searched_within_the_reach_of_the_places() {
     // its bounds is left over.
     let force = |kind: Kind, stiffness_n: Option<f64>, length_m: f64, up_n: f64| {
         let body = Bar::homogeneous(length_m, 0.0).unwrap();
-        let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
+        let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
         let joints =
             vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_force([0.0, 0.0, up_n])];
         let system = System::new("one", 10.0, joints, vec![member]).unwrap();
@@ -462,7 +462,7 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
     let guide = model::system::Support::Line { at_m: [3.0, 1.0, 11.0], direction: along };
     let joints = vec![
         Joint::anchor("A", [1.0, -2.0, 5.0]),
-        Joint { support: guide, ..Joint::free("B").with_mass(3.0).with_force([2.0, -1.0, 4.0]) },
+        Joint::free("B").with_mass(3.0).with_force([2.0, -1.0, 4.0]).held_by(guide),
     ];
     let system = System::new("guided", 10.0, joints, vec![bar]).unwrap();
     let places = [[1.0, -2.0, 5.0], [3.0, 1.0, 11.0]];

@@ -137,7 +137,7 @@ pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
 /// The members, with a cable in the place of every bar.
 fn as_cables(system: &System) -> Result<Vec<Member>, ConeError> {
     let members = system.members().iter().enumerate().map(|(k, member)| match member.kind {
-        Kind::Bar | Kind::Cable => Ok(Member { kind: Kind::Cable, ..member.clone() }),
+        Kind::Bar | Kind::Cable => Ok(member.clone().of_kind(Kind::Cable)),
         Kind::Strut => Err(ConeError::Strut { member: k + 1 }),
     });
     members.collect()

@@ -374,7 +374,7 @@ impl<'a> Judgement<'a> {
             for joint in sliding(self.system, [first, &turned], self.scale.total_n, budget_m) {
                 if !self.free[joint] {
                     self.free[joint] = true;
-                    self.agreement.undetermined.push(self.system.joints()[joint].name.clone());
+                    self.agreement.undetermined.push(self.system.joints()[joint].name.to_string());
                 }
             }
             joints_m = self.joints_apart_m(first, &turned);

@@ -72,7 +72,7 @@ impl Near {
         Self {
             moved,
             moved_m,
-            joint: system.joints()[at].name.clone(),
+            joint: system.joints()[at].name.to_string(),
             barrier_j,
             is_neighbour: moved <= FAR && barrier_j.is_none(),
             lower_j: None,

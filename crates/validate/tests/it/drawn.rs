@@ -156,10 +156,8 @@ fn newton(system: &System) -> Option<(Vec<Vector>, Vec<f64>)> {
 
 /// The same system under a part of its loads.
 fn loaded(system: &System, part: f64) -> System {
-    let joints = system.joints().iter().map(|joint| Joint {
-        mass_kg: part * joint.mass_kg,
-        force_n: joint.force_n.map(|x| part * x),
-        ..joint.clone()
+    let joints = system.joints().iter().map(|joint| {
+        joint.clone().with_mass(part * joint.mass_kg).with_force(joint.force_n.map(|x| part * x))
     });
     let members = system.members().to_vec();
     System::new(system.name(), system.gravity_m_s2(), joints.collect(), members).unwrap()

@@ -71,7 +71,7 @@ fn mooring(n: usize, [a, d, l]: [f64; 3], stiffness_n: Option<f64>) -> System {
         _ if k == n => Joint::anchor("ship", [far, 0.0, d]),
         _ => Joint::free(k.to_string()),
     };
-    let member = |k| Member { stiffness_n, ..Member::cable(k, k + 1, bar) };
+    let member = |k| Member::cable(k, k + 1, bar).stretching(stiffness_n);
     let joints = (0..=n).map(joint).collect();
     let system = System::new("mooring", 10.0, joints, (0..n).map(member).collect()).unwrap();
     system.with_floor(0.0).unwrap()
@@ -265,7 +265,7 @@ fn the_judge_knows_the_floor() {
 /// 10 N on a member of 1 m, its anchor this high above the floor.
 fn above(kind: Kind, height_m: f64) -> System {
     let joints = vec![Joint::anchor("A", [0.0, 0.0, height_m]), Joint::free("P").with_mass(1.0)];
-    let member = Member { kind, ..Member::bar(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()) };
+    let member = Member::bar(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()).of_kind(kind);
     System::new("above", 10.0, joints, vec![member]).unwrap().with_floor(0.0).unwrap()
 }
 
@@ -340,9 +340,8 @@ fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
 fn systems_that_just_touch_the_floor_have_one_self_stress() {
     let weight = |name: &str| Joint::free(name).with_mass(1.0);
     for kind in [Kind::Bar, Kind::Cable] {
-        let light = |from, to, length_m| Member {
-            kind,
-            ..Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap())
+        let light = |from, to, length_m| {
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap()).of_kind(kind)
         };
         let row = (
             vec![Joint::anchor("A", [0.0, 0.0, 1.0]), weight("Q"), weight("P")],
@@ -399,18 +398,8 @@ fn both_solvers_leave_a_weight_wholly_to_the_floor() {
             0.0,
             [10.0, 40.0, 30.0],
         ),
-        (
-            vec![anchor(), Joint { support: plane, ..weight("P") }],
-            vec![cable],
-            -1.0,
-            [0.0, 10.0, 0.0],
-        ),
-        (
-            vec![anchor(), Joint { support: plane, ..weight("P") }],
-            vec![bar(0, 1, 0.0)],
-            -1.0,
-            [0.0, 10.0, 0.0],
-        ),
+        (vec![anchor(), weight("P").held_by(plane)], vec![cable], -1.0, [0.0, 10.0, 0.0]),
+        (vec![anchor(), weight("P").held_by(plane)], vec![bar(0, 1, 0.0)], -1.0, [0.0, 10.0, 0.0]),
     ];
     for (joints, members, floor_m, wanted_n) in cases {
         let count = joints.len();

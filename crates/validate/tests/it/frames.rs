@@ -100,11 +100,9 @@ fn frame(draw: Draw, seed: u64) -> Option<(System, Vec<Vector>)> {
         }
         let force_n = [(); 3].map(|()| random.random_range(-30.0..30.0));
         let joint = Joint::free(format!("P{k}")).with_mass(random.random_range(0.5..5.0));
-        let joint = Joint { force_n, ..joint };
+        let joint = joint.with_force(force_n);
         match draw {
-            Draw::Planar => {
-                Joint { support: Support::Plane { at_m: *at_m, normal: [0.0, 1.0, 0.0] }, ..joint }
-            }
+            Draw::Planar => joint.held_by(Support::Plane { at_m: *at_m, normal: [0.0, 1.0, 0.0] }),
             _ => joint,
         }
     });
@@ -306,7 +304,7 @@ fn lengths_that_do_not_fit_are_refused_and_fit_within_a_tolerance() {
                 let members = system.members().iter().enumerate().map(|(m, member)| {
                     let length_m = member.body.length_m() * if m == 0 { 1.0 + 1e-6 } else { 1.0 };
                     let body = Bar::homogeneous(length_m, member.body.mass_kg()).unwrap();
-                    let mut changed = Member { body, ..member.clone() };
+                    let mut changed = member.clone().with_body(body);
                     changed.set_length_tolerance(tolerance_m);
                     changed
                 });

@@ -46,13 +46,11 @@ fn reversed(member: &Member) -> Member {
     let body = &member.body;
     let (length, centre) = (body.length_m(), body.length_m() - body.centre_m());
     let turned = |load: &PointLoad| PointLoad { at_m: length - load.at_m, ..*load };
-    Member {
-        from: member.to,
-        to: member.from,
-        body: Bar::new(length, body.mass_kg(), centre, body.inertia_kg_m2()).unwrap(),
-        loads: member.loads.iter().map(turned).collect(),
-        ..member.clone()
-    }
+    member
+        .clone()
+        .between(member.to, member.from)
+        .with_body(Bar::new(length, body.mass_kg(), centre, body.inertia_kg_m2()).unwrap())
+        .with_loads(member.loads.iter().map(turned).collect())
 }
 
 #[test]

@@ -73,7 +73,7 @@ impl Draft {
         };
         let member = match kind {
             0 => bar,
-            1 => Member { kind: Kind::Cable, ..bar },
+            1 => bar.of_kind(Kind::Cable),
             _ => bar.with_stiffness(10.0_f64.powf(self.between(2.0, 6.0))),
         };
         self.members.push(member);

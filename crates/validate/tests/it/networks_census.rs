@@ -243,7 +243,7 @@ fn who_ends_above_the_lowest_of_a_complete_list_is_asked_again_next_to_it() {
         bar(0, 3, 1.9, 0.69),
         bar(1, 3, 1.71, 0.6),
         bar(3, 4, 1.27, 2.85),
-        Member { kind: Kind::Cable, ..bar(1, 4, 2.672, 0.0) }.over(vec![2]),
+        bar(1, 4, 2.672, 0.0).of_kind(Kind::Cable).over(vec![2]),
     ];
     let system = System::new("boom", 9.80665, joints, members).unwrap();
 

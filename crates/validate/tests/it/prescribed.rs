@@ -43,7 +43,7 @@ fn end_m(level_n: f64, vertical_n: impl Fn(f64) -> f64) -> [f64; 2] {
 fn a_horizontal_tension_is_prescribed_by_a_slider_with_a_force() {
     for level_n in [0.5, 10.0, 300.0] {
         let support = Support::Line { at_m: [0.0; 3], direction: [1.0, 0.0, 0.0] };
-        let end = Joint { support, ..Joint::free("B").with_force([level_n, 0.0, 0.0]) };
+        let end = Joint::free("B").with_force([level_n, 0.0, 0.0]).held_by(support);
         let middle = 0.5 * f64::from(MEMBERS - 1);
         let [span_m, _] = end_m(level_n, |k| (k - middle) * WEIGHT_N);
         for e in answers(end) {

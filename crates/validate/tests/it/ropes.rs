@@ -111,7 +111,7 @@ fn ropes_beside_what_pushes_are_not_certified() {
         Joint::anchor("B", [3.0, 0.0, 0.0]),
         Joint::anchor("foot", [0.0, 0.0, -5.0]),
         // Along the stay nothing holds it.
-        Joint { support: Support::Plane { at_m: [0.0; 3], normal: [1.0, 0.0, 0.0] }, ..top },
+        top.held_by(Support::Plane { at_m: [0.0; 3], normal: [1.0, 0.0, 0.0] }),
     ];
     let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
     let mast = Member::bar(2, 3, body(4.0)).with_stiffness(1e4);
@@ -204,7 +204,7 @@ fn net(random: &mut ChaCha8Rng) -> System {
         let (first, last) = (path[0], path[path.len() - 1]);
         let body = Bar::homogeneous(part * apart(&path), 0.0).unwrap();
         let member = Member::cable(first, last, body).over(path[1..path.len() - 1].to_vec());
-        members.push(Member { stiffness_n, ..member });
+        members.push(member.stretching(stiffness_n));
     };
     // One rope over all rings, past an anchor that is a pulley, and a second one over the first ring.
     let mut path = vec![0];

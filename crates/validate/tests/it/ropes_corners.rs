@@ -163,7 +163,7 @@ fn a_slider_runs_to_its_pulley() {
         let joints = vec![
             Joint::anchor("A", at_m),
             Joint::anchor("B", [3.0, 0.0, 0.0]),
-            Joint { support, ..free("S", 2.0) },
+            free("S", 2.0).held_by(support),
             free("P", 9.0),
         ];
         let (answers, _) = agreed(&system(joints, vec![rope(&[2, 0, 3, 1], 8.0)]));
@@ -184,7 +184,7 @@ fn rings_run_together_beside_other_things() {
     let rings = |cable_kg: f64, plane: bool| {
         let support = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
         let support = if plane { support } else { Support::Free };
-        let ring = |name: &str, mass_kg: f64| Joint { support, ..free(name, mass_kg) };
+        let ring = |name: &str, mass_kg: f64| free(name, mass_kg).held_by(support);
         let joints = vec![
             Joint::anchor("A", [0.0; 3]),
             Joint::anchor("B", [2.0, 0.0, 0.0]),
@@ -386,7 +386,7 @@ fn what_slack_ropes_hold_is_free() {
     let rail = Support::Line { at_m: [3.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
-        Joint { support: rail, ..Joint::free("S") },
+        Joint::free("S").held_by(rail),
         Joint::free("M").with_mass(10.0),
         Joint::free("R"),
         Joint::anchor("B", [4.0, 0.0, 0.3]),

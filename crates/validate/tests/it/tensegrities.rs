@@ -147,9 +147,8 @@ fn the_wrong_sign_of_a_stress_holds_nothing() {
     let (system, answers) = answers("x-cross");
     let at: &[Vector] = &answers[0].joints_m;
     let with = |kinds: [Kind; 2]| {
-        let exchanged = |member: &Member| Member {
-            kind: kinds[usize::from(member.kind == Kind::Strut)],
-            ..member.clone()
+        let exchanged = |member: &Member| {
+            member.clone().of_kind(kinds[usize::from(member.kind == Kind::Strut)])
         };
         let members = system.members().iter().map(exchanged).collect();
         System::new("exchanged", 9.81, system.joints().to_vec(), members).unwrap()

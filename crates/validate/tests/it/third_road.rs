@@ -81,13 +81,9 @@ fn supports_and_held_members_are_those_of_the_system() {
     let joints = vec![
         Joint::anchor("A", [0.0, 0.0, 0.0]),
         Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint {
-            support: model::system::Support::Plane {
-                at_m: [1.0, 0.0, 0.0],
-                normal: [0.6, 0.8, 0.0],
-            },
-            ..Joint::free("P").with_mass(2.0).with_force([1.0, 2.0, 0.0])
-        },
+        Joint::free("P").with_mass(2.0).with_force([1.0, 2.0, 0.0]).held_by(
+            model::system::Support::Plane { at_m: [1.0, 0.0, 0.0], normal: [0.6, 0.8, 0.0] },
+        ),
     ];
     let body = |length: f64| Bar::homogeneous(length, 0.5).unwrap();
     let members = vec![
@@ -110,7 +106,7 @@ fn supports_and_held_members_are_those_of_the_system() {
         }
     }
     assert!((cones.axial_n[2] - 100.0 * 0.1 / 2.9).abs() < 1e-12);
-    let strut = Member { kind: Kind::Strut, ..members[0].clone() };
+    let strut = members[0].clone().of_kind(Kind::Strut);
     let pushed = System::new("pushed", 9.81, joints, vec![strut, members[1].clone()]).unwrap();
     let refused = hang_as_cables(&pushed);
     assert!(matches!(refused, Err(ConeError::Strut { member: 1 })));

@@ -15,7 +15,7 @@ fn members_act_where_they_bear_more_than_they_are_slack() {
             Joint::free("C").with_mass(1.0),
         ];
         let body = Bar::homogeneous(8.0, 0.0).unwrap();
-        let member = Member { kind, ..Member::bar(0, 1, body) };
+        let member = Member::bar(0, 1, body).of_kind(kind);
         let members = vec![member, Member::bar(0, 2, body)];
         let system = System::new("one", 10.0, joints, members).unwrap();
         let axial_n = [borne, 10.0];

@@ -14,7 +14,7 @@ fn tent(feet: &[[f64; 2]], height: f64, support: Support, load_n: f64) -> System
         .enumerate()
         .map(|(k, [x, y])| Joint::anchor(format!("F{k}"), [*x, *y, 0.0]))
         .collect();
-    joints.push(Joint { support, ..Joint::free("P").with_force([0.0, 0.0, -load_n]) });
+    joints.push(Joint::free("P").with_force([0.0, 0.0, -load_n]).held_by(support));
     let bar = |(k, [x, y]): (usize, &[f64; 2])| {
         let body = Bar::homogeneous(x.hypot(*y).hypot(height), 0.0).unwrap();
         Member::bar(k, feet.len(), body).with_stiffness(1.0)
@@ -143,7 +143,7 @@ fn the_proof_stops_at_a_kink() {
         let joints = vec![
             Joint::anchor("T", [0.0, 0.0, 2.0]),
             Joint::anchor("B", [0.0, 0.0, -1.0]),
-            Joint { support: line, ..Joint::free("P").with_force([0.0, 0.0, load_n]) },
+            Joint::free("P").with_force([0.0, 0.0, load_n]).held_by(line),
         ];
         let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
         let members = vec![
@@ -175,10 +175,10 @@ fn the_start_is_proved() {
 fn a_star_dome_reaches_its_limit() {
     let dome = model::cases::exhibit("star-dome").unwrap().system();
     let under = |factor: f64| {
-        let joints = dome.joints().iter().map(|joint| Joint {
-            force_n: joint.force_n.map(|part| part * factor),
-            ..joint.clone()
-        });
+        let joints = dome
+            .joints()
+            .iter()
+            .map(|joint| joint.clone().with_force(joint.force_n.map(|part| part * factor)));
         let members = dome.members().to_vec();
         System::new("dome", dome.gravity_m_s2(), joints.collect(), members).unwrap()
     };

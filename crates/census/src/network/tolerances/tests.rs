@@ -25,7 +25,7 @@ fn system() -> (System, Vec<Vector>, Vec<f64>) {
         Joint::anchor("B", places[1]),
         Joint::anchor("C", places[2]),
         within(Joint::free("P").with_mass(3.0).with_force([1.0, -2.0, 0.5]), None, Some(0.1)),
-        within(Joint { support: slope, ..Joint::free("Q").with_mass(2.0) }, Some(1e-3), Some(0.2)),
+        within(Joint::free("Q").with_mass(2.0).held_by(slope), Some(1e-3), Some(0.2)),
         Joint::anchor("D", places[5]),
     ];
     let member = |from: usize, to: usize, stretch: f64, mass_kg: f64| {
@@ -43,7 +43,7 @@ fn system() -> (System, Vec<Vector>, Vec<f64>) {
         elastic(member(2, 3, 0.93, 0.0), None),
         elastic(member(3, 4, 0.97, 0.3), Some(0.01)),
         elastic(member(1, 4, 0.98, 0.0), None),
-        Member { kind: Kind::Cable, ..member(5, 3, 1.2, 0.0) },
+        member(5, 3, 1.2, 0.0).of_kind(Kind::Cable),
     ];
     let system = System::new("mast", 10.0, joints, members).unwrap();
     let axial = vec![20.0, 25.0, 30.0, 15.0, 10.0, 0.0];

@@ -108,7 +108,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
         for (k, row) in nodes.iter().enumerate() {
             let name = numbered(row, copy, nodes.len(), k)?;
             let joint = node(row, name, *angle, &options, &mut held_n)?;
-            if numbers.insert(joint.name.clone(), joints.len()).is_some() {
+            if numbers.insert(joint.name.to_string(), joints.len()).is_some() {
                 return Err(row.error(Wrong::Repeated { what: format!("node {}", joint.name) }));
             }
             joints.push(joint);

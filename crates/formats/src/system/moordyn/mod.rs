@@ -130,7 +130,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
         if joint.support.is_fixed() {
             held_n.push(load(&row, &options).unwrap_or_default().in_water_n(&options));
         }
-        if numbers.insert(joint.name.clone(), joints.len()).is_some() {
+        if numbers.insert(joint.name.to_string(), joints.len()).is_some() {
             return Err(row.error(Wrong::Repeated { what: format!("point {}", joint.name) }));
         }
         joints.push(joint);

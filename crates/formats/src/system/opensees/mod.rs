@@ -398,5 +398,5 @@ fn joint(node: Node) -> Joint {
         return Joint::anchor(name, at_m);
     }
     force_n[2] += mass_kg * STANDARD_GRAVITY_M_S2;
-    Joint { support, ..Joint::free(name) }.with_mass(mass_kg).with_force(force_n).near(at_m)
+    Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).near(at_m)
 }

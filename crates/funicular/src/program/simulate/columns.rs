@@ -96,8 +96,10 @@ fn describe(system: &System, held: &[usize], has_impacts: bool) -> Vec<Column> {
         for joint in of {
             for axis in ["x", "y", "z"] {
                 let unit_word = unit.replace('/', "_").to_lowercase();
-                let name =
-                    format!("{}_{kind}{axis}_{unit_word}", joint_column(&joints[joint].name));
+                let name = format!(
+                    "{}_{kind}{axis}_{unit_word}",
+                    joint_column(&joints[joint].name.text())
+                );
                 let about = format!("{about} joint {:?} along {axis}", joints[joint].name);
                 columns.push(column(&name, Spread::Many, unit, &about));
             }

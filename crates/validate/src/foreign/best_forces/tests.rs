@@ -32,8 +32,8 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
     let mut joints = vec![
         Joint::anchor("A", vector(random)),
         Joint::anchor("B", vector(random)),
-        Joint { support: Support::Line { at_m, direction }, ..Joint::free("C") },
-        Joint { support: Support::Plane { at_m, normal }, ..Joint::free("D") },
+        Joint::free("C").held_by(Support::Line { at_m, direction }),
+        Joint::free("D").held_by(Support::Plane { at_m, normal }),
     ];
     let free = random.random_range(0..3);
     joints.extend((0..free).map(|k| Joint::free(format!("P{k}"))));
@@ -71,7 +71,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
         bounded += usize::from(elastic || kind != Kind::Bar);
         let mass_kg = random.random_range(0.0..0.2);
         let member =
-            Member { kind, ..Member::bar(from, to, Bar::homogeneous(length, mass_kg).unwrap()) };
+            Member::bar(from, to, Bar::homogeneous(length, mass_kg).unwrap()).of_kind(kind);
         members.push(if elastic {
             member.with_stiffness(random.random_range(1.0..20.0))
         } else {

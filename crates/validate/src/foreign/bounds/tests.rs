@@ -22,7 +22,7 @@ fn far_away_places_are_known_by_their_rounding() {
     let system = lamp();
     let mut joints = system.joints().to_vec();
     for (joint, x) in joints.iter_mut().zip([-3.0, 3.0]) {
-        *joint = model::system::Joint::anchor(joint.name.clone(), [far + x, 0.0, 0.0]);
+        *joint = model::system::Joint::anchor(joint.name.to_string(), [far + x, 0.0, 0.0]);
     }
     let system = System::new("far", 10.0, joints, system.members().to_vec()).unwrap();
     let places = [[far - 3.0, 0.0, 0.0], [far + 3.0, 0.0, 0.0], [far, 0.0, -4.0]];

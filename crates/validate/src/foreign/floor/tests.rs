@@ -63,7 +63,7 @@ fn a_floor_that_is_passed_or_pulls_is_told() {
 /// 3 kg on a slack cable of 2 m, on a floor 1.5 m below its anchor.
 fn sliding(support: Support, force_n: Vector, pushed_n: Vector) -> Judgement {
     let at_m = [0.0, 0.0, -1.5];
-    let mut weight = Joint { support, ..Joint::free("P").with_mass(3.0) };
+    let mut weight = Joint::free("P").with_mass(3.0).held_by(support);
     weight.force_n = force_n;
     let cable = Member::cable(0, 1, Bar::homogeneous(2.0, 0.0).unwrap());
     let joints = vec![Joint::anchor("A", [0.0; 3]), weight];

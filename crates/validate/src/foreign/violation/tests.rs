@@ -26,7 +26,7 @@ fn measures_are_told_in_units_of_what_is_allowed() {
 fn a_member_is_slack_where_both_ends_together_do_not_explain_it() {
     let bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.0 };
     let told = |kind: Kind, distance_m: f64, force_n: f64| {
-        let member = Member { kind, ..Member::bar(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()) };
+        let member = Member::bar(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()).of_kind(kind);
         let mut found = Measured::default();
         law(&member, distance_m, Some(force_n), &bounds, Place::Member(1), &mut found);
         found.violations.iter().map(|violation| violation.law).collect::<Vec<_>>()
@@ -209,8 +209,7 @@ fn lengths_are_told_in_metres_and_forces_in_newtons() {
 fn forces_are_found_that_balance_joints_in_one_place() {
     let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
     for support in [Support::Free, plane] {
-        let of =
-            |name: &str, mass_kg: f64| Joint { support, ..Joint::free(name).with_mass(mass_kg) };
+        let of = |name: &str, mass_kg: f64| Joint::free(name).with_mass(mass_kg).held_by(support);
         let joints = vec![Joint::anchor("A", [0.0; 3]), of("ring", 1.5), of("weight", 2.5)];
         let rope = Member::cable(2, 0, Bar::homogeneous(3.0, 0.0).unwrap()).over(vec![1]);
         let system = System::new("hung", 10.0, joints, vec![rope]).unwrap();

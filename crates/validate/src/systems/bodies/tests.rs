@@ -91,7 +91,7 @@ fn what_stands_on_one_vertical_is_one_node() {
         let joints: Vec<Joint> = supports
             .into_iter()
             .enumerate()
-            .map(|(k, support)| Joint { support, ..Joint::free(k.to_string()) })
+            .map(|(k, support)| Joint::free(k.to_string()).held_by(support))
             .collect();
         let bar = Bar::homogeneous(1.0, 1.0).unwrap();
         let members = (1..6).map(|k| Member::bar(0, k, bar)).collect();

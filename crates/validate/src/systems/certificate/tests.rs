@@ -212,7 +212,7 @@ fn the_most_members_meet_in_one_joint() {
 #[test]
 fn all_members_that_push_are_counted() {
     let (system, mut answer) = lamp();
-    let members = system.members().iter().map(|m| Member { kind: Kind::Bar, ..m.clone() });
+    let members = system.members().iter().map(|m| m.clone().of_kind(Kind::Bar));
     let members = members.collect();
     let system = System::new("arch", 10.0, system.joints().to_vec(), members).unwrap();
     answer.joints_m[2][2] = 4.0;

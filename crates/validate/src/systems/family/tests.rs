@@ -11,7 +11,7 @@ fn legs(support: Support, lengths_m: [f64; 4]) -> (System, SystemEquilibrium) {
     let corners = [[3.0, 0.0, 4.0], [-3.0, 0.0, 4.0], [0.0, 3.0, 4.0], [0.0, -3.0, 4.0]];
     let mut joints: Vec<Joint> =
         corners.iter().enumerate().map(|(k, at)| Joint::anchor(k.to_string(), *at)).collect();
-    joints.push(Joint { support, ..Joint::free("P") });
+    joints.push(Joint::free("P").held_by(support));
     let member = |k: usize| Member::bar(k, 4, Bar::homogeneous(lengths_m[k], 0.0).unwrap());
     let members = (0..4).map(member).collect();
     let system = System::new("legs", 10.0, joints, members).unwrap();
@@ -256,7 +256,7 @@ fn what_no_shape_removes_is_shared_by_length() {
     let joints = vec![
         Joint::anchor("A", [0.0, 0.0, 4.0]),
         Joint::anchor("B", [0.0, 0.0, -2.0]),
-        Joint { support, ..Joint::free("P") },
+        Joint::free("P").held_by(support),
     ];
     let member = |from: usize, length_m: f64| {
         Member::bar(from, 2, Bar::homogeneous(length_m, 0.0).unwrap()).with_length_tolerance(1e-3)

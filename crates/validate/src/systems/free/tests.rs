@@ -11,7 +11,7 @@ use super::*;
 /// A member of 2 m from the origin to a joint at a distance.
 fn at(kind: Kind, distance_m: f64) -> bool {
     let body = Bar::homogeneous(2.0, 0.0).unwrap();
-    let member = Member { kind, ..Member::bar(0, 1, body) };
+    let member = Member::bar(0, 1, body).of_kind(kind);
     let (_, like) = lamp();
     let joints_m = vec![[0.0; 3], [0.0, distance_m, 0.0]];
     is_slack(&member, &SystemEquilibrium { joints_m, ..like })

@@ -16,7 +16,7 @@ fn string(joints: &mut Vec<Joint>, members: &mut Vec<Member>, kind: Kind, z: f64
         joints.push(if last { Joint::anchor(name, [x, 0.0, z]) } else { Joint::free(name) });
         let body = Bar::homogeneous(*length_m, 0.0).unwrap();
         let end = joints.len() - 1;
-        members.push(Member { kind, ..Member::bar(end - 1, end, body) });
+        members.push(Member::bar(end - 1, end, body).of_kind(kind));
     }
 }
 

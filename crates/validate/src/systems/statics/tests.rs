@@ -116,7 +116,7 @@ fn the_law_of_a_prestressed_member_is_that_of_the_numbers_given() {
     let (_, like) = lamp();
     let law = |length_m: f64, axial_n: f64| {
         let body = Bar::homogeneous(length_m, 0.0).unwrap();
-        let member = Member { body, ..spring.clone() };
+        let member = spring.clone().with_body(body);
         let system = System::new("spring", 10.0, joints.clone(), vec![member]).unwrap();
         let answer = SystemEquilibrium {
             joints_m: vec![[0.0; 3], [0.0, 0.0, -1.5]],
@@ -230,7 +230,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
 fn the_laws_of_members_are_those_of_their_kinds() {
     let told = |kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
         let body = Bar::homogeneous(8.0, 0.0).unwrap();
-        let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
+        let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
         let mut found = SystemStatics::NOTHING;
         law(&member, distance_m, axial_n, 4.0, (0.25, 0.5), Place::Member(1), &mut found);
         [found.length, found.law]
