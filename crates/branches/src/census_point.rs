@@ -222,9 +222,9 @@ mod tests {
         let vary =
             ["anchors.end_m.x=0.7".parse().unwrap(), "anchors.end_m.z=-1.3".parse().unwrap()];
         let chain = model::cases::paper().into_chain();
-        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+        let variation = Variation::new(&chain, &vary, Combine::Product).unwrap();
         let paths = variation.paths();
-        let path = Path::new(&variation, &paths[0]);
+        let path = Path::new(&variation, &paths[0]).unwrap();
         let problem = path.problem(&path.values_at(0.0)).unwrap();
         let census = Census::take(&problem, &census::Settings::default()).unwrap();
         let plane = path.plane(0.0);

@@ -99,7 +99,7 @@ impl Continuation {
     /// let chain = model::system_file::parse_system(
     ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
     ///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", "two.toml")?;
-    /// let variation = Variation::new(chain, &vary, Combine::Product)?;
+    /// let variation = Variation::new(&chain, &vary, Combine::Product)?;
     /// let found = Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})?;
     /// assert_eq!((found.branches.len(), found.events.len()), (2, 1));
     /// assert_eq!(found.events[0].kind, EventKind::Straight);
@@ -119,7 +119,7 @@ impl Continuation {
         if points > most {
             return Err(ContinuationError::TooManyPoints { points, most });
         }
-        let path = Path::new(variation, values);
+        let path = Path::new(variation, values).ok_or(ContinuationError::NoRow)?;
         let grid: Vec<_> = (0..values.len()).map(|k| (path.position(k), Some(k))).collect();
         let mut work = Work {
             path: &path,
@@ -424,10 +424,10 @@ mod tests {
     #[test]
     fn disagreements_are_counted() {
         let vary = ["anchors.end_m.x=0.7".parse().unwrap()];
-        let chain = model::cases::paper().into_chain();
-        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+        let paper = model::cases::paper();
+        let variation = Variation::new(paper.chain(), &vary, Combine::Product).unwrap();
         let paths = variation.paths();
-        let path = Path::new(&variation, &paths[0]);
+        let path = Path::new(&variation, &paths[0]).unwrap();
         let point = CensusPoint::at(&path, 0.0, Some(0), &census::Settings::default()).unwrap();
         let counted = |change: &dyn Fn(&mut CensusPoint)| {
             let mut other = point.clone();

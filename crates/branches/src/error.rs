@@ -7,6 +7,11 @@ pub enum ContinuationError {
     /// Occurs when a setting of the census is out of range, or the chain is too long for one.
     #[error(transparent)]
     Census(#[from] census::CensusError),
+    /// Occurs when the system is no row of rigid bars between two anchors under upright loads.
+    #[error(
+        "all equilibria are followed of one row of rigid bars between two anchors, under upright loads alone"
+    )]
+    NoRow,
     /// Occurs when a path, or several together, have more points than the settings allow.
     #[error(
         "{points} points are more than the {most} allowed: all that is found is held in memory, about {} kB for \

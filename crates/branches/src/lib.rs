@@ -5,7 +5,7 @@
 //! use branches::{Combine, Continuation, ContinuationSettings, EventKind, Variation};
 //! // Three bars of 1 m between level anchors, which move from 1.1 m to 1.3 m apart.
 //! let vary = ["anchors.end_m.z=0".parse()?, "anchors.end_m.x=1.1..1.3:3".parse()?];
-//! let variation = Variation::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+//! let variation = Variation::new(model::cases::paper().chain(), &vary, Combine::Product)?;
 //! let found = Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})?;
 //! // The asymmetric shapes end in folds where the squared distance is 3/2.
 //! let folds = found.events.iter().filter(|event| event.kind == EventKind::Fold);

@@ -3,20 +3,57 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use model::Problem;
+use model::system::System;
+use model::{Anchors, Problem};
 use numerics::lever;
 
 use crate::frame::Frames;
-use crate::parameter::apply::{PointError, UncheckedChain};
+use crate::parameter::apply::PointError;
+use crate::parameter::base::ends;
+use crate::parameter::system::Unchecked;
 use crate::variation::Variation;
 
 /// A path and the planar chains along it.
 pub(crate) struct Path<'a> {
     variation: &'a Variation,
+    row: Arc<Order>,
     pub(crate) values: &'a [Vec<f64>],
     pub(crate) frames: Arc<Frames>,
     /// The interval between two points whose straight line the path is taken for, everywhere.
     only: Option<usize>,
+}
+
+/// The joints of a row in their order, and the member between each two, with whether it runs the other
+/// way.
+struct Order {
+    joints: Vec<usize>,
+    members: Vec<(usize, bool)>,
+}
+
+impl Order {
+    /// Without value for what is no row.
+    fn of(system: &System) -> Option<Self> {
+        let in_order = || ends(system).map(|[first, last]| (first..=last).collect());
+        let joints: Vec<usize> = match system.as_row() {
+            Some(row) => row.joints().to_vec(),
+            None => in_order()?,
+        };
+        let between = |two: &[usize]| {
+            let mut members = system.members().iter().enumerate();
+            members.find_map(|(k, member)| match [member.from, member.to] {
+                ends if ends == [two[0], two[1]] => Some((k, false)),
+                ends if ends == [two[1], two[0]] => Some((k, true)),
+                _ => None,
+            })
+        };
+        let members = joints.windows(2).map(between).collect::<Option<_>>()?;
+        Some(Self { joints, members })
+    }
+
+    fn anchors(&self, system: &Unchecked) -> Option<Anchors> {
+        let at_m = |joint: Option<&usize>| system.joints[*joint?].support.at_m();
+        Some(Anchors { start_m: at_m(self.joints.first())?, end_m: at_m(self.joints.last())? })
+    }
 }
 
 /// A chain in its vertical plane: lengths in its total length, weights centred and in half their
@@ -50,15 +87,16 @@ impl PlanarChain {
 const BEND: f64 = 1e-9;
 
 impl<'a> Path<'a> {
-    pub(crate) fn new(variation: &'a Variation, values: &'a [Vec<f64>]) -> Self {
-        let spans: Vec<[f64; 2]> = values
-            .iter()
-            .map(|values| {
-                let [x, y, _] = Self::chain(variation, values).anchors.difference_m();
-                [x, y]
-            })
-            .collect();
-        Self { variation, values, frames: Arc::new(Frames::new(&spans)), only: None }
+    /// Without value where the system is no row of bars.
+    pub(crate) fn new(variation: &'a Variation, values: &'a [Vec<f64>]) -> Option<Self> {
+        let row = Order::of(variation.base())?;
+        let span = |values: &Vec<f64>| {
+            let [x, y, _] = row.anchors(&variation.unchecked(values))?.difference_m();
+            Some([x, y])
+        };
+        let spans: Vec<[f64; 2]> = values.iter().map(span).collect::<Option<_>>()?;
+        let frames = Arc::new(Frames::new(&spans));
+        Some(Self { variation, row: Arc::new(row), values, frames, only: None })
     }
 
     /// The path between two positions, going on straight beyond them: what comes after a bend says
@@ -69,6 +107,7 @@ impl<'a> Path<'a> {
         let inside = self.position(interval) <= low && high <= self.position(interval + 1);
         Self {
             variation: self.variation,
+            row: Arc::clone(&self.row),
             values: self.values,
             frames: Arc::clone(&self.frames),
             only: inside.then_some(interval),
@@ -92,7 +131,7 @@ impl<'a> Path<'a> {
     /// so that there are equations. The chain may still be out of reach.
     pub(crate) fn is_chain(&self, position: f64) -> bool {
         let problem = self.problem(&self.values_at(position));
-        !matches!(problem, Err(PointError::Bar { .. } | PointError::Chain(_)))
+        !matches!(problem, Err(PointError::Bar { .. } | PointError::System(_) | PointError::NoRow))
             && self.plane(position).force_unit_n > 0.0
     }
 
@@ -114,7 +153,7 @@ impl<'a> Path<'a> {
 
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
-        self.variation.base().bars().len()
+        self.row.members.len()
     }
 
     /// Position of a point on the path.
@@ -157,29 +196,29 @@ impl<'a> Path<'a> {
         self.variation.problem(values)
     }
 
-    fn chain(variation: &Variation, values: &[f64]) -> UncheckedChain {
-        let numbers: Vec<_> =
-            variation.numbers().iter().cloned().zip(values.iter().copied()).collect();
-        UncheckedChain::new(variation.base(), &numbers)
-    }
-
-    /// The planar chain at a position; nothing is checked.
+    /// The planar chain at a position; nothing is checked. A weight at a joint is carried with the bar
+    /// before it.
     pub(crate) fn plane(&self, position: f64) -> PlanarChain {
-        let chain = Self::chain(self.variation, &self.values_at(position));
-        let [x, y, z] = chain.anchors.difference_m();
+        let system = self.variation.unchecked(&self.values_at(position));
+        let g = system.gravity_m_s2;
+        let anchors = self.row.anchors(&system);
+        let [x, y, z] = anchors.map_or([f64::NAN; 3], |anchors| anchors.difference_m());
         let horizontal = self.frames.signed(self.interval(position).0, [x, y]);
-        let unit = model::sum(chain.bars.iter().map(|bar| bar.length_m));
+        let bars =
+            || self.row.members.iter().map(|(k, turned)| (&system.members[*k].body, *turned));
+        let unit = model::sum(bars().map(|(bar, _)| bar.length_m));
         let mut carried = 0.0;
-        let mut raw = Vec::with_capacity(chain.bars.len());
-        for bar in &chain.bars {
-            raw.push(carried + bar.mass_kg * lever(bar.length_m, bar.centre_m())[0]);
-            carried += bar.mass_kg;
+        let mut raw = Vec::with_capacity(self.bars());
+        for ((bar, turned), joint) in bars().zip(&self.row.joints[1..]) {
+            let joint = &system.joints[*joint];
+            let [first, second] = lever(bar.length_m, bar.centre_m());
+            raw.push(carried + bar.mass_kg * if turned { second } else { first });
+            carried += bar.mass_kg + (joint.mass_kg - joint.force_n[2] / g);
         }
         let (first, last) = (raw[0], raw[raw.len() - 1]);
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-        let g = chain.gravity_m_s2;
         PlanarChain {
-            length: chain.bars.iter().map(|bar| bar.length_m / unit).collect(),
+            length: bars().map(|(bar, _)| bar.length_m / unit).collect(),
             weight: raw.iter().map(|c| (c - middle) / half).collect(),
             span: [horizontal / unit, z / unit],
             length_unit_m: unit,
@@ -208,7 +247,7 @@ mod tests {
         ];
         let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
         let chain = model::cases::paper().into_chain();
-        Variation::new(chain, &vary, Combine::Zip).unwrap()
+        Variation::new(&chain, &vary, Combine::Zip).unwrap()
     }
 
     fn near(found: &[f64], wanted: &[f64]) {
@@ -222,7 +261,7 @@ mod tests {
     #[test]
     fn values_go_straight_from_point_to_point() {
         let variation = variation();
-        let path = Path::new(&variation, &variation.paths()[0]);
+        let path = Path::new(&variation, &variation.paths()[0]).unwrap();
         assert_eq!(
             [0, 1, 2, 3].map(|point| path.position(point).to_bits()),
             [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(f64::to_bits)
@@ -248,36 +287,48 @@ mod tests {
     #[test]
     fn a_path_within_an_interval_goes_on_straight() {
         let variation = variation();
-        let path = Path::new(&variation, &variation.paths()[0]);
+        let path = Path::new(&variation, &variation.paths()[0]).unwrap();
         near(&path.within(0.35, 0.65).values_at(0.9), &[-0.65, 3.7, 0.25]);
         near(&path.within(1.0 / 3.0, 2.0 / 3.0).values_at(0.2), &[-1.7, 1.6, 0.25]);
         near(&path.within(0.5, 0.75).values_at(0.9), &path.values_at(0.9));
         near(&path.within(0.2, 0.5).values_at(0.9), &path.values_at(0.9));
     }
 
-    /// Lengths in the total, weights from -1 to 1 by the levers of the bars, the span in the plane.
+    /// Lengths in the total, weights from -1 to 1 by the levers of the bars, the span in the plane; a bar
+    /// that is written from its end, a mass and a force at joints.
     #[test]
     fn the_plane_chain_is_that_of_the_numbers() {
-        use model::{Anchors, Bar, Chain};
+        use model::Bar;
+        use model::system::{Joint, Member};
         let bar = |length, mass, centre| Bar::new(length, mass, centre, [0.0; 3]).unwrap();
-        let bars = vec![bar(2.0, 3.0, 0.5), bar(1.0, 2.0, 0.75), bar(5.0, 1.0, 2.0)];
-        let anchors = Anchors { start_m: [1.0, 2.0, 3.0], end_m: [4.0, 6.0, 1.0] };
-        let chain = Chain::new("", 10.0, anchors, bars).unwrap();
+        let joints = vec![
+            Joint::anchor("A", [1.0, 2.0, 3.0]),
+            Joint::free("P").with_mass(0.5),
+            Joint::free("Q").with_force([0.0, 0.0, -12.0]),
+            Joint::anchor("B", [4.0, 6.0, 1.0]),
+        ];
+        let members = vec![
+            Member::bar(0, 1, bar(2.0, 3.0, 0.5)),
+            Member::bar(2, 1, bar(1.0, 2.0, 0.25)),
+            Member::bar(2, 3, bar(5.0, 1.0, 2.0)),
+        ];
+        let system = System::new("", 10.0, joints, members).unwrap();
         let vary = ["gravity_m_s2=10,20".parse().unwrap()];
-        let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
-        let path = Path::new(&variation, &variation.paths()[0]);
+        let variation = Variation::new(system, &vary, Combine::Product).unwrap();
+        let path = Path::new(&variation, &variation.paths()[0]).unwrap();
         assert_eq!((path.bars(), path.moving(0.5)), (3, Some(0)));
         let plane = path.plane(0.5);
         near(&plane.length, &[0.25, 0.125, 0.625]);
-        // What is before each bar, and of its own mass the share at its first joint: 3/4, 1/4, 3/5.
-        let raw = [3.0 * 0.75, 3.0 + 2.0 * 0.25, 5.0 + 0.6];
+        // What is before each bar, and of its own mass the share at its first joint: 3/4, 1/4, 3/5; 0.5 kg,
+        // and 12 N under 15 m/s^2.
+        let raw = [3.0 * 0.75, 3.5 + 2.0 * 0.25, 5.5 + 0.8 + 0.6];
         let (middle, half) = (0.5 * (raw[0] + raw[2]), 0.5 * (raw[2] - raw[0]));
         near(&plane.weight, &raw.map(|c| (c - middle) / half));
         near(&[plane.offset_n, plane.force_unit_n], &[15.0 * middle, 15.0 * half]);
         near(&plane.span, &[5.0 / 8.0, -2.0 / 8.0]);
         assert!((plane.span_m() - 29.0_f64.sqrt()).abs() < 1e-14);
         assert!(
-            (plane.total_n - 6.0 * 15.0).abs() < 1e-12 && (plane.length_unit_m - 8.0).abs() < 1e-15
+            (plane.total_n - 7.3 * 15.0).abs() < 1e-12 && (plane.length_unit_m - 8.0).abs() < 1e-15
         );
     }
 }

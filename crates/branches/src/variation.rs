@@ -1,13 +1,13 @@
 //! Several parameters: every combination, or in step.
 
+use model::Problem;
 use model::system::System;
-use model::{Chain, Problem};
 
-use crate::parameter::apply::{PointError, apply};
+use crate::parameter::apply::PointError;
 use crate::parameter::base::Base;
 use crate::parameter::error::ParameterError;
 use crate::parameter::number::Number;
-use crate::parameter::system;
+use crate::parameter::system::{self, Unchecked};
 use crate::parameter::values::{MAX_POINTS, Parameter};
 
 /// How several parameters are combined.
@@ -16,7 +16,7 @@ use crate::parameter::values::{MAX_POINTS, Parameter};
 /// use branches::{Combine, Variation};
 /// let vary = ["bars.1.mass_kg=1,2".parse()?, "bars.3.mass_kg=3,4".parse()?];
 /// let paths = |combine| {
-///     let variation = Variation::new(model::cases::paper().into_chain(), &vary, combine);
+///     let variation = Variation::new(model::cases::paper().chain(), &vary, combine);
 ///     variation.map(|variation| variation.paths().to_vec())
 /// };
 /// assert_eq!(paths(Combine::Product)?, [[[1.0, 3.0], [1.0, 4.0]], [[2.0, 3.0], [2.0, 4.0]]]);
@@ -32,20 +32,20 @@ pub enum Combine {
     Zip,
 }
 
-/// A chain or a system with parameters: a list of paths, each a row of points.
+/// A system with parameters: a list of paths, each a row of points.
 ///
 /// Along a path the branches of equilibria are followed. In a product the last parameter runs along
 /// the path, and each combination of the others has a path of its own; in step there is one path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Variation<B = Chain> {
-    base: B,
+pub struct Variation {
+    base: System,
     numbers: Vec<Number>,
     /// For each path, for each point, for each number.
     paths: Vec<Vec<Vec<f64>>>,
 }
 
-impl<B: Base> Variation<B> {
-    /// The variation of a chain or a system over parameters.
+impl Variation {
+    /// The variation of a system over parameters.
     ///
     /// # Errors
     ///
@@ -55,14 +55,19 @@ impl<B: Base> Variation<B> {
     ///
     /// ```
     /// use branches::{Combine, Variation};
-    /// let chain = model::cases::paper().into_chain();
+    /// let paper = model::cases::paper();
     /// let vary = ["bars.2.mass_kg=1,2,3".parse()?, "anchors.end_m.z=-2.5..-0.5:5".parse()?];
-    /// let variation = Variation::new(chain.clone(), &vary, Combine::Product)?;
+    /// let variation = Variation::new(paper.chain(), &vary, Combine::Product)?;
     /// assert_eq!((variation.paths().len(), variation.paths()[0].len()), (3, 5));
-    /// assert!(Variation::new(chain, &vary, Combine::Zip).is_err());
+    /// assert!(Variation::new(paper.chain(), &vary, Combine::Zip).is_err());
     /// # Ok::<(), branches::ParameterError>(())
     /// ```
-    pub fn new(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
+    pub fn new(
+        base: impl Into<System>,
+        vary: &[Parameter],
+        combine: Combine,
+    ) -> Result<Self, ParameterError> {
+        let base = base.into();
         for one in vary {
             base.check(one)?;
             one.with_points()?;
@@ -75,7 +80,12 @@ impl<B: Base> Variation<B> {
     /// # Errors
     ///
     /// As [`new`](Self::new).
-    pub fn along(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
+    pub fn along(
+        base: impl Into<System>,
+        vary: &[Parameter],
+        combine: Combine,
+    ) -> Result<Self, ParameterError> {
+        let base = base.into();
         for (k, one) in vary.iter().enumerate() {
             base.check(one)?;
             let number = base.resolved(&one.number);
@@ -113,37 +123,46 @@ impl<B: Base> Variation<B> {
 
     /// What has the numbers that vary.
     #[must_use]
-    pub fn base(&self) -> &B {
+    pub fn base(&self) -> &System {
         &self.base
     }
 
     fn at(&self, values: &[f64]) -> Vec<(Number, f64)> {
         self.numbers.iter().cloned().zip(values.iter().copied()).collect()
     }
-}
 
-impl Variation<Chain> {
-    /// The problem at some values of the numbers, on or off the grid.
+    /// Whether the system is one row of rigid bars between two anchors under upright loads, and stays
+    /// one: all its equilibria can be followed.
+    #[must_use]
+    pub fn is_row(&self) -> bool {
+        self.base.as_row().is_some() && self.numbers.iter().all(Number::keeps_rows)
+    }
+
+    /// The row of bars at some values of the numbers, on or off the grid, as a chain.
     ///
     /// # Errors
     ///
-    /// [`PointError`] when the values describe no problem.
+    /// [`PointError`] when the values describe no such problem.
     ///
     /// ```
     /// use branches::{Combine, PointError, Variation};
     /// let vary = ["anchors.end_m.z=-3.1..-0.1:61".parse()?];
-    /// let variation = Variation::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+    /// let variation = Variation::new(model::cases::paper().chain(), &vary, Combine::Product)?;
     /// assert_eq!(variation.problem(&[-2.5])?.chain().anchors().span_m(), 2.5);
     /// // Three bars of 1 m reach no farther than 3 m.
     /// assert!(variation.problem(&[-3.1]).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
-        apply(&self.base, &self.at(values))
+        let system = self.system(values)?;
+        system.as_row().map(|row| row.problem().clone()).ok_or(PointError::NoRow)
     }
-}
 
-impl Variation<System> {
+    /// The numbers at some values, whether or not they describe a system.
+    pub(crate) fn unchecked(&self, values: &[f64]) -> Unchecked {
+        Unchecked::new(&self.base, &self.at(values))
+    }
+
     /// The system at some values of the numbers, on or off the grid.
     ///
     /// # Errors

@@ -1,5 +1,7 @@
 //! Numbers of a system file that vary.
 
+use std::sync::Arc;
+
 use branches::{Base, Combine, Parameter, ParameterError, Variation};
 
 use crate::equilibria::system_of;
@@ -46,10 +48,9 @@ impl Parameters {
         Self { combine, ..self }
     }
 
-    /// The chain of a problem with these parameters; `what` needs one.
-    pub(crate) fn of(&self, problem: &Problem, what: &'static str) -> Result<Variation, Error> {
-        let row = problem.row().ok_or(Error::ChainsOnly { what })?;
-        self.over(row.chain().clone())
+    /// Whether the problem is one row of rigid bars between two anchors under upright loads, and stays one.
+    pub(crate) fn keep_row(&self, problem: &Problem) -> bool {
+        problem.row().is_some() && self.all.iter().all(|one| one.number.keeps_rows())
     }
 
     /// Whether one is a range without a number of points.
@@ -63,14 +64,16 @@ impl Parameters {
         Self { all: all.collect(), combine: self.combine }
     }
 
-    /// A system with these parameters, for paths that find their own points.
-    pub(crate) fn along<B: Base>(&self, base: B) -> Result<Variation<B>, Error> {
-        Ok(Variation::along(base, &self.all, self.combine)?)
+    /// A problem with these parameters, for paths that find their own points.
+    pub(crate) fn along(&self, problem: &Problem) -> Result<Variation, Error> {
+        let system = Arc::unwrap_or_clone(problem.system());
+        Ok(Variation::along(system, &self.all, self.combine)?)
     }
 
-    /// A chain or a system with these parameters.
-    pub(crate) fn over<B: Base>(&self, base: B) -> Result<Variation<B>, Error> {
-        Ok(Variation::new(base, &self.all, self.combine)?)
+    /// A problem with these parameters.
+    pub(crate) fn over(&self, problem: &Problem) -> Result<Variation, Error> {
+        let system = Arc::unwrap_or_clone(problem.system());
+        Ok(Variation::new(system, &self.all, self.combine)?)
     }
 }
 

@@ -13,20 +13,17 @@ pub use self::confirm::Confirmed;
 pub use self::enclosed::PathProved;
 
 use std::io::{self, Write};
-use std::sync::Arc;
 
 use branches::{
     Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, ParameterError,
     PointStatus, Progress, Variation,
 };
 
-use model::SystemSummary;
-use model::system::System;
 use serde::Serialize;
 
 use self::load::{LoadEnd, LoadPath, LoadPaths};
-use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::modes::Summary;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
 use crate::solve::SCHEMA_VERSION;
@@ -160,7 +157,7 @@ impl Trace {
             || !self.of.is_empty()
             || self.branches > 0
             || self.linear_buckling
-            || problem.row().is_none()
+            || !self.parameters.keep_row(problem)
     }
 
     /// How many threads share the work, 0 (the default) for those of the pool that it is called
@@ -176,7 +173,10 @@ impl Trace {
     ///
     /// [`Error::Parameter`] when a parameter does not fit the chain.
     pub fn variation(&self, problem: &Problem) -> Result<Variation, Error> {
-        let variation = self.parameters.of(problem, "a trace")?;
+        let variation = self.parameters.over(problem)?;
+        if !variation.is_row() {
+            return Err(ContinuationError::NoRow.into());
+        }
         match variation.numbers().iter().find(|number| number.is_count()) {
             None => Ok(variation),
             Some(count) => {
@@ -193,8 +193,8 @@ impl Trace {
     /// # Errors
     ///
     /// [`Error::Parameter`] when a parameter does not fit the problem.
-    pub fn load_variation(&self, problem: &Problem) -> Result<Variation<System>, Error> {
-        self.parameters.along(Arc::unwrap_or_clone(system_of(problem)))
+    pub fn load_variation(&self, problem: &Problem) -> Result<Variation, Error> {
+        self.parameters.along(problem)
     }
 
     /// Processor time of the censuses at all points, s, good to an order of magnitude, as the
@@ -206,7 +206,7 @@ impl Trace {
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
         let variation = self.variation(problem)?;
         let points: usize = variation.paths().iter().map(Vec::len).sum();
-        Ok(points as f64 * census::expected_time_s(variation.base().bars().len()))
+        Ok(points as f64 * census::expected_time_s(variation.base().members().len()))
     }
 
     /// Follow all equilibria, or the load path.
@@ -253,7 +253,7 @@ impl Trace {
                 Continuation::follow(&variation, path, &self.settings, &watch)
             };
             let paths = (0..variation.paths().len()).map(follow).collect::<Result<_, _>>()?;
-            Ok(TraceAnswer(Found::All { system: variation.base().summary(), paths }))
+            Ok(TraceAnswer(Found::All { system: Summary::new(variation.base()), paths }))
         })?
     }
 }
@@ -267,7 +267,7 @@ pub struct TraceAnswer(Found);
 
 #[derive(Debug, Clone, PartialEq)]
 enum Found {
-    All { system: SystemSummary, paths: Vec<Continuation> },
+    All { system: Summary, paths: Vec<Continuation> },
     Load(LoadPaths),
 }
 
@@ -401,7 +401,7 @@ impl Serialize for TraceAnswer {
         #[derive(Serialize)]
         struct Object<'a> {
             schema_version: u32,
-            system: &'a SystemSummary,
+            system: &'a Summary,
             traces: &'a [Continuation],
         }
         match &self.0 {

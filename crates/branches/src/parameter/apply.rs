@@ -1,12 +1,11 @@
-//! From numbers to chains.
+//! Numbers that are out of range, and bars whose numbers are not checked yet.
 
 use model::budget::OutOfMemory;
-use model::system::{PrestressError, SystemError, SystemRefusal};
-use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
+use model::system::{PrestressError, System, SystemError, SystemRefusal};
+use model::{Bar, BarError};
 
 use crate::parameter::base::Base;
-use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
-use crate::parameter::rows;
+use crate::parameter::number::{BarField, Number, Which};
 
 /// Why a point of a variation is refused: the values describe no problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -28,9 +27,9 @@ pub enum PointError {
         /// What is wrong with it.
         error: PrestressError,
     },
-    /// Occurs when a number of the chain is out of range.
-    #[error(transparent)]
-    Chain(#[from] ChainError),
+    /// Occurs when all equilibria of a row of rigid bars are followed and these values make it something else.
+    #[error("no row of rigid bars between two anchors under upright loads")]
+    NoRow,
     /// Occurs when a row cannot have so many bars.
     #[error("a row of {value} bars: a whole number from 1 to {most} is allowed")]
     Count {
@@ -52,9 +51,6 @@ pub enum PointError {
     /// Occurs when a system of so many bars does not fit into memory.
     #[error(transparent)]
     Memory(#[from] OutOfMemory),
-    /// Occurs when the chain is no equilibrium problem: out of reach, straight, without mass.
-    #[error(transparent)]
-    Refused(#[from] Refusal),
     /// Occurs when a number of a system is out of range.
     #[error(transparent)]
     System(#[from] SystemError),
@@ -63,34 +59,8 @@ pub enum PointError {
     SystemRefused(#[from] Box<SystemRefusal>),
 }
 
-/// The chain with these numbers in place of its own, validated.
-///
-/// # Errors
-///
-/// [`PointError`] when a number is out of range or the chain has no answer.
-pub fn apply(base: &Chain, numbers: &[(Number, f64)]) -> Result<Problem, PointError> {
-    let UncheckedChain { gravity_m_s2, anchors, mut bars } = UncheckedChain::new(base, numbers);
-    for (row, value) in counts(base, numbers) {
-        let [first, last] = row;
-        let old = last - first + 1;
-        let count = rows::number(value, bars.len() - old)?;
-        if bars[first..=last].windows(2).any(|two| two[0] != two[1]) {
-            return Err(PointError::Unequal { first: first + 1, last: last + 1 });
-        }
-        let bar = bars[first].divided(old as f64 / count as f64);
-        bars.splice(first..=last, std::iter::repeat_n(bar, count));
-    }
-    let bars = bars
-        .iter()
-        .enumerate()
-        .map(|(k, bar)| bar.bar().map_err(|error| PointError::Bar { bar: k + 1, error }));
-    let bars: Vec<Bar> = bars.collect::<Result<_, _>>()?;
-    let chain = Chain::new(base.name(), gravity_m_s2, anchors, bars)?;
-    Ok(Problem::new(chain)?)
-}
-
 /// The rows, from 0, that get another count, the last one first, with it.
-pub(super) fn counts<B: Base>(base: &B, numbers: &[(Number, f64)]) -> Vec<([usize; 2], f64)> {
+pub(super) fn counts(base: &System, numbers: &[(Number, f64)]) -> Vec<([usize; 2], f64)> {
     let row = |(number, value): &(Number, f64)| match base.resolved(number) {
         Number::Bar(Which::Range(first, last), BarField::Count) => {
             Some(([first - 1, last - 1], *value))
@@ -100,48 +70,6 @@ pub(super) fn counts<B: Base>(base: &B, numbers: &[(Number, f64)]) -> Vec<([usiz
     let mut rows: Vec<_> = numbers.iter().filter_map(row).collect();
     rows.sort_by_key(|(row, _)| std::cmp::Reverse(*row));
     rows
-}
-
-/// The numbers of a chain, not checked: between two points of a path they need not describe a
-/// problem.
-pub(crate) struct UncheckedChain {
-    pub(crate) gravity_m_s2: f64,
-    pub(crate) anchors: Anchors,
-    pub(crate) bars: Vec<UncheckedBar>,
-}
-
-impl UncheckedChain {
-    pub(crate) fn new(base: &Chain, numbers: &[(Number, f64)]) -> Self {
-        let mut chain = Self {
-            gravity_m_s2: base.gravity_m_s2(),
-            anchors: *base.anchors(),
-            bars: base.bars().iter().map(UncheckedBar::new).collect(),
-        };
-        for (number, value) in numbers {
-            chain.set(number, *value);
-        }
-        chain
-    }
-
-    fn set(&mut self, number: &Number, value: f64) {
-        match number {
-            Number::Gravity => self.gravity_m_s2 = value,
-            Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[*axis] = value,
-            Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[*axis] = value,
-            // A chain has none of them; its variations are refused before.
-            Number::Loads
-            | Number::Lengths
-            | Number::Floor
-            | Number::Joint(..)
-            | Number::Row(..) => {}
-            Number::Bar(which, field) => {
-                let named = self.bars.iter_mut().enumerate().filter(|(k, _)| which.has(k + 1));
-                for (_, bar) in named {
-                    bar.set(*field, value);
-                }
-            }
-        }
-    }
 }
 
 /// A bar whose numbers are not checked yet. A centre and moments that were left out stay so.

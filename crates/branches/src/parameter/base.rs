@@ -1,6 +1,5 @@
 //! What a parameter needs to be there.
 
-use model::Chain;
 use model::system::{Joint, System};
 use model::system_file::nearest;
 
@@ -12,7 +11,7 @@ use crate::parameter::values::Parameter;
 /// So many names of joints are listed.
 const MOST_NAMES: usize = 12;
 
-/// What has numbers that vary: a [`Chain`] or a [`System`].
+/// The numbers of a [`System`] that vary.
 pub trait Base {
     /// Check that the number of a parameter is there.
     ///
@@ -22,38 +21,7 @@ pub trait Base {
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError>;
 
     /// The number itself, where the path is another name for it.
-    fn resolved(&self, number: &Number) -> Number {
-        number.clone()
-    }
-}
-
-impl Base for Chain {
-    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
-        match &parameter.number {
-            Number::Loads
-            | Number::Lengths
-            | Number::Floor
-            | Number::Joint(..)
-            | Number::Row(..)
-            | Number::Bar(
-                _,
-                BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance,
-            ) => {
-                let what = format!("a chain has no `{}`", parameter.number);
-                Err(of_path(parameter, what, "it belongs to systems with `[joints]`"))
-            }
-            Number::Bar(which, _) => bar(parameter, *which, self.bars().len(), "chain"),
-            Number::Gravity | Number::Anchor(..) => Ok(()),
-        }?;
-        one_row(parameter, &self.resolved(&parameter.number))
-    }
-
-    /// A count is that of a whole row.
-    fn resolved(&self, number: &Number) -> Number {
-        let bars = self.bars();
-        let row = |bar| rows::run(bar, bars.len(), |k| bars[k] == bars[k + 1]);
-        row_of(number, bars.len(), row)
-    }
+    fn resolved(&self, number: &Number) -> Number;
 }
 
 impl Base for System {
@@ -64,9 +32,11 @@ impl Base for System {
                 self.resolved(&Number::Bar(Which::Range(a, b), *field))
             });
         }
-        if number.is_count() {
+        if let Number::Bar(which, BarField::Count) = number {
             let (joints, members) = (self.joints(), self.members());
-            return row_of(number, members.len(), |bar| rows::row(joints, members, bar));
+            let row = rows::whole(*which, members.len(), |bar| rows::row(joints, members, bar));
+            // Of several rows it is that of none.
+            return Number::Bar(row.unwrap_or(Which::All), BarField::Count);
         }
         let Number::Anchor(end, axis) = number else { return number.clone() };
         let ends = ends(self).map(|[start, last]| match end {
@@ -80,7 +50,7 @@ impl Base for System {
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
             Number::Loads | Number::Lengths | Number::Gravity | Number::Floor => Ok(()),
-            Number::Bar(which, _) => bar(parameter, *which, self.members().len(), "system"),
+            Number::Bar(which, _) => bar(parameter, *which, self.members().len()),
             Number::Row(name, _) if row(self, name).is_some() => Ok(()),
             Number::Row(name, _) => {
                 let what = format!("there is no row of bars `{name}`");
@@ -119,18 +89,6 @@ impl Base for System {
     }
 }
 
-/// The count of some bars as that of the whole row that they are of; of all bars where they are of several,
-/// which is that of no row.
-fn row_of(number: &Number, bars: usize, row: impl Fn(usize) -> [usize; 2]) -> Number {
-    match number {
-        Number::Bar(which, BarField::Count) => rows::whole(*which, bars, row)
-            .map_or(Number::Bar(Which::All, BarField::Count), |row| {
-                Number::Bar(row, BarField::Count)
-            }),
-        _ => number.clone(),
-    }
-}
-
 /// Refuse a count of bars that are not of one row.
 fn one_row(parameter: &Parameter, resolved: &Number) -> Result<(), ParameterError> {
     match resolved {
@@ -160,7 +118,7 @@ fn held(parameter: &Parameter, joint: &Joint, field: JointField) -> Result<(), P
 }
 
 /// Whether there are so many bars.
-fn bar(parameter: &Parameter, which: Which, bars: usize, what: &str) -> Result<(), ParameterError> {
+fn bar(parameter: &Parameter, which: Which, bars: usize) -> Result<(), ParameterError> {
     match which {
         Which::One(bar) | Which::Range(_, bar) if bar > bars => {
             let path = path(parameter);
@@ -170,7 +128,7 @@ fn bar(parameter: &Parameter, which: Which, bars: usize, what: &str) -> Result<(
                 parameter.text(),
                 at..at + digits,
                 format!("there is no bar {bar}"),
-                format!("the {what} has {bars} bars, numbered from 1"),
+                format!("there are {bars} bars, numbered from 1"),
             ))
         }
         _ => Ok(()),
@@ -192,7 +150,7 @@ fn of_path(
 }
 
 /// The two anchors of a system that is one row of bars between them, in the order of its bars.
-fn ends(system: &System) -> Option<[usize; 2]> {
+pub(crate) fn ends(system: &System) -> Option<[usize; 2]> {
     let (joints, members) = (system.joints(), system.members());
     let row = members.iter().enumerate().all(|(k, member)| [member.from, member.to] == [k, k + 1]);
     let last = members.len();

@@ -63,7 +63,7 @@ pub enum AnchorEnd {
 /// Which bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Which {
-    /// The bar of this number, counted from 1 along the chain: a table with `count = 3` is three
+    /// The bar of this number, counted from 1: a table with `count = 3` is three
     /// bars.
     One(usize),
     /// From one bar to another, both of them: `1-20`.
@@ -177,6 +177,20 @@ impl Number {
     #[must_use]
     pub fn is_count(&self) -> bool {
         matches!(self, Self::Bar(_, BarField::Count) | Self::Row(_, BarField::Count))
+    }
+
+    /// Whether a row of rigid bars under upright loads is one whatever the value.
+    #[must_use]
+    pub fn keeps_rows(&self) -> bool {
+        let of_bar = |field: &BarField| {
+            !matches!(field, BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance)
+        };
+        match self {
+            Self::Bar(_, field) | Self::Row(_, field) => of_bar(field),
+            Self::Joint(_, field) => !matches!(field, JointField::Force(0 | 1)),
+            Self::Floor => false,
+            Self::Loads | Self::Lengths | Self::Gravity | Self::Anchor(..) => true,
+        }
     }
 
     /// Whether both set one number of a system file: `bars.1.length_m` and `bars.*.length_m` do.

@@ -26,49 +26,14 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
 
 /// The same whether or not it has an equilibrium.
 pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
-    let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
-    let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
-    let (mut of_members, mut shares) = (Vec::new(), Vec::new());
-    // First, whatever the order: other numbers are what they say.
-    let factor = |of: Number| -> f64 {
-        numbers.iter().filter(|(number, _)| *number == of).map(|(_, factor)| *factor).product()
-    };
-    let factors = Factors { loads: factor(Number::Loads), lengths: factor(Number::Lengths) };
-    for joint in &mut joints {
-        joint.mass_kg *= factors.loads;
-        joint.force_n = joint.force_n.map(|force| force * factors.loads);
-    }
+    let Unchecked { gravity_m_s2, floor_m, mut joints, members } = Unchecked::new(base, numbers);
+    let members = members.into_iter().enumerate().map(|(k, member)| member.checked(k + 1));
+    let mut members: Vec<Member> = members.collect::<Result<_, _>>()?;
     for (number, value) in numbers {
-        match base.resolved(number) {
-            Number::Gravity => gravity_m_s2 = *value,
-            Number::Floor => floor_m = Some(*value),
-            Number::Joint(name, JointField::Share) => shares.push((name, *value)),
-            Number::Joint(name, field) => {
-                if let Some(joint) = base.joint(&name) {
-                    set_joint(&mut joints[joint], field, *value);
-                }
-            }
-            // Factors are set before, counts come last; what is of no row of bars is refused before.
-            Number::Loads
-            | Number::Lengths
-            | Number::Bar(_, BarField::Count)
-            | Number::Anchor(..)
-            | Number::Row(..) => {}
-            Number::Bar(which, field) => {
-                of_members.push((which, field, *value));
-            }
-        }
-    }
-    for (k, member) in members.iter_mut().enumerate() {
-        let mut numbers = of_members.iter().filter(|(which, ..)| which.has(k + 1)).peekable();
-        if numbers.peek().is_some() || factors != Factors::NONE {
-            let numbers = numbers.map(|(_, field, value)| (*field, *value));
-            *member = with(member.clone(), k + 1, factors, numbers)?;
-        }
-    }
-    for (name, value) in shares {
-        if let Some(joint) = base.joint(&name) {
-            rows::share(&joints, &mut members, joint, value)?;
+        if let Number::Joint(name, JointField::Share) = number
+            && let Some(joint) = base.joint(name)
+        {
+            rows::share(&joints, &mut members, joint, *value)?;
         }
     }
     for (row, value) in counts(base, numbers) {
@@ -79,6 +44,60 @@ pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<S
         system = system.with_floor(floor_m)?;
     }
     Ok(system)
+}
+
+/// The numbers of a system without shares and counts, not checked: between two points of a path they
+/// need not describe one.
+pub(crate) struct Unchecked {
+    pub(crate) gravity_m_s2: f64,
+    floor_m: Option<f64>,
+    pub(crate) joints: Vec<Joint>,
+    pub(crate) members: Vec<UncheckedMember>,
+}
+
+impl Unchecked {
+    pub(crate) fn new(base: &System, numbers: &[(Number, f64)]) -> Self {
+        // First, whatever the order: other numbers are what they say.
+        let factor = |of: Number| -> f64 {
+            numbers.iter().filter(|(number, _)| *number == of).map(|(_, factor)| *factor).product()
+        };
+        let factors = Factors { loads: factor(Number::Loads), lengths: factor(Number::Lengths) };
+        let mut new = Self {
+            gravity_m_s2: base.gravity_m_s2(),
+            floor_m: base.floor_m(),
+            joints: base.joints().to_vec(),
+            members: base.members().iter().map(UncheckedMember::new).collect(),
+        };
+        if factors != Factors::NONE {
+            for joint in &mut new.joints {
+                joint.mass_kg *= factors.loads;
+                joint.force_n = joint.force_n.map(|force| force * factors.loads);
+            }
+            for member in &mut new.members {
+                member.scale(factors);
+            }
+        }
+        for (number, value) in numbers {
+            match base.resolved(number) {
+                Number::Gravity => new.gravity_m_s2 = *value,
+                Number::Floor => new.floor_m = Some(*value),
+                Number::Joint(name, field) => {
+                    if let Some(joint) = base.joint(&name) {
+                        set_joint(&mut new.joints[joint], field, *value);
+                    }
+                }
+                Number::Bar(which, field) if field != BarField::Count => {
+                    let named = new.members.iter_mut().enumerate();
+                    for (_, member) in named.filter(|(k, _)| which.has(k + 1)) {
+                        member.set(field, *value);
+                    }
+                }
+                // Factors are set before, counts come last; what is of no row of bars is refused before.
+                _ => {}
+            }
+        }
+        new
+    }
 }
 
 /// Factors of all bars.
@@ -115,44 +134,70 @@ fn place(support: &mut Support) -> Option<&mut Vector> {
     }
 }
 
-/// A member with its loads and its length times factors and other numbers, all as a system file gives them: what follows from them, as an
-/// unstretched length, is found when all are set.
-fn with(
+/// A member whose numbers are not checked yet.
+pub(crate) struct UncheckedMember {
+    /// As the base has it, or, once a number is set, as a system file gives it: what follows from its
+    /// numbers, as an unstretched length, is found when all are set.
     member: Member,
-    bar: usize,
-    factors: Factors,
-    numbers: impl Iterator<Item = (BarField, f64)>,
-) -> Result<Member, PointError> {
-    let mut prestress_n = member.prestress_n();
-    let mut member = member.as_given();
-    let half_m = 0.5 * member.body.length_m();
-    let mut body = UncheckedBar::new(&member.body);
-    body.set(BarField::Mass, factors.loads * body.mass_kg);
-    if factors.lengths.to_bits() != 1.0_f64.to_bits() {
-        body.set(BarField::Length, 2.0 * half_m * factors.lengths);
+    is_changed: bool,
+    pub(crate) body: UncheckedBar,
+    prestress_n: Option<f64>,
+}
+
+impl UncheckedMember {
+    fn new(member: &Member) -> Self {
+        let body = UncheckedBar::new(&member.given_body());
+        let prestress_n = member.prestress_n();
+        Self { member: member.clone(), is_changed: false, body, prestress_n }
     }
-    for load in &mut member.loads {
-        load.force_n = load.force_n.map(|force| force * factors.loads);
+
+    fn changed(&mut self) -> &mut Member {
+        if !self.is_changed {
+            self.is_changed = true;
+            self.member = self.member.clone().as_given();
+        }
+        &mut self.member
     }
-    for (field, value) in numbers {
+
+    fn scale(&mut self, factors: Factors) {
+        for load in &mut self.changed().loads {
+            load.force_n = load.force_n.map(|force| force * factors.loads);
+        }
+        self.body.set(BarField::Mass, factors.loads * self.body.mass_kg);
+        if factors.lengths.to_bits() != 1.0_f64.to_bits() {
+            self.body.set(BarField::Length, factors.lengths * self.body.length_m);
+        }
+    }
+
+    fn set(&mut self, field: BarField, value: f64) {
+        let member = self.changed();
         match field {
             BarField::Stiffness => member.stiffness_n = Some(value),
-            BarField::Prestress => prestress_n = Some(value),
+            BarField::Prestress => self.prestress_n = Some(value),
             BarField::LengthTolerance => member.set_length_tolerance(Some(value)),
-            _ => body.set(field, value),
+            _ => self.body.set(field, value),
         }
     }
-    member.body = body.bar().map_err(|error| PointError::Bar { bar, error })?;
-    let new_half_m = 0.5 * member.body.length_m();
-    for load in &mut member.loads {
-        if load.at_m.to_bits() == half_m.to_bits() {
-            load.at_m = new_half_m;
+
+    /// The member of this number, from 1.
+    fn checked(self, bar: usize) -> Result<Member, PointError> {
+        let Self { mut member, is_changed, body, prestress_n } = self;
+        if !is_changed {
+            return Ok(member);
         }
-    }
-    match prestress_n {
-        Some(prestress_n) => {
-            member.with_prestress(prestress_n).map_err(|error| PointError::Prestress { bar, error })
+        let half_m = 0.5 * member.body.length_m();
+        member.body = body.bar().map_err(|error| PointError::Bar { bar, error })?;
+        let new_half_m = 0.5 * member.body.length_m();
+        for load in &mut member.loads {
+            if load.at_m.to_bits() == half_m.to_bits() {
+                load.at_m = new_half_m;
+            }
         }
-        None => Ok(member),
+        match prestress_n {
+            Some(prestress_n) => member
+                .with_prestress(prestress_n)
+                .map_err(|error| PointError::Prestress { bar, error }),
+            None => Ok(member),
+        }
     }
 }

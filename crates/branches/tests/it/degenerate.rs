@@ -16,7 +16,7 @@ fn run(vary: &[&str]) -> Continuation {
     )
     .unwrap();
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
-    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    let variation = Variation::new(&chain, &vary, Combine::Product).unwrap();
     Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap()
 }
 

@@ -7,7 +7,7 @@ use branches::{
 fn run(vary: &[&str]) -> Continuation {
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
     let chain = model::cases::paper().into_chain();
-    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    let variation = Variation::new(&chain, &vary, Combine::Product).unwrap();
     Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap()
 }
 

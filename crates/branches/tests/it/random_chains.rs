@@ -41,7 +41,7 @@ fn draw(random: &mut Random) -> Drawn {
 
 fn variation(text: &str, vary: &str) -> Variation {
     let chain = model::system_file::parse_system(text, "random").unwrap();
-    Variation::new(chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
+    Variation::new(&chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
 }
 
 fn places(trace: &Continuation, kind: EventKind) -> Vec<f64> {

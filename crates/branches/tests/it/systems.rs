@@ -64,7 +64,7 @@ fn read(text: &str) -> System {
     }
 }
 
-fn variation(vary: &[(&str, f64)]) -> Variation<System> {
+fn variation(vary: &[(&str, f64)]) -> Variation {
     let parameter = |(path, value): &(&str, f64)| -> Parameter {
         format!("{path}={value}").parse().unwrap_or_else(|error| panic!("{error}"))
     };
@@ -264,7 +264,7 @@ fn counts_are_of_whole_rows_of_equal_bars() {
     assert!((value - 4e9).abs() < 1e-6);
     // All bars that a file may have less the eight others.
     assert_eq!(most + 8, model::system_file::most_bars());
-    let of = |path: &str| -> Result<Variation<System>, String> {
+    let of = |path: &str| -> Result<Variation, String> {
         let vary: Parameter = path.parse().unwrap();
         Variation::new(read(FILE), &[vary], Combine::Product).map_err(|error| error.what)
     };
@@ -335,7 +335,7 @@ fn a_count_of_a_chain_is_that_of_its_file() {
     let base = file(&[one, two, three].join(", "));
     let of = |texts: &[&str]| {
         let vary: Vec<Parameter> = texts.iter().map(|text| text.parse().unwrap()).collect();
-        let variation = Variation::new(base.clone(), &vary, Combine::Product)?;
+        let variation = Variation::new(&base, &vary, Combine::Product)?;
         let values = variation.paths()[0][0].clone();
         Ok::<_, ParameterError>(variation.problem(&values))
     };

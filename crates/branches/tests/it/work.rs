@@ -61,7 +61,7 @@ fn run((bars, end_m, vary): Drawn, [length, mass]: [f64; 2]) -> Continuation {
             format!("{name}={}..{}:{count}", end(low), end(high)).parse().unwrap()
         })
         .collect();
-    let variation = Variation::new(chain, &vary, Combine::Zip).unwrap();
+    let variation = Variation::new(&chain, &vary, Combine::Zip).unwrap();
     Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap()
 }
 
@@ -205,7 +205,7 @@ fn censuses_are_counted_as_they_are_taken() {
     let vary =
         ["anchors.end_m.z=0".parse().unwrap(), "anchors.end_m.x=0.7..1.4:4".parse().unwrap()];
     let chain = model::cases::paper().into_chain();
-    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    let variation = Variation::new(&chain, &vary, Combine::Product).unwrap();
     let seen = std::sync::Mutex::new(vec![]);
     let found =
         Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|progress| {

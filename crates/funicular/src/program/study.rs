@@ -22,7 +22,7 @@ Write a line per point to this CSV file
 Columns:
   path                       number of the path, from 1: each combination of all parameters but the last
   one for each parameter     its value, in the unit of the system file
-  span_m                     of a chain: distance of the anchors
+  span_m                     of one row of rigid bars between two anchors: their distance
   agrees                     whether both solvers agree and the judge finds both in balance
   evidence                   the highest rung reached
   energy_j                   energy above the first support
@@ -32,8 +32,8 @@ Columns:
                              the lowest joint, by name or in a chain from 0, and where it is
   tension_n, tension_bar, compression_n, compression_bar
                              the largest axial forces and their bars, from 1; empty where there is none
-  start_x_n, start_y_n, start_z_n, end_x_n, end_y_n, end_z_n
-                             forces of the ground on a chain; of a system NAME_x_n, ... for each support
+  NAME_x_n, NAME_y_n, NAME_z_n
+                             force of the ground at each support, by the name of the joint
   rise_1_deg, ...            how steeply each bar rises, from the level
   one for each --of          its value
   refused                    why there is no shape; else empty";

@@ -51,7 +51,7 @@ and along Z; empty where it is infinite
 tension positive; empty where it is infinite";
 
 const EXAMPLES: &str = "\
-How far a system can be loaded: over a range alone, or of a system that is no chain, one path is followed, from
+How far a system can be loaded: over a range alone, or of what is no row of rigid bars, one path is followed, from
 the equilibrium next to the drawing (near_m of the file, --near; else the hanging one) at the first value on,
 through limit points and branch points, stable or not, until it leaves the range of the values:
   --vary loads=0..1.2        all forces and weights times a factor
@@ -61,9 +61,11 @@ through limit points and branch points, stable or not, until it leaves the range
 Located are limit points (the load turns), branch points, cables and struts that become slack or taut, joints
 that meet the floor; with --branches the paths that branch off are followed. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
 
-All equilibria of a chain, over values (any number of the system file, a list or a range with points):
+All equilibria of a chain (a row of rigid bars between two anchors, under upright loads), over values (any number
+of the system file that leaves it one, a list or a range with points):
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
   --vary gravity_m_s2=1.62,9.80665          --vary 'bars.*.length_m=0.5..2:31'
+  --vary joints.lamp.mass_kg=1..5:9         --vary loads=0.5,1
 Bars are counted from 1 along the chain. Between values the parameter runs straight. Branches are followed
 along the last parameter; each combination of the others is a path of its own (or all go in step: --zip).
 
@@ -188,7 +190,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 /// What all equilibria of a chain need: how many paths there are.
 fn all(arguments: &Arguments, trace: &Trace, problem: &Problem) -> Result<usize, Failure> {
     let variation = trace.variation(problem)?;
-    let bars = variation.base().bars().len();
+    let bars = variation.base().members().len();
     if !(1..=bars).contains(&arguments.bar) {
         return Err(Failure::bad_input(format!(
             "there is no bar {}: the chain has {bars} bars, numbered from 1",

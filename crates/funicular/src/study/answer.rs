@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use model::Vector;
 use model::system::System;
-use model::{Chain, SystemSummary, Vector};
 use serde::Serialize;
 
 use super::figure;
@@ -29,23 +29,6 @@ const COLUMNS: [&str; 12] = [
     "compression_n",
     "compression_bar",
 ];
-
-/// What varies.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Subject {
-    Chain(SystemSummary),
-    System(System),
-}
-
-impl Subject {
-    pub(super) fn of_chain(chain: &Chain) -> Self {
-        Self::Chain(chain.summary())
-    }
-
-    pub(super) fn of_system(system: &System) -> Self {
-        Self::System(system.clone())
-    }
-}
 
 /// A point of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -73,7 +56,9 @@ fn either<S: serde::Serializer>(
 /// The hanging shape at every point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyAnswer {
-    pub(super) subject: Subject,
+    pub(super) system: System,
+    /// Whether there is a distance of anchors.
+    pub(super) spans: bool,
     pub(super) parameters: Vec<String>,
     pub(super) units: Vec<&'static str>,
     pub(super) of: Vec<(String, &'static str)>,
@@ -100,35 +85,23 @@ impl StudyAnswer {
         &self.of
     }
 
-    /// The name of the chain or the system whose numbers vary.
+    /// The name of the system whose numbers vary.
     #[must_use]
     pub fn name(&self) -> &str {
-        match &self.subject {
-            Subject::Chain(summary) => &summary.name,
-            Subject::System(system) => system.name(),
-        }
+        self.system.name()
     }
 
-    /// The supports by name, in the order of [`StudyShape::reactions_n`]: `start` and `end` of a
-    /// chain, the joints of a system that are held.
+    /// The joints that are held by name, in the order of [`StudyShape::reactions_n`].
     #[must_use]
     pub fn supports(&self) -> Vec<Cow<'_, str>> {
-        match &self.subject {
-            Subject::Chain(_) => vec!["start".into(), "end".into()],
-            Subject::System(system) => {
-                let held = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
-                held.map(|joint| joint.name.text()).collect()
-            }
-        }
+        let held = self.system.joints().iter().filter(|joint| joint.support.at_m().is_some());
+        held.map(|joint| joint.name.text()).collect()
     }
 
     /// The most bars that a point has.
     fn bars(&self) -> usize {
-        let bars = match &self.subject {
-            Subject::Chain(summary) => summary.bars,
-            Subject::System(system) => system.members().len(),
-        };
-        self.shapes().map(|shape| shape.rises_deg.len()).max().unwrap_or(bars)
+        let bars = self.shapes().map(|shape| shape.rises_deg.len()).max();
+        bars.unwrap_or(self.system.members().len())
     }
 
     /// The points, the last parameter changing fastest.
@@ -203,7 +176,7 @@ impl StudyAnswer {
             write!(to, ",{}", quoted(parameter))?;
         }
         let mut columns: Vec<String> = COLUMNS.iter().map(ToString::to_string).collect();
-        if matches!(self.subject, Subject::Chain(_)) {
+        if self.spans {
             columns.insert(0, "span_m".to_owned());
         }
         for support in self.supports() {
@@ -222,7 +195,7 @@ impl StudyAnswer {
                 write!(to, ",{value:?}")?;
             }
             match &point.shape {
-                Ok(shape) => Self::write_shape(shape, bars, &mut to)?,
+                Ok(shape) => self.write_shape(shape, bars, &mut to)?,
                 Err(none) => {
                     write!(to, "{}", ",".repeat(columns.len()))?;
                     writeln!(to, ",{}", quoted(&none.reason))?;
@@ -233,10 +206,13 @@ impl StudyAnswer {
     }
 
     /// The cells of a line after the values of the parameters.
-    fn write_shape(shape: &StudyShape, bars: usize, to: &mut impl Write) -> io::Result<()> {
+    fn write_shape(&self, shape: &StudyShape, bars: usize, to: &mut impl Write) -> io::Result<()> {
         let StudyShape { agrees, energy_j, extremes, lowest_joint, .. } = shape;
-        if let Some(span_m) = shape.span_m {
-            write!(to, ",{span_m:?}")?;
+        if self.spans {
+            write!(to, ",")?;
+            if let Some(span_m) = shape.span_m {
+                write!(to, "{span_m:?}")?;
+            }
         }
         let rung = shape.rung.map_or_else(String::new, |rung| rung.to_string());
         write!(to, ",{agrees},{rung},{energy_j:?},")?;
@@ -282,12 +258,6 @@ impl StudyAnswer {
 impl Serialize for StudyAnswer {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
-        #[serde(untagged)]
-        enum About<'a> {
-            Chain(&'a SystemSummary),
-            System(Summary),
-        }
-        #[derive(Serialize)]
         struct Point<'a> {
             #[serde(flatten)]
             at: &'a StudyPoint,
@@ -297,19 +267,16 @@ impl Serialize for StudyAnswer {
         #[derive(Serialize)]
         struct Object<'a> {
             schema_version: u32,
-            system: About<'a>,
+            system: Summary,
             parameters: &'a [String],
             units: &'a [&'static str],
             #[serde(skip_serializing_if = "Vec::is_empty")]
             of: Vec<&'a str>,
             points: Vec<Point<'a>>,
         }
-        let Self { subject, parameters, units, of, points, .. } = self;
+        let Self { system, parameters, units, of, points, .. } = self;
         let of = of.iter().map(|(name, _)| name.as_str()).collect();
-        let system = match subject {
-            Subject::Chain(summary) => About::Chain(summary),
-            Subject::System(system) => About::System(Summary::new(system)),
-        };
+        let system = Summary::new(system);
         let supports = self.supports();
         let reactions = |shape: &StudyShape| {
             supports.iter().map(|name| &**name).zip(shape.reactions_n.clone()).collect()

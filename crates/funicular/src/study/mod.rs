@@ -8,14 +8,13 @@ mod shape;
 pub use self::answer::{StudyAnswer, StudyPoint};
 pub use self::shape::{NoShape, StudyShape};
 
-use branches::{Base, Number, PointError, Variation};
+use branches::{Number, Variation};
 use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::System;
 use rayon::prelude::*;
 use validate::{Solvers, UseCensus};
 
-use self::answer::Subject;
 use crate::error::Error;
 use crate::observable::Observable;
 use crate::parameters::Parameters;
@@ -134,16 +133,7 @@ impl Study {
     ///
     /// [`Error::Parameter`] when a parameter does not fit the problem.
     pub fn points(&self, problem: &Problem) -> Result<Vec<usize>, Error> {
-        fn lengths<B>(variation: &Variation<B>) -> Vec<usize>
-        where
-            B: Base,
-        {
-            variation.paths().iter().map(Vec::len).collect()
-        }
-        match problem.as_system() {
-            Some(system) => Ok(lengths(&self.parameters.over(system.clone())?)),
-            None => Ok(lengths(&self.parameters.of(problem, "a study")?)),
-        }
+        Ok(self.parameters.over(problem)?.paths().iter().map(Vec::len).collect())
     }
 
     /// Solve all points.
@@ -168,17 +158,9 @@ impl Study {
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
         problem.fits(BYTES_PER_MEMBER)?;
-        if let Some(system) = problem.as_system() {
-            let of = self.units(system)?;
-            let variation = self.parameters.over(system.clone())?;
-            let at = |values: &[f64]| variation.system(values).map(Problem::from);
-            let drawn = system.drawing().is_some();
-            return self.all(&variation, of, Subject::of_system(system), drawn, &at, watch);
-        }
-        let variation = self.parameters.of(problem, "a study")?;
-        let of = self.units(&System::from(variation.base()))?;
-        let at = |values: &[f64]| variation.problem(values).map(Problem::from);
-        self.all(&variation, of, Subject::of_chain(variation.base()), false, &at, watch)
+        let variation = self.parameters.over(problem)?;
+        let of = self.units(variation.base())?;
+        self.all(&variation, of, problem.row().is_some(), watch)
     }
 
     /// What is to be shown besides, with its units.
@@ -189,18 +171,16 @@ impl Study {
 
     /// All points. Of a system that is drawn each is solved next to the one before it on its path: the
     /// branch that the drawing begins on is followed.
-    fn all<B: Base + Sync>(
+    fn all(
         &self,
-        variation: &Variation<B>,
+        variation: &Variation,
         of: Vec<(String, &'static str)>,
-        subject: Subject,
-        drawn: bool,
-        at: &(dyn Fn(&[f64]) -> Result<Problem, PointError> + Sync),
+        spans: bool,
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
         let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
         let point = |path: usize, values: &Vec<f64>, before: &mut Option<Vec<Vector>>| {
-            let shape = NoShape::or(at(values), |problem| {
+            let shape = NoShape::or(variation.system(values).map(Problem::from), |problem| {
                 StudyShape::found(problem, before, &solve, &of, self.with_shapes)
             });
             watch();
@@ -208,7 +188,7 @@ impl Study {
         };
         let paths: Vec<_> = variation.paths().iter().enumerate().collect();
         let along = |(path, points): (usize, &Vec<Vec<f64>>)| -> Vec<StudyPoint> {
-            if drawn {
+            if variation.base().drawing().is_some() {
                 let mut before = None;
                 return points.iter().map(|at| point(path + 1, at, &mut before)).collect();
             }
@@ -219,7 +199,8 @@ impl Study {
         })?;
         let numbers = variation.numbers();
         Ok(StudyAnswer {
-            subject,
+            system: variation.base().clone(),
+            spans,
             parameters: numbers.iter().map(ToString::to_string).collect(),
             units: numbers.iter().map(Number::unit).collect(),
             of,

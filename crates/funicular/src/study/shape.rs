@@ -39,11 +39,10 @@ impl NoShape {
 /// The hanging shape at a point of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StudyShape {
-    /// Distance of the anchors of a chain, m.
+    /// Distance of the anchors of a row of rigid bars between two of them, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub span_m: Option<f64>,
-    /// Energy, J: above the start anchor of a chain, or as of a
-    /// [`SystemEquilibrium`](model::system::SystemEquilibrium).
+    /// Energy, J, as of a [`SystemEquilibrium`](model::system::SystemEquilibrium).
     pub energy_j: f64,
     /// Sag, lowest joint, largest forces.
     #[serde(flatten)]
@@ -118,7 +117,7 @@ impl StudyShape {
         of: &[(String, &'static str)],
         is_drawn: bool,
     ) -> Result<Self, NoShape> {
-        let joints = problem.as_system().map_or(0, |system| system.joints().len());
+        let joints = problem.system().joints().len();
         let answer = match before {
             Some(joints_m) if joints_m.len() == joints => solve.threads(0).near(problem, joints_m),
             _ => solve.run_here(problem),
@@ -135,7 +134,7 @@ impl StudyShape {
             *before = Some(first.joints_m.clone());
         }
         let shape = Self::of(&answer, of).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;
-        let span_m = problem.as_chain().map(|chain| chain.chain().anchors().span_m());
+        let span_m = problem.row().map(|row| row.chain().anchors().span_m());
         let drawn = is_drawn.then(|| Drawn::of(answer)).flatten();
         Ok(Self { span_m, drawn, ..shape })
     }

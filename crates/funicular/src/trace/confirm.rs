@@ -70,7 +70,7 @@ struct Seen {
 
 /// Look at every point of a path: values, equilibrium, index, whether an event happens there.
 pub(super) fn confirm(
-    variation: &Variation<System>,
+    variation: &Variation,
     points: &[Point<'_>],
     events: &[LoadEvent],
 ) -> Confirmed {

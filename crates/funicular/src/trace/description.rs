@@ -50,7 +50,7 @@ pub(super) fn most_moved<'a: 'b, 'b>(
 /// A path as it is described.
 pub(super) fn described(
     family: &mut Family<'_>,
-    variation: &Variation<System>,
+    variation: &Variation,
     of: &[Observable],
     found: &FollowedPath<Family<'_>>,
 ) -> Result<LoadPath, LoadError> {
@@ -115,7 +115,7 @@ pub(super) fn described(
 
 /// What is proved of a path, and between which values each of its events is proved to lie.
 fn what_is_proved(
-    variation: &Variation<System>,
+    variation: &Variation,
     ends: [&[f64]; 2],
     found: &FollowedPath<Family<'_>>,
     events: &[LoadEvent],

@@ -52,7 +52,7 @@ impl PathProved {
 
 /// The path from its start.
 pub(super) fn proved(
-    variation: &Variation<System>,
+    variation: &Variation,
     [from, to]: [&[f64]; 2],
     start: Option<&Kept>,
 ) -> PathProved {
@@ -89,7 +89,7 @@ pub(super) fn proved(
 /// Values of the last parameter between which exactly one limit or branch point is proved to lie; nothing
 /// where more than loads vary, over a floor, or where there is no proof.
 pub(super) fn enclosed(
-    variation: &Variation<System>,
+    variation: &Variation,
     [from, to]: [&[f64]; 2],
     at: &Kept,
     kind: LoadEventKind,

@@ -19,7 +19,7 @@ const SAME: f64 = 1e-13;
 
 /// Where the numbers run, and the system there.
 pub(super) struct Family<'a> {
-    variation: &'a Variation<System>,
+    variation: &'a Variation,
     from: Vec<f64>,
     to: Vec<f64>,
     at: f64,
@@ -36,7 +36,7 @@ impl<'a> Family<'a> {
     /// From the values of the numbers at 0 to those at 1, with the unknowns of the equilibrium at 0:
     /// that next to the drawing, or, where nothing is drawn, the hanging one.
     pub(super) fn new(
-        variation: &'a Variation<System>,
+        variation: &'a Variation,
         [from, to]: [&[f64]; 2],
     ) -> Result<(Self, DVector<f64>), LoadError> {
         let system = variation.unloaded(from).map_err(LoadError::Numbers)?;

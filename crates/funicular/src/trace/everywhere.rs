@@ -4,12 +4,11 @@
 //! them: the shapes are those at one load. A complete census there is one at every load.
 
 use branches::{Number, Variation};
-use model::system::System;
 use validate::systems::quick_census;
 
 /// How many equilibria there are at every load of a path: of `loads` alone, on one side of no load, of a
 /// system without elastic members that a quick census covers.
-pub(super) fn everywhere(variation: &Variation<System>, points: &[Vec<f64>]) -> Option<usize> {
+pub(super) fn everywhere(variation: &Variation, points: &[Vec<f64>]) -> Option<usize> {
     if variation.numbers() != [Number::Loads] {
         return None;
     }

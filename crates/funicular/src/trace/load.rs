@@ -251,7 +251,7 @@ struct Followed<'a> {
 
 /// Follow all paths of a variation.
 pub(super) fn trace(
-    variation: &Variation<System>,
+    variation: &Variation,
     named: &[String],
     asked: Asked,
     watch: &(dyn Fn(usize, usize) + Sync),

@@ -73,10 +73,7 @@ pub fn edited(text: &Value, path: &str, value: f64) -> Problem {
 pub fn varied(text: &Value, path: &str, value: f64) -> Problem {
     let vary = [format!("{path}={value:?}").parse().unwrap()];
     let base = problem(text);
-    if let Some(system) = base.as_system() {
-        let variation = Variation::new(system.clone(), &vary, Combine::Zip).unwrap();
-        return variation.system(&[value]).unwrap().into();
-    }
-    let chain = base.as_chain().unwrap().chain().clone();
-    Variation::new(chain, &vary, Combine::Zip).unwrap().problem(&[value]).unwrap().into()
+    let variation =
+        Variation::new((*funicular::system_of(&base)).clone(), &vary, Combine::Zip).unwrap();
+    variation.system(&[value]).unwrap().into()
 }

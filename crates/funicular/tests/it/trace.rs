@@ -191,7 +191,6 @@ fn errors_point_at_what_is_wrong() {
     for (vary, wanted) in [
         ("bars.2.mas_kg=1,2", "did you mean `mass_kg`?"),
         ("bars.9.mass_kg=1,2", "there is no bar 9"),
-        ("loads=1..2:3", "a chain has no `loads`"),
         ("bars[2.mass_kg=1,2", "this bracket is not closed"),
         ("bars.2]mass_kg=1,2", "this bracket is not opened"),
         ("anchors.end_m.z=-9,-8", "no value of the parameters describes a chain"),

@@ -156,6 +156,9 @@ impl System {
     /// The body of a member with a weight at its second joint along the row.
     fn loaded(&self, (member, turned): (usize, bool), weight_n: f64) -> Option<Bar> {
         let body = self.members()[member].body;
+        if weight_n <= 0.0 && !turned {
+            return Some(body);
+        }
         let (length_m, mass_kg) = (body.length_m(), body.mass_kg());
         let centre_m = if turned { length_m - body.centre_m() } else { body.centre_m() };
         let added_kg = weight_n / self.gravity_m_s2();

@@ -13,7 +13,7 @@ const SECTIONS: [(&str, &[&str]); 6] = [
     ("solve --bars-csv", &["solve --bars-csv"]),
     ("solve --tolerances --csv", &["solve --tolerances --csv"]),
     ("solve --tolerances --bars-csv", &["solve --tolerances --bars-csv"]),
-    ("study --json", &["study of a chain", "study of a system"]),
+    ("study --json", &["study"]),
 ];
 
 /// The keys of a section of the page.

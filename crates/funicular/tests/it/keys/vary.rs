@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::evidence::NOTHING;
 use super::output::{Output, good};
-use super::solve::{LAMP, LEVEL_V, system_of_lamp, system_of_level_v};
+use super::solve::{LAMP, LEVEL_V, joints_of_level_v, system_of_lamp};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -27,9 +27,9 @@ fn study_of_a_chain() {
     let folder = folder();
     let arguments = ["study", "v.toml", "--vary", "gravity_m_s2=10,20", "--json", "--csv", "v.csv"];
     let text = good(folder.path(), &arguments);
-    let mut output = Output::json("study of a chain", "study_of_a_chain", &text);
+    let mut output = Output::json("study", "study_of_a_chain", &text);
     output.is("schema_version", 3);
-    system_of_level_v(&mut output);
+    joints_of_level_v(&mut output);
     output.is("parameters[]", "gravity_m_s2");
     output.is("units[]", "m/s^2");
     let at = |key: &str| format!("points[].{key}");
@@ -57,15 +57,13 @@ fn study_of_a_chain() {
     output.is(&at("reactions_n.*[]"), json!([ends(H, 10.0), ends(2.0 * H, 20.0)]));
     output.done();
     let text = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
-    let mut output = Output::csv("study --csv of a chain", "study_of_a_chain", &text);
+    let mut output = Output::csv("study --csv", "study_of_a_chain", &text);
     output.is("gravity_m_s2", json!([10.0, 20.0]));
     output.each("span_m", 1.0);
-    output.is("start_x_n", json!([-H, -2.0 * H]));
-    output.is("end_x_n", json!([H, 2.0 * H]));
-    for anchor in ["start", "end"] {
-        output.each(&format!("{anchor}_y_n"), 0.0);
-        output.is(&format!("{anchor}_z_n"), json!([10.0, 20.0]));
-    }
+    // Of joint 0, then of joint 2, row by row.
+    output.is("#_x_n", json!([-H, H, -2.0 * H, 2.0 * H]));
+    output.each("#_y_n", 0.0);
+    output.is("#_z_n", json!([10.0, 10.0, 20.0, 20.0]));
     output.is("energy_j", json!([-10.0 * DEPTH, -20.0 * DEPTH]));
     output.each("sag_m", DEPTH);
     output.each("lowest_joint", 1);
@@ -95,14 +93,14 @@ fn study_of_the_paper() {
     let folder = folder();
     let arguments = ["study", "--case", "three-equal-bars", "--vary", "gravity_m_s2=10"];
     let text = good(folder.path(), &[&arguments[..], &["--json", "--csv", "paper.csv"]].concat());
-    let mut output = Output::json("study of a chain", "study_of_the_paper", &text);
+    let mut output = Output::json("study", "study_of_the_paper", &text);
     // The force of the ground at D, 0.6489 mg level and 0.6871 mg up, along the bar at beta.
     let (sine, cosine) = 73.920_588_792_231_34_f64.to_radians().sin_cos();
     let pushed = 10.0 * (0.648_944_835_933_933_6 * sine + 0.687_055_707_758_162_4 * cosine);
     output.is("points[].compression_n[]", json!([3, pushed]));
     output.done();
     let text = std::fs::read_to_string(folder.path().join("paper.csv")).unwrap();
-    let mut output = Output::csv("study --csv of a chain", "study_of_the_paper", &text);
+    let mut output = Output::csv("study --csv", "study_of_the_paper", &text);
     output.is("compression_n", pushed);
     output.is("compression_bar", 3);
     output.done();
@@ -114,9 +112,9 @@ fn study_of_too_few_bars() {
     let folder = folder();
     let arguments = ["study", "v.toml", "--vary", "anchors.end_m.x=1,3", "--json"];
     let text = good(folder.path(), &arguments);
-    let mut output = Output::json("study of a chain", "study_of_too_few_bars", &text);
+    let mut output = Output::json("study", "study_of_too_few_bars", &text);
     output.is("points[].refused", true);
-    let reason = "the anchors are 3 m apart and the bars reach only 2 m: 1 m are missing";
+    let reason = "the anchors \"0\" and \"2\" are 3 m apart and the members between them reach only 2 m: 1 m are missing";
     output.is("points[].reason", reason);
     output.done();
 }
@@ -128,13 +126,14 @@ fn study_of_a_system() {
     let vary = ["study", "lamp.toml", "--vary", "joints.P.mass_kg=2,4"];
     let more = ["--json", "--csv", "lamp.csv", "--of", "joints.P.z"];
     let text = good(folder.path(), &[&vary[..], &more].concat());
-    let mut output = Output::json("study of a system", "study_of_a_system", &text);
+    let mut output = Output::json("study", "study_of_a_system", &text);
     output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.is("parameters[]", "joints.P.mass_kg");
     output.is("units[]", "kg");
     output.is("of[]", "joints.P.z");
     output.each("points[].of[]", -2.4);
+    output.each("points[].span_m", 5.0);
     let at = |key: &str| format!("points[].{key}");
     output.each(&at("path"), 1);
     output.is(&at("values[]"), json!([2.0, 4.0]));
@@ -156,8 +155,9 @@ fn study_of_a_system() {
     output.is(&at("reactions_n.*[]"), json!(forces));
     output.done();
     let text = std::fs::read_to_string(folder.path().join("lamp.csv")).unwrap();
-    let mut output = Output::csv("study --csv of a system", "study_of_a_system", &text);
+    let mut output = Output::csv("study --csv", "study_of_a_system", &text);
     output.is("joints.P.mass_kg", json!([2.0, 4.0]));
+    output.each("span_m", 5.0);
     output.is("energy_j", json!([-48.0, -96.0]));
     output.each("sag_m", 2.4);
     output.each("joints.P.z", -2.4);
@@ -267,7 +267,7 @@ fn branches_over_gravity() {
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("trace", "branches_over_gravity", &text);
     output.is("schema_version", 3);
-    system_of_level_v(&mut output);
+    joints_of_level_v(&mut output);
     let at = |key: &str| format!("traces[].{key}");
     output.is(&at("parameters[]"), "gravity_m_s2");
     output.is(&at("units[]"), "m/s^2");
