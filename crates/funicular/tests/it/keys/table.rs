@@ -16,7 +16,7 @@ pub type Section = BTreeMap<String, Vec<String>>;
 pub fn sections() -> BTreeMap<String, Section> {
     let mut sections = BTreeMap::<String, Section>::new();
     let mut section = None;
-    for line in text().lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+    for line in text().lines().filter(|line| !line.is_empty() && !line.starts_with("# ")) {
         if let Some(kind) = line.strip_prefix('[').and_then(|line| line.strip_suffix("]:")) {
             assert!(!sections.contains_key(kind), "{kind} stands twice");
             section = Some(sections.entry(kind.to_owned()).or_default());

@@ -53,7 +53,7 @@ fn study_of_a_chain() {
     output.each(&at("check_failed"), false);
     output.within(&at("joints_differ_m"), 0.0..=NOTHING);
     output.within(&at("forces_differ_n"), 0.0..=NOTHING);
-    let ends = |h: f64, w: f64| [[h, 0.0, w], [-h, 0.0, w]];
+    let ends = |h: f64, w: f64| [[-h, 0.0, w], [h, 0.0, w]];
     output.is(&at("reactions_n.*[]"), json!([ends(H, 10.0), ends(2.0 * H, 20.0)]));
     output.done();
     let text = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
@@ -418,7 +418,7 @@ fn folds_of_the_level_chain() {
     assert!((named[8] - 1.0).abs() < 0.5 && (named[9] - 10.0).abs() < 0.5, "{named:?}");
     output.is("traces[].points[].status", json!(["complete", "complete", "refused"]));
     output.is("traces[].points[].count", json!([10, 2]));
-    let reason = "the anchors are 4 m apart and the bars reach only 3 m: 1 m are missing";
+    let reason = "the anchors \"0\" and \"3\" are 4 m apart and the members between them reach only 3 m: 1 m are missing";
     output.is("traces[].points[].reason", reason);
     output.done();
 }
