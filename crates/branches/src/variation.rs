@@ -40,6 +40,8 @@ pub enum Combine {
 pub struct Variation {
     base: System,
     numbers: Vec<Number>,
+    /// The same by their own names.
+    resolved: Vec<Number>,
     /// For each path, for each point, for each number.
     paths: Vec<Vec<Vec<f64>>>,
 }
@@ -106,7 +108,8 @@ impl Variation {
             Combine::Product => product(vary)?,
             Combine::Zip => vec![zip(vary)?],
         };
-        Ok(Self { base, numbers, paths })
+        let resolved = vary.iter().map(|one| base.resolved(&one.number)).collect();
+        Ok(Self { base, numbers, resolved, paths })
     }
 
     /// The numbers that vary.
@@ -125,10 +128,6 @@ impl Variation {
     #[must_use]
     pub fn base(&self) -> &System {
         &self.base
-    }
-
-    fn at(&self, values: &[f64]) -> Vec<(Number, f64)> {
-        self.numbers.iter().cloned().zip(values.iter().copied()).collect()
     }
 
     /// Whether the system is one row of rigid bars between two anchors under upright loads, and stays
@@ -160,7 +159,7 @@ impl Variation {
 
     /// The numbers at some values, whether or not they describe a system.
     pub(crate) fn unchecked(&self, values: &[f64]) -> Unchecked {
-        Unchecked::new(&self.base, &self.at(values))
+        Unchecked::new(&self.base, &self.resolved, values)
     }
 
     /// The system at some values of the numbers, on or off the grid.
@@ -183,7 +182,7 @@ impl Variation {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn system(&self, values: &[f64]) -> Result<System, PointError> {
-        system::apply(&self.base, &self.at(values))
+        system::answerable(self.unloaded(values)?)
     }
 
     /// The same whether or not the system has an equilibrium, as without its loads.
@@ -192,7 +191,7 @@ impl Variation {
     ///
     /// [`PointError`] when the values describe no system.
     pub fn unloaded(&self, values: &[f64]) -> Result<System, PointError> {
-        system::with_numbers(&self.base, &self.at(values))
+        system::with_numbers(&self.base, &self.resolved, values)
     }
 }
 

@@ -1,10 +1,9 @@
 //! Numbers that are out of range, and bars whose numbers are not checked yet.
 
 use model::budget::OutOfMemory;
-use model::system::{PrestressError, System, SystemError, SystemRefusal};
+use model::system::{PrestressError, SystemError, SystemRefusal};
 use model::{Bar, BarError};
 
-use crate::parameter::base::Base;
 use crate::parameter::number::{BarField, Number, Which};
 
 /// Why a point of a variation is refused: the values describe no problem.
@@ -60,14 +59,14 @@ pub enum PointError {
 }
 
 /// The rows, from 0, that get another count, the last one first, with it.
-pub(super) fn counts(base: &System, numbers: &[(Number, f64)]) -> Vec<([usize; 2], f64)> {
-    let row = |(number, value): &(Number, f64)| match base.resolved(number) {
+pub(super) fn counts(numbers: &[Number], values: &[f64]) -> Vec<([usize; 2], f64)> {
+    let row = |(number, value): (&Number, &f64)| match *number {
         Number::Bar(Which::Range(first, last), BarField::Count) => {
             Some(([first - 1, last - 1], *value))
         }
         _ => None,
     };
-    let mut rows: Vec<_> = numbers.iter().filter_map(row).collect();
+    let mut rows: Vec<_> = numbers.iter().zip(values).filter_map(row).collect();
     rows.sort_by_key(|(row, _)| std::cmp::Reverse(*row));
     rows
 }

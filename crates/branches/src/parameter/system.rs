@@ -18,25 +18,36 @@ use crate::parameter::rows;
 ///
 /// [`PointError`] when a number is out of range or the system has no equilibrium.
 pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
-    let system = with_numbers(base, numbers)?;
+    let resolved: Vec<Number> = numbers.iter().map(|(number, _)| base.resolved(number)).collect();
+    let values: Vec<f64> = numbers.iter().map(|(_, value)| *value).collect();
+    answerable(with_numbers(base, &resolved, &values)?)
+}
+
+/// A system that has an equilibrium, as far as can be told, and fits into memory.
+pub(crate) fn answerable(system: System) -> Result<System, PointError> {
     Budget::default().fits_solve(&system)?;
     system.refusal().map_err(Box::new)?;
     Ok(system)
 }
 
-/// The same whether or not it has an equilibrium.
-pub(crate) fn with_numbers(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
-    let Unchecked { gravity_m_s2, floor_m, mut joints, members } = Unchecked::new(base, numbers);
+/// The system with numbers that are resolved, whether or not it has an equilibrium.
+pub(crate) fn with_numbers(
+    base: &System,
+    numbers: &[Number],
+    values: &[f64],
+) -> Result<System, PointError> {
+    let Unchecked { gravity_m_s2, floor_m, mut joints, members } =
+        Unchecked::new(base, numbers, values);
     let members = members.into_iter().enumerate().map(|(k, member)| member.checked(k + 1));
     let mut members: Vec<Member> = members.collect::<Result<_, _>>()?;
-    for (number, value) in numbers {
+    for (number, value) in numbers.iter().zip(values) {
         if let Number::Joint(name, JointField::Share) = number
             && let Some(joint) = base.joint(name)
         {
             rows::share(&joints, &mut members, joint, *value)?;
         }
     }
-    for (row, value) in counts(base, numbers) {
+    for (row, value) in counts(numbers, values) {
         rows::set(&mut joints, &mut members, row, value)?;
     }
     let mut system = System::new(base.name(), gravity_m_s2, joints, members)?;
@@ -56,10 +67,12 @@ pub(crate) struct Unchecked {
 }
 
 impl Unchecked {
-    pub(crate) fn new(base: &System, numbers: &[(Number, f64)]) -> Self {
+    /// With numbers that are resolved.
+    pub(crate) fn new(base: &System, numbers: &[Number], values: &[f64]) -> Self {
         // First, whatever the order: other numbers are what they say.
         let factor = |of: Number| -> f64 {
-            numbers.iter().filter(|(number, _)| *number == of).map(|(_, factor)| *factor).product()
+            let of = numbers.iter().zip(values).filter(|(number, _)| **number == of);
+            of.map(|(_, factor)| *factor).product()
         };
         let factors = Factors { loads: factor(Number::Loads), lengths: factor(Number::Lengths) };
         let mut new = Self {
@@ -77,19 +90,19 @@ impl Unchecked {
                 member.scale(factors);
             }
         }
-        for (number, value) in numbers {
-            match base.resolved(number) {
+        for (number, value) in numbers.iter().zip(values) {
+            match number {
                 Number::Gravity => new.gravity_m_s2 = *value,
                 Number::Floor => new.floor_m = Some(*value),
                 Number::Joint(name, field) => {
-                    if let Some(joint) = base.joint(&name) {
-                        set_joint(&mut new.joints[joint], field, *value);
+                    if let Some(joint) = base.joint(name) {
+                        set_joint(&mut new.joints[joint], *field, *value);
                     }
                 }
-                Number::Bar(which, field) if field != BarField::Count => {
+                Number::Bar(which, field) if *field != BarField::Count => {
                     let named = new.members.iter_mut().enumerate();
                     for (_, member) in named.filter(|(k, _)| which.has(k + 1)) {
-                        member.set(field, *value);
+                        member.set(*field, *value);
                     }
                 }
                 // Factors are set before, counts come last; what is of no row of bars is refused before.
