@@ -269,6 +269,6 @@ mod tests {
         }
         let joints = [Joint::anchor("A", [1.0, 2.0, 3.0]), Joint::anchor("B", [4.0, 8.0, -3.0])];
         let new = joints_between(&joints, [0, 1], None, 2);
-        assert_eq!((new.len(), new[0].name.as_str(), new[0].near_m), (1, "A-B.1", None));
+        assert_eq!((new.len(), new[0].name.text(), new[0].near_m), (1, "A-B.1".into(), None));
     }
 }
