@@ -86,14 +86,14 @@ impl System {
         }
         let (joints, members) = self.walk()?;
         let (&first, &last) = (joints.first()?, joints.last()?);
-        let weights_n: Option<Vec<f64>> =
-            joints.iter().map(|joint| self.upright_n(*joint as usize)).collect();
-        let mut weights_n = weights_n?;
-        let bars: Option<Vec<Bar>> = members
-            .iter()
-            .enumerate()
-            .map(|(k, member)| self.loaded(*member, weights_n[k + 1]))
-            .collect();
+        let mut weights_n = Vec::with_capacity(joints.len());
+        for joint in &joints {
+            weights_n.push(self.upright_n(*joint as usize)?);
+        }
+        let mut bars = Vec::with_capacity(members.len());
+        for (member, weight_n) in members.iter().zip(&weights_n[1..]) {
+            bars.push(self.loaded(*member, *weight_n)?);
+        }
         if weights_n.iter().all(|weight| *weight <= 0.0) {
             weights_n = vec![];
         }
@@ -102,7 +102,7 @@ impl System {
             _ => None,
         };
         let anchors = Anchors { start_m: anchor(first)?, end_m: anchor(last)? };
-        let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars?).ok()?;
+        let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars).ok()?;
         Some(Row { problem: Problem::new(chain).ok()?, joints, members, weights_n })
     }
 
@@ -138,7 +138,9 @@ impl System {
         }
         let ends = |joint: &u32| at[*joint as usize][1] == u32::MAX;
         let mut here = (0..u32::try_from(at.len()).ok()?).find(ends)?;
-        let (mut joints, mut members) = (vec![here], Vec::with_capacity(self.members().len()));
+        let (mut joints, mut members) =
+            (Vec::with_capacity(at.len()), Vec::with_capacity(self.members().len()));
+        joints.push(here);
         let mut before = u32::MAX;
         let on = |here: u32, before: u32| {
             at[here as usize].into_iter().find(|k| *k != u32::MAX && *k != before)

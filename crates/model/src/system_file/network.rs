@@ -244,7 +244,10 @@ impl Reading<'_> {
         let model = self.tolerances.member(read, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
-        let asked = budget.take_members(count);
+        let asked = match self.drawn {
+            true => budget.take_members(count),
+            false => budget.take_equal_members(count),
+        };
         let asked = asked.and_then(|()| budget.take_names(count, run.len() + DIGITS));
         asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
         let stem = format!("{run}.").into();

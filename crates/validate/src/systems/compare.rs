@@ -7,7 +7,6 @@ use model::{
     Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, NoCertificate, Optimal,
     Quantity, Reason, Room, SelfStresses, SolverName, Status,
 };
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n};
@@ -88,9 +87,6 @@ struct Judgement<'a> {
 /// Forces below this part of all that acts are none: a cable that bears as little is at the limit of
 /// its kind.
 const NO_FORCE: f64 = 1e-9;
-
-/// Answers for systems of more members are judged side by side.
-const SMALL: usize = 10_000;
 
 /// Hold answers against each other, every two of them, and each against Newton's laws, and write
 /// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
@@ -278,11 +274,8 @@ impl<'a> Judgement<'a> {
         }
         let by = |(answer, scale)| judge_by(self.system, answer, scale);
         let sized = answers.iter().zip(take(&mut self.scales));
-        let statics: Vec<SystemStatics> = if self.system.members().len() > SMALL {
-            sized.collect::<Vec<_>>().into_par_iter().map(by).collect()
-        } else {
-            sized.map(by).collect()
-        };
+        // One after the other: what each holds while it judges would be there twice.
+        let statics: Vec<SystemStatics> = sized.map(by).collect();
         for (answer, statics) in answers.iter().zip(statics) {
             let (solver, place) = (answer.solver.clone(), statics.worst);
             let budget = self.tolerances.statics.value;
