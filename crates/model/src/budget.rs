@@ -185,16 +185,16 @@ impl Budget {
 }
 
 /// Memory that a member of a system and its joint need while they are read, bytes, each with numbers of its
-/// own: XXX are measured in a net of a hundred thousand.
-pub const BYTES_PER_MEMBER_READ: u64 = 420;
+/// own: 600 are measured in a tree of a hundred thousand, 285 in a net of as many.
+pub const BYTES_PER_MEMBER_READ: u64 = 640;
 
 /// The same of members in a row that are equal, and of the joints between them, which share their numbers:
-/// XXX are measured of a million.
-pub const BYTES_PER_EQUAL_MEMBER_READ: u64 = 190;
+/// 135 are measured of a million.
+pub const BYTES_PER_EQUAL_MEMBER_READ: u64 = 175;
 
 /// The same from the file to the answers of both solvers, of a row of rigid bars between two anchors:
-/// XXX are measured of a million.
-pub const BYTES_PER_MEMBER_IN_ROW: u64 = 480;
+/// 400 are measured of a million.
+pub const BYTES_PER_MEMBER_IN_ROW: u64 = 460;
 
 /// The same in other systems, and of any where it moves, is varied or has derivatives: 2,950 in a row of
 /// elastic cables, 3,450 in trees and bridles, 4,400 in a row in motion, and 4,700 in a net of 40,000 cables

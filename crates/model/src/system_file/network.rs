@@ -244,10 +244,10 @@ impl Reading<'_> {
         let model = self.tolerances.member(read, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
-        let asked = match self.drawn {
-            true => budget.take_members(count),
-            false => budget.take_equal_members(count),
-        };
+        // Between drawn joints each has a place of its own.
+        let own = if self.drawn { count } else { 1 };
+        let asked = budget.take_members(own);
+        let asked = asked.and_then(|()| budget.take_equal_members(count - own));
         let asked = asked.and_then(|()| budget.take_names(count, run.len() + DIGITS));
         asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
         let stem = format!("{run}.").into();
