@@ -20,7 +20,7 @@ const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers)";
 ///
 /// The rules are those of [`model::system_file::columns`]: a missing `centre_m` means half the
 /// length, the moments of inertia are those of a homogeneous slender bar, there are at most
-/// [`most_bars`](model::system_file::most_bars) rows, and a column of another name is an error.
+/// [`most_bars_of_file`](model::system_file::most_bars_of_file) rows, and a column of another name is an error.
 /// Numbers may be floating point or whole, of any width; pages may be plain or compressed by
 /// Snappy, Zstandard or LZ4.
 ///

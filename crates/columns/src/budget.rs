@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ::parquet::errors::ParquetError;
 use model::budget::{self, OutOfMemory};
-use model::system_file::most_bars;
+use model::system_file::most_bars_of_file;
 
 use crate::error::ColumnsError;
 
@@ -25,7 +25,7 @@ pub struct Budget {
 
 impl Budget {
     pub fn of(path: &Path) -> Arc<Self> {
-        let limit = (most_bars() as u64).saturating_mul(BYTES_PER_BAR).min(MOST_BYTES);
+        let limit = (most_bars_of_file() as u64).saturating_mul(BYTES_PER_BAR).min(MOST_BYTES);
         Arc::new(Self { path: path.to_owned(), bytes: budget::Budget::new(limit) })
     }
 }

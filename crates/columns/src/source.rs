@@ -13,7 +13,7 @@ use ::parquet::file::metadata::{
 };
 use ::parquet::schema::types::TypePtr;
 use model::open_input;
-use model::system_file::{most_bars, most_file_bytes};
+use model::system_file::{most_bars_of_file, most_file_bytes};
 
 use crate::budget::{Budget, Share};
 use crate::cells::{Cells, Holds, type_of};
@@ -105,8 +105,8 @@ impl<'p> Source<'p> {
         let rows = self.rows()?;
         match usize::try_from(rows) {
             Ok(0) => Err(ColumnsError::NoBars { path }),
-            Ok(rows) if rows <= most_bars() => Ok(rows),
-            _ => Err(ColumnsError::TooManyBars { path, rows, limit: most_bars() }),
+            Ok(rows) if rows <= most_bars_of_file() => Ok(rows),
+            _ => Err(ColumnsError::TooManyBars { path, rows, limit: most_bars_of_file() }),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The answer of a minimisation.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use model::{
@@ -73,8 +74,6 @@ impl Solution {
     ) -> Self {
         let second = SecondOrder::of(&minimum);
         let Minimum { links, shape, slope, iterations, evaluations, .. } = minimum;
-        let directions: Vec<Vector> = shape.u.iter().map(|&u| units.frame.into_world(u)).collect();
-        let multipliers_n = joint_forces(problem, units, &slope);
         let energy = shape.moments.value + units.datum(&links);
 
         let residual = slope.residual();
@@ -95,6 +94,11 @@ impl Solution {
         }
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
+        // In the memory of the shape, which nothing else holds any more.
+        drop(links);
+        let u = Arc::try_unwrap(shape).map_or_else(|shape| shape.u.clone(), |shape| shape.u);
+        let directions: Vec<Vector> = u.into_iter().map(|u| units.frame.into_world(u)).collect();
+        let multipliers_n = joint_forces(problem, units, &slope);
         let equilibrium = Equilibrium {
             solver: SolverName::ENERGY,
             energy_j: energy * units.weight_n * units.length_m,

@@ -320,8 +320,10 @@ impl Solver<Objective, Run> for FeasibleNewton {
     fn next_iter(
         &mut self,
         problem: &mut Problem<Objective>,
-        run: Run,
+        mut run: Run,
     ) -> Result<(Run, Option<KV>), argmin::core::Error> {
+        // Nobody looks at these, and of a long chain they are large.
+        drop((run.take_prev_param(), run.take_prev_best_param(), run.take_prev_gradient()));
         let curvature = problem.hessian(&current(&run)?)?;
         match self.convergence.judge(&curvature) {
             Iterate::Minimum => return Ok(self.finish(run)),

@@ -1,7 +1,7 @@
 //! What stands out in an equilibrium.
 
+use model::Vector;
 use model::system::{System, SystemEquilibrium};
-use model::{AxialForce, Vector};
 use serde::Serialize;
 
 use crate::sag::Sag;
@@ -65,27 +65,32 @@ impl Extremes {
     /// Of an equilibrium of a system; `None` where there is no joint.
     #[must_use]
     pub fn of(system: &System, found: &SystemEquilibrium) -> Option<Self> {
-        let (joints_m, axial) = (&found.joints_m, found.axial_forces(system));
+        let joints_m = &found.joints_m;
         let height = |joint: &usize| joints_m[*joint][2];
         let by_height = |a: &usize, b: &usize| height(a).total_cmp(&height(b));
         let lowest_joint = (0..joints_m.len()).min_by(by_height)?;
         let sag = Sag::largest(system, joints_m);
-        let size = axial.iter().fold(0.0, |most: f64, along| most.max(along.largest_n().abs()));
-        let largest = |of: fn(&AxialForce) -> f64| {
-            let forces = axial.iter().map(of).enumerate();
-            let first = forces.fold(None, |most: Option<(usize, f64)>, (bar, force)| match most {
-                Some((_, largest)) if force <= largest => most,
-                _ => Some((bar, force)),
-            });
-            first.filter(|(_, force)| *force > ROUNDING * size)
-        };
+        let (mut size, mut largest): (f64, [Option<(usize, f64)>; 2]) = (0.0, [None; 2]);
+        for bar in 0..system.members().len() {
+            let along = found.axial_force(system, bar);
+            size = size.max(along.largest_n().abs());
+            for (most, force) in largest.iter_mut().zip([along.most_n, -along.least_n]) {
+                // The first of several.
+                if most.is_some_and(|(_, largest)| force <= largest) {
+                    continue;
+                }
+                *most = Some((bar, force));
+            }
+        }
+        let felt = |(_, force): &(usize, f64)| *force > ROUNDING * size;
+        let [tension_n, compression_n] = largest.map(|most| most.filter(felt));
         Some(Self {
             lowest_joint,
             lowest_m: joints_m[lowest_joint],
             sag_m: sag.map(|sag| sag.depth_m),
             sag,
-            tension_n: largest(|along| along.most_n),
-            compression_n: largest(|along| -along.least_n),
+            tension_n,
+            compression_n,
         })
     }
 }

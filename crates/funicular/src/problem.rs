@@ -160,7 +160,7 @@ impl Problem {
     /// The same as joints and members, which may be shared.
     pub(crate) fn system(&self) -> Arc<System> {
         match &self.0 {
-            Kind::Chain(problem) => Arc::new(System::from(problem.chain())),
+            Kind::Chain(problem) => Arc::new(System::from(problem)),
             Kind::System(system) => Arc::clone(system),
         }
     }

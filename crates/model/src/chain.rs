@@ -1,5 +1,7 @@
 //! Bars in a row between two anchors.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::mass_range::too_wide;
@@ -55,7 +57,8 @@ pub struct Chain {
     name: String,
     gravity_m_s2: f64,
     anchors: Anchors,
-    bars: Vec<Bar>,
+    /// Shared by clones: of a long chain they are most of what it takes.
+    bars: Arc<Vec<Bar>>,
     // Asked for by every part of a solver: a pass over a million bars costs as much as reading
     // them.
     total_length_m: f64,
@@ -180,6 +183,7 @@ impl Chain {
         }
         let name = name.into();
         let (total_length_m, total_mass_kg) = (length_m, mass_kg);
+        let bars = Arc::new(bars);
         Ok(Self { name, gravity_m_s2, anchors, bars, total_length_m, total_mass_kg })
     }
 

@@ -278,6 +278,7 @@ fn changing<'a>(
 #[cfg(test)]
 mod tests {
     use model::Bar;
+    use model::system::Joint;
 
     use super::*;
 

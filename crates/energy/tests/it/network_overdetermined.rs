@@ -5,7 +5,7 @@
 
 use energy::network::{Error, Settings, Solution, minimise, minimise_from};
 use faer::Mat;
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Joint, Kind, Support, System};
 use model::{ForceChoice, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -396,7 +396,7 @@ fn bars_in_a_plane_are_read_as_such() {
     let shape = vec![[0.3, 0.0, -1.7], [-1.0, 0.0, 0.2], [0.1, 0.0, 0.5], [1.6, 0.0, -0.1]];
     let mut joints: Vec<Joint> = shape.iter().map(|at| Joint::anchor("A", *at)).collect();
     for (k, joint) in joints.iter_mut().enumerate() {
-        joint.name = format!("J{k}");
+        joint.name = format!("J{k}").into();
     }
     joints[0] = Joint::free("P").with_mass(2.0);
     let members = (1..4).map(|k| (k, 0, None)).collect();

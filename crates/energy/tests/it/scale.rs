@@ -2,7 +2,7 @@
 
 use energy::network::{Settings, critical, minimise};
 use model::Vector;
-use model::system::{Joint, Kind, Member, System};
+use model::system::{Kind, System};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use samples::scaled;

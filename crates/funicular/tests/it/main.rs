@@ -25,6 +25,7 @@ mod live;
 mod load_cases;
 mod load_paths;
 mod material;
+mod memory;
 mod modes;
 mod motion;
 mod page;

@@ -2,7 +2,7 @@
 
 use lagrange::network::{Forces, Seed, Settings, force_ranges, solve, solve_from};
 use model::ForceRange;
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Joint, Kind, Support, System};
 
 use crate::network::{bar, cable, system};
 

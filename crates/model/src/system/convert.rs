@@ -1,7 +1,16 @@
 //! Chains as systems.
 
-use super::{Joint, Member, Name, System};
-use crate::Chain;
+use super::row::{Once, Row};
+use super::{Joint, Member, Name, Shares, System};
+use crate::{Chain, Problem};
+
+impl From<&Problem> for System {
+    /// The same chain, which knows itself as one: see [`System::as_row`].
+    fn from(problem: &Problem) -> Self {
+        let row = Once::known(Row::from(problem));
+        Self { row, ..Self::from(problem.chain()) }
+    }
+}
 
 impl From<&Chain> for System {
     /// The same chain: joints named by their numbers, `"0"` and the last anchored.
@@ -23,15 +32,12 @@ impl From<&Chain> for System {
                 _ => Joint::free(name),
             }
         });
-        let members =
-            bars.iter().enumerate().scan(None, |before: &mut Option<Member>, (k, bar)| {
-                let equal = before.take().filter(|before| before.body == *bar);
-                let member = equal.unwrap_or_else(|| Member::bar(k, k + 1, *bar)).between(k, k + 1);
-                *before = Some(member.clone());
-                Some(member)
-            });
+        let mut members = Vec::with_capacity(bars.len());
+        for (k, bar) in bars.iter().enumerate() {
+            Member::bar(k, k + 1, *bar).join(&mut members);
+        }
         // What a chain guarantees is all that a system asks for.
         let (name, gravity_m_s2) = (chain.name().to_owned(), chain.gravity_m_s2());
-        Self::unchecked(name, gravity_m_s2, joints.collect(), members.collect())
+        Self::unchecked(name, gravity_m_s2, joints.collect(), members)
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, LazyLock};
 
+use super::share::{Shares, share};
 use super::{JointTolerances, Name};
 use crate::Vector;
 
@@ -39,6 +40,12 @@ impl Deref for Joint {
 
     fn deref(&self) -> &JointProperties {
         &self.properties
+    }
+}
+
+impl Shares for Joint {
+    fn share(&mut self, before: &Self) {
+        share(&mut self.properties, &before.properties);
     }
 }
 

@@ -3,6 +3,7 @@
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
+use super::share::{Shares, share};
 use super::{MemberTolerances, Prestress, Rope, Strength};
 use crate::{Bar, Vector};
 
@@ -54,13 +55,9 @@ impl Deref for Member {
     }
 }
 
-/// Give members that follow one another and are equal the same properties in memory.
-pub(super) fn share_equal(members: &mut [Member]) {
-    for k in 1..members.len() {
-        let (before, member) = (&members[k - 1].properties, &members[k].properties);
-        if !Arc::ptr_eq(before, member) && before == member {
-            members[k].properties = Arc::clone(before);
-        }
+impl Shares for Member {
+    fn share(&mut self, before: &Self) {
+        share(&mut self.properties, &before.properties);
     }
 }
 

@@ -28,6 +28,7 @@ mod prestress;
 mod refusal;
 mod rope;
 mod row;
+mod share;
 mod strength;
 mod symmetry;
 mod tolerance;
@@ -51,7 +52,8 @@ pub use tolerance::{
     JointTolerances, MemberTolerances, ToleranceError, Uncertain, UncertainNumber,
 };
 
-use member::share_equal;
+pub(crate) use share::Shares;
+use share::share_all;
 
 use crate::Vector;
 
@@ -106,10 +108,11 @@ impl System {
     fn unchecked(
         name: String,
         gravity_m_s2: f64,
-        joints: Vec<Joint>,
+        mut joints: Vec<Joint>,
         mut members: Vec<Member>,
     ) -> Self {
-        share_equal(&mut members);
+        share_all(&mut joints);
+        share_all(&mut members);
         let masses = members.iter().map(|member| member.body.mass_kg());
         let total_mass_kg = crate::sum(joints.iter().map(|joint| joint.mass_kg).chain(masses));
         let total_length_m = crate::sum(members.iter().map(|member| member.body.length_m()));

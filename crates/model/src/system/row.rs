@@ -16,10 +16,10 @@ use crate::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Reactions, Stabi
 pub struct Row {
     problem: Problem,
     /// The joint of the system for each joint of the chain.
-    joints: Vec<usize>,
+    joints: Vec<u32>,
     /// The member for each bar, and whether it runs the other way.
-    members: Vec<(usize, bool)>,
-    /// Weight at each joint of the chain, N.
+    members: Vec<(u32, bool)>,
+    /// Weight at each joint of the chain, N; empty where there is none.
     weights_n: Vec<f64>,
 }
 
@@ -29,9 +29,9 @@ impl From<&Problem> for Row {
         let bars = problem.chain().bars().len();
         Self {
             problem: problem.clone(),
-            joints: (0..=bars).collect(),
-            members: (0..bars).map(|bar| (bar, false)).collect(),
-            weights_n: vec![0.0; bars + 1],
+            joints: (0..).take(bars + 1).collect(),
+            members: (0..).map(|bar| (bar, false)).take(bars).collect(),
+            weights_n: vec![],
         }
     }
 }
@@ -39,6 +39,13 @@ impl From<&Problem> for Row {
 /// The row of a system that does not change, made when it is first asked for.
 #[derive(Debug, Default)]
 pub(super) struct Once(OnceLock<Option<Box<Row>>>);
+
+impl Once {
+    /// Of a row that is known.
+    pub(super) fn known(row: Row) -> Self {
+        Self(OnceLock::from(Some(Box::new(row))))
+    }
+}
 
 impl Clone for Once {
     /// Of the clone it is made again, if anyone asks.
@@ -55,7 +62,7 @@ impl PartialEq for Once {
 }
 
 /// Joints in their order, and members in theirs, with whether each runs the other way.
-type Walk = (Vec<usize>, Vec<(usize, bool)>);
+type Walk = (Vec<u32>, Vec<(u32, bool)>);
 
 impl System {
     /// The system as a chain, where it is one: rigid bars of exact length in a row between two anchors, nothing on
@@ -79,20 +86,23 @@ impl System {
         }
         let (joints, members) = self.walk()?;
         let (&first, &last) = (joints.first()?, joints.last()?);
-        let weights_n: Option<Vec<f64>> =
-            joints.iter().map(|joint| self.upright_n(*joint)).collect();
-        let weights_n = weights_n?;
-        let bars: Option<Vec<Bar>> = members
-            .iter()
-            .enumerate()
-            .map(|(k, member)| self.loaded(*member, weights_n[k + 1]))
-            .collect();
-        let anchor = |joint: usize| match self.joints()[joint].support {
+        let mut weights_n = Vec::with_capacity(joints.len());
+        for joint in &joints {
+            weights_n.push(self.upright_n(*joint as usize)?);
+        }
+        let mut bars = Vec::with_capacity(members.len());
+        for (member, weight_n) in members.iter().zip(&weights_n[1..]) {
+            bars.push(self.loaded(*member, *weight_n)?);
+        }
+        if weights_n.iter().all(|weight| *weight <= 0.0) {
+            weights_n = vec![];
+        }
+        let anchor = |joint: u32| match self.joints()[joint as usize].support {
             Support::Fixed { at_m } => Some(at_m),
             _ => None,
         };
         let anchors = Anchors { start_m: anchor(first)?, end_m: anchor(last)? };
-        let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars?).ok()?;
+        let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars).ok()?;
         Some(Row { problem: Problem::new(chain).ok()?, joints, members, weights_n })
     }
 
@@ -119,27 +129,33 @@ impl System {
 
     /// Joints and members in their order from the anchor of the smaller number, if they are one row.
     fn walk(&self) -> Option<Walk> {
-        let mut at = vec![[usize::MAX; 2]; self.joints().len()];
-        for (k, member) in self.members().iter().enumerate() {
+        let mut at = vec![[u32::MAX; 2]; self.joints().len()];
+        for (k, member) in (0..u32::MAX).zip(self.members()) {
             for joint in [member.from, member.to] {
-                let free = at[joint].iter().position(|slot| *slot == usize::MAX)?;
+                let free = at[joint].iter().position(|slot| *slot == u32::MAX)?;
                 at[joint][free] = k;
             }
         }
-        let ends = |joint: &usize| at[*joint][1] == usize::MAX;
-        let mut here = (0..at.len()).find(ends)?;
-        let (mut joints, mut members) = (vec![here], Vec::with_capacity(self.members().len()));
-        let mut before = usize::MAX;
-        while let Some(&next) = at[here].iter().find(|k| **k != usize::MAX && **k != before) {
-            let member = &self.members()[next];
-            let turned = member.to == here;
-            here = if turned { member.from } else { member.to };
+        let ends = |joint: &u32| at[*joint as usize][1] == u32::MAX;
+        let mut here = (0..u32::try_from(at.len()).ok()?).find(ends)?;
+        let (mut joints, mut members) =
+            (Vec::with_capacity(at.len()), Vec::with_capacity(self.members().len()));
+        joints.push(here);
+        let mut before = u32::MAX;
+        let on = |here: u32, before: u32| {
+            at[here as usize].into_iter().find(|k| *k != u32::MAX && *k != before)
+        };
+        while let Some(next) = on(here, before) {
+            let member = &self.members()[next as usize];
+            let turned = member.to == here as usize;
+            here = u32::try_from(if turned { member.from } else { member.to }).ok()?;
             joints.push(here);
             members.push((next, turned));
             before = next;
         }
         let inner = &joints[1..joints.len() - 1];
-        let free = inner.iter().all(|joint| matches!(self.joints()[*joint].support, Support::Free));
+        let is_free = |joint: &u32| self.joints()[*joint as usize].support == Support::Free;
+        let free = inner.iter().all(is_free);
         (joints.len() == at.len() && free).then_some((joints, members))
     }
 
@@ -154,8 +170,8 @@ impl System {
     }
 
     /// The body of a member with a weight at its second joint along the row.
-    fn loaded(&self, (member, turned): (usize, bool), weight_n: f64) -> Option<Bar> {
-        let body = self.members()[member].body;
+    fn loaded(&self, (member, turned): (u32, bool), weight_n: f64) -> Option<Bar> {
+        let body = self.members()[member as usize].body;
         if weight_n <= 0.0 && !turned {
             return Some(body);
         }
@@ -180,9 +196,23 @@ impl Row {
     }
 
     /// The joints of the system in the order of the chain.
-    #[must_use]
-    pub fn joints(&self) -> &[usize] {
-        &self.joints
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
+        self.joints.iter().map(|joint| *joint as usize)
+    }
+
+    /// The members of the system in the order of the chain, and whether each runs the other way.
+    fn members(&self) -> impl Iterator<Item = (usize, bool)> + '_ {
+        self.members.iter().map(|(member, turned)| (*member as usize, *turned))
+    }
+
+    /// Weight at a joint of the chain, N.
+    fn weight_n(&self, joint: usize) -> f64 {
+        self.weights_n.get(joint).copied().unwrap_or(0.0)
+    }
+
+    /// The joints of the system that are the two anchors.
+    fn anchors(&self) -> [usize; 2] {
+        [self.joints[0], self.joints[self.members.len()]].map(|joint| joint as usize)
     }
 
     /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
@@ -196,23 +226,22 @@ impl Row {
         if !fits {
             return None;
         }
-        let (first, last) = (self.joints[0], self.joints[bars]);
+        let [first, last] = self.anchors();
         let reactions_n =
             Reactions { start: found.reactions_n[first], end: found.reactions_n[last] };
-        let passed_on =
-            self.members.iter().zip(&self.weights_n[1..]).map(|((member, turned), n)| {
-                let forces = if *turned { &found.start_forces_n } else { &found.end_forces_n };
-                let [x, y, z] = forces[*member];
-                [x, y, z + n]
-            });
+        let passed_on = self.members().zip(1..).map(|((member, turned), joint)| {
+            let forces = if turned { &found.start_forces_n } else { &found.end_forces_n };
+            let [x, y, z] = forces[member];
+            [x, y, z + self.weight_n(joint)]
+        });
         let index = found.stability.index_in_plane.unwrap_or_default();
         Some(Equilibrium {
             solver: found.solver.clone(),
             energy_j: found.energy_j,
-            joints_m: self.joints.iter().map(|joint| found.joints_m[*joint]).collect(),
+            joints_m: self.joints().map(|joint| found.joints_m[joint]).collect(),
             multipliers_n: std::iter::once(reactions_n.start).chain(passed_on).collect(),
             reactions_n,
-            axial_n: self.members.iter().map(|(member, _)| found.axial_n[*member]).collect(),
+            axial_n: self.members().map(|(member, _)| found.axial_n[member]).collect(),
             stability: Stability {
                 in_plane: if index == 0 { InPlane::Minimum } else { InPlane::Saddle },
                 index_in_plane: index,
@@ -225,27 +254,37 @@ impl Row {
 
     /// An answer for the chain as one for the system.
     #[must_use]
-    pub fn equilibrium(&self, found: Equilibrium) -> SystemEquilibrium {
-        let forces_n = &found.multipliers_n;
+    pub fn equilibrium(&self, mut found: Equilibrium) -> SystemEquilibrium {
+        // One array after the other: of a long row each is large, and what it is made of is let go.
         let bars = self.members.len();
+        let in_chain = std::mem::take(&mut found.joints_m);
+        let mut joints_m = vec![[0.0; 3]; bars + 1];
+        for (joint, at_m) in self.joints().zip(&in_chain) {
+            joints_m[joint] = *at_m;
+        }
+        drop(in_chain);
+        let in_chain = std::mem::take(&mut found.axial_n);
+        let mut axial_n = vec![0.0; bars];
+        for ((member, _), force_n) in self.members().zip(&in_chain) {
+            axial_n[member] = *force_n;
+        }
+        drop(in_chain);
+        let forces_n = std::mem::take(&mut found.multipliers_n);
         let mut start_forces_n = vec![[0.0; 3]; bars];
         let mut end_forces_n = vec![[0.0; 3]; bars];
-        let (mut axial_n, mut joints_m) = (vec![0.0; bars], vec![[0.0; 3]; bars + 1]);
-        for (k, &(member, turned)) in self.members.iter().enumerate() {
+        for (k, (member, turned)) in self.members().enumerate() {
             // Entry 0 is the force on bar 1, every other one that on the bar before.
             let first = if k == 0 { forces_n[0] } else { forces_n[k].map(|x| -x) };
             let [x, y, z] = forces_n[k + 1];
-            let second: Vector = [x, y, z - self.weights_n[k + 1]];
+            let second: Vector = [x, y, z - self.weight_n(k + 1)];
             let [start, end] = if turned { [second, first] } else { [first, second] };
             (start_forces_n[member], end_forces_n[member]) = (start, end);
-            axial_n[member] = found.axial_n[k];
         }
-        for (joint, at_m) in self.joints.iter().zip(&found.joints_m) {
-            joints_m[*joint] = *at_m;
-        }
+        drop(forces_n);
         let mut reactions_n = vec![[0.0; 3]; bars + 1];
-        reactions_n[self.joints[0]] = found.reactions_n.start;
-        reactions_n[self.joints[bars]] = found.reactions_n.end;
+        let [first, last] = self.anchors();
+        reactions_n[first] = found.reactions_n.start;
+        reactions_n[last] = found.reactions_n.end;
         let flat = found.stability.in_plane == InPlane::Degenerate;
         let turns = self.problem.chain().anchors_on_one_vertical();
         SystemEquilibrium {

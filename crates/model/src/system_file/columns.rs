@@ -17,7 +17,7 @@ use std::path::Path;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::{most_bars, most_bars_file_bytes};
+use super::limits::{most_bars_file_bytes, most_bars_of_file};
 use super::load::{Loaded, load, without_mark};
 use super::location::span_of;
 use super::suggest::nearest;
@@ -87,10 +87,14 @@ impl<'a> Sheet<'a> {
         let header = self.header(lines.next().unwrap_or(&self.text[..0]))?;
         // Rows are of like length: the first tells how many there may be.
         let row = lines.clone().next().map_or(1, |line| line.len() + 1);
-        let mut bars = Vec::with_capacity((self.text.len() / row).min(most_bars()));
+        let mut bars = Vec::with_capacity((self.text.len() / row).min(most_bars_of_file()));
         for line in lines {
-            if bars.len() == most_bars() {
-                return Err(self.error(Kind::TooManyBars { limit: most_bars() }, None, line));
+            if bars.len() == most_bars_of_file() {
+                return Err(self.error(
+                    Kind::TooManyBars { limit: most_bars_of_file() },
+                    None,
+                    line,
+                ));
             }
             bars.push(self.bar(line, &header)?);
         }

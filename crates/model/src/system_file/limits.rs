@@ -12,16 +12,20 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 /// need about 75.
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
-/// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes: 870 are measured
-/// of a million.
-pub const BYTES_PER_BAR: u64 = 900;
+/// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes, where it is one of
+/// a `count`: 390 are measured of a million.
+pub const BYTES_PER_BAR: u64 = 460;
+
+/// The same where bars are in a file of their own, each with its numbers: 560 are measured of a million.
+pub const BYTES_PER_BAR_OF_FILE: u64 = 640;
 
 /// Memory that a byte of a system file needs while it is parsed, bytes: at most 67 are measured, of
 /// a file of empty arrays (48 of one of empty lines).
 pub const BYTES_PER_FILE_BYTE: u64 = 80;
 
 /// Hold all readers of this process to what fits into so much memory, bytes: files longer than a
-/// [`BYTES_PER_FILE_BYTE`]-th of it, chains of more bars than a [`BYTES_PER_BAR`]-th, and other systems
+/// [`BYTES_PER_FILE_BYTE`]-th of it, chains of more bars than a [`BYTES_PER_BAR`]-th (of a file of bars a
+/// [`BYTES_PER_BAR_OF_FILE`]-th), and other systems
 /// of more members than a [`BYTES_PER_MEMBER`]-th, rows of rigid bars of more than a
 /// [`BYTES_PER_MEMBER_IN_ROW`]-th, are refused where the file says so, before they are
 /// made. Never more than [`MAX_FILE_BYTES`], [`MAX_BARS`] and
@@ -32,7 +36,7 @@ pub const BYTES_PER_FILE_BYTE: u64 = 80;
 ///
 /// ```standalone_crate
 /// use model::system_file::{limit_memory, parse};
-/// limit_memory(900_000);
+/// limit_memory(460_000);
 /// let chain = |count| format!(
 ///     "anchors = {{ start_m = [0, 0, 0], end_m = [0, 0, -1] }}\n\
 ///      [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = {count}\n"
@@ -49,6 +53,12 @@ pub fn limit_memory(bytes: u64) {
 #[must_use]
 pub fn most_bars() -> usize {
     usize::try_from(memory() / BYTES_PER_BAR).unwrap_or(usize::MAX).min(MAX_BARS)
+}
+
+/// Most bars of a file of bars, as [`limit_memory`] has it.
+#[must_use]
+pub fn most_bars_of_file() -> usize {
+    usize::try_from(memory() / BYTES_PER_BAR_OF_FILE).unwrap_or(usize::MAX).min(MAX_BARS)
 }
 
 /// Longest system file, bytes, as [`limit_memory`] has it.

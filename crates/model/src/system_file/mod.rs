@@ -106,8 +106,8 @@ pub use described::Described;
 pub use error::SystemFileError;
 pub use kind::{NOT_MODELLED, SCOPE, SystemFileErrorKind};
 pub use limits::{
-    BYTES_PER_BAR, BYTES_PER_FILE_BYTE, MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES,
-    limit_memory, most_bars, most_file_bytes,
+    BYTES_PER_BAR, BYTES_PER_BAR_OF_FILE, BYTES_PER_FILE_BYTE, MAX_BARS, MAX_BARS_FILE_BYTES,
+    MAX_FILE_BYTES, limit_memory, most_bars, most_bars_of_file, most_file_bytes,
 };
 pub use location::Position;
 pub use read::{

@@ -22,7 +22,7 @@ use super::tolerance::{self, Tolerances};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
-    Joint, Member, Name, PointLoad, RopeFault, Support, System, SystemError, SystemRefusal,
+    Joint, Member, Name, PointLoad, RopeFault, Shares, Support, System, SystemError, SystemRefusal,
     UNIT_TOLERANCE,
 };
 
@@ -160,7 +160,7 @@ impl Reading<'_> {
             let own = table.table(name, value)?;
             let joint = self.tolerances.joint(joint(name, &own)?, &own)?;
             self.numbers.insert(name.to_owned(), self.joints.len());
-            self.joints.push(joint);
+            joint.join(&mut self.joints);
             self.joint_spans.push(value.span());
         }
         Ok(())
@@ -177,7 +177,7 @@ impl Reading<'_> {
             let asked = root.source().budget.take_names(1, bytes);
             asked.map_err(|error| (Some("name"), Kind::Memory(error)))?;
             numbers.insert(joint.name.to_string(), joints.len());
-            joints.push(joint);
+            joint.join(joints);
             Ok(())
         };
         let file = SheetFile::read(root, "joints_file", &network_rows::JOINTS, &mut take)?;
@@ -200,7 +200,7 @@ impl Reading<'_> {
             budget.take_members(1).map_err(|error| (None, Kind::Memory(error)))?;
             let member = network_rows::member(row, &number, &drawn, self.safety)?;
             self.rope(&member, row.number).map_err(|(key, kind)| (Some(key), kind))?;
-            members.push(self.tolerances.member(member, row)?);
+            self.tolerances.member(member, row)?.join(&mut members);
             Ok(())
         };
         let known = if self.drawn { DRAWN_BARS } else { BARS };
@@ -244,7 +244,10 @@ impl Reading<'_> {
         let model = self.tolerances.member(read, table)?;
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
-        let asked = budget.take_members(count);
+        // Between drawn joints each has a place of its own.
+        let own = if self.drawn { count } else { 1 };
+        let asked = budget.take_members(own);
+        let asked = asked.and_then(|()| budget.take_equal_members(count - own));
         let asked = asked.and_then(|()| budget.take_names(count, run.len() + DIGITS));
         asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
         let stem = format!("{run}.").into();
@@ -262,7 +265,7 @@ impl Reading<'_> {
                 });
                 self.joints.len() - 1
             };
-            self.members.push(model.clone().between(here, there));
+            model.clone().between(here, there).join(&mut self.members);
             here = there;
         }
         Ok(())
@@ -342,8 +345,19 @@ impl Reading<'_> {
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
-        let Self { root, mut joints, joint_spans, members, tables, joints_file, bars_file, .. } =
-            self;
+        let Self {
+            root,
+            mut joints,
+            joint_spans,
+            members,
+            tables,
+            joints_file,
+            bars_file,
+            numbers,
+            ..
+        } = self;
+        // By number from here on.
+        drop(numbers);
         let names: Vec<Name> =
             joints.iter().take(joint_spans.len()).map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.

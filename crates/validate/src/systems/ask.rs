@@ -271,6 +271,7 @@ fn by_lagrange(
         // The bits of the answer do not depend on how many share the work.
         let mut solver = lagrange::condensed::Solver::with_processors(question.threads);
         if let Ok(found) = solver.solve(row.problem(), &question.condensed(bars)) {
+            drop(solver);
             return Ok(row.equilibrium(found.equilibrium));
         }
     }
@@ -289,11 +290,11 @@ fn by_energy(
     let settings = energy::Settings { max_iterations, ..usual };
     // One whose bars are not known well enough has no answer.
     let over_directions = |row: &Row| {
-        let found = energy::minimise(row.problem(), &settings).ok()?;
-        found.equilibrium.evidence.ladder.is_reached(Rung::Converged).then_some(found)
+        let found = energy::minimise(row.problem(), &settings).ok()?.equilibrium;
+        found.evidence.ladder.is_reached(Rung::Converged).then_some(found)
     };
     if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
-        return Ok(row.equilibrium(found.equilibrium));
+        return Ok(row.equilibrium(found));
     }
     let found = energy::network::minimise(system, &question.energy())?;
     Ok(found.equilibrium)

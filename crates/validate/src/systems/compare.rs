@@ -1,13 +1,10 @@
 //! Answers for one system held against each other, and each against Newton's laws.
 
-use std::mem::take;
-
 use model::system::{System, SystemEquilibrium};
 use model::{
     Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, NoCertificate, Optimal,
     Quantity, Reason, Room, SelfStresses, SolverName, Status,
 };
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n};
@@ -17,7 +14,7 @@ use super::free::free_joints;
 use super::proved::proved;
 use super::scale::Scale;
 use super::sliding::sliding;
-use super::statics::{SystemStatics, judge, judge_by};
+use super::statics::{SystemStatics, judge};
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
 use crate::verdict::{Verdict, with_sentences};
@@ -72,9 +69,7 @@ impl SystemAgreement {
 struct Judgement<'a> {
     system: &'a System,
     tolerances: &'a Tolerances,
-    /// The sizes at each answer.
-    scales: Vec<Scale>,
-    /// Those that differences are held against.
+    /// The sizes that differences are held against.
     scale: Scale,
     free: Vec<bool>,
     /// The self-stresses of the shape of the answer that others are compared with.
@@ -88,9 +83,6 @@ struct Judgement<'a> {
 /// Forces below this part of all that acts are none: a cable that bears as little is at the limit of
 /// its kind.
 const NO_FORCE: f64 = 1e-9;
-
-/// Answers for systems of more members are judged side by side.
-const SMALL: usize = 10_000;
 
 /// Hold answers against each other, every two of them, and each against Newton's laws, and write
 /// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
@@ -221,19 +213,23 @@ fn certify_row(
     answer: &SystemEquilibrium,
 ) -> Option<Result<Optimal, NoCertificate>> {
     let row = system.as_row()?;
-    let found = row.chain_equilibrium(answer)?;
+    let mut found = row.chain_equilibrium(answer)?;
+    // The bound needs the pull at the end alone.
+    found.multipliers_n = vec![];
     Some(crate::certificate::certify(row.problem(), &found).map(|proof| proof.proof()))
 }
 
 impl<'a> Judgement<'a> {
     fn new(system: &'a System, answers: &[SystemEquilibrium], tolerances: &'a Tolerances) -> Self {
-        let scales: Vec<Scale> = answers.iter().map(|answer| Scale::new(system, answer)).collect();
-        let mut scale = scales[0].clone();
-        for other in &scales[1..] {
+        let mut scale = Scale::new(system, &answers[0]);
+        for answer in &answers[1..] {
+            let other = Scale::new(system, answer);
             scale.size_m = worse(scale.size_m, other.size_m);
             (scale.total_n, scale.held_n) =
                 (scale.total_n.min(other.total_n), scale.held_n.min(other.held_n));
         }
+        // Those of each joint the judge has for himself.
+        scale.joint_n = vec![];
         if scale.total_n <= 0.0 {
             // Nothing acts: there is no other size of forces than what is found.
             scale.total_n = answers.iter().map(largest_force_n).fold(0.0, worse);
@@ -241,7 +237,6 @@ impl<'a> Judgement<'a> {
         Self {
             system,
             tolerances,
-            scales,
             scale,
             free: free_joints(system, answers),
             family: None,
@@ -276,14 +271,9 @@ impl<'a> Judgement<'a> {
                 self.pair(first, second);
             }
         }
-        let by = |(answer, scale)| judge_by(self.system, answer, scale);
-        let sized = answers.iter().zip(take(&mut self.scales));
-        let statics: Vec<SystemStatics> = if self.system.members().len() > SMALL {
-            sized.collect::<Vec<_>>().into_par_iter().map(by).collect()
-        } else {
-            sized.map(by).collect()
-        };
-        for (answer, statics) in answers.iter().zip(statics) {
+        // One after the other: what is held while one is judged would be there twice.
+        for answer in answers {
+            let statics = judge(self.system, answer);
             let (solver, place) = (answer.solver.clone(), statics.worst);
             let budget = self.tolerances.statics.value;
             self.hold(Quantity::Statics { solver, place }, statics.largest(), budget);

@@ -137,9 +137,9 @@ fn unlisted_row(
     answer: &SystemEquilibrium,
 ) -> Option<Reason> {
     let row = system.as_row()?;
-    let of_row = census.chains().find(|chain| chain.joints == row.joints())?;
+    let of_row = census.chains().find(|chain| chain.joints.iter().copied().eq(row.joints()))?;
     let joints_m: Vec<Vector> =
-        row.joints().iter().map(|k| answer.joints_m.get(*k).copied()).collect::<Option<_>>()?;
+        row.joints().map(|k| answer.joints_m.get(k).copied()).collect::<Option<_>>()?;
     let chain = row.problem().chain();
     Some(crate::completeness::unlisted(chain, &of_row.census, &joints_m, answer.energy_j))
 }

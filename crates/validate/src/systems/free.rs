@@ -69,12 +69,12 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
     }
     let Some(row) = system.as_row() else { return vec![] };
     let mut free = answers.iter().map(|answer| {
-        let places: Vec<Vector> = row.joints().iter().map(|k| answer.joints_m[*k]).collect();
+        let places: Vec<Vector> = row.joints().map(|k| answer.joints_m[k]).collect();
         crate::free::free_joints(row.problem().chain(), &places).map(|(_, free)| free)
     });
     match free.next().flatten() {
         Some(first) if free.all(|other| other.as_ref() == Some(&first)) => {
-            row.joints()[first].to_vec()
+            row.joints().take(first.end() + 1).skip(*first.start()).collect()
         }
         _ => vec![],
     }

@@ -157,11 +157,6 @@ impl SystemStatics {
 /// tolerance.
 #[must_use]
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
-    judge_by(system, answer, Scale::new(system, answer))
-}
-
-/// The same with the sizes that are known.
-pub(super) fn judge_by(system: &System, answer: &SystemEquilibrium, scale: Scale) -> SystemStatics {
     let mut found = SystemStatics::NOTHING;
     let (joints, members) = (system.joints().len(), system.members().len());
     let fits = [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
@@ -171,7 +166,7 @@ pub(super) fn judge_by(system: &System, answer: &SystemEquilibrium, scale: Scale
         found.note(|s| &mut s.balance, f64::NAN, Place::Whole);
         return found;
     }
-    let units = Units::new(system, answer, scale);
+    let units = Units::new(system, answer, Scale::new(system, answer));
     let distances_m = distances_m(system, answer, units.rounding_m);
     for (k, (distance_m, over_m)) in distances_m.into_iter().enumerate() {
         member(system, answer, k, distance_m, &units, &mut found);

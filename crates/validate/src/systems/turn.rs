@@ -95,7 +95,8 @@ fn is_held_row(system: &System, answer: &SystemEquilibrium) -> bool {
     let Some(row) = system.as_row() else { return false };
     let sizes_n = answer.end_forces_n.iter().map(|force| norm(*force));
     let largest_n = sizes_n.fold(0.0, worse);
-    let [x, y, _] = answer.reactions_n[row.joints()[0]];
+    let Some(first) = row.joints().next() else { return false };
+    let [x, y, _] = answer.reactions_n[first];
     !row.problem().chain().anchors_on_one_vertical()
         && x.hypot(y) > Tolerances::project().forces.value * largest_n
 }
