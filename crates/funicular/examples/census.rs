@@ -5,9 +5,8 @@ use funicular::prelude::*;
 fn main() -> Result<(), Error> {
     let problem = Problem::case("three-equal-bars-oblique")?;
     let found = Census::new().max_bars(10).run(&problem)?;
-    let all = found.equilibria();
-    println!("{} equilibria, complete: {}", all.len(), found.complete());
-    for e in &all {
+    println!("{} equilibria, complete: {}", found.equilibria.len(), found.complete());
+    for e in found.equilibria.iter().map(|found| &found.equilibrium) {
         let index = e.stability.index_in_space;
         println!("{:.6} J, {index} directions in which the energy falls", e.energy_j);
     }

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use census::Settings;
+use census::network::SystemCensus;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
-
 use validate::systems::quick_census;
 
-use crate::census::{Census, CensusAnswer, SystemCensusAnswer};
+use crate::census::{CensusAnswer, Found};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::Solve;
@@ -43,47 +44,23 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     Ok(Equilibria { list, complete: false })
 }
 
-/// All equilibria by a census, if that is complete: of a chain of at most `max_bars` bars, or of a
+/// All equilibria by a census, if that is complete: of a row of at most `max_bars` bars, or of another
 /// system of which it is a matter of a second. The stable one otherwise, or the one next to a
 /// drawing.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
     problem.fits(BYTES_PER_MEMBER)?;
-    let known = match problem.as_chain() {
-        Some(chain) if chain.chain().bars().len() <= max_bars => of_chain(chain, max_bars)?,
-        Some(_) => None,
-        None => of_system(&system_of(problem)),
-    };
-    known.map_or_else(|| hanging(problem), |list| Ok(Equilibria { list, complete: true }))
-}
-
-fn of_chain(chain: &model::Problem, max_bars: usize) -> Result<Option<Vec<Located>>, Error> {
-    let census = match Census::new().max_bars(max_bars).of_chain(chain, &|_| {}) {
-        Ok(census) => census,
-        Err(Error::Census(_)) => return Ok(None),
-        Err(error) => return Err(error),
+    let system = system_of(problem);
+    let known = match system.as_row() {
+        _ if system.drawing().is_some() => None,
+        Some(row) if row.problem().chain().bars().len() > max_bars => None,
+        Some(_) => SystemCensus::take(&system, &Settings { max_bars, ..Settings::default() }).ok(),
+        None => quick_census(&system).ok(),
     };
     // Sets with slack bars have no modes: their forces vanish where bars are free to move.
-    if !census.census.complete || !census.census.slack_families.is_empty() {
-        return Ok(None);
-    }
-    let labels: Vec<_> = census.equilibria.iter().map(|found| found.label.clone()).collect();
-    let all = CensusAnswer::Chain(census.into()).equilibria();
-    let located = |(label, found)| Located { label, found };
-    Ok(Some(labels.into_iter().zip(all).map(located).collect()))
-}
-
-fn of_system(system: &System) -> Option<Vec<Located>> {
-    if system.drawing().is_some() {
-        return None;
-    }
-    let census = quick_census(system).ok()?;
-    if !census.complete || census.families() > 0 {
-        return None;
-    }
-    let all = SystemCensusAnswer::new(system, census);
-    let located = |(k, found): (usize, &SystemEquilibrium)| Located {
-        label: (k + 1).to_string(),
-        found: found.clone(),
-    };
-    Some(all.equilibria().iter().enumerate().map(located).collect())
+    let known = known.filter(|census| census.complete && census.families() == 0);
+    let Some(census) = known else { return hanging(problem) };
+    let all = CensusAnswer::new(&system, census).equilibria.into_iter().enumerate();
+    let located =
+        |(k, one): (usize, Found)| Located { label: one.label(k), found: one.equilibrium };
+    Ok(Equilibria { list: all.map(located).collect(), complete: true })
 }

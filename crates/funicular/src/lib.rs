@@ -142,9 +142,7 @@ struct Readme;
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer, Plane};
-pub use self::census::{
-    Census, CensusAnswer, ChainCensusAnswer, LargeCensusAnswer, SystemCensusAnswer,
-};
+pub use self::census::{Census, CensusAnswer, LargeCensusAnswer};
 #[cfg(feature = "branches")]
 pub use self::derivatives::{
     AnchorStiffness, Derivative, Derivatives, DerivativesAnswer, DerivativesError, NumberGradient,

@@ -25,9 +25,9 @@ pub fn census<'py>(
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         let tell = |done, waiting| watch.tell("cells", done, done + waiting);
         let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;
-        let (system, is_chain) = (funicular::system_of(&of), found.as_chain().is_some());
-        let all = found.equilibria().into_iter();
-        let arrays: Vec<_> = all.map(|one| Arrays::new(&system, one, is_chain)).collect();
+        let all = found.equilibria.iter().map(|one| one.equilibrium.clone());
+        let is_chain = of.as_chain().is_some();
+        let arrays: Vec<_> = all.map(|one| Arrays::new(found.system(), one, is_chain)).collect();
         Ok((serde_json::to_string(&found), arrays, found.to_string()))
     })?;
     let (text, arrays, said) = found.map_err(|error: funicular::Error| raise(&error))?;

@@ -5,7 +5,7 @@
 //! kept, 120 bytes whatever the number of bars, with what is proved of the index; and everything
 //! else is made from them when it is asked for, to the same bits as in a [`Census`].
 
-use model::{Equilibrium, Problem};
+use model::{Chain, Equilibrium, Problem};
 use numerics::{Interval, atan2};
 use rayon::prelude::*;
 
@@ -100,8 +100,17 @@ impl CompactCensus {
         settings: &Settings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, CensusError> {
-        let mut gathered =
-            Gathered::of(problem.chain(), JointLoads::NONE, settings, Kept::Compact, watch)?;
+        Self::of_chain(problem.chain(), JointLoads::NONE, settings, watch)
+    }
+
+    /// Take the census of a chain with loads at its joints.
+    pub(crate) fn of_chain(
+        chain: &Chain,
+        loads: &JointLoads,
+        settings: &Settings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, CensusError> {
+        let mut gathered = Gathered::of(chain, loads, settings, Kept::Compact, watch)?;
         let unloaded = gathered.take_unloaded();
         let mut records = gathered.each(Record::of);
         let (system, besides) = gathered.finish();
@@ -261,14 +270,18 @@ impl CompactCensus {
     ///
     /// The first thing that is wrong or not proved, as [`CheckError`].
     pub fn check(&self, problem: &Problem) -> Result<(), CheckError> {
-        let chain = problem.chain();
+        self.check_chain(problem.chain(), JointLoads::NONE)
+    }
+
+    /// Judge this census of a chain with loads at its joints.
+    pub(crate) fn check_chain(&self, chain: &Chain, loads: &JointLoads) -> Result<(), CheckError> {
         let bars = chain.bars().len();
         if bars != self.besides.statistics.bars || bars != self.system.bars() {
             return Err(CheckError::Claim { quantity: "the number of bars" });
         }
-        let system = System::new(chain, JointLoads::NONE);
-        let precise = PreciseSystem::new(chain, JointLoads::NONE, &system);
-        let exact = Exact::new(chain, JointLoads::NONE);
+        let system = System::new(chain, loads);
+        let precise = PreciseSystem::new(chain, loads, &system);
+        let exact = Exact::new(chain, loads);
         // Equilibria with an unloaded bar are few: those are judged with everything that is listed.
         let whole =
             Census { equilibria: self.unloaded.clone(), complete: false, ..self.besides.clone() };

@@ -79,7 +79,7 @@ impl Census {
     }
 }
 
-fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
+pub(crate) fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     let bars = chain.bars().len();
     if bars > Settings::MAX_BARS {
         // Beyond 600 bars more the numbers overflow; the message stays finite.

@@ -110,8 +110,8 @@ mod tube;
 mod turns;
 
 pub use census::{
-    ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
-    UndecidedPlaces, bridle_seconds,
+    ChainCensus, LoadedRow, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus,
+    SystemPosition, UndecidedPlaces, bridle_seconds,
 };
 pub use limit::{MAX_LIMIT_UNKNOWNS, prove_singular};
 pub use path::{MAX_PATH_UNKNOWNS, PathProof, SingularKind, prove_path};

@@ -253,7 +253,7 @@ fn shares(bar: &Bar) -> [Interval; 2] {
 ///
 /// Joint i carries nothing if and only if nothing hangs there, `m_i r_i = 0` and
 /// `m_{i+1} (l_{i+1} - r_{i+1}) = 0`: a question about the data as they stand, without rounding.
-fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
+pub(crate) fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
     let mut groups = vec![];
     let mut start = 0;
     for joint in 1..=bars.len() {

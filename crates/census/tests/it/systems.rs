@@ -1,10 +1,10 @@
 //! Lists of equilibria against closed forms, and against the census of chains.
 
 use model::system::{Joint, Kind, Member, PointLoad, System};
-use model::{Bar, NoCensus};
+use model::{Anchors, Bar, Chain, NoCensus, Problem};
 use numerics::Interval;
 
-use census::network::{SystemCensus, prove};
+use census::network::{LoadedRow, SystemCensus, prove};
 use census::{Census, ProvenEquilibrium, Settings};
 
 const G: f64 = 10.0;
@@ -44,7 +44,9 @@ fn a_chain_as_a_system_has_the_list_of_the_chain() {
         if !alone.complete || !alone.families.is_empty() {
             continue;
         }
-        let census = taken(&System::from(problem.chain()));
+        let system = System::from(problem.chain());
+        let census = taken(&system);
+        assert_eq!(census.row(&system).unwrap().census.equilibria, alone.equilibria);
         assert_eq!((census.equilibria.len(), census.complete), (alone.equilibria.len(), true));
         for one in &census.equilibria {
             let same = |other: &&ProvenEquilibrium| {
@@ -58,6 +60,45 @@ fn a_chain_as_a_system_has_the_list_of_the_chain() {
         compared += 1;
     }
     assert!(compared >= 5, "{compared}");
+}
+
+/// A row of bars with their centres off the middle, the second told from its far end: where its centre from the near
+/// one is a number, it is the chain to the last bit; where that is rounded, its weight is at its joints.
+#[test]
+fn a_bar_told_against_its_row_is_the_same_bar() {
+    let ends = [[0.0; 3], [1.3, 0.4, -0.5]];
+    let bar = |length_m, centre_m| Bar::new(length_m, 2.0, centre_m, [0.0; 3]).unwrap();
+    let [first, last] = [bar(1.0, 0.3), bar(0.7, 0.1)];
+    for (length_m, centre_m, is_row) in [(1.5, 0.375, true), (1.1, 0.3, false)] {
+        let bars = vec![first, bar(length_m, length_m - centre_m), last];
+        let anchors = Anchors { start_m: ends[0], end_m: ends[1] };
+        let chain = Problem::new(Chain::new("row", G, anchors, bars).unwrap()).unwrap();
+        let alone = Census::take(&chain, &Settings::default()).unwrap();
+        let joints = vec![
+            Joint::anchor("A", ends[0]),
+            Joint::anchor("B", ends[1]),
+            Joint::free("P"),
+            Joint::free("Q"),
+        ];
+        // From the last anchor on, so that the row is walked against the order of its members too.
+        let members = vec![
+            Member::bar(3, 1, last),
+            Member::bar(3, 2, bar(length_m, centre_m)),
+            Member::bar(0, 2, first),
+        ];
+        let system = system(joints, members);
+        let census = taken(&system);
+        let row = census.row(&system).map(|row| (&row.joints, &row.census.equilibria));
+        let wanted = (&vec![0, 2, 3, 1], &alone.equilibria);
+        assert_eq!(row, is_row.then_some(wanted), "{length_m}");
+        assert_eq!(LoadedRow::of(&system).map(|row| row.bars()), is_row.then_some(3));
+        assert!(alone.complete && census.equilibria.len() == alone.equilibria.len());
+        for (one, other) in census.equilibria.iter().zip(&alone.equilibria) {
+            let [a, b] = [one.energy_j, other.energy_j].map(Interval::mid);
+            assert!((a - b).abs() < 1e-13 * 60.0, "{a} {b}");
+            assert_eq!(one.index_in_space, other.index_in_space());
+        }
+    }
 }
 
 /// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain

@@ -1,50 +1,52 @@
 //! What a census says, as `funicular census --json` prints it. Tables and CSV are written from the
 //! same.
 
-use census::{
-    CheckError, DegenerateEquilibrium, Interval, Position, ProvenEquilibrium, SlackFamily,
-    Statistics, StraightPosition, Undecided,
-};
-use model::{Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
-use serde::Serialize;
-use validate::systems::judge_chain;
+use std::borrow::Borrow;
 
-use crate::solve::SCHEMA_VERSION;
+use census::network::{ChainCensus, SystemCensus};
+use census::{Interval, Position, ProvenEquilibrium};
+use model::system::{Row, System, SystemEquilibrium};
+use model::{Equilibrium, InPlane, Reason, SolverName, Status};
+use serde::{Serialize, Serializer};
+use validate::systems::judge;
 
-/// Both ends of an enclosure.
-pub type Enclosure = [f64; 2];
+use super::summary::{EnergyUnit, Summary};
+use crate::solve::{Lists, Named, SCHEMA_VERSION};
 
-/// All equilibria of a chain with their proofs, and what is known of the list.
-#[derive(Debug, Clone, Serialize)]
-pub struct ChainCensusAnswer {
-    /// Version of this object as JSON.
-    pub schema_version: u32,
-    /// What was asked about.
-    pub system: SystemSummary,
-    /// The equilibria in one vertical plane, by energy; circles by both their mirror images.
+/// All equilibria of a system with their proofs, and what is known of the list.
+#[derive(Debug, Clone)]
+pub struct CensusAnswer {
+    /// The isolated equilibria by energy; of a row of bars those in one vertical plane, circles by
+    /// both their mirror images.
     pub equilibria: Vec<Found>,
     /// The census as a whole.
     pub census: Summary,
-    /// The census itself, to draw and to ask further.
-    #[serde(skip)]
-    pub proven: census::Census,
-    /// The chain.
-    #[serde(skip)]
-    pub problem: Problem,
+    pub(super) system: System,
+    proven: SystemCensus,
 }
 
-/// One equilibrium: the same keys as those of `solve`, and what only a census knows.
-#[derive(Debug, Clone, Serialize)]
+/// One equilibrium: the same keys as those of `solve`, and what only the census of a row of bars
+/// knows.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// As every solver gives it, from the middles of the enclosures.
-    #[serde(flatten)]
-    pub equilibrium: Equilibrium,
+    pub equilibrium: SystemEquilibrium,
+    /// What is known where the system is one row of bars between two anchors.
+    pub in_row: Option<InRow>,
+}
+
+/// What the census of a row of bars between two anchors knows of an equilibrium. Bars and joints
+/// are in the order of the row, from joint 0, the anchor that the system has first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InRow {
     /// `1`, or `1'` for the mirror image of 1 on the same circle.
     pub label: String,
     /// The number of the circle, from 1.
     pub circle: Option<usize>,
     /// Whether this is the mirror image.
     pub mirrored: bool,
+    /// Among the motions in the vertical plane.
+    pub in_plane: InPlane,
     /// Angle of each bar from the descending vertical, [0, 360).
     pub angles_deg: Vec<f64>,
     /// The same, (-180, 180].
@@ -53,285 +55,181 @@ pub struct Found {
     pub signs: Vec<i8>,
     /// The energy in units of `census.energy_unit_j`.
     pub energy_scaled: f64,
-    /// Largest relative width of the enclosures.
-    pub box_width: f64,
     /// Intervals that hold the exact values.
     pub enclosures: Enclosures,
 }
 
 /// Intervals that hold the exact values.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Enclosures {
     /// Pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Enclosure; 2],
+    pub pull_n: [Interval; 2],
     /// Energy above the height of joint 0.
-    pub energy_j: Enclosure,
+    pub energy_j: Interval,
     /// Angle of each bar from the descending vertical.
-    pub angles_rad: Vec<Enclosure>,
+    pub angles_rad: Vec<Interval>,
     /// Place of each joint.
-    pub joints_m: Vec<[Enclosure; 3]>,
-    /// Force at each joint.
-    pub multipliers_n: Vec<[Enclosure; 3]>,
+    pub joints_m: Vec<[Interval; 3]>,
+    /// Force at each joint on the bar that ends there, which bears the weight at that joint; at joint 0 of the ground on bar 1.
+    pub multipliers_n: Vec<[Interval; 3]>,
     /// Axial force of each bar.
-    pub axial_n: Vec<Enclosure>,
+    pub axial_n: Vec<Interval>,
 }
 
-/// The census as a whole.
-#[derive(Debug, Clone, Serialize)]
-pub struct Summary {
-    /// Whether every equilibrium is in `equilibria` or `slack_families`.
-    pub complete: bool,
-    /// Whether every equilibrium is in `equilibria`, `slack_families` or `degenerate`, or upright
-    /// in `straight`.
-    pub decided: bool,
-    /// Number of isolated equilibria in one vertical plane: the length of `equilibria`, where each
-    /// is listed with everything; by signs and pulls a circle is listed once.
-    pub count: usize,
-    /// Whether the anchors are on one vertical, so that equilibria come in circles.
-    pub circles: bool,
-    /// Number of circles, or `None` if equilibria do not come in circles.
-    pub circle_count: Option<usize>,
-    /// By index in the plane, slack families with their Betti numbers.
-    pub count_by_index: Vec<i64>,
-    /// Σ (-1)^index over them.
-    pub alternating_sum: i64,
-    /// Of the planar configuration space, from the lengths alone; `None` if it is no manifold.
-    pub euler_characteristic: Option<i64>,
-    /// Its Betti numbers.
-    pub betti: Option<Vec<u64>>,
-    /// Why `euler_characteristic` is not known.
-    pub topology_unknown: Option<String>,
-    /// Positions in which all bars lie in the line between the anchors.
-    pub straight: Vec<StraightPosition>,
-    /// Equilibria at which several have merged.
-    pub degenerate: Vec<Merged>,
-    /// How many boxes could not be decided.
-    pub undecided_boxes: usize,
-    /// Those boxes.
-    pub undecided: Vec<Open>,
-    /// Sets of equilibria with bars that carry nothing.
-    pub slack_families: Vec<Slack>,
-    /// What `energy_scaled` is a multiple of.
-    pub energy_unit_j: f64,
-    /// What that is, in words.
-    pub energy_unit: &'static str,
-    /// Its symbol.
-    pub energy_symbol: &'static str,
-    /// The list judged again, without the search.
-    pub check: Check,
-    /// What it took.
-    pub statistics: Statistics,
-}
-
-/// What could not be decided.
-#[derive(Debug, Clone, Serialize)]
-pub struct Open {
-    /// Name of the reason.
-    pub reason: String,
-    /// The reason in words.
-    pub why: String,
-    /// How many patterns of tension and compression are in question.
-    pub pattern_count: usize,
-    /// The first of them.
-    pub patterns: Vec<Vec<i8>>,
-    /// The face of the half cube of pulls where the box is.
-    pub chart: serde_json::Value,
-    /// The box in the coordinates of that face.
-    pub at: [Enclosure; 2],
-    /// The pulls in it, if they are bounded.
-    pub pull_n: Option<[Enclosure; 2]>,
-    /// At most so many equilibria in the box and next to it, counted with multiplicity, besides
-    /// those listed; if that is proved.
-    pub at_most: Option<usize>,
-    /// Of what degree they are together: their number has the same parity.
-    pub degree: Option<i8>,
-}
-
-/// A set of equilibria with bars that carry nothing.
-#[derive(Debug, Clone, Serialize)]
-pub struct Slack {
-    /// +1 for each bar in tension, -1 in compression, 0 for a slack one.
-    pub signs: Vec<i8>,
-    /// Energy above the height of joint 0.
-    pub energy_j: Enclosure,
-    /// The gap that the slack bars bridge.
-    pub gap_m: Enclosure,
-    /// Pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Enclosure; 2],
-    /// Directions in the plane in which the energy falls.
-    pub index_in_plane: usize,
-    /// Directions in space in which the energy falls.
-    pub index_in_space: usize,
-    /// Dimension of the set in the plane.
-    pub dimension_in_plane: usize,
-    /// Whether it is a manifold, across which the second derivative is regular; not if the slack bars
-    /// also fit into one line, or close upon themselves folded.
-    pub is_manifold: bool,
-}
-
-/// An equilibrium at which several have merged: a bar carries nothing, or several in one line, and the
-/// second derivative vanishes in some direction in the plane.
-#[derive(Debug, Clone, Serialize)]
-pub struct Merged {
-    /// +1 for each bar in tension, -1 in compression, 0 for those that carry nothing.
-    pub signs: Vec<i8>,
-    /// How many have merged: 2 at a fold, 3 at a pitchfork; none where a whole family has shrunk to
-    /// this position.
-    pub multiplicity: Option<usize>,
-    /// Σ (-1)^index over those into which it falls apart when the chain is changed a little.
-    pub degree: i8,
-    /// Directions in the plane in which the energy falls in second order.
-    pub index_in_plane: usize,
-    /// Directions out of the plane in which the energy falls.
-    pub index_out_of_plane: usize,
-    /// Energy above the height of joint 0.
-    pub energy_j: Enclosure,
-    /// Pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Enclosure; 2],
-    /// Angle of each bar from the descending vertical.
-    pub angles_rad: Vec<Enclosure>,
-    /// Place of each joint.
-    pub joints_m: Vec<[Enclosure; 3]>,
-    /// Axial force of each bar.
-    pub axial_n: Vec<Enclosure>,
-}
-
-/// The census judged again, without the search.
-#[derive(Debug, Clone, Serialize)]
-pub struct Check {
-    /// Whether every equilibrium is proved again.
-    pub passed: bool,
-    /// Whether something is shown to be wrong; else what failed is a proof, which shows nothing.
-    pub refuted: bool,
-    /// What failed.
-    pub failure: Option<String>,
-}
-
-/// At most so many patterns of an undecided box are listed: there can be 2^n.
-const PATTERNS: usize = 64;
-
-impl Summary {
-    /// Whether the check shows that something is wrong.
+impl CensusAnswer {
+    /// Put together from a census.
     #[must_use]
-    pub fn check_failed(&self) -> bool {
-        self.check.refuted
+    pub fn new(system: &System, proven: SystemCensus) -> Self {
+        let equilibria: Vec<Found> = match AsRow::of(system, &proven) {
+            Some((row, ChainCensus { census, .. })) => {
+                let found = |at: Position| row.found(census.position_to_model(&at), &at);
+                census.positions().map(found).collect()
+            }
+            None => {
+                let found = proven.to_model(system).into_iter();
+                found.map(|equilibrium| Found::of(system, equilibrium, None)).collect()
+            }
+        };
+        let census = Summary::of(system, &proven, equilibria.len());
+        Self { equilibria, census, system: system.clone(), proven }
     }
 
-    /// Whether every equilibrium is known, and passed the check.
+    /// What it is the census of.
     #[must_use]
-    pub fn is_decided(&self) -> bool {
-        self.check.passed && self.decided
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The census itself, with the enclosures.
+    #[must_use]
+    pub fn proven(&self) -> &SystemCensus {
+        &self.proven
+    }
+
+    /// The census of the row of bars that the system is, if it is one: to draw.
+    #[must_use]
+    pub fn row(&self) -> Option<&ChainCensus> {
+        self.proven.row(&self.system)
+    }
+
+    /// The system as that row.
+    pub(super) fn as_row(&self) -> Option<AsRow<'_>> {
+        AsRow::of(&self.system, &self.proven).map(|(row, _)| row)
+    }
+
+    /// Whether it is proved that there is no other.
+    #[must_use]
+    pub fn complete(&self) -> bool {
+        self.census.complete
+    }
+
+    /// With this list.
+    pub(super) fn object<E>(&self, list: Option<&'static str>, equilibria: E) -> Object<'_, E> {
+        let (system, census) = (crate::modes::Summary::new(&self.system), &self.census);
+        Object { schema_version: SCHEMA_VERSION, system, list, equilibria, census }
     }
 }
 
-impl Check {
-    /// From the verdict.
-    #[must_use]
-    pub fn of(verdict: Result<(), CheckError>) -> Self {
-        Self {
-            passed: verdict.is_ok(),
-            refuted: verdict.as_ref().is_err_and(CheckError::refutes),
-            failure: verdict.err().map(|error| error.to_string()),
+impl Serialize for CensusAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let items = || self.equilibria.iter().map(|found| Item(&self.system, found));
+        self.object(None, Each(items)).serialize(serializer)
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct Object<'a, E> {
+    schema_version: u32,
+    system: crate::modes::Summary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    list: Option<&'static str>,
+    equilibria: E,
+    census: &'a Summary,
+}
+
+/// A list whose items are made while it is written.
+pub(super) struct Each<F>(pub(super) F);
+
+impl<F: Fn() -> I, I: Iterator<Item: Serialize>> Serialize for Each<F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.0)())
+    }
+}
+
+/// An equilibrium with the names of its joints.
+pub(super) struct Item<'a, F>(pub(super) &'a System, pub(super) F);
+
+impl<F: Borrow<Found>> Serialize for Item<'_, F> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            #[serde(flatten)]
+            equilibrium: Named<'a>,
+            #[serde(flatten)]
+            in_row: Option<&'a InRow>,
         }
-    }
-}
-
-impl ChainCensusAnswer {
-    /// Put together from a census and the verdict of its check.
-    #[must_use]
-    pub fn new(problem: &Problem, census: census::Census, verdict: Result<(), CheckError>) -> Self {
-        let all = census.positions().map(|position| {
-            let equilibrium = census.position_to_model(&position);
-            Found::of(problem, equilibrium, &position)
-        });
-        let equilibria = all.collect();
-        Self::with(problem, census, equilibria, verdict)
-    }
-
-    /// The same with these equilibria.
-    pub(super) fn with(
-        problem: &Problem,
-        census: census::Census,
-        equilibria: Vec<Found>,
-        verdict: Result<(), CheckError>,
-    ) -> Self {
-        let (energy_unit_j, energy_symbol, energy_unit) = energy_unit(problem);
-        let topology = census.topology.as_ref();
-        Self {
-            schema_version: SCHEMA_VERSION,
-            system: problem.chain().summary(),
-            census: Summary {
-                complete: census.complete,
-                decided: census.decided(),
-                count: equilibria.len(),
-                circles: census.circles,
-                circle_count: census.circles.then_some(census.equilibria.len()),
-                count_by_index: census.count_by_index(),
-                alternating_sum: census.alternating_sum(),
-                euler_characteristic: topology.ok().map(|topology| topology.euler),
-                betti: topology.ok().map(|topology| topology.betti.clone()),
-                topology_unknown: topology.err().map(ToString::to_string),
-                straight: census.straight.clone(),
-                degenerate: census.degenerate.iter().map(merged).collect(),
-                undecided_boxes: census.undecided.len(),
-                undecided: census.undecided.iter().map(open).collect(),
-                slack_families: census.families.iter().map(slack).collect(),
-                energy_unit_j,
-                energy_unit,
-                energy_symbol,
-                check: Check::of(verdict),
-                statistics: census.statistics,
-            },
-            equilibria,
-            proven: census,
-            problem: problem.clone(),
-        }
-    }
-}
-
-/// mgl of one bar where all bars are equal, as in the paper; else weight times length of the whole
-/// chain.
-fn energy_unit(problem: &Problem) -> (f64, &'static str, &'static str) {
-    let chain = problem.chain();
-    let bars = chain.bars();
-    let equal = bars.windows(2).all(|pair| pair[0] == pair[1]);
-    match bars.first() {
-        Some(bar) if equal => (
-            bar.mass_kg() * chain.gravity_m_s2() * bar.length_m(),
-            "mgl",
-            "weight times length of one bar",
-        ),
-        _ => (
-            chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m(),
-            "MgL",
-            "weight times length of the whole chain",
-        ),
+        let Found { equilibrium, in_row } = self.1.borrow();
+        let named = Named { system: self.0, equilibrium, lists: Lists::Objects };
+        Keys { equilibrium: named, in_row: in_row.as_ref() }.serialize(serializer)
     }
 }
 
 impl Found {
-    /// A position and the same as the answer of a solver.
-    pub(super) fn of(problem: &Problem, mut equilibrium: Equilibrium, position: &Position) -> Self {
+    /// An equilibrium that no other solver was asked for.
+    fn of(system: &System, mut equilibrium: SystemEquilibrium, in_row: Option<InRow>) -> Self {
+        let statics = judge(system, &equilibrium).largest();
+        equilibrium.evidence.ladder.agreed =
+            Status::Open(Reason::OneSolverOnly { solver: SolverName::CENSUS, statics });
+        Self { equilibrium, in_row }
+    }
+
+    /// Its name in the list, where it has this place from 0: `2`, or `2'` for a mirror image.
+    #[must_use]
+    pub fn label(&self, k: usize) -> String {
+        self.in_row.as_ref().map_or_else(|| (k + 1).to_string(), |found| found.label.clone())
+    }
+
+    /// Largest relative width of the enclosures.
+    #[must_use]
+    pub fn box_width(&self) -> f64 {
+        let verified = self.equilibrium.evidence.ladder.verified.proof();
+        verified.map_or(f64::NAN, |proof| proof.box_width)
+    }
+}
+
+/// A system as the row of bars that it is.
+pub(super) struct AsRow<'a> {
+    system: &'a System,
+    row: &'a Row,
+    unit: EnergyUnit,
+}
+
+impl<'a> AsRow<'a> {
+    pub(super) fn of(
+        system: &'a System,
+        proven: &'a SystemCensus,
+    ) -> Option<(Self, &'a ChainCensus)> {
+        let (chain, row) = (proven.row(system)?, system.as_row()?);
+        Some((Self { system, row, unit: EnergyUnit::of(row.problem().chain()) }, chain))
+    }
+
+    /// A position, and the same as the answer of a solver.
+    pub(super) fn found(&self, equilibrium: Equilibrium, position: &Position) -> Found {
         let proven = &position.equilibrium;
-        let statics = judge_chain(problem, &equilibrium);
-        equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
-            solver: SolverName::CENSUS,
-            statics: statics.largest(),
-        });
         let signed: Vec<f64> =
             proven.angles_rad.iter().map(|angle| signed_deg(angle.mid().to_degrees())).collect();
-        Self {
-            energy_scaled: equilibrium.energy_j / energy_unit(problem).0,
-            equilibrium,
+        let in_row = InRow {
             label: position.label(),
             circle: proven.circle.then_some(position.number),
             mirrored: position.mirrored,
+            in_plane: equilibrium.stability.in_plane,
             angles_deg: signed.iter().copied().map(full_turn_deg).collect(),
             angles_signed_deg: signed,
             signs: proven.signs.clone(),
-            box_width: proven.width(),
+            energy_scaled: equilibrium.energy_j / self.unit.energy_unit_j,
             enclosures: Enclosures::of(proven),
-        }
+        };
+        Found::of(self.system, self.row.equilibrium(equilibrium), Some(in_row))
     }
 }
 
@@ -353,78 +251,11 @@ fn full_turn_deg(signed: f64) -> f64 {
     if turned >= 360.0 { 0.0 } else { turned }
 }
 
-fn ends(interval: Interval) -> Enclosure {
-    [interval.lo(), interval.hi()]
-}
-
-/// Both ends of both parts, if they are numbers that JSON has.
-fn finite(parts: [Interval; 2]) -> Option<[Enclosure; 2]> {
-    let parts = parts.map(ends);
-    parts.iter().flatten().all(|end| end.is_finite()).then_some(parts)
-}
-
 impl Enclosures {
     fn of(proven: &ProvenEquilibrium) -> Self {
-        let list = |intervals: &[Interval]| intervals.iter().copied().map(ends).collect();
-        let vectors =
-            |vectors: &[[Interval; 3]]| vectors.iter().map(|vector| vector.map(ends)).collect();
-        Self {
-            pull_n: proven.pull_n.map(ends),
-            energy_j: ends(proven.energy_j),
-            angles_rad: list(&proven.angles_rad),
-            joints_m: vectors(&proven.joints_m),
-            multipliers_n: vectors(&proven.multipliers_n),
-            axial_n: list(&proven.axial_n),
-        }
-    }
-}
-
-fn open(undecided: &Undecided) -> Open {
-    Open {
-        reason: name(undecided.reason),
-        why: undecided.reason.to_string(),
-        pattern_count: undecided.signs.len(),
-        patterns: undecided.signs.iter().take(PATTERNS).cloned().collect(),
-        chart: serde_json::to_value(undecided.chart).unwrap_or_default(),
-        at: undecided.at.map(ends),
-        pull_n: undecided.pull_n.and_then(finite),
-        at_most: undecided.bound.map(|bound| bound.at_most),
-        degree: undecided.bound.and_then(|bound| bound.degree),
-    }
-}
-
-/// The serialised name of a reason.
-fn name(reason: census::Reason) -> String {
-    let value = serde_json::to_value(reason).ok();
-    value.and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
-}
-
-fn merged(merged: &DegenerateEquilibrium) -> Merged {
-    let list = |intervals: &[Interval]| intervals.iter().copied().map(ends).collect();
-    Merged {
-        signs: merged.signs.clone(),
-        multiplicity: merged.multiplicity,
-        degree: merged.degree,
-        index_in_plane: merged.index_in_plane,
-        index_out_of_plane: merged.index_out_of_plane,
-        energy_j: ends(merged.energy_j),
-        pull_n: merged.pull_n.map(ends),
-        angles_rad: list(&merged.angles_rad),
-        joints_m: merged.joints_m.iter().map(|joint| joint.map(ends)).collect(),
-        axial_n: list(&merged.axial_n),
-    }
-}
-
-fn slack(family: &SlackFamily) -> Slack {
-    Slack {
-        signs: family.signs.clone(),
-        energy_j: ends(family.energy_j),
-        gap_m: ends(family.gap_m),
-        pull_n: family.pull_n.map(ends),
-        index_in_plane: family.index_in_plane,
-        index_in_space: family.index_in_space(),
-        dimension_in_plane: family.dimension_in_plane,
-        is_manifold: family.topology.is_ok(),
+        let ProvenEquilibrium { angles_rad, joints_m, multipliers_n, axial_n, .. } = proven.clone();
+        let (pull_n, energy_j) = (proven.pull_n, proven.energy_j);
+        Self { pull_n, energy_j, angles_rad, joints_m, multipliers_n, axial_n }
     }
 }
 

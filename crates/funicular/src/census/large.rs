@@ -2,13 +2,12 @@
 
 use std::io::{self, Write};
 
-use census::{CheckError, CompactCensus};
-use model::{Problem, SystemSummary};
-use serde::{Serialize, Serializer};
+use census::network::SystemCensus;
+use census::{CompactCensus, Interval};
+use model::system::System;
+use serde::Serialize;
 
-use super::answer::{ChainCensusAnswer, Enclosure, Found, Summary};
-use super::{csv, lines};
-use crate::solve::SCHEMA_VERSION;
+use super::answer::{CensusAnswer, Each, Found, Item};
 
 /// What is listed of each equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +23,7 @@ pub enum List {
 #[derive(Debug, Clone)]
 pub struct LargeCensusAnswer {
     /// The census as a whole, its list of equilibria cut off.
-    pub first: ChainCensusAnswer,
+    pub first: CensusAnswer,
     /// All equilibria.
     pub proven: CompactCensus,
 }
@@ -39,7 +38,7 @@ pub struct Line {
     /// `T` for each bar in tension, `C` in compression, `.` for one that carries next to nothing.
     pub pattern: String,
     /// Intervals that hold the pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Enclosure; 2],
+    pub pull_n: [Interval; 2],
     /// Directions in the plane in which the energy falls.
     pub index_in_plane: usize,
     /// Directions in space in which the energy falls.
@@ -49,29 +48,34 @@ pub struct Line {
 }
 
 impl LargeCensusAnswer {
-    /// Put together from a census and the verdict of its check, so many equilibria of `first` made.
-    #[must_use]
-    pub fn new(
-        problem: &Problem,
-        proven: CompactCensus,
-        verdict: Result<(), CheckError>,
+    /// Put together from both censuses, so many equilibria of `first` made.
+    pub(super) fn new(
+        system: &System,
+        (proven, cut_off): (CompactCensus, SystemCensus),
         made: usize,
     ) -> Self {
-        let few = (0..proven.len().min(made)).flat_map(|k| found(problem, &proven, k)).collect();
-        let mut first = ChainCensusAnswer::with(problem, proven.first(made), few, verdict);
+        let mut first = CensusAnswer::new(system, cut_off);
         let summary = &mut first.census;
         summary.decided = proven.decided();
         summary.count = proven.count_in_plane();
-        summary.circle_count = summary.circles.then_some(proven.len());
-        summary.count_by_index = proven.count_by_index().to_vec();
-        summary.alternating_sum = proven.alternating_sum();
-        Self { first, proven }
+        for chain in summary.parts.iter_mut().filter_map(|part| part.chain.as_mut()) {
+            chain.decided = summary.decided;
+            chain.count_in_plane = summary.count;
+            chain.circle_count = summary.circles.then_some(proven.len());
+            chain.count_by_index = proven.count_by_index().to_vec();
+            chain.alternating_sum = proven.alternating_sum();
+        }
+        let mut answer = Self { first, proven };
+        answer.first.equilibria = answer.found(made).collect();
+        answer
     }
 
-    /// All equilibria with everything that is known of them, in the order of the census; of a
+    /// The first so many equilibria with everything that is known of them, in the order of the census; of a
     /// circle both its mirror images. Each is made when it is asked for.
-    pub fn found(&self) -> impl Iterator<Item = Found> + '_ {
-        (0..self.proven.len()).flat_map(|k| found(&self.first.problem, &self.proven, k))
+    fn found(&self, number: usize) -> impl Iterator<Item = Found> + '_ {
+        let at = (0..self.proven.len().min(number)).flat_map(|k| self.proven.positions(k));
+        let row = self.first.as_row();
+        at.filter_map(move |at| Some(row.as_ref()?.found(self.proven.position_to_model(&at), &at)))
     }
 
     /// All equilibria by their signs and pulls, circles once.
@@ -79,7 +83,7 @@ impl LargeCensusAnswer {
         (0..self.proven.len()).map(|k| Line::of(&self.proven, k))
     }
 
-    /// Write the census as JSON. With [`List::Full`] it is that of [`ChainCensusAnswer`]; with
+    /// Write the census as JSON. With [`List::Full`] it is that of [`CensusAnswer`]; with
     /// [`List::Signs`] the key `list` says so, each equilibrium is a [`Line`], and has one.
     ///
     /// # Errors
@@ -87,22 +91,35 @@ impl LargeCensusAnswer {
     /// When `to` cannot be written.
     pub fn write_json(&self, list: List, to: &mut impl Write) -> io::Result<()> {
         match list {
-            List::Signs => lines::write(to, &self.object(Some("signs"), Each(|| self.lines()))),
+            List::Signs => self.write_lines(to),
             List::Full => {
-                let object = self.object(None, Each(|| self.found()));
+                let object = self.first.object(None, Each(|| self.items()));
                 serde_json::to_writer_pretty(&mut *to, &object)?;
                 to.write_all(b"\n")
             }
         }
     }
 
-    fn object<E>(&self, list: Option<&'static str>, equilibria: E) -> Object<'_, E> {
-        let (system, census) = (&self.first.system, &self.first.census);
-        Object { schema_version: SCHEMA_VERSION, system, list, equilibria, census }
+    /// Each equilibrium in a line.
+    fn write_lines(&self, to: &mut impl Write) -> io::Result<()> {
+        const LIST: &str = "\"equilibria\": [";
+        let all = serde_json::to_string_pretty(&self.first.object(Some("signs"), [(); 0]))?;
+        let (before, behind) = all.split_once(LIST).unwrap_or_default();
+        write!(to, "{before}{LIST}")?;
+        for (k, line) in self.lines().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            write!(to, "{comma}\n    {}", serde_json::to_string(&line)?)?;
+        }
+        writeln!(to, "\n  {behind}")
+    }
+
+    /// All equilibria as JSON has them.
+    fn items(&self) -> impl Iterator<Item = Item<'_, Found>> {
+        self.found(usize::MAX).map(|found| Item(self.first.system(), found))
     }
 
     /// Write the equilibria as CSV: with [`List::Full`] as
-    /// [`write_csv`](ChainCensusAnswer::write_csv), with [`List::Signs`] a line per equilibrium, the
+    /// [`write_csv`](CensusAnswer::write_csv), with [`List::Signs`] a line per equilibrium, the
     /// pull by the middles of its enclosures.
     ///
     /// # Errors
@@ -115,10 +132,7 @@ impl LargeCensusAnswer {
                 writeln!(to, "pull_level_n,pull_upright_n")?;
                 self.lines().try_for_each(|line| line.write_csv(to))
             }
-            List::Full => {
-                csv::write_head(to)?;
-                self.found().try_for_each(|found| csv::write_rows(to, &found))
-            }
+            List::Full => self.first.write_list(self.found(usize::MAX), to),
         }
     }
 
@@ -130,11 +144,10 @@ impl LargeCensusAnswer {
         let (bytes, sample) = match list {
             List::Signs => {
                 let sample: Vec<Line> = self.lines().take(SAMPLE).collect();
-                let mut text = vec![];
-                (lines::write(&mut text, &sample).map_or(0, |()| text.len()), sample.len())
+                (serde_json::to_string(&sample).map_or(0, |text| text.len()), sample.len())
             }
             List::Full => {
-                let sample: Vec<Found> = self.found().take(SAMPLE).collect();
+                let sample: Vec<_> = self.items().take(SAMPLE).collect();
                 (serde_json::to_string_pretty(&sample).map_or(0, |text| text.len()), sample.len())
             }
         };
@@ -144,15 +157,6 @@ impl LargeCensusAnswer {
         };
         bytes as f64 * all as f64 / sample.max(1) as f64
     }
-}
-
-fn found<'a>(
-    problem: &'a Problem,
-    proven: &'a CompactCensus,
-    number: usize,
-) -> impl Iterator<Item = Found> + 'a {
-    let positions = proven.positions(number);
-    positions.map(move |at| Found::of(problem, proven.position_to_model(&at), &at))
 }
 
 impl Line {
@@ -167,7 +171,7 @@ impl Line {
             number: number + 1,
             energy_j: outline.energy_j.mid(),
             pattern: outline.signs.iter().map(letter).collect(),
-            pull_n: outline.pull_n.map(|part| [part.lo(), part.hi()]),
+            pull_n: outline.pull_n,
             index_in_plane: outline.index_in_plane,
             index_in_space: outline.index_in_plane + outline.index_out_of_plane,
             optimal: outline.optimal,
@@ -176,27 +180,8 @@ impl Line {
 
     fn write_csv(&self, to: &mut impl Write) -> io::Result<()> {
         let Self { number, energy_j, index_in_plane, index_in_space, optimal, pattern, .. } = self;
-        let [level, upright] = self.pull_n.map(|[low, high]| 0.5 * low + 0.5 * high);
+        let [level, upright] = self.pull_n.map(Interval::mid);
         write!(to, "{number},{energy_j:?},{index_in_plane},{index_in_space},")?;
         writeln!(to, "{optimal},{pattern},{level:?},{upright:?}")
-    }
-}
-
-#[derive(Serialize)]
-struct Object<'a, E> {
-    schema_version: u32,
-    system: &'a SystemSummary,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    list: Option<&'static str>,
-    equilibria: E,
-    census: &'a Summary,
-}
-
-/// A list whose items are made while it is written.
-struct Each<F>(F);
-
-impl<F: Fn() -> I, I: Iterator<Item: Serialize>> Serialize for Each<F> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq((self.0)())
     }
 }

@@ -1,23 +1,17 @@
-//! Every equilibrium of a chain or a system, with proof.
+//! Every equilibrium of a system, with proof.
 
 mod answer;
 mod csv;
 mod large;
-mod lines;
-mod system;
+mod summary;
 
-pub use answer::{
-    ChainCensusAnswer, Check, Enclosure, Enclosures, Found, Merged, Open, Slack, Summary,
-};
+pub use answer::{CensusAnswer, Enclosures, Found, InRow};
 pub use large::{LargeCensusAnswer, Line, List};
-pub use system::SystemCensusAnswer;
+pub use summary::{Chain, Check, EnergyUnit, Net, Open, Part, Slack, Summary};
 
-use std::io;
-
-use census::network::SystemCensus;
-use census::{CompactCensus, Progress, Settings};
-use model::system::{Kind, System, SystemEquilibrium};
-use serde::Serialize;
+use census::network::{LoadedRow, SystemCensus};
+use census::{Progress, Settings};
+use model::system::{Kind, System};
 use validate::UseCensus;
 
 use crate::equilibria::system_of;
@@ -32,9 +26,8 @@ use crate::threads;
 /// use funicular::prelude::*;
 /// let found = Census::new().run(&Problem::case("three-equal-bars")?)?;
 /// // E1, E2 and their mirror images, on two circles.
-/// assert!(found.complete() && found.is_decided());
-/// assert_eq!(found.equilibria().len(), 4);
-/// assert_eq!(found.as_chain().and_then(|chain| chain.census.circle_count), Some(2));
+/// assert!(found.complete() && found.census.is_decided());
+/// assert_eq!((found.equilibria.len(), found.census.parts[0].count), (4, 2));
 /// // A pendulum of two bars hangs, stands, and folds up twice.
 /// let bar = Bar::homogeneous(1.0, 0.0)?;
 /// let pendulum = System::builder("double pendulum")
@@ -46,7 +39,8 @@ use crate::threads;
 ///     .bar("P", "Q", bar)
 ///     .build()?;
 /// let found = Census::new().run(&pendulum.into())?;
-/// let energies: Vec<f64> = found.equilibria().iter().map(|e| e.energy_j.round()).collect();
+/// let energies = found.equilibria.iter().map(|found| found.equilibrium.energy_j.round());
+/// let energies: Vec<f64> = energies.collect();
 /// assert_eq!((found.complete(), energies), (true, vec![-30.0, -10.0, 10.0, 30.0]));
 /// # Ok::<(), Error>(())
 /// ```
@@ -112,33 +106,20 @@ impl Census {
         problem: &Problem,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<CensusAnswer, Error> {
-        if let Some(chain) = problem.as_chain() {
-            return self.of_chain(chain, watch).map(|found| CensusAnswer::Chain(found.into()));
-        }
         let system = system_of(problem);
         system.refusal()?;
+        if let Some(row) = LoadedRow::of(&system) {
+            row.refusal(&self.settings)?;
+        }
         threads::on(self.threads, || {
             let census = SystemCensus::take_watched(&system, &self.settings, watch)
                 .or_else(|because| of_cables(&system).ok_or(Error::SystemCensus(because)))?;
-            Ok(CensusAnswer::System(SystemCensusAnswer::new(&system, census).into()))
+            Ok(CensusAnswer::new(&system, census))
         })?
     }
 
-    /// Of a chain.
-    pub(crate) fn of_chain(
-        &self,
-        chain: &model::Problem,
-        watch: &(dyn Fn(Progress) + Sync),
-    ) -> Result<ChainCensusAnswer, Error> {
-        threads::on(self.threads, || {
-            let census = census::Census::take_watched(chain, &self.settings, watch)?;
-            let verdict = census.check(chain);
-            Ok(ChainCensusAnswer::new(chain, census, verdict))
-        })?
-    }
-
-    /// Take the census of a chain with more equilibria than are good to hold in memory: of each only
-    /// its signs, its pull and its index are kept, and the rest is made when it is written. The
+    /// Take the census of a row of bars between two anchors with more equilibria than are good to hold in memory: of
+    /// each only its signs, its pull and its index are kept, and the rest is made when it is written. The
     /// first so many are made at once.
     ///
     /// # Errors
@@ -162,12 +143,10 @@ impl Census {
         made: usize,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<LargeCensusAnswer, Error> {
-        let problem = problem.as_chain().ok_or(Error::ChainsOnly { what: "a census" })?;
-        threads::on(self.threads, || {
-            let census = CompactCensus::take(problem, &self.settings, watch)?;
-            let verdict = census.check(problem);
-            Ok(LargeCensusAnswer::new(problem, census, verdict, made))
-        })?
+        let system = system_of(problem);
+        let row = LoadedRow::of(&system).ok_or(Error::ChainsOnly { what: "a long list" })?;
+        let census = threads::on(self.threads, || row.compact(&self.settings, watch))??;
+        Ok(LargeCensusAnswer::new(&system, census, made))
     }
 }
 
@@ -179,84 +158,4 @@ fn of_cables(system: &System) -> Option<SystemCensus> {
     let answer = Solve::new().census(UseCensus::Never).run_here(&system.clone().into()).ok()?;
     let mut found = answer.equilibria().iter();
     found.find_map(|found| SystemCensus::of_cables(system, &found.joints_m, &found.axial_n))
-}
-
-/// What a census says of a chain, or of any other system.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
-pub enum CensusAnswer {
-    /// Of a chain, with its signs, angles and topology.
-    Chain(Box<ChainCensusAnswer>),
-    /// Of joints and members.
-    System(Box<SystemCensusAnswer>),
-}
-
-impl CensusAnswer {
-    /// Of a chain, if it is one.
-    #[must_use]
-    pub fn as_chain(&self) -> Option<&ChainCensusAnswer> {
-        match self {
-            Self::Chain(found) => Some(found),
-            Self::System(_) => None,
-        }
-    }
-
-    /// Of joints and members, if it is no chain.
-    #[must_use]
-    pub fn as_system(&self) -> Option<&SystemCensusAnswer> {
-        match self {
-            Self::Chain(_) => None,
-            Self::System(found) => Some(found),
-        }
-    }
-
-    /// The isolated equilibria by energy; of a circle both its mirror images.
-    #[must_use]
-    pub fn equilibria(&self) -> Vec<SystemEquilibrium> {
-        match self {
-            Self::Chain(found) => {
-                let system = System::from(found.problem.chain());
-                let Some(row) = system.as_row() else { unreachable!("a chain is a row") };
-                let of = |found: &Found| row.equilibrium(found.equilibrium.clone());
-                found.equilibria.iter().map(of).collect()
-            }
-            Self::System(found) => found.equilibria().to_vec(),
-        }
-    }
-
-    /// Whether it is proved that there is no other.
-    #[must_use]
-    pub fn complete(&self) -> bool {
-        match self {
-            Self::Chain(found) => found.census.complete,
-            Self::System(found) => found.proven().complete,
-        }
-    }
-
-    /// Whether the check shows that something is wrong.
-    #[must_use]
-    pub fn check_failed(&self) -> bool {
-        self.as_chain().is_some_and(|found| found.census.check_failed())
-    }
-
-    /// Whether every equilibrium is known, and passed the check.
-    #[must_use]
-    pub fn is_decided(&self) -> bool {
-        match self {
-            Self::Chain(found) => found.census.is_decided(),
-            Self::System(found) => found.check_passed() && found.proven().complete,
-        }
-    }
-
-    /// A line per equilibrium and joint as CSV.
-    ///
-    /// # Errors
-    ///
-    /// When `to` cannot be written.
-    pub fn write_csv(&self, to: impl io::Write) -> io::Result<()> {
-        match self {
-            Self::Chain(found) => found.write_csv(to),
-            Self::System(found) => found.write_csv(to),
-        }
-    }
 }

@@ -1,13 +1,13 @@
-//! `funicular census`: every equilibrium of a chain or a system, with proof.
+//! `funicular census`: every equilibrium of a system, with proof.
 
 mod list;
 
 use std::path::{Path, PathBuf};
 
-use census::network::bridle_seconds;
+use census::network::{LoadedRow, bridle_seconds};
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
-use funicular::{CensusAnswer, Error, Problem};
+use funicular::{CensusAnswer, Error};
 use model::NoCensus;
 
 use crate::cost::tell_time;
@@ -43,16 +43,17 @@ pub struct Census {
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
     /// Draw the shapes into this file, .svg, .png, .pdf or .dxf: all up to 70, of more the first 70 by energy;
-    /// those of a chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
+    /// those of one row of bars side by side, of another system, and with --view, each into a file of its own
+    /// (FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// From where the pictures of a system are seen; shapes of a chain are drawn in their own planes
+    /// From where the shapes are seen; if not given, those of one row of bars are drawn in their own planes
     #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
     pub view: View,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// What --json and --csv list of each equilibrium of a chain: its signs, pull, energy and indices
+    /// What --json and --csv list of each equilibrium of a row of bars: its signs, pull, energy and indices
     /// in a line (all else follows from signs and pull), or everything. If not given, everything if
     /// that is at most 100 MB of JSON
     #[arg(long, value_name = "WHAT", value_enum)]
@@ -80,26 +81,23 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
-    let is_system = problem.as_system().is_some();
-    if !is_system && arguments.view != View::Best {
-        return Err(Failure::bad_input(
-            "--view: the shapes of a chain are drawn side by side, each in its own vertical plane",
-        ));
-    }
+    let row = LoadedRow::of(&funicular::system_of(&problem));
+    let side_by_side = row.is_some() && arguments.view == View::Best;
     let most = match &arguments.svg {
-        Some(path) if is_system => output::numbered(path, SHAPES),
+        Some(path) if !side_by_side => output::numbered(path, SHAPES),
         _ => vec![],
     };
     let outputs = arguments.csv.iter().chain(&arguments.svg).chain(&most);
     output::check(outputs.map(PathBuf::as_path), &files)?;
-    let long = long(&problem, settings);
-    if let Some(chain) = long {
-        let estimate = census::Census::estimate(chain);
-        list::refuse(arguments, chain.chain().bars().len(), estimate)?;
+    let takes_long = Settings::SOUGHT_BARS + 1..=settings.max_bars;
+    let long = row.as_ref().filter(|row| takes_long.contains(&row.bars()));
+    if let Some(row) = long {
+        let estimate = row.estimate();
+        list::refuse(arguments, row.bars(), estimate)?;
         tell_time("the census", estimate.seconds);
         progress.say(&cost(estimate));
     }
-    if long.is_some() || (!is_system && arguments.list == Some(list::What::Signs)) {
+    if long.is_some() || (row.is_some() && arguments.list == Some(list::What::Signs)) {
         return list::of_many(arguments, settings, &problem, progress);
     }
     let answer = funicular::Census::new()
@@ -108,7 +106,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         .map_err(refuse)?;
 
     if let Some(path) = &arguments.svg {
-        draw(path, &problem, &answer, arguments.view)?;
+        draw(path, &answer, arguments.view)?;
     }
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| answer.write_csv(file))?;
@@ -119,38 +117,30 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         output::print(&answer.to_string())?;
     }
-    Ok(exit(answer.check_failed(), answer.is_decided()))
+    Ok(exit(&answer))
 }
 
-/// The shapes of a chain side by side, of a system each into a file of its own.
-fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer, view: View) -> Result<(), Failure> {
-    let found = match answer {
-        CensusAnswer::Chain(found) => {
-            return output::write_picture(path, &found.proven.figure(problem.name(), SHAPES));
-        }
-        CensusAnswer::System(found) => found,
-    };
-    let shown = &found.equilibria()[..found.equilibria().len().min(SHAPES)];
+/// The shapes of a row of bars side by side; of another system, and from somewhere, each into a file of its own.
+fn draw(path: &Path, answer: &CensusAnswer, view: View) -> Result<(), Failure> {
+    let system = answer.system();
+    if let Some(row) = answer.row().filter(|_| view == View::Best) {
+        return output::write_picture(path, &row.census.figure(system.name(), SHAPES));
+    }
+    let shown = &answer.equilibria[..answer.equilibria.len().min(SHAPES)];
     for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
-        let drawn = funicular::picture::of_system(found.system(), shape, view.into())
+        let drawn = funicular::picture::of_system(system, &shape.equilibrium, view.into())
             .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_picture(path, &drawn)?;
     }
     Ok(())
 }
 
-fn exit(failed: bool, decided: bool) -> Exit {
-    match (failed, decided) {
+fn exit(answer: &CensusAnswer) -> Exit {
+    match (answer.census.check_failed(), answer.census.is_decided()) {
         (true, _) => Exit::CheckFailed,
         (false, true) => Exit::Done,
         (false, false) => Exit::Undecided,
     }
-}
-
-/// A chain whose census takes long enough to say so before.
-fn long(problem: &Problem, settings: Settings) -> Option<&model::Problem> {
-    let bars = problem.as_chain()?.chain().bars().len();
-    (Settings::SOUGHT_BARS + 1..=settings.max_bars).contains(&bars).then(|| problem.as_chain())?
 }
 
 fn cost(estimate: census::Estimate) -> String {

@@ -28,17 +28,7 @@ impl fmt::Display for SolveAnswer {
 #[must_use]
 pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
-    let members = counted(system.members().len(), "member");
-    let joints = counted(system.joints().len(), "joint");
-    let name = format!("{}: {members} between {joints},", Printable(system.name()));
-    let mut text = format!(
-        "{}\n{} long, {}, g = {} m/s^2{}\n\n",
-        wrapped(&name, 0),
-        quantity(system.total_length_m(), "m"),
-        quantity(system.total_mass_kg(), "kg"),
-        short(system.gravity_m_s2()),
-        stiffness(system),
-    );
+    let mut text = system_line(system) + "\n";
     let equilibria = solution.equilibria();
     if let Some(first) = equilibria.first() {
         text += &shape(system, first, Some(summary));
@@ -75,6 +65,21 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         }
     }
     text
+}
+
+/// What is solved, in lines of its own.
+pub(super) fn system_line(system: &System) -> String {
+    let members = counted(system.members().len(), "member");
+    let joints = counted(system.joints().len(), "joint");
+    let name = format!("{}: {members} between {joints},", Printable(system.name()));
+    format!(
+        "{}\n{} long, {}, g = {} m/s^2{}\n",
+        wrapped(&name, 0),
+        quantity(system.total_length_m(), "m"),
+        quantity(system.total_mass_kg(), "kg"),
+        short(system.gravity_m_s2()),
+        stiffness(system),
+    )
 }
 
 /// The axial stiffness of the members that have one, which may be made of other numbers of the file.
@@ -189,7 +194,7 @@ fn line(mark: char, of: &str, what: &str) -> String {
 }
 
 /// How far each equilibrium is proved, rung by rung; once where the evidence for all is the same.
-pub(super) fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
+fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
     let names: Vec<String> = answers.iter().map(|(solver, _)| solver.to_string()).collect();
     let mut rungs: Vec<String> = answers.iter().map(|(_, evidence)| rung(evidence)).collect();
     rungs.dedup();

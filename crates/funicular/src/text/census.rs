@@ -3,30 +3,30 @@
 use std::fmt::{self, Write as _};
 
 use model::Rung;
+use model::system::System;
 
+use super::answer::system_line;
+use super::census_chain;
+use super::printable::Printable;
 use super::tables::{
-    duration, fitted, long, numbers_from, rung, short, significant, system_line, table, vector,
-    word, wrapped,
+    counted, fitted, long, numbers_from, rung, short, significant, table, vector, word, wrapped,
 };
-use crate::census::{CensusAnswer, ChainCensusAnswer, Found, LargeCensusAnswer, Summary};
+use crate::census::{CensusAnswer, Found, InRow, LargeCensusAnswer};
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
 const PRINTED: usize = 40;
 
-/// Digits of an energy in joules: in its own unit it has all.
+/// Digits of an energy in joules where it also stands in its own unit, with all.
 const ENERGY_DIGITS: usize = 10;
 
-/// So many lines of bars are printed, those of whole equilibria; of the first one in any case.
-const PRINTED_BARS: usize = 80;
-
-/// So many undecided boxes and slack families are printed.
-const PRINTED_OPEN: usize = 12;
+/// So many lines of members are printed, those of whole equilibria; of the first one in any case.
+const PRINTED_MEMBERS: usize = 80;
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 14;
 
 /// As `funicular census` prints it.
-impl fmt::Display for ChainCensusAnswer {
+impl fmt::Display for CensusAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&text(self))
     }
@@ -39,146 +39,160 @@ impl fmt::Display for LargeCensusAnswer {
     }
 }
 
-/// The same of any system.
-impl fmt::Display for CensusAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Chain(found) => found.fmt(f),
-            Self::System(found) => found.fmt(f),
-        }
-    }
-}
-
 /// The whole answer.
-fn text(answer: &ChainCensusAnswer) -> String {
-    let mut text = system_line(&answer.system);
-    text += &headline(&answer.census);
+fn text(answer: &CensusAnswer) -> String {
+    let mut text = system_line(answer.system()) + "\n" + &headline(answer);
     if !answer.equilibria.is_empty() {
         text += &overview(answer);
-        text += &reactions(answer);
-        text += &bars(answer);
+        text += &energies(answer);
+        text += &joints(answer);
+        text += &members(answer);
         text += &evidence(answer);
     }
-    text += &families(&answer.census);
-    text += &merged(&answer.census);
-    text += &undecided(&answer.census);
-    text += &sums(&answer.census);
+    text += &chains(answer);
+    text += &nets(answer);
     fitted(&text)
 }
 
-fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
+pub(super) fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
     if number == 1 { one } else { many }
 }
 
 /// What was found, in a sentence.
-fn headline(census: &Summary) -> String {
-    let mut text = format!(
-        "{} {} in a vertical plane",
-        census.count,
-        plural(census.count, "equilibrium", "equilibria")
-    );
-    if let Some(circles) = census.circle_count {
+fn headline(answer: &CensusAnswer) -> String {
+    let census = &answer.census;
+    let mut text =
+        format!("{} {}", census.count, plural(census.count, "equilibrium", "equilibria"));
+    let circles = answer.row().and(census.chains().next()).map(|chain| chain.circle_count);
+    match circles {
         // Both images of a circle are listed.
-        let _ = write!(
-            text,
-            ", {circles} {} in space (any turn about the anchors' vertical is one more)",
-            plural(circles, "circle", "circles")
-        );
+        Some(Some(circles)) => {
+            let _ = write!(
+                text,
+                " in a vertical plane, {circles} {} in space (any turn about the anchors' vertical is one more)",
+                plural(circles, "circle", "circles")
+            );
+        }
+        Some(None) => text += " in a vertical plane",
+        None if census.circles => {
+            text += ", each with all its turns about the vertical through its anchors";
+        }
+        None => {}
     }
-    let slack = census.slack_families.len();
-    if slack > 0 {
-        let _ = write!(text, ", {slack} {} of slack bars", plural(slack, "family", "families"));
+    if census.parts.len() > 1 && census.parts.iter().all(|part| part.slack.is_empty()) {
+        let parts: Vec<_> = census.parts.iter().map(|part| part.count.to_string()).collect();
+        let _ = write!(text, " ({} of parts that move without each other)", parts.join(" times "));
     }
-    let merged = census.degenerate.len();
-    if merged > 0 {
-        let _ = write!(text, ", {merged} degenerate {}", plural(merged, "one", "ones"));
-    }
-    let upright = census.straight.iter().filter(|straight| straight.upright).count();
-    if upright > 0 {
-        let _ = write!(
-            text,
-            ", {upright} upright {} with any force",
-            plural(upright, "position", "positions")
-        );
+    let merged = census.chains().map(|chain| chain.degenerate.len()).sum();
+    let upright = census.chains().flat_map(|chain| &chain.straight).filter(|at| at.upright).count();
+    for (number, one, many) in [
+        (census.slack_families, "family of slack bars", "families of slack bars"),
+        (merged, "degenerate one", "degenerate ones"),
+        (upright, "upright position with any force", "upright positions with any force"),
+    ] {
+        if number > 0 {
+            let _ = write!(text, ", {number} {}", plural(number, one, many));
+        }
     }
     text += if census.decided { ": proved to be all." } else { ": NOT proved to be all." };
     wrapped(&text, 0) + "\n\n"
 }
 
-fn overview(answer: &ChainCensusAnswer) -> String {
-    // The paper counts the energy of its example from the last anchor, 2 l below the first.
-    let anchors = answer.problem.chain().anchors();
-    let [start, end] = [anchors.start_m[2], anchors.end_m[2]];
-    let shift_j = answer.system.total_mass_kg * answer.system.gravity_m_s2 * (start - end);
-    let shift = shift_j / answer.census.energy_unit_j;
-    let unit = answer.census.energy_symbol;
-    let scaled = format!("V / {unit}");
-    let from_end = format!("V / {unit} from end");
-    let other_zero = answer.census.circles && shift.abs() > 0.0;
-    let mut rows = table(["#", "energy / J", "bars", "in plane", "in space", "box", "rung"]);
-    let mut energies = table(["#", &scaled].into_iter().chain(other_zero.then_some(&*from_end)));
-    for found in answer.equilibria.iter().take(PRINTED) {
+/// The equilibria that are printed in so many lines each, with their labels, and of a row of bars what only its census
+/// knows.
+fn printed(answer: &CensusAnswer, number: usize) -> impl Iterator<Item = (String, &Found)> {
+    answer.equilibria.iter().take(number).enumerate().map(|(k, found)| (found.label(k), found))
+}
+
+fn overview(answer: &CensusAnswer) -> String {
+    let is_row = answer.row().is_some();
+    let of_row = |names: &'static [&'static str]| names.iter().copied().filter(move |_| is_row);
+    let lowest = (!is_row).then_some("lowest joint / m");
+    let names = ["#", "energy / J"].into_iter().chain(of_row(&["bars", "in plane"]));
+    let names = names.chain(["in space"]).chain(lowest).chain(["box", "rung"]);
+    let mut rows = table(names);
+    for (label, found) in printed(answer, PRINTED) {
         let e = &found.equilibrium;
-        let from_end = other_zero.then(|| long(found.energy_scaled + shift));
-        energies
-            .add_row([found.label.clone(), long(found.energy_scaled)].into_iter().chain(from_end));
-        rows.add_row([
-            found.label.clone(),
-            significant(e.energy_j, ENERGY_DIGITS),
-            pattern(&found.signs),
-            format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
-            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
-            format!("{:.0e}", found.box_width),
-            rung(&e.evidence),
-        ]);
+        let in_space = format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space);
+        let index = e.stability.index_in_plane.unwrap_or_default();
+        let cells = match &found.in_row {
+            Some(InRow { signs, in_plane, .. }) => vec![
+                significant(e.energy_j, ENERGY_DIGITS),
+                pattern(signs),
+                format!("{} ({index})", word(in_plane)),
+                in_space,
+            ],
+            None => {
+                let lowest_m = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
+                vec![long(e.energy_j), in_space, short(lowest_m)]
+            }
+        };
+        let proof = [format!("{:.0e}", found.box_width()), rung(&e.evidence)];
+        rows.add_row(std::iter::once(label).chain(cells).chain(proof));
     }
     numbers_from(&mut rows, 1);
-    numbers_from(&mut energies, 1);
     let mut text = format!("{rows}\n");
     left_out(&mut text, answer.census.count, PRINTED, "equilibria");
+    if is_row {
+        let signs =
+            answer.equilibria.iter().filter_map(|found| Some(&found.in_row.as_ref()?.signs));
+        let dots =
+            if signs.flatten().any(|sign| *sign == 0) { ", a dot next to nothing" } else { "" };
+        let _ = write!(text, "Bars from the start, T in tension, C in compression{dots}. ");
+    }
+    let mirrored = if is_row && answer.census.circles {
+        "\n1' is the mirror image of 1, on the same circle."
+    } else {
+        ""
+    };
     let _ = writeln!(
         text,
-        "Bars from the start, T in tension, C in compression{}. In brackets: the number of directions in which the \
-         energy falls.\nBox: the largest relative width of the enclosures that prove the equilibrium.{}\n\n\
-         Energy V from the height of joint 0{}; {unit}: {}:\n{energies}\n",
-        if answer.equilibria.iter().any(|found| found.signs.contains(&0)) {
-            ", a dot next to nothing"
-        } else {
-            ""
-        },
-        if answer.census.circles {
-            "\n1' is the mirror image of 1, on the same circle."
-        } else {
-            ""
-        },
-        if other_zero { " (from end: of the last anchor)" } else { "" },
-        answer.census.energy_unit,
+        "In brackets: the number of directions in which the energy falls.\nBox: the largest relative width of the \
+         enclosures that prove the equilibrium.{mirrored}\n"
     );
     text
 }
 
-/// What a bar does, by its sign.
-fn carries(sign: i8) -> &'static str {
-    match sign {
-        1 => "tension",
-        -1 => "compression",
-        _ => "nothing",
+/// Energies in their own unit.
+fn energies(answer: &CensusAnswer) -> String {
+    let Some((unit, row)) = answer.census.unit.zip(answer.system().as_row()) else {
+        return String::new();
+    };
+    // The paper counts the energy of its example from the last anchor, 2 l below the first.
+    let chain = row.problem().chain();
+    let [start, end] = [chain.anchors().start_m[2], chain.anchors().end_m[2]];
+    let shift_j = chain.total_mass_kg() * chain.gravity_m_s2() * (start - end);
+    let shift = shift_j / unit.energy_unit_j;
+    let symbol = unit.energy_symbol;
+    let scaled = format!("V / {symbol}");
+    let from_end = format!("V / {symbol} from end");
+    let other_zero = answer.census.circles && shift.abs() > 0.0;
+    let mut rows = table(["#", &scaled].into_iter().chain(other_zero.then_some(&*from_end)));
+    for (label, found) in printed(answer, PRINTED) {
+        let energy = found.in_row.as_ref().map_or(f64::NAN, |found| found.energy_scaled);
+        let from_end = other_zero.then(|| long(energy + shift));
+        rows.add_row([label, long(energy)].into_iter().chain(from_end));
     }
+    numbers_from(&mut rows, 1);
+    format!(
+        "Energy V from the height of joint {}{}; {symbol}: {}:\n{rows}\n\n",
+        Printable(&answer.system().joints()[row.joints()[0]].name),
+        if other_zero { " (from end: of the last anchor)" } else { "" },
+        unit.energy_unit,
+    )
 }
 
 /// `TTC`; bars without force are dots.
-fn pattern(signs: &[i8]) -> String {
-    signs
-        .iter()
-        .map(|sign| match sign {
-            1 => 'T',
-            -1 => 'C',
-            _ => '.',
-        })
-        .collect()
+pub(super) fn pattern(signs: &[i8]) -> String {
+    let letter = |sign: &i8| match sign {
+        1 => 'T',
+        -1 => 'C',
+        _ => '.',
+    };
+    signs.iter().map(letter).collect()
 }
 
-fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
+pub(super) fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
     if all > printed {
         let _ = writeln!(
             text,
@@ -188,70 +202,98 @@ fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
     }
 }
 
-/// The forces of the ground.
-fn reactions(answer: &ChainCensusAnswer) -> String {
-    let mut rows = table(["#", "force at start / N", "force at end / N"]);
-    for found in answer.equilibria.iter().take(PRINTED) {
-        let reactions = &found.equilibrium.reactions_n;
-        rows.add_row([found.label.clone(), vector(reactions.start), vector(reactions.end)]);
-    }
-    numbers_from(&mut rows, 1);
-    let mut text = format!("Forces of the ground on the chain:\n{rows}\n");
-    left_out(&mut text, answer.census.count, PRINTED, "equilibria");
-    text + "\n"
+/// Of how many equilibria joints and members are printed.
+fn in_full(answer: &CensusAnswer) -> usize {
+    (PRINTED_MEMBERS / answer.system().members().len().max(1)).clamp(1, PRINTED)
 }
 
-/// Angles and forces, bar by bar.
-fn bars(answer: &ChainCensusAnswer) -> String {
-    let printed = (PRINTED_BARS / answer.system.bars.max(1)).clamp(1, PRINTED);
-    let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
-    for found in answer.equilibria.iter().take(printed) {
-        let forces = found.equilibrium.axial_forces();
-        for (k, angle) in found.angles_deg.iter().enumerate() {
-            let axial = forces.get(k).map_or_else(String::new, |along| short(along.largest_n()));
-            let width = found.enclosures.angles_rad.get(k).map_or(0.0, |[low, high]| high - low);
-            rows.add_row([
-                if k == 0 { found.label.clone() } else { String::new() },
-                (k + 1).to_string(),
-                long(*angle),
-                found.angles_signed_deg.get(k).copied().map_or_else(String::new, long),
-                format!("{:.0e}", width.to_degrees()),
-                axial,
-                carries(found.signs.get(k).copied().unwrap_or_default()).to_owned(),
-            ]);
+/// The name of a joint.
+fn name(system: &System, joint: usize) -> String {
+    Printable(&system.joints()[joint].name).to_string()
+}
+
+/// The label on the first line of each equilibrium.
+fn first(k: usize, label: &str) -> String {
+    if k == 0 { label.to_owned() } else { String::new() }
+}
+
+/// Places and forces of the ground, joint by joint.
+fn joints(answer: &CensusAnswer) -> String {
+    let system = answer.system();
+    let mut rows = table(["#", "joint", "place / m", "force of the ground / N"]);
+    for (label, found) in printed(answer, in_full(answer)) {
+        let e = &found.equilibrium;
+        for (k, joint) in system.joints().iter().enumerate() {
+            let held = joint.support.at_m().map(|_| vector(e.reactions_n[k]));
+            let place = vector(e.joints_m[k]);
+            rows.add_row([first(k, &label), name(system, k), place, held.unwrap_or_default()]);
         }
     }
-    numbers_from(&mut rows, 1);
-    let mut text = format!(
-        "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y):\n{rows}\n"
+    numbers_from(&mut rows, 2);
+    format!("{rows}\n\n")
+}
+
+/// Forces, member by member; of a row of bars also their angles.
+fn members(answer: &CensusAnswer) -> String {
+    let (system, row) = (answer.system(), answer.row());
+    let angles = ["angle / deg", "signed / deg", "known to"].into_iter().filter(|_| row.is_some());
+    let names = ["#", "from", "to"].into_iter().chain(angles).chain(["axial / N"]);
+    let mut rows = table(names);
+    let printed_in_full = in_full(answer);
+    for (label, found) in printed(answer, printed_in_full) {
+        let axial = found.equilibrium.axial_forces(system);
+        for (k, (member, axial)) in system.members().iter().zip(axial).enumerate() {
+            let bar = row.and_then(|row| row.members.iter().position(|member| *member == k));
+            let angles = bar.zip(found.in_row.as_ref()).map(|(bar, found)| {
+                let known =
+                    format!("{:.0e}", found.enclosures.angles_rad[bar].width().to_degrees());
+                [long(found.angles_deg[bar]), long(found.angles_signed_deg[bar]), known]
+            });
+            let ends = [first(k, &label), name(system, member.from), name(system, member.to)];
+            rows.add_row(
+                ends.into_iter()
+                    .chain(angles.into_iter().flatten())
+                    .chain([short(axial.largest_n())]),
+            );
+        }
+    }
+    numbers_from(&mut rows, 3);
+    let about = if row.is_some() {
+        "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y). "
+    } else {
+        ""
+    };
+    let mut text =
+        format!("{about}Axial forces where they are largest, tension positive:\n{rows}\n");
+    left_out(
+        &mut text,
+        answer.census.count,
+        printed_in_full,
+        "equilibria with their joints and members",
     );
-    left_out(&mut text, answer.census.count, printed, "equilibria with their angles and forces");
     text + "\n"
 }
 
 /// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds
 /// for.
-fn evidence(answer: &ChainCensusAnswer) -> String {
+fn evidence(answer: &CensusAnswer) -> String {
     let all = answer.equilibria.len();
     let mut text = match answer.census.count {
         count if count > all => format!("Evidence of the first {all} of {count}:\n"),
         _ => "Evidence:\n".to_owned(),
     };
     for step in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
-        let reached = |found: &&Found| found.equilibrium.evidence.ladder.is_reached(step);
-        let there: Vec<&Found> = answer.equilibria.iter().filter(reached).collect();
-        let how = |found: Option<&Found>| {
-            found.map_or_else(String::new, |found| found.equilibrium.evidence.ladder.how(step))
-        };
-        let missed = answer.equilibria.iter().find(|found| !reached(found));
+        let reached = |found: &Found| found.equilibrium.evidence.ladder.is_reached(step);
+        let how = |found: &Found| found.equilibrium.evidence.ladder.how(step);
+        let there: Vec<&Found> = answer.equilibria.iter().filter(|found| reached(found)).collect();
         let mark = if there.is_empty() { '-' } else { '+' };
         let mut line = format!("  {mark} {:<9} {} of {all}", step.to_string(), there.len());
         // Of many, the one with the widest box speaks for all.
-        if let Some(widest) = there.iter().max_by(|a, b| a.box_width.total_cmp(&b.box_width)) {
-            line = format!("{line}: {}", how(Some(widest)));
+        if let Some(widest) = there.iter().max_by(|a, b| a.box_width().total_cmp(&b.box_width())) {
+            line = format!("{line}: {}", how(widest));
         }
-        if let Some(missed) = missed {
-            line = format!("{line}; not {}: {}", missed.label, how(Some(missed)));
+        if let Some((label, missed)) = printed(answer, all).find(|(_, found)| !reached(found)) {
+            line = format!("{line}; not {label}: {}", how(missed));
         }
         text += &wrapped(&line, LADDER_INDENT);
         text.push('\n');
@@ -259,206 +301,79 @@ fn evidence(answer: &ChainCensusAnswer) -> String {
     text + "\n"
 }
 
-fn families(census: &Summary) -> String {
-    if census.slack_families.is_empty() {
-        return String::new();
-    }
-    let mut rows =
-        table(["bars", "energy / J", "gap / m", "dimension", "index in plane", "index in space"]);
-    let middle = |[low, high]: [f64; 2]| 0.5 * low + 0.5 * high;
-    for family in census.slack_families.iter().take(PRINTED_OPEN) {
-        rows.add_row([
-            pattern(&family.signs),
-            long(middle(family.energy_j)),
-            short(middle(family.gap_m)),
-            format!("{}{}", family.dimension_in_plane, if family.is_manifold { "" } else { " *" }),
-            family.index_in_plane.to_string(),
-            family.index_in_space.to_string(),
-        ]);
-    }
-    numbers_from(&mut rows, 1);
-    let mut text = format!(
-        "Families of equilibria in which the bars with a dot are slack (they carry nothing and bridge the gap in any \
-         way they can;\nthe dimension is that in the plane, where two slack bars have two ways):\n{rows}\n"
-    );
-    if census.slack_families.iter().any(|family| !family.is_manifold) {
-        text +=
-            "* no manifold: the slack bars also fit into one line, or close upon themselves folded";
-        text += if census.decided { "; no other equilibrium is near.\n" } else { ".\n" };
-    }
-    left_out(&mut text, census.slack_families.len(), PRINTED_OPEN, "families");
-    text + "\n"
-}
-
-/// Equilibria at which several have merged.
-fn merged(census: &Summary) -> String {
-    if census.degenerate.is_empty() {
-        return String::new();
-    }
-    let mut rows = table(["bars", "energy / J", "multiplicity", "degree", "angles / deg"]);
-    for merged in census.degenerate.iter().take(PRINTED_OPEN) {
-        let angle = |[low, high]: &[f64; 2]| short((0.5 * low + 0.5 * high).to_degrees());
-        let [low, high] = merged.energy_j;
-        rows.add_row([
-            pattern(&merged.signs),
-            long(0.5 * low + 0.5 * high),
-            match merged.multiplicity {
-                Some(2) => "2 (a fold)".to_owned(),
-                Some(number) => number.to_string(),
-                None => "a family".to_owned(),
-            },
-            merged.degree.to_string(),
-            merged.angles_rad.iter().map(angle).collect::<Vec<_>>().join(", "),
-        ]);
-    }
-    numbers_from(&mut rows, 1);
-    let mut text = format!(
-        "Degenerate equilibria, at which several have merged (bars with a dot carry nothing; the second derivative \
-         of the energy\nvanishes in some direction; degree: the sum of (-1)^index over those into which it falls apart \
-         when the chain is changed a little):\n{rows}\n"
-    );
-    left_out(&mut text, census.degenerate.len(), PRINTED_OPEN, "of them");
-    text + "\n"
-}
-
-fn undecided(census: &Summary) -> String {
-    if census.undecided.is_empty() {
-        return String::new();
-    }
-    let mut rows = table(["pull, level / N", "pull, upright / N", "patterns", "first", "why"]);
-    for open in census.undecided.iter().take(PRINTED_OPEN) {
-        let [level, upright] = open.pull_n.map_or_else(
-            || ["unbounded".to_owned(), "unbounded".to_owned()],
-            |parts| parts.map(|[low, high]| format!("{} .. {}", short(low), short(high))),
-        );
-        rows.add_row([
-            level,
-            upright,
-            open.pattern_count.to_string(),
-            open.patterns.first().map_or_else(String::new, |signs| pattern(signs)),
-            match open.at_most {
-                Some(number) => format!("{}; at most {number} equilibria", open.why),
-                None => open.why.clone(),
-            },
-        ]);
-    }
-    let mut text = format!(
-        "Undecided: {} {} of pulls on the first anchor may hold more equilibria, or none:\n{rows}\n",
-        census.undecided.len(),
-        plural(census.undecided.len(), "box", "boxes"),
-    );
-    left_out(&mut text, census.undecided.len(), PRINTED_OPEN, "boxes");
-    text + "\n"
-}
-
-/// What the check proved, and what it did not.
-fn check_line(census: &Summary) -> String {
-    let listed = "Check: every equilibrium listed is proved again without the search";
-    match (&census.check.failure, census.check.refuted) {
-        (None, _) if census.decided && census.euler_characteristic.is_none() => {
-            format!("{listed}. That the list is complete rests on the search alone.")
-        }
-        (None, _) if census.decided => format!(
-            "{listed}. That the list is complete rests on the search: the check would see if one alone, the lowest \
-             or the highest were missing, not every pair."
-        ),
-        (None, _) => format!("{listed}."),
-        (Some(failure), true) => format!("Check FAILED: {failure}."),
-        (Some(failure), false) => {
-            format!("Check NOT DECIDED: {failure}. Nothing is shown to be wrong.")
-        }
-    }
-}
-
-/// Positions in which the bars lie in one line.
-fn straight(census: &Summary) -> String {
-    let Some(first) = census.straight.first() else { return String::new() };
-    let count = census.straight.len();
-    let ways = format!(
-        "In {count} {} the bars lie in the line between the anchors ({}: + towards the last, - back",
-        plural(count, "position", "positions"),
-        pattern(&first.along)
-    );
-    let what = match (first.upright, census.decided) {
-        (true, true) => {
-            "). They hang or stand upright: equilibria too,\nunder any force along them, a family each; no other \
-             equilibrium is near any of these"
-        }
-        (true, false) => {
-            "). They hang or stand upright: equilibria too,\nbut the force along them is not determined"
-        }
-        (false, true) => {
-            "). No force holds them there, the energy\nrises and falls from them, and no equilibrium is near"
-        }
-        (false, false) => ").\nNo force holds them there, and the energy rises and falls from them",
-    };
-    format!("{ways}{what}.\n")
-}
-
-/// The cross-checks, and what it took.
-fn sums(census: &Summary) -> String {
+/// What is known of the chains.
+fn chains(answer: &CensusAnswer) -> String {
     let mut text = String::new();
-    let manifolds = census.slack_families.iter().all(|family| family.is_manifold);
-    match (&census.euler_characteristic, &census.betti) {
-        (Some(euler), Some(_)) if !manifolds => {
-            let _ = writeln!(
-                text,
-                "By index in the plane: {:?}, without the families marked *, whose part in the sum of (-1)^index is not \
-                 known. Sum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
-                 {euler}.",
-                census.count_by_index, census.alternating_sum,
-            );
+    for (part, proven) in answer.census.parts.iter().zip(&answer.proven().parts) {
+        let Some(chain) = &part.chain else { continue };
+        if let (None, [first, .., last]) = (answer.row(), &chain.joints[..]) {
+            let (the, count) = (the(&proven.slack), chain.count_in_plane);
+            let [first, last] = [first, last].map(|name| Printable(name));
+            let _ = writeln!(text, "{the} chain from {first} to {last} has {count} in the plane.");
         }
-        (Some(euler), Some(betti)) => {
-            let _ = writeln!(
-                text,
-                "By index in the plane: {:?}. Sum of (-1)^index: {}. Euler characteristic of the configuration space, from \
-                 the lengths alone: {euler} (Betti numbers {betti:?}).",
-                census.count_by_index, census.alternating_sum,
-            );
-        }
-        _ => {
-            let _ = writeln!(
-                text,
-                "By index in the plane: {:?}. No Euler characteristic to compare with: {}.",
-                census.count_by_index,
-                census.topology_unknown.as_deref().unwrap_or("not known"),
-            );
-        }
+        text += &census_chain::text(chain);
     }
-    text += &straight(census);
-    let _ = writeln!(text, "{}", check_line(census));
-    let s = &census.statistics;
-    let _ = writeln!(
-        text,
-        "{} cells of pulls, {} proofs of existence, {}.",
-        s.cells,
-        s.proofs,
-        duration(s.seconds)
-    );
     text
 }
 
-#[cfg(test)]
-mod tests {
-    use census::{Census, CheckError, Settings};
-
-    use super::*;
-
-    #[test]
-    fn a_proof_that_fails_is_not_told_as_a_refutation() {
-        let problem = model::cases::paper();
-        let census = Census::take(&problem, &Settings::default()).unwrap();
-        let line =
-            |verdict| check_line(&ChainCensusAnswer::new(&problem, census.clone(), verdict).census);
-        assert!(
-            line(Ok(())).contains("is proved again")
-                && line(Ok(())).contains("rests on the search")
-        );
-        let refuted = line(Err(CheckError::Empty { number: 2 }));
-        assert_eq!(refuted, "Check FAILED: the neighbourhood of equilibrium 2 holds none.");
-        let open = line(Err(CheckError::NotOne { number: 2 }));
-        assert!(open.starts_with("Check NOT DECIDED") && open.contains("is not proved to hold"));
-        assert!(!open.contains("FAILED"));
+/// "The", or with which members slack.
+fn the(slack: &[usize]) -> String {
+    let numbers: Vec<String> = slack.iter().map(|member| (member + 1).to_string()).collect();
+    match slack.len() {
+        0 => "The".to_owned(),
+        1 => format!("With member {} slack the", numbers[0]),
+        _ => format!("With members {} slack the", numbers.join(", ")),
     }
+}
+
+/// What is known of the nets.
+fn nets(answer: &CensusAnswer) -> String {
+    /// So many undecided boxes are printed.
+    const OPEN: usize = 5;
+    let names = |joints: &[usize]| -> String {
+        let name = |k: &usize| Printable(&answer.system().joints()[*k].name).to_string();
+        joints.iter().map(name).collect::<Vec<_>>().join(", ")
+    };
+    let mut text = String::new();
+    for part in &answer.proven().parts {
+        let Some(net) = &part.net else { continue };
+        let _ = write!(
+            text,
+            "{} net of {}: {}",
+            the(&part.slack),
+            counted(net.closures, "closure"),
+            match &net.knots[..] {
+                [] => "no place to be searched".to_owned(),
+                knots => format!("all places of {}", names(knots)),
+            }
+        );
+        if !net.swings.is_empty() {
+            let _ = write!(text, "; {} by closed forms", names(&net.swings));
+        } else if net.signs > 0 {
+            let _ =
+                write!(text, " and all pulls of the strands of {} bars that hold it", net.signs);
+        }
+        let _ = writeln!(text, "; {} boxes, {} undecided.", net.cells, net.undecided.len());
+        if net.in_plane {
+            let among = "among the configurations in the vertical plane of its anchors";
+            let list = if net.undecided.is_empty() { "complete" } else { "not complete even" };
+            let _ = writeln!(
+                text,
+                "The list is {list} {among}; no others were looked for: in space it moves in too many ways."
+            );
+        }
+        for open in net.undecided.iter().take(OPEN) {
+            let places: Vec<String> = net
+                .knots
+                .iter()
+                .zip(&open.knots_m)
+                .map(|(knot, at)| {
+                    let at = at.map(|part| format!("{:.4} to {:.4}", part.lo(), part.hi()));
+                    format!("{} at ({}) m", names(std::slice::from_ref(knot)), at.join(", "))
+                })
+                .collect();
+            let _ = writeln!(text, "Undecided ({}): {}", open.reason, places.join("; "));
+        }
+    }
+    if text.is_empty() { text } else { text + "\n" }
 }

@@ -5,7 +5,7 @@ mod answer;
 #[cfg(feature = "sweep")]
 mod basins;
 mod census;
-mod census_system;
+mod census_chain;
 #[cfg(feature = "branches")]
 pub mod derivatives;
 mod judged;

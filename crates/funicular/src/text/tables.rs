@@ -4,10 +4,9 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, presets};
-use model::{Evidence, SystemSummary, Vector};
+use model::{Evidence, Vector};
 
-use super::printable::Printable;
-use super::printed::{self, Format, head, quantity, scaled};
+use super::printed::{self, Format, head, scaled};
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
@@ -186,20 +185,6 @@ pub fn numbers_from(table: &mut Table, first: usize) {
         column.set_constraint(ColumnConstraint::ContentWidth);
         column.set_padding((0, 1));
     }
-}
-
-/// What is solved, in a line of its own.
-#[must_use]
-pub fn system_line(system: &SystemSummary) -> String {
-    format!(
-        "{}: {} bars, {} long, {},\nanchors {} apart, g = {} m/s^2\n\n",
-        Printable(&system.name),
-        system.bars,
-        quantity(system.total_length_m, "m"),
-        quantity(system.total_mass_kg, "kg"),
-        quantity(system.span_m, "m"),
-        short(system.gravity_m_s2),
-    )
 }
 
 /// A number for reading: six significant digits.

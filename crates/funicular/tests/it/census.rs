@@ -9,14 +9,9 @@ use std::process::Output;
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// Energies of E1 and E2 with the paper's zero, mgl, and the angles of E1, degrees (external:
-/// 40-digit root finding; the energies from a Gröbner basis with real-root counting as well).
-const E1_MGL: f64 = 2.335_468_651_999_305;
+/// Energy of E2 with the paper's zero, mgl (external: 40-digit root finding, and a Gröbner basis with real-root
+/// counting).
 const E2_MGL: f64 = 3.664_531_348_000_695;
-const E1_DEG: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
-
-/// λ₂ and λ₃ at E1, mg (external: the same root finding).
-const E1_PULL_MG: [f64; 2] = [-0.648_944_835_933_933_6, 2.312_944_292_241_837_6];
 
 /// Of the paper's case: 1 kg, 1 m, standard gravity.
 const MGL: f64 = 9.80665;
@@ -62,8 +57,13 @@ pub fn chain(name: &str, end_m: [f64; 3], bars: &[(f64, f64)]) -> String {
     path.to_str().unwrap().to_owned()
 }
 
+/// What is known of the one chain.
+fn of_chain(value: &Value) -> &Value {
+    &value["census"]["parts"][0]["chain"]
+}
+
 /// The JSON of a census that ends with this exit code.
-fn json(arguments: &[&str], code: i32) -> Value {
+pub fn json(arguments: &[&str], code: i32) -> Value {
     let output = funicular(&[arguments, &["--json"]].concat());
     assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -73,27 +73,30 @@ fn json(arguments: &[&str], code: i32) -> Value {
         census["count"].as_u64().unwrap(),
         value["equilibria"].as_array().unwrap().len() as u64
     );
-    assert_eq!(
-        census["undecided_boxes"].as_u64().unwrap(),
-        census["undecided"].as_array().unwrap().len() as u64
-    );
-    assert_eq!(census["check"]["passed"], true);
+    let parts = census["parts"].as_array().unwrap();
+    let open = |part: &Value| {
+        let of_chain = part["chain"]["undecided"].as_array().map_or(0, Vec::len) as u64;
+        of_chain + part["net"]["undecided_boxes"].as_u64().unwrap_or_default()
+    };
+    assert_eq!(census["undecided_boxes"], parts.iter().map(open).sum::<u64>());
+    assert_eq!(census["check_passed"], true);
     let complete = census["complete"].as_bool().unwrap();
     // What is degenerate is named, but not in a complete list of isolated equilibria.
     assert_eq!(census["decided"].as_bool().unwrap(), code == 0);
     assert!(!complete || code == 0);
     for equilibrium in value["equilibria"].as_array().unwrap() {
         // Neither a NaN nor an infinity, which would come out as null.
-        assert_no_null(equilibrium, &["circle", "force_uncertainty", "tolerance", "gap"]);
+        assert_no_null(equilibrium, &["circle", "gap", "index_in_plane"]);
         let reached = |rung: &str| {
             let ladder = equilibrium["evidence"]["ladder"].as_array().unwrap();
             ladder.iter().find(|s| s["rung"] == rung).unwrap()["reached"].as_bool().unwrap()
         };
         assert!(reached("verified") && !reached("agreed"));
         assert_eq!(reached("complete"), complete);
-        let enclosed = &equilibrium["enclosures"]["energy_j"];
-        let energy = equilibrium["energy_j"].as_f64().unwrap();
-        assert!(number(&enclosed[0]) <= energy && energy <= number(&enclosed[1]));
+        if let Some(enclosed) = equilibrium["enclosures"]["energy_j"].as_array() {
+            let energy = number(&equilibrium["energy_j"]);
+            assert!(number(&enclosed[0]) <= energy && energy <= number(&enclosed[1]));
+        }
     }
     value
 }
@@ -118,62 +121,6 @@ fn number(value: &Value) -> f64 {
 fn close(value: &Value, expected: f64) {
     let value = number(value);
     assert!((value - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{value} {expected}");
-}
-
-#[test]
-fn the_paper_has_four_equilibria_in_its_plane() {
-    let value = json(&["--case", "three-equal-bars"], 0);
-    let census = &value["census"];
-    assert_eq!((&census["circles"], &census["circle_count"]), (&true.into(), &2.into()));
-    assert_eq!(
-        (&census["euler_characteristic"], &census["alternating_sum"]),
-        (&0.into(), &0.into())
-    );
-    assert_eq!(census["betti"], serde_json::json!([1, 1]));
-    assert_eq!(census["energy_symbol"], "mgl");
-    close(&census["energy_unit_j"], MGL);
-    let found = value["equilibria"].as_array().unwrap();
-    let labels: Vec<&str> = found.iter().map(|e| e["label"].as_str().unwrap()).collect();
-    assert_eq!(labels, ["1", "1'", "2", "2'"]);
-    // E2 is E1 upside down: its bars in reverse order, turned by 180 degrees.
-    let e2_deg = [-E1_DEG[2], -E1_DEG[1], -E1_DEG[0]];
-    for (k, e) in found.iter().enumerate() {
-        let (energy, angles) = if k < 2 { (E1_MGL, E1_DEG) } else { (E2_MGL, e2_deg) };
-        close(&e["energy_scaled"], energy - 6.0);
-        close(&e["energy_j"], (energy - 6.0) * MGL);
-        let mirror = if k % 2 == 1 { -1.0 } else { 1.0 };
-        for (bar, angle) in angles.iter().enumerate() {
-            let signed = mirror * angle;
-            // 2e-14 degrees are the last place of a hundred degrees.
-            assert!((number(&e["angles_signed_deg"][bar]) - signed).abs() < 1e-12);
-            assert!((number(&e["angles_deg"][bar]) - signed.rem_euclid(360.0)).abs() < 1e-12);
-            let [low, high] = [0, 1].map(|end| number(&e["enclosures"]["angles_rad"][bar][end]));
-            assert!(low < high && high - low < 1e-14);
-        }
-        let stability = &e["stability"];
-        let (in_plane, in_space, index) =
-            if k < 2 { ("minimum", "stable", [0, 0]) } else { ("maximum", "unstable", [1, 2]) };
-        assert_eq!(
-            (&stability["in_plane"], &stability["in_space"]),
-            (&in_plane.into(), &in_space.into())
-        );
-        assert_eq!(stability["index_in_plane"], index[0]);
-        assert_eq!(stability["index_in_space"], index[1]);
-        assert_eq!(e["evidence"]["rung"], if k < 2 { "optimal" } else { "complete" });
-        assert_eq!(
-            e["signs"],
-            if k < 2 { serde_json::json!([1, 1, -1]) } else { serde_json::json!([1, -1, -1]) }
-        );
-        assert_eq!(e["circle"], 1 + k / 2);
-        assert_eq!(e["solver"], "census");
-        assert!(number(&e["box_width"]) < 1e-13);
-    }
-    for (e, mirror) in [(&found[0], 1.0), (&found[1], -1.0)] {
-        close(&e["multipliers_n"][0][1], mirror * E1_PULL_MG[0] * MGL);
-        close(&e["multipliers_n"][0][2], E1_PULL_MG[1] * MGL);
-        assert_eq!(e["reactions_n"]["start"], e["multipliers_n"][0]);
-        assert_eq!(e["joints_m"][3], serde_json::json!([0.0, 0.0, -2.0]));
-    }
 }
 
 #[test]
@@ -262,18 +209,19 @@ fn a_triangle_has_its_two_positions() {
     let value = json(&[&file], 0);
     assert_eq!(value["census"]["count"], 2);
     assert_eq!(value["census"]["circles"], false);
-    assert_eq!(value["census"]["circle_count"], Value::Null);
+    assert_eq!(of_chain(&value)["circle_count"], Value::Null);
     // Half of all the weight, 1.5 kg, sits at the joint.
     for (k, height) in [(0, -2.4), (1, 2.4)] {
         let e = &value["equilibria"][k];
-        close(&e["joints_m"][1][2], height);
-        close(&e["joints_m"][1][0], 1.8 * 0.6);
-        close(&e["joints_m"][1][1], 1.8 * 0.8);
+        let at_m = &e["joints"][1]["at_m"];
+        for (part, wanted) in [1.8 * 0.6, 1.8 * 0.8, height].into_iter().enumerate() {
+            close(&at_m[part], wanted);
+        }
         close(&e["energy_j"], 1.5 * 9.80665 * height);
         assert_eq!(e["circle"], Value::Null);
     }
     // A manifold of dimension 0 has two points, and no direction in the plane at all.
-    assert_eq!(value["census"]["euler_characteristic"], 2);
+    assert_eq!(of_chain(&value)["euler_characteristic"], 2);
     assert_eq!(value["equilibria"][1]["stability"]["index_in_space"], 1);
 }
 
@@ -281,7 +229,7 @@ fn a_triangle_has_its_two_positions() {
 fn coincident_anchors_are_circles() {
     let value = json(&["--case", "slack"], 0);
     assert_eq!(value["census"]["circles"], true);
-    assert_eq!(value["census"]["betti"], serde_json::json!([1, 2, 1]));
+    assert_eq!(of_chain(&value)["betti"], serde_json::json!([1, 2, 1]));
     let text = stdout(&funicular(&["--case", "slack"]));
     assert!(text.contains("circles in space") && text.contains("proved to be all"), "{text}");
 }
@@ -294,7 +242,7 @@ fn a_straight_position_is_named_and_apart_from_all_equilibria() {
     let value = json(&[&file], 0);
     let census = &value["census"];
     assert_eq!((&census["complete"], &census["undecided_boxes"]), (&true.into(), &0.into()));
-    let straight = census["straight"].as_array().unwrap();
+    let straight = of_chain(&value)["straight"].as_array().unwrap();
     assert_eq!(straight.len(), 6);
     assert_eq!(straight[0]["along"], serde_json::json!([1, 1, 1, 1, 1, -1]));
     assert_eq!(straight[0]["upright"], false);
@@ -303,53 +251,29 @@ fn a_straight_position_is_named_and_apart_from_all_equilibria() {
     assert!(text.contains("no equilibrium is near") && text.contains("the search alone"), "{text}");
 }
 
-/// 1 + 1 − 1 = 1: three ways to hang upright, each under any force, and no other equilibrium near.
+/// Bars of 1 m with 1 kg in positions that are not isolated: 1 + 1 − 1 = 1, three ways to hang upright, each under any
+/// force; and four equilibria that have merged, where bar 1 hangs as heavily as bar 3 stands. (`keys::census` has their
+/// numbers.)
 #[test]
-fn upright_positions_are_families_of_forces() {
-    let file = chain("upright", [0.0, 0.0, -1.0], &[(1.0, 1.0); 3]);
-    let value = json(&[&file], 0);
-    let census = &value["census"];
-    assert_eq!((&census["complete"], &census["undecided_boxes"]), (&false.into(), &0.into()));
-    let straight = census["straight"].as_array().unwrap();
-    assert!(straight.len() == 3 && straight.iter().all(|position| position["upright"] == true));
-    let text = stdout(&funicular(&[&file])).replace('\n', " ");
-    assert!(text.contains("3 upright positions with any force: proved to be all"), "{text}");
-}
-
-/// Bar 1 hangs as heavily as bar 3 stands, and the level bar 2 carries nothing: along the curve of
-/// positions the energy is x⁵/2 + ..., so that four equilibria have merged.
-#[test]
-fn a_degenerate_equilibrium_has_its_multiplicity() {
-    let file = chain("step", [1.0, 0.0, -2.0], &[(1.0, 1.0); 3]);
-    let value = json(&[&file], 0);
-    let census = &value["census"];
-    assert_eq!((&census["complete"], &census["decided"]), (&false.into(), &true.into()));
-    let [merged] = &census["degenerate"].as_array().unwrap()[..] else { panic!("{census}") };
-    assert_eq!(merged["signs"], serde_json::json!([1, 0, -1]));
-    assert_eq!((&merged["multiplicity"], &merged["degree"]), (&4.into(), &0.into()));
-    // Down, level, down: centres at -0.5 m, -1 m and -1.5 m.
-    let energy = &merged["energy_j"];
-    assert!((number(&energy[0]) + 3.0 * MGL).abs() < 1e-12);
-    assert!(number(&energy[0]) <= -3.0 * MGL && -3.0 * MGL <= number(&energy[1]));
-    let text = stdout(&funicular(&[&file]));
-    assert!(text.contains("1 degenerate one: proved to be all"), "{text}");
-    assert!(text.contains("Degenerate equilibria, at which several have merged"), "{text}");
+fn what_is_not_isolated_is_told() {
+    for (name, end, said) in [
+        ("upright", [0.0, 0.0, -1.0], "3 upright positions with any force: proved to be all"),
+        ("step", [1.0, 0.0, -2.0], "1 degenerate one: proved to be all"),
+    ] {
+        let file = chain(name, end, &[(1.0, 1.0); 3]);
+        assert_eq!(json(&[&file], 0)["census"]["complete"], false);
+        let text = stdout(&funicular(&[&file])).replace('\n', " ");
+        assert!(text.contains(said), "{text}");
+        let merged = text.contains("Degenerate equilibria, at which several have merged");
+        assert_eq!(merged, name == "step", "{text}");
+    }
 }
 
 #[test]
 fn a_nearly_straight_closure_is_undecided_and_says_so() {
     // 1 + 1 + 1 - 1 = 2, which is next to the distance of these anchors, but not that.
     let file = chain("straight", [1.2, 0.0, -1.6], &[(1.0, 1.0); 4]);
-    let value = json(&[&file], 3);
-    let census = &value["census"];
-    assert!(census["undecided_boxes"].as_u64().unwrap() > 0);
-    assert_eq!(census["euler_characteristic"], Value::Null);
-    assert!(census["topology_unknown"].as_str().unwrap().contains("straight position"));
-    for open in census["undecided"].as_array().unwrap() {
-        assert_eq!(open["reason"], "degenerate");
-        assert!(open["pattern_count"].as_u64().unwrap() > 0);
-        assert!(number(&open["at"][0][0]) <= number(&open["at"][0][1]));
-    }
+    json(&[&file], 3);
     let output = funicular(&[&file]);
     assert_eq!(output.status.code(), Some(3));
     let text = stdout(&output);
@@ -376,14 +300,16 @@ fn slack_families_are_listed_as_such() {
         &[(0.9, 0.0), (0.4, 3.0), (0.85, 0.0), (1.0, 0.0), (0.35, 2.0)],
     );
     let value = json(&[&file], 0);
-    let families = value["census"]["slack_families"].as_array().unwrap();
+    let chain = of_chain(&value);
+    let families = chain["slack_families"].as_array().unwrap();
     assert!(!families.is_empty());
+    assert_eq!(value["census"]["slack_families"], families.len());
     for family in families {
         assert_eq!((&family["signs"][2], &family["signs"][3]), (&0.into(), &0.into()));
         assert_eq!(family["dimension_in_plane"], 0);
         assert!(number(&family["energy_j"][0]) <= number(&family["energy_j"][1]));
     }
-    assert_eq!(value["census"]["alternating_sum"], value["census"]["euler_characteristic"]);
+    assert_eq!(chain["alternating_sum"], chain["euler_characteristic"]);
     let text = stdout(&funicular(&[&file]));
     assert!(text.contains("families of slack bars") && text.contains(".."), "{text}");
 }
@@ -401,18 +327,16 @@ fn of_many_equilibria_the_first_are_printed_bar_by_bar() {
     let (_, angles) = text.split_once("Angles from the descending vertical").unwrap();
     let (angles, _) = angles.split_once("Evidence:").unwrap();
     // Eleven equilibria of seven bars are 77 lines, below the limit of 80.
-    let lines = angles.lines().filter(|l| l.contains("tension") || l.contains("compression"));
-    assert_eq!(lines.count(), 77, "{text}");
+    assert_eq!(angles.lines().filter(|line| line.contains("e-1")).count(), 77, "{text}");
     // The first and the eleventh are there, as in the JSON: ten digits say so.
     for k in [0, 10] {
         let angle = format!("{:?}", number(&value["equilibria"][k]["angles_deg"][6]));
         assert!(angles.contains(&angle[..11]), "{angle} is not in\n{angles}");
     }
-    let more = format!("... and {} equilibria with their angles and forces more", count - 11);
+    let more = format!("... and {} equilibria with their joints and members more", count - 11);
     assert!(angles.contains(&more) && angles.contains("--json or --csv FILE"), "{angles}");
-    // Both tables with a line for each equilibrium say what they leave out.
     let more = format!("... and {} equilibria more", count - 40);
-    assert_eq!(text.matches(&more).count(), 2, "{text}");
+    assert!(text.contains(&more), "{text}");
 }
 
 #[test]
@@ -478,7 +402,8 @@ fn bad_input_is_refused_with_its_reason() {
 fn the_answer_does_not_depend_on_the_number_of_threads() {
     let with = |threads: &str| {
         let mut value = json(&["--case", "five-in-space", "--threads", threads], 0);
-        value["census"]["statistics"]["seconds"] = 0.into();
+        value["census"]["seconds"] = 0.into();
+        value["census"]["parts"][0]["chain"]["statistics"]["seconds"] = 0.into();
         for e in value["equilibria"].as_array_mut().unwrap() {
             e["evidence"]["solve_s"] = 0.into();
         }

@@ -15,7 +15,6 @@ fn a_long_list_is_that_of_the_library() {
     let answer = funicular::Census::new().run(&problem).unwrap();
     let mut expected = serde_json::to_value(&answer).unwrap();
     for object in [&mut written, &mut expected] {
-        object["census"]["statistics"]["seconds"] = 0.0.into();
         for equilibrium in object["equilibria"].as_array_mut().unwrap() {
             equilibrium["evidence"]["solve_s"] = 0.0.into();
         }

@@ -24,12 +24,13 @@ class Census(Result):
     """All equilibria, stable or not, by energy, and what is known of the list.
 
     ``complete``: whether it is proved that there is no other. ``summary``: the numbers of the list (``count``,
-    ``circles``, ``decided``, ``degenerate``, ``undecided_boxes``, ``check``, ...). A census is a sequence of
-    :class:`Equilibrium`; what only a census knows of one stands in its ``data`` (``label``, ``enclosures``, ...).
+    ``circles``, ``decided``, ``undecided_boxes``, ``check_passed``, and of each of the ``parts`` the ``chain`` or the
+    ``net``). A census is a sequence of :class:`Equilibrium`; what only the census of one row of bars knows of one stands
+    in its ``data`` (``label``, ``signs``, ``enclosures``, ...).
 
     >>> import funicular as fn
     >>> c = fn.System.case("three-equal-bars").census()
-    >>> c.complete, len(c), c.summary.circle_count
+    >>> c.complete, len(c), c.summary.parts[0]["chain"]["circle_count"]
     (True, 4, 2)
     >>> [round(e.energy_j / 9.80665, 6) for e in c]    # E1 and E2 with their mirror images, in mgl above joint 0
     [-3.664531, -3.664531, -2.335469, -2.335469]
@@ -54,7 +55,7 @@ class Census(Result):
         return Record(self.data["census"])
 
     def energy_bounds_j(self) -> Array:
-        """(equilibria, 2) For chains: intervals that hold the exact energies, J."""
+        """(equilibria, 2) Of one row of bars: intervals that hold the exact energies, J."""
         bounds = [found["enclosures"]["energy_j"] for found in self.data["equilibria"] if "enclosures" in found]
         return np.array(bounds, dtype=np.float64).reshape(-1, 2)
 

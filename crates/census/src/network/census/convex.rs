@@ -73,14 +73,7 @@ impl SystemCensus {
             ..Choice::default()
         };
         let position = SystemPosition::new(system, &frame, &choice, false);
-        let part = PartCensus {
-            positions: 1,
-            slack: vec![],
-            hanging: vec![],
-            chain: None,
-            framed: 0,
-            net: None,
-        };
+        let part = PartCensus { positions: 1, ..PartCensus::default() };
         Some(Self {
             equilibria: vec![position],
             parts: vec![part],

@@ -1,11 +1,11 @@
 //! A chain between two anchors with weights at its joints: the census of a chain of bars.
 //!
 //! What hangs at a joint adds to the weight $c_i$ that all further bars carry, and to nothing else;
-//! the search is the one for chains. All weights, those of the bars too, are handed over at the
-//! joints, to twice the usual precision: a bar that is told against the direction of the chain
-//! would have its centre rounded.
+//! the search is the one for chains. Bars bear their own weight; where one is told against the
+//! direction of the chain and its centre would be rounded, its weight is handed over at the joints
+//! like that of all else, to twice the usual precision.
 
-use model::system::System;
+use model::system::{Member, System};
 use model::{Anchors, Bar, Chain, NoCensus};
 use numerics::{DoubleDouble, Interval};
 
@@ -13,15 +13,20 @@ use super::choice::Choice;
 use super::parts::Hanging;
 use super::weights::weights_kg;
 use crate::census::Census;
+use crate::census::check::CheckError;
 use crate::equilibrium::ProvenEquilibrium;
 use crate::network::frame::Frame;
 use crate::plane::loads::JointLoads;
+use crate::plane::system::groups;
+use crate::search::Progress;
 use crate::settings::Settings;
 
 /// A chain between anchors with what hangs at its joints.
 pub(super) struct LoadedChain {
     pub(super) chain: Chain,
     pub(super) loads: JointLoads,
+    /// Whether all bars bear their own weight.
+    pub(super) whole: bool,
 }
 
 impl LoadedChain {
@@ -43,40 +48,65 @@ impl LoadedChain {
             .copied()
             .chain(hanging.iter().map(|hanging| hanging.child))
             .collect();
-        let mut kg = weights_kg(system, &moving)?;
+        let walk = members.iter().zip(joints);
+        let own: Vec<Option<Bar>> =
+            walk.map(|(member, joint)| along(&system.members()[*member], *joint)).collect();
+        let bearing: Vec<usize> =
+            members.iter().zip(&own).filter_map(|(k, bar)| bar.map(|_| *k)).collect();
+        let mut kg = weights_kg(system, &moving, &bearing)?;
         // Outermost first.
         for Hanging { parent, child, .. } in hanging.iter().rev() {
             if let Some(weight) = kg[*child] {
                 kg[*parent] = Some(kg[*parent].map_or(weight, |own| own + weight));
             }
         }
-        if joints[1..joints.len() - 1].iter().all(|joint| kg[*joint].is_none()) {
-            return Err(NoCensus::Limp { member: members[0] + 1 });
-        }
-        let light = |number: &usize| {
-            Bar::homogeneous(system.members()[*number].body.length_m(), 0.0)
+        let light = |number: usize| {
+            Bar::homogeneous(system.members()[number].body.length_m(), 0.0)
                 .map_err(|_| NoCensus::Settings)
         };
-        let bars = members.iter().map(light).collect::<Result<Vec<_>, _>>()?;
+        let bars =
+            members.iter().zip(&own).map(|(member, own)| own.map_or_else(|| light(*member), Ok));
+        let bars = bars.collect::<Result<Vec<_>, _>>()?;
         let anchor = |joint: usize| system.joints()[joint].support.at_m().ok_or(NoCensus::Settings);
         let anchors =
             Anchors { start_m: anchor(joints[0])?, end_m: anchor(joints[joints.len() - 1])? };
+        let kg: Vec<Option<DoubleDouble>> = joints.iter().map(|joint| kg[*joint]).collect();
+        let loads = JointLoads::new(kg);
+        if groups(&bars, &loads).len() < 2 {
+            return Err(NoCensus::Limp { member: members[0] + 1 });
+        }
         let chain = Chain::new(system.name(), system.gravity_m_s2(), anchors, bars)
             .map_err(|_| NoCensus::Settings)?;
-        let kg: Vec<Option<DoubleDouble>> = joints.iter().map(|joint| kg[*joint]).collect();
-        Ok(Self { chain, loads: JointLoads::new(kg) })
+        Ok(Self { chain, loads, whole: own.iter().all(Option::is_some) })
     }
 
     /// Its census.
-    pub(super) fn census(&self, settings: &Settings) -> Result<Census, NoCensus> {
-        let watch = &|_| {};
+    pub(super) fn census(
+        &self,
+        settings: &Settings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Census, NoCensus> {
         Census::of_chain(&self.chain, &self.loads, settings, watch).map_err(|error| error.reason())
     }
 
     /// Its census judged again.
-    pub(super) fn check(&self, census: &Census) -> Result<(), String> {
-        census.check_chain(&self.chain, &self.loads).map_err(|error| error.to_string())
+    pub(super) fn check(&self, census: &Census) -> Result<(), CheckError> {
+        census.check_chain(&self.chain, &self.loads)
     }
+}
+
+/// The bar that a member is from one of its joints on; nothing where its centre would be rounded.
+fn along(member: &Member, first: usize) -> Option<Bar> {
+    let body = member.body;
+    let (length_m, centre_m) = (body.length_m(), body.centre_m());
+    if member.from == first || body.mass_kg() <= 0.0 {
+        return Some(body);
+    }
+    let from_end_m = length_m - centre_m;
+    // The rounding of the difference, itself without rounding.
+    let is_exact = ((length_m - from_end_m) - centre_m).abs() <= 0.0;
+    let turned = || Bar::new(length_m, body.mass_kg(), from_end_m, body.inertia_kg_m2()).ok();
+    is_exact.then(turned).flatten()
 }
 
 /// The isolated positions of a census in the units of a frame.

@@ -20,6 +20,7 @@ mod core;
 mod net;
 mod parts;
 mod position;
+mod row;
 mod tree;
 mod truss;
 mod weights;
@@ -34,6 +35,7 @@ use serde::{Deserialize, Serialize};
 pub use self::bridle::bridle_seconds;
 pub use self::net::{NetCensus, Open, UndecidedPlaces};
 pub use self::position::SystemPosition;
+pub use self::row::LoadedRow;
 
 use self::branch::{Branch, branches, signs_hold};
 use self::choice::Choice;
@@ -43,6 +45,7 @@ use self::tree::{borne, hung};
 use self::truss::{order, positions};
 use super::frame::Frame;
 use crate::census::Census;
+use crate::census::check::CheckError;
 use crate::search::Progress;
 use crate::settings::Settings;
 
@@ -54,7 +57,7 @@ const MAX_FRAMED: usize = 64;
 /// far fewer, and what tells one reason of a refusal from another takes the square of their number.
 const MOST_JOINTS: usize = 1000;
 
-/// Most positions that are listed.
+/// Most positions that are listed, if several parts or trees make them together.
 pub const MAX_POSITIONS: usize = 4096;
 
 /// All equilibria of a system, and how far that is proved.
@@ -72,7 +75,7 @@ pub struct SystemCensus {
 }
 
 /// A part of a system, connected not over anchors alone.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartCensus {
     /// Its isolated equilibria, whatever the lengths of slack members are.
     pub positions: usize,
@@ -100,6 +103,12 @@ pub struct ChainCensus {
     /// Whether every one of them is proved again without the search, and the count of them is what
     /// topology asks for; else what is missing or wrong.
     pub check: Result<(), String>,
+    /// Whether the check shows that something is wrong; else what failed is a proof, which shows nothing.
+    pub refuted: bool,
+    /// Whether every bar bears its own weight. Where a bar is told against the direction of the chain and its
+    /// centre would be rounded, its weight is at the joints, and energy and pull are without what the anchors
+    /// bear of it.
+    pub whole: bool,
 }
 
 impl SystemCensus {
@@ -219,6 +228,14 @@ impl SystemCensus {
         chains + self.nets().map(|net| net.cells).sum::<u64>()
     }
 
+    /// The census of the row of bars that the system is, if it is one
+    /// ([`as_row`](System::as_row)) whose bars bear their own weight.
+    #[must_use]
+    pub fn row(&self, system: &System) -> Option<&ChainCensus> {
+        let [PartCensus { chain, .. }] = &self.parts[..] else { return None };
+        chain.as_ref().filter(|chain| chain.whole && system.as_row().is_some())
+    }
+
     /// The chains of all parts.
     pub fn chains(&self) -> impl Iterator<Item = &ChainCensus> {
         self.parts.iter().filter_map(|part| part.chain.as_ref())
@@ -232,7 +249,8 @@ impl SystemCensus {
 
 /// Each of these positions with each of those.
 fn combined(all: &[Choice], own: &[Choice]) -> Result<Vec<Choice>, NoCensus> {
-    if all.len().saturating_mul(own.len()) > MAX_POSITIONS {
+    let alone = all.len() <= 1 || own.len() <= 1;
+    if !alone && all.len().saturating_mul(own.len()) > MAX_POSITIONS {
         return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
     }
     Ok(all.iter().flat_map(|all| own.iter().map(|one| all.and(one))).collect())
@@ -318,12 +336,14 @@ fn of_part(
         Core::Anchor => vec![Choice::anchor(system, frame, part)],
         Core::Chain { joints, members } => {
             let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
-            let census = loaded.census(settings)?;
+            let census = loaded.census(settings, watch)?;
             let check = loaded.check(&census);
+            let refuted = check.as_ref().is_err_and(CheckError::refutes);
+            let (check, whole) = (check.map_err(|error| error.to_string()), loaded.whole);
             let both = [joints.as_slice(), members.as_slice()];
             let cores = choices(&census, frame, both);
             let (joints, members) = (joints.clone(), members.clone());
-            chain = Some(ChainCensus { joints, members, census, check });
+            chain = Some(ChainCensus { joints, members, census, check, refuted, whole });
             cores
         }
     };

@@ -159,16 +159,17 @@ impl Taker<'_> {
         if ropes || moving.iter().any(|joint| degree[*joint] != 2) {
             return net;
         }
-        // A walk from an anchor; without one the part is a ring that falls.
-        let is_first = |member: &&usize| {
-            let ends = &self.system.members()[**member];
-            self.held(ends.from) || self.held(ends.to)
+        // A walk from the first anchor; without one the part is a ring that falls.
+        let anchored = |member: &usize| {
+            let ends = &self.system.members()[*member];
+            [ends.from, ends.to]
+                .into_iter()
+                .find(|joint| self.held(*joint))
+                .map(|joint| (joint, *member))
         };
-        let Some(first) = left.iter().find(is_first) else { return net };
-        let ends = &self.system.members()[*first];
-        let mut here = if self.held(ends.from) { ends.from } else { ends.to };
+        let Some((mut here, first)) = left.iter().filter_map(anchored).min() else { return net };
         let (mut walk, mut members) = (vec![here], vec![]);
-        let mut next = Some(*first);
+        let mut next = Some(first);
         while let Some(member) = next {
             here = self.other(member, here);
             members.push(member);

@@ -4,11 +4,12 @@ use model::system::{PointLoad, System};
 use model::{NoCensus, Vector};
 use numerics::{DoubleDouble, lever};
 
-/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule;
-/// nothing where nothing hangs, exactly.
+/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule, but for the weight of the
+/// members that bear their own; nothing where nothing hangs, exactly.
 pub(super) fn weights_kg(
     system: &System,
     joints: &[usize],
+    own: &[usize],
 ) -> Result<Vec<Option<DoubleDouble>>, NoCensus> {
     let mut weights = Weights { system, kg: vec![None; system.joints().len()] };
     for joint in joints {
@@ -16,14 +17,18 @@ pub(super) fn weights_kg(
         weights.add_mass(*joint, own.mass_kg, DoubleDouble::point(1.0));
         weights.add_force(*joint, own.force_n, DoubleDouble::point(1.0))?;
     }
-    let wanted = |joint: usize| joints.contains(&joint);
-    for member in system.members().iter().filter(|m| wanted(m.from) || wanted(m.to)) {
+    let (mut wanted, mut bears) =
+        (vec![false; system.joints().len()], vec![false; system.members().len()]);
+    joints.iter().for_each(|joint| wanted[*joint] = true);
+    own.iter().for_each(|member| bears[*member] = true);
+    for (member, bears) in system.members().iter().zip(bears) {
         let length_m = member.body.length_m();
         for (joint, is_start) in [(member.from, true), (member.to, false)] {
-            if !wanted(joint) {
+            if !wanted[joint] {
                 continue;
             }
-            if let Some(share) = share(length_m, member.body.centre_m(), is_start) {
+            let share_of_weight = share(length_m, member.body.centre_m(), is_start);
+            if let Some(share) = share_of_weight.filter(|_| !bears) {
                 weights.add_mass(joint, member.body.mass_kg(), share);
             }
             for PointLoad { at_m, force_n } in &member.loads {

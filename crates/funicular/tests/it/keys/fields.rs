@@ -8,20 +8,18 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 30] = [
+const NOT_PRINTED: [(&str, &str); 28] = [
     ("census::Census", "`census --json` prints its own `Summary`"),
-    ("census::DegenerateEquilibrium", "printed as `Merged` of the program"),
+    ("census::ChainCensus", "printed as `Chain` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
     ("census::MorseError", "printed as the sentence `census.check.failure`"),
-    ("census::Neighbourhood", "within `ProvenEquilibrium`"),
     ("census::NetCensus", "printed as `Net` of the program"),
     ("census::Open", "a net prints the number of its undecided boxes"),
-    ("census::ProvenEquilibrium", "printed as `Found` of the program"),
+    ("census::ProvenEquilibrium", "printed as `InRow` of the program"),
     ("census::SlackFamily", "printed as `Slack` of the program"),
     ("census::TopologyError", "printed as the sentence `census.topology_unknown`"),
     ("census::Undecided", "printed as `Open` of the program"),
     ("census::UndecidedPlaces", "a net prints the number of its undecided boxes"),
-    ("funicular::CensusAnswer", "untagged: one object or the other"),
     ("funicular::Chart", "for the script of a page"),
     ("funicular::Curve", "for the script of a page"),
     ("funicular::Data", "for the script of a page"),

@@ -7,7 +7,7 @@ use super::output::{Output, run};
 /// Commands that take a case, with the kinds of their outputs for chains and for systems.
 const COMMANDS: [(&[&str], [&str; 2]); 5] = [
     (&["solve", "--json"], ["solve", "solve"]),
-    (&["census", "--json"], ["census of a chain", "census of a system"]),
+    (&["census", "--json"], ["census", "census"]),
     (&["modes", "--json", "--modes", "3"], ["modes", "modes"]),
     (&["derivatives", "--json"], ["derivatives", "derivatives"]),
     (&["study", "--vary", "gravity_m_s2=9,10", "--json"], ["study", "study"]),

@@ -308,7 +308,7 @@ pub fn shape_of_lamp(output: &mut Output) {
 }
 
 /// Proof and census of the lamp: alone in its box, below its anchors or above them.
-pub fn proofs_of_lamp(output: &mut Output) {
+fn proofs_of_lamp(output: &mut Output) {
     let at = |key: &str| format!("equilibria[].evidence.ladder[].proof.{key}");
     output.within(&at("box_width"), f64::EPSILON / 2.0..=NOTHING);
     output.within(&at("distance"), 0.0..=NOTHING);

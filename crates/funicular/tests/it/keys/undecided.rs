@@ -14,14 +14,14 @@ fn census(test: &'static str, end: &str, bars: &str) -> Output {
     std::fs::write(folder.path().join("file.toml"), text).unwrap();
     let (code, text) = run(folder.path(), &["census", "file.toml", "--json"]);
     assert_eq!(code, Some(3), "{text}");
-    let mut output = Output::json("census of a chain", test, &text);
+    let mut output = Output::json("census", test, &text);
     output.is("census.complete", false);
     output.is("census.decided", false);
     output
 }
 
 fn open(key: &str) -> String {
-    format!("census.undecided[].{key}")
+    format!("census.parts[].chain.undecided[].{key}")
 }
 
 /// Four bars of 1 m fit into a line of 2 m when one of them points back, by -2 or by +2 times the
@@ -48,8 +48,11 @@ fn pulls_without_bound() {
     output.each(&open("pull_n"), json!(null));
     output.each(&open("at_most"), json!(null));
     output.each(&open("degree"), json!(null));
-    output.is("census.straight[]", json!([]));
-    output.says("census.topology_unknown", &["sides 4, 5 are together as long as the others"]);
+    output.is("census.parts[].chain.straight[]", json!([]));
+    output.says(
+        "census.parts[].chain.topology_unknown",
+        &["sides 4, 5 are together as long as the others"],
+    );
     output.each("equilibria[].evidence.ladder[].reason.cells", 2);
     output.done();
 }

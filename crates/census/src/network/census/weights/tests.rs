@@ -21,7 +21,7 @@ fn what_hangs_at_a_joint_is_its_share_of_all_loads() {
     let weights = |long: &Member| {
         let members = vec![long.clone(), short.clone()];
         let system = System::new("two", 10.0, joints.clone(), members).unwrap();
-        weights_kg(&system, &[1, 2])
+        weights_kg(&system, &[1, 2], &[])
     };
     let found = weights(&long).unwrap();
     assert!(found[0].is_none());
