@@ -35,7 +35,7 @@ impl Order {
     fn of(system: &System) -> Option<Self> {
         let in_order = || ends(system).map(|[first, last]| (first..=last).collect());
         let joints: Vec<usize> = match system.as_row() {
-            Some(row) => row.joints().to_vec(),
+            Some(row) => row.joints().collect(),
             None => in_order()?,
         };
         let between = |two: &[usize]| {

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{Bar, Vector, sum};
@@ -239,40 +237,4 @@ impl Chain {
         let [x, y, _] = self.anchors.difference_m();
         x.hypot(y) <= VERTICAL_TOLERANCE * self.total_length_m()
     }
-
-    /// The few numbers that name the system in an answer.
-    ///
-    /// ```
-    /// let summary = model::cases::paper().chain().summary();
-    /// assert_eq!((summary.bars, summary.span_m), (3, 2.0));
-    /// assert_eq!((summary.total_length_m, summary.total_mass_kg), (3.0, 3.0));
-    /// ```
-    #[must_use]
-    pub fn summary(&self) -> SystemSummary {
-        SystemSummary {
-            name: self.name.clone(),
-            bars: self.bars.len(),
-            span_m: self.anchors.span_m(),
-            total_length_m: self.total_length_m(),
-            total_mass_kg: self.total_mass_kg(),
-            gravity_m_s2: self.gravity_m_s2,
-        }
-    }
-}
-
-/// What an answer says about the system it belongs to (`"system"` of the JSON).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SystemSummary {
-    /// Name of the system.
-    pub name: String,
-    /// Number of bars.
-    pub bars: usize,
-    /// Distance of the anchors, m.
-    pub span_m: f64,
-    /// Sum of the lengths, m.
-    pub total_length_m: f64,
-    /// Sum of the masses, kg.
-    pub total_mass_kg: f64,
-    /// Gravity along −Z, m/s².
-    pub gravity_m_s2: f64,
 }

@@ -54,8 +54,7 @@ pub use axial::AxialForce;
 pub use bar::{Bar, BarError};
 pub use cell::{name_of_cell, text_cell};
 pub use chain::{
-    Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary,
-    VERTICAL_TOLERANCE,
+    Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, VERTICAL_TOLERANCE,
 };
 pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};

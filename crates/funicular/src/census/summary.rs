@@ -250,7 +250,7 @@ fn numbers(members: &[usize]) -> Vec<usize> {
 }
 
 fn names(system: &System, joints: &[usize]) -> Vec<String> {
-    joints.iter().map(|joint| system.joints()[*joint].name.clone()).collect()
+    joints.iter().map(|joint| system.joints()[*joint].name.to_string()).collect()
 }
 
 impl Part {

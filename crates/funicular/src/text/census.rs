@@ -173,10 +173,12 @@ fn energies(answer: &CensusAnswer) -> String {
         let from_end = other_zero.then(|| long(energy + shift));
         rows.add_row([label, long(energy)].into_iter().chain(from_end));
     }
+    let start = row.joints().next().map(|joint| answer.system().joints()[joint].name.text());
+    let start = start.unwrap_or_default();
     numbers_from(&mut rows, 1);
     format!(
         "Energy V from the height of joint {}{}; {symbol}: {}:\n{rows}\n\n",
-        Printable(&answer.system().joints()[row.joints()[0]].name),
+        Printable(&start),
         if other_zero { " (from end: of the last anchor)" } else { "" },
         unit.energy_unit,
     )

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::evidence::NOTHING;
 use super::output::{Output, good};
-use super::solve::{LAMP, LEVEL_V, joints_of_level_v};
+use super::solve::{LAMP, LEVEL_V, system_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -83,7 +83,7 @@ fn by_signs_and_pulls() {
 fn it_hangs_or_stands() {
     let mut output = census("it_hangs_or_stands", LEVEL_V);
     output.is("schema_version", 3);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     output.each("equilibria[].solver", "census");
     output.is("equilibria[].energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
     output.each("equilibria[].joints[].name", json!(["0", "1", "2"]));

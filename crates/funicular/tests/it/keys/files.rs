@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::output::{Output, good};
-use super::solve::{LAMP, LEVEL_V, joints_of_level_v, refusals_of_a_fall};
+use super::solve::{LAMP, LEVEL_V, refusals_of_a_fall, system_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -78,7 +78,7 @@ fn answered(text: &str, origin: &str, place: &Value, test: &'static str) {
     let found = object.as_object_mut().unwrap().remove(origin);
     assert_eq!(found.as_ref(), Some(place));
     let mut output = Output::json("solve", test, &object.to_string());
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     output.each("equilibria[].energy_j", -10.0 * DEPTH);
     output.each("equilibria[].bars[].axial_n", AXIAL);
     if origin == "line" {

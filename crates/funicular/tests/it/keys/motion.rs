@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::evidence::NOTHING;
 use super::output::{Output, good};
-use super::solve::{LEVEL_V, joints_of_level_v};
+use super::solve::{LEVEL_V, system_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -20,7 +20,7 @@ fn swinging_and_falling() {
     let text = good(folder.path(), &["modes", "v.toml", "--json"]);
     let mut output = Output::json("modes", "swinging_and_falling", &text);
     output.is("schema_version", 3);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     output.is("complete", true);
     let at = |key: &str| format!("equilibria[].{key}");
     output.is(&at("label"), json!(["1", "2"]));

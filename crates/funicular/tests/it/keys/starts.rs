@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::{Output, good};
-use super::solve::{LEVEL_V, joints_of_level_v};
+use super::solve::{LEVEL_V, system_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -169,7 +169,7 @@ fn a_grid_of_starts() {
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let [lagrange, energy] = ["lagrange", "energy"].map(|solver| Rows::of(&rows, solver));
     let mut output = Output::json("sweep", "a_grid_of_starts", &text);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     equilibria(&mut output, true);
     about(&mut output, "out", SEEDS, 1);
     output.is("seeds_before", 0);
@@ -366,7 +366,7 @@ fn releases() {
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let motion = Rows::of(&rows, "motion");
     let mut output = Output::json("simulate --seeds", "releases", &text);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     equilibria(&mut output, false);
     about(&mut output, "out", 20, 1);
     output.is("seeds_before", 0);

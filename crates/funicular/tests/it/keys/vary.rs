@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::evidence::NOTHING;
 use super::output::{Output, good};
-use super::solve::{LAMP, LEVEL_V, joints_of_level_v, system_of_lamp};
+use super::solve::{LAMP, LEVEL_V, system_of_lamp, system_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -29,7 +29,7 @@ fn study_of_a_chain() {
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("study", "study_of_a_chain", &text);
     output.is("schema_version", 3);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     output.is("parameters[]", "gravity_m_s2");
     output.is("units[]", "m/s^2");
     let at = |key: &str| format!("points[].{key}");
@@ -267,7 +267,7 @@ fn branches_over_gravity() {
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("trace", "branches_over_gravity", &text);
     output.is("schema_version", 3);
-    joints_of_level_v(&mut output);
+    system_of_level_v(&mut output);
     let at = |key: &str| format!("traces[].{key}");
     output.is(&at("parameters[]"), "gravity_m_s2");
     output.is(&at("units[]"), "m/s^2");
