@@ -80,15 +80,12 @@ impl CensusAnswer {
     /// Put together from a census.
     #[must_use]
     pub fn new(system: &System, proven: SystemCensus) -> Self {
-        let equilibria: Vec<Found> = match AsRow::of(system, &proven) {
-            Some((row, ChainCensus { census, .. })) => {
-                let found = |at: Position| row.found(census.position_to_model(&at), &at);
-                census.positions().map(found).collect()
-            }
-            None => {
-                let found = proven.to_model(system).into_iter();
-                found.map(|equilibrium| Found::of(system, equilibrium, None)).collect()
-            }
+        let equilibria: Vec<Found> = if let Some((row, chain)) = AsRow::of(system, &proven) {
+            let found = |at: Position| row.found(chain.census.position_to_model(&at), &at);
+            chain.census.positions().map(found).collect()
+        } else {
+            let found = proven.to_model(system).into_iter();
+            found.map(|equilibrium| Found::of(system, equilibrium, None)).collect()
         };
         let census = Summary::of(system, &proven, equilibria.len());
         Self { equilibria, census, system: system.clone(), proven }

@@ -27,8 +27,6 @@ pub struct Summary {
     pub undecided_boxes: usize,
     /// How many families of equilibria there are with slack bars.
     pub slack_families: usize,
-    /// Whether the list of every chain was judged again, and passed.
-    pub check_passed: bool,
     /// What `energy_scaled` is a multiple of: of a row of bars.
     #[serde(flatten)]
     pub unit: Option<EnergyUnit>,
@@ -197,7 +195,6 @@ impl Summary {
             circles: row.map_or_else(circles, |chain| chain.census.circles),
             undecided_boxes: census.undecided(),
             slack_families: census.families(),
-            check_passed: census.chains().all(|chain| chain.check.is_ok()),
             unit: row.and(system.as_row()).map(|row| EnergyUnit::of(row.problem().chain())),
             parts: census.parts.iter().map(|part| Part::of(system, part)).collect(),
             seconds: census.seconds,
@@ -218,7 +215,7 @@ impl Summary {
     /// Whether every equilibrium is known, and passed the check.
     #[must_use]
     pub fn is_decided(&self) -> bool {
-        self.check_passed && self.decided
+        self.decided && self.chains().all(|chain| chain.check.passed)
     }
 }
 

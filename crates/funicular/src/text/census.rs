@@ -115,17 +115,12 @@ fn overview(answer: &CensusAnswer) -> String {
         let e = &found.equilibrium;
         let in_space = format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space);
         let index = e.stability.index_in_plane.unwrap_or_default();
-        let cells = match &found.in_row {
-            Some(InRow { signs, in_plane, .. }) => vec![
-                significant(e.energy_j, ENERGY_DIGITS),
-                pattern(signs),
-                format!("{} ({index})", word(in_plane)),
-                in_space,
-            ],
-            None => {
-                let lowest_m = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
-                vec![long(e.energy_j), in_space, short(lowest_m)]
-            }
+        let cells = if let Some(InRow { signs, in_plane, .. }) = &found.in_row {
+            let energy = significant(e.energy_j, ENERGY_DIGITS);
+            vec![energy, pattern(signs), format!("{} ({index})", word(in_plane)), in_space]
+        } else {
+            let lowest_m = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
+            vec![long(e.energy_j), in_space, short(lowest_m)]
         };
         let proof = [format!("{:.0e}", found.box_width()), rung(&e.evidence)];
         rows.add_row(std::iter::once(label).chain(cells).chain(proof));
@@ -231,7 +226,8 @@ fn joints(answer: &CensusAnswer) -> String {
             rows.add_row([first(k, &label), name(system, k), place, held.unwrap_or_default()]);
         }
     }
-    numbers_from(&mut rows, 2);
+    // Vectors may be broken over lines, labels not.
+    numbers_from(&mut rows, 4);
     format!("{rows}\n\n")
 }
 

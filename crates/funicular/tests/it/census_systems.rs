@@ -112,6 +112,9 @@ fn a_bridle_with_a_long_strand_has_its_list() {
     let path = path.to_str().unwrap();
     let text = stdout(&funicular(&[path]));
     assert!(text.contains("pulls of the strands"), "{text}");
+    // Names stay whole where places do not fit beside them.
+    assert!(text.lines().any(|line| line.contains("lamp-A.1") && line.contains('(')), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     // What is too long is told with its time.
     let output = funicular(&[path, "--max-bars", "5"]);
     assert_eq!(output.status.code(), Some(2));

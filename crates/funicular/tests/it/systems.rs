@@ -423,8 +423,12 @@ fn pictures_are_seen_from_where_one_asks() {
             );
         }
     }
-    let chain = run(&folder, &["census", "--case", "two-bars", "--svg", "c.svg", "--view", "top"]);
-    assert_eq!(chain.status.code(), Some(2), "each in its own plane");
+    // The shapes of one row side by side; from above each alone.
+    let row = ["census", "--case", "two-bars", "--svg", "row.svg"];
+    for (more, file) in [(&[][..], "row.svg"), (&["--view", "top"], "row-2.svg")] {
+        assert_eq!(run(&folder, &[&row, more].concat()).status.code(), Some(0));
+        assert!(folder.join(file).exists(), "{file}");
+    }
     for command in ["solve", "census", "modes"] {
         let output = run(&folder, &[command, "--case", "bridle", "--view", "top"]);
         assert_eq!(output.status.code(), Some(2), "a view without a picture");

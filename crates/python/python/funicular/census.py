@@ -24,9 +24,9 @@ class Census(Result):
     """All equilibria, stable or not, by energy, and what is known of the list.
 
     ``complete``: whether it is proved that there is no other. ``summary``: the numbers of the list (``count``,
-    ``circles``, ``decided``, ``undecided_boxes``, ``check_passed``, and of each of the ``parts`` the ``chain`` or the
-    ``net``). A census is a sequence of :class:`Equilibrium`; what only the census of one row of bars knows of one stands
-    in its ``data`` (``label``, ``signs``, ``enclosures``, ...).
+    ``circles``, ``decided``, ``undecided_boxes``, and of each of the ``parts`` the ``chain`` or the ``net``). A census is
+    a sequence of :class:`Equilibrium`; what only the census of one row of bars knows of one stands in its ``data``
+    (``label``, ``signs``, ``enclosures``, ...).
 
     >>> import funicular as fn
     >>> c = fn.System.case("three-equal-bars").census()

@@ -19,8 +19,12 @@ pub(super) fn weights_kg(
     }
     let (mut wanted, mut bears) =
         (vec![false; system.joints().len()], vec![false; system.members().len()]);
-    joints.iter().for_each(|joint| wanted[*joint] = true);
-    own.iter().for_each(|member| bears[*member] = true);
+    for joint in joints {
+        wanted[*joint] = true;
+    }
+    for member in own {
+        bears[*member] = true;
+    }
     for (member, bears) in system.members().iter().zip(bears) {
         let length_m = member.body.length_m();
         for (joint, is_start) in [(member.from, true), (member.to, false)] {
