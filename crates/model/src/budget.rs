@@ -193,7 +193,7 @@ pub const BYTES_PER_MEMBER_READ: u64 = 640;
 pub const BYTES_PER_EQUAL_MEMBER_READ: u64 = 175;
 
 /// The same from the file to the answers of both solvers, of a row of rigid bars between two anchors:
-/// 400 are measured of a million.
+/// 415 are measured of a million.
 pub const BYTES_PER_MEMBER_IN_ROW: u64 = 460;
 
 /// The same in other systems, and of any where it moves, is varied or has derivatives: 2,950 in a row of

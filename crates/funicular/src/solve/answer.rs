@@ -200,7 +200,7 @@ impl SolveAnswer {
                 }
                 if roped {
                     let names = member.via().iter().map(|k| self.system.joints()[*k].name.text());
-                    write!(to, ",{}", quoted(&names.collect::<Vec<_>>().join(" ")))?;
+                    write!(to, ",{}", quoted(names.collect::<Vec<_>>().join(" ")))?;
                 }
                 writeln!(to)?;
             }

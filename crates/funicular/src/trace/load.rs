@@ -372,7 +372,7 @@ impl LoadPaths {
         }
         for joint in self.system.joints() {
             for axis in ["x", "y", "z"] {
-                write!(to, ",{}", quoted(&format!("{}_{axis}_m", joint.name)))?;
+                write!(to, ",{}", quoted(format!("{}_{axis}_m", joint.name)))?;
             }
         }
         for bar in 1..=self.system.members().len() {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use model::budget::{BYTES_PER_MEMBER, BYTES_PER_MEMBER_IN_ROW};
-use model::system_file::BYTES_PER_BAR;
+use model::system_file::{BYTES_PER_BAR, BYTES_PER_BAR_OF_FILE};
 
 /// What is said is at most so many tenths of what is measured.
 const TENTHS: u64 = 14;
@@ -80,7 +80,7 @@ fn a_chain_of_different_bars_takes_what_is_said() {
     let text = chain(BARS);
     let anchors = text.lines().next().unwrap();
     fs::write(folder.join("bars.toml"), format!("{anchors}\nbars_file = \"bars.csv\"\n")).unwrap();
-    is_as_said(&folder, "bars.toml", BARS, BYTES_PER_BAR, 2 * TENTHS);
+    is_as_said(&folder, "bars.toml", BARS, BYTES_PER_BAR_OF_FILE, TENTHS);
 }
 
 #[test]

@@ -196,6 +196,7 @@ impl Row {
     }
 
     /// The joints of the system in the order of the chain.
+    #[must_use]
     pub fn joints(&self) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
         self.joints.iter().map(|joint| *joint as usize)
     }

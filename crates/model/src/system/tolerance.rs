@@ -106,7 +106,7 @@ impl Member {
     /// use model::{Bar, system::Member};
     /// let cable = Member::cable(0, 1, Bar::homogeneous(5.0, 2.0)?).with_stiffness(1e6);
     /// let within = cable.clone().with_tolerances(Some(0.05), Some(0.1))?;
-    /// assert_eq!(within.tolerances.map(|t| (t.stiffness(), t.mass_kg())), Some((0.05, 0.1)));
+    /// assert_eq!(within.tolerances.as_ref().map(|t| (t.stiffness(), t.mass_kg())), Some((0.05, 0.1)));
     /// assert!(cable.with_tolerances(None, Some(3.0)).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -160,7 +160,7 @@ impl Joint {
     /// ```
     /// use model::system::Joint;
     /// let anchor = Joint::anchor("A", [0.0; 3]).with_tolerances(None, Some(1e-3), None)?;
-    /// assert_eq!(anchor.tolerances.map(|t| t.at_m()), Some(1e-3));
+    /// assert_eq!(anchor.tolerances.as_ref().map(|t| t.at_m()), Some(1e-3));
     /// assert!(Joint::free("P").with_tolerances(None, Some(1e-3), None).is_err());
     /// # Ok::<(), model::system::ToleranceError>(())
     /// ```

@@ -13,10 +13,10 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
 /// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes, where it is one of
-/// a `count`: 390 are measured of a million.
+/// a `count`: 385 are measured of a million.
 pub const BYTES_PER_BAR: u64 = 460;
 
-/// The same where bars are in a file of their own, each with its numbers: 560 are measured of a million.
+/// The same where bars are in a file of their own, each with its numbers: 550 are measured of a million.
 pub const BYTES_PER_BAR_OF_FILE: u64 = 640;
 
 /// Memory that a byte of a system file needs while it is parsed, bytes: at most 67 are measured, of

@@ -146,6 +146,8 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
     reading.joints_of_file()?;
     reading.drawn = reading.joints.iter().any(|joint| joint.near_m.is_some());
     reading.bars()?;
+    // By number from here on: what is not needed any more makes room.
+    reading.numbers = HashMap::new();
     reading.finish(name, gravity)
 }
 
@@ -345,19 +347,8 @@ impl Reading<'_> {
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
-        let Self {
-            root,
-            mut joints,
-            joint_spans,
-            members,
-            tables,
-            joints_file,
-            bars_file,
-            numbers,
-            ..
-        } = self;
-        // By number from here on.
-        drop(numbers);
+        let Self { root, mut joints, joint_spans, members, tables, joints_file, bars_file, .. } =
+            self;
         let names: Vec<Name> =
             joints.iter().take(joint_spans.len()).map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.
