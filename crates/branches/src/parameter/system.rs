@@ -159,7 +159,7 @@ pub(crate) struct UncheckedMember {
 
 impl UncheckedMember {
     fn new(member: &Member) -> Self {
-        let body = UncheckedBar::new(&member.given_body());
+        let body = UncheckedBar::new(member.given_body());
         let prestress_n = member.prestress_n();
         Self { member: member.clone(), is_changed: false, body, prestress_n }
     }
