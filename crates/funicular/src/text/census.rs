@@ -306,7 +306,7 @@ fn chains(answer: &CensusAnswer) -> String {
         let Some(chain) = &part.chain else { continue };
         if let (None, [first, .., last]) = (answer.row(), &chain.joints[..]) {
             let (the, count) = (the(&proven.slack), chain.count_in_plane);
-            let [first, last] = [first, last].map(|name| Printable(name));
+            let [first, last] = [first, last].map(Printable);
             let _ = writeln!(text, "{the} chain from {first} to {last} has {count} in the plane.");
         }
         text += &census_chain::text(chain);
