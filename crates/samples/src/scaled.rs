@@ -24,6 +24,7 @@ use model::{Bar, Vector};
 #[must_use]
 pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
     let force = mass * gravity;
+    let given = |within: f64| (within > 0.0).then_some(within);
     let times = |vector: Vector, factor: f64| vector.map(|x| x * factor);
     let joints = system.joints().iter().map(|joint| {
         let mut support = joint.support;
@@ -33,17 +34,21 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
                 *at_m = times(*at_m, length);
             }
         }
-        Joint {
+        let scaled = Joint {
             support,
             mass_kg: joint.mass_kg * mass,
             force_n: times(joint.force_n, force),
             near_m: joint.near_m.map(|at_m| times(at_m, length)),
             ..Joint::free(joint.name.clone())
-        }
+        };
+        let within = joint.tolerances.as_deref().copied().unwrap_or_default();
+        let [by_kg, by_m, by_n] =
+            [within.mass_kg() * mass, within.at_m() * length, within.force_n() * force];
+        scaled.with_tolerances(given(by_kg), given(by_m), given(by_n)).expect("as before")
     });
     let members = system.members().iter().map(|member| {
-        let given = member.clone().as_given();
-        let bar = &given.body;
+        let original = member.clone().as_given();
+        let bar = &original.body;
         let inertia = bar.given_inertia_kg_m2().map(|x| times(x, mass * length * length));
         let centre_m = bar.given_centre_m().map(|x| x * length);
         let body = Bar::given(bar.length_m() * length, bar.mass_kg() * mass, centre_m, inertia);
@@ -51,15 +56,19 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             at_m: load.at_m * length,
             force_n: times(load.force_n, force),
         };
-        let within_m = given.length_tolerance_m().map(|within_m| within_m * length);
+        let within_m = original.length_tolerance_m().map(|within_m| within_m * length);
+        let within = original.tolerances.as_deref().copied().unwrap_or_default();
         let mut scaled = Member {
             body: body.expect("a bar in other units"),
-            stiffness_n: given.stiffness_n.map(|stiffness_n| stiffness_n * force),
-            loads: given.loads.iter().map(load).collect(),
+            stiffness_n: original.stiffness_n.map(|stiffness_n| stiffness_n * force),
+            loads: original.loads.iter().map(load).collect(),
             tolerances: None,
-            ..given
+            ..original
         };
         scaled.set_length_tolerance(within_m);
+        let scaled =
+            scaled.with_tolerances(given(within.stiffness()), given(within.mass_kg() * mass));
+        let scaled = scaled.expect("as before");
         match member.prestress_n() {
             Some(prestress_n) => scaled.with_prestress(prestress_n * force).expect("as before"),
             None => scaled,
