@@ -3,15 +3,11 @@
 use nalgebra::DVector;
 
 use crate::curve::{Curve, CurveEnd, Turn};
-use crate::equations::{RESIDUAL, correct, residual};
+use crate::equations::{RESIDUAL, residual};
 use crate::event::EventKind;
 use crate::locate::{crossing_on_chord, on_chord};
 use crate::observables::{Observables, STRAIGHT};
 use crate::path::Path;
-
-/// Halvings of a piece of a curve on which several indices change; what is left is below all
-/// tolerances.
-const HALVINGS: usize = 40;
 
 /// At a border with a chain more singular than this the indices are those of the points before it.
 const SINGULAR: f64 = 1e-7;
@@ -136,52 +132,25 @@ fn turn_kind(turn: Turn) -> EventKind {
     }
 }
 
-/// The points of an arc with those in between at which an index or a sign changes; `sure` becomes
+/// The points of an arc with those in between at which an index or a sign changes, in their order; `sure` becomes
 /// false if one cannot be located.
 fn happenings(path: &Path<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec<ArcPoint> {
+    let position = |point: &ArcPoint| point.y[point.y.len() - 1];
     let mut all: Vec<ArcPoint> = vec![];
     for point in along {
         if let Some(before) = all.last() {
-            let mut between = vec![];
-            *sure &= between_points(path, before, &point, HALVINGS, &mut between);
-            all.extend(between);
+            let rising = position(before) <= position(&point);
+            let (mut located, located_all) = changes(path, before, &point);
+            located.sort_by(|a, b| {
+                let order = position(a).total_cmp(&position(b));
+                if rising { order } else { order.reverse() }
+            });
+            *sure &= located_all;
+            all.extend(located);
         }
         all.push(point);
     }
     all
-}
-
-/// What happens between two points, in its order along the curve; whether all of it is located.
-fn between_points(
-    path: &Path<'_>,
-    a: &ArcPoint,
-    b: &ArcPoint,
-    halvings: usize,
-    found: &mut Vec<ArcPoint>,
-) -> bool {
-    let several = |a: usize, b: usize| a.abs_diff(b) > 1;
-    let many = several(a.seen.index_in_plane, b.seen.index_in_plane)
-        || (comparable(path, a, b)
-            && several(a.seen.index_out_of_plane, b.seen.index_out_of_plane));
-    if many && halvings > 0 {
-        let chord = &b.y - &a.y;
-        let row = &chord / chord.norm();
-        let Some(y) = correct(path, &a.y + 0.5 * &chord, &row) else { return false };
-        let seen = Observables::at(&path.plane(y[y.len() - 1]), &y);
-        let middle = ArcPoint { y, seen, happens: None };
-        let first = between_points(path, a, &middle, halvings - 1, found);
-        let second = between_points(path, &middle, b, halvings - 1, found);
-        return first && second;
-    }
-    let (mut located, sure) = changes(path, a, b);
-    let rising = a.y[a.y.len() - 1] <= b.y[b.y.len() - 1];
-    located.sort_by(|a, b| {
-        let last = a.y.len() - 1;
-        let order = a.y[last].total_cmp(&b.y[last]);
-        if rising { order } else { order.reverse() }
-    });
-    found.extend(located);
-    sure
 }
 
 /// Whether the indices out of the plane of two points mean the same: on one vertical the turn about
@@ -191,7 +160,15 @@ fn comparable(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> bool {
     path.frames.always_vertical || !(vertical(a) || vertical(b))
 }
 
+/// What happens between two points, and whether all of it is located: not where an index changes by more than one,
+/// which shorter steps tell apart.
 fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool) {
+    let in_plane = a.seen.index_in_plane.abs_diff(b.seen.index_in_plane);
+    let out_of_plane = a.seen.index_out_of_plane.abs_diff(b.seen.index_out_of_plane);
+    let out_of_plane = if comparable(path, a, b) { out_of_plane } else { 0 };
+    if in_plane.max(out_of_plane) > 1 {
+        return (vec![], false);
+    }
     let see = |y: &DVector<f64>| Observables::at(&path.plane(y[y.len() - 1]), y);
     let locate =
         |test: &dyn Fn(&Observables) -> f64| on_chord(path, &a.y, &b.y, |y, _| Some(test(&see(y))));
@@ -210,19 +187,14 @@ fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool)
         seen.index_out_of_plane = a.seen.index_out_of_plane;
         found.push(ArcPoint { y, seen, happens: Some(kind) });
     };
-    // Several indices that change in one point, or what is left of one after all halvings.
-    let whole = |change: usize| (change > 1).then(|| b.y.clone());
-    let in_plane = a.seen.index_in_plane.abs_diff(b.seen.index_in_plane);
     if in_plane > 0 {
-        let crossing = whole(in_plane)
-            .or_else(|| crossing_on_chord(path, &a.y, &b.y, |y, _| Some(see(y).plane_test)));
+        let crossing = crossing_on_chord(path, &a.y, &b.y, |y, _| Some(see(y).plane_test));
         add(crossing, EventKind::BranchPoint);
     }
-    let out_of_plane = a.seen.index_out_of_plane.abs_diff(b.seen.index_out_of_plane);
-    if comparable(path, a, b) && out_of_plane > 0 {
+    if out_of_plane > 0 {
         let kind =
             EventKind::SpaceExchange { from: a.seen.index_in_space(), to: b.seen.index_in_space() };
-        add(whole(out_of_plane).or_else(|| locate(&|seen| seen.space_test)), kind);
+        add(locate(&|seen| seen.space_test), kind);
     }
     // On one line the chain carries forces that are infinite or indeterminate: their signs say
     // nothing.

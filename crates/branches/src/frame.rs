@@ -63,7 +63,7 @@ impl Frames {
 
     /// The horizontal span with its sign, in the interval of this number.
     pub(crate) fn signed(&self, interval: usize, span: [f64; 2]) -> f64 {
-        match self.intervals[interval.min(self.intervals.len() - 1)] {
+        match self.intervals[interval] {
             Interval::Fixed(direction) => dot(direction, span),
             Interval::Turning(sign) => sign * span[0].hypot(span[1]),
         }

@@ -6,6 +6,7 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::constraints::{PER_BAR, bar_coordinates};
+use crate::larger::larger;
 use crate::mechanism::Mechanism;
 use crate::multipliers::all_multipliers;
 use crate::newton::Equations;
@@ -64,8 +65,7 @@ impl Equations for Dense<'_> {
             } else {
                 force / bars
             };
-            let relative = (value / unit).abs();
-            if relative <= largest || largest.is_nan() { largest } else { relative }
+            larger(largest, (value / unit).abs())
         })
     }
 

@@ -90,6 +90,7 @@ mod dense;
 mod effort;
 mod error;
 mod indeterminate;
+mod larger;
 mod load;
 mod mechanism;
 mod multipliers;

@@ -11,6 +11,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::larger::larger;
 use crate::mechanism::Mechanism;
 use crate::rotation::Frame;
 
@@ -130,9 +131,7 @@ impl Point {
     }
 }
 
-/// The larger of a number and the entries of a vector; unlike `f64::max` it keeps a NaN.
+/// The larger of a number and the entries of a vector.
 fn largest_entry(start: f64, vector: &Vector3<f64>) -> f64 {
-    vector.iter().fold(start, |largest, entry| {
-        if entry.abs() <= largest || largest.is_nan() { largest } else { entry.abs() }
-    })
+    vector.iter().map(|entry| entry.abs()).fold(start, larger)
 }

@@ -9,6 +9,7 @@ use crate::constraints::{
     PER_BAR, bar_coordinates, constraint_forces_of, constraint_functions_of, constraint_matrix_of,
     entries,
 };
+use crate::larger::larger;
 use crate::load::load_vector_of;
 use crate::mechanism::{Mechanism, Units};
 use crate::rotation::direction_hessian;
@@ -138,8 +139,6 @@ pub fn relative_residual(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>)
         } else {
             units.weight * units.length
         };
-        let relative = (value / unit).abs();
-        // `f64::max` would lose a NaN.
-        if relative.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(relative) }
+        larger(largest, (value / unit).abs())
     })
 }

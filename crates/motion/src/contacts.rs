@@ -305,6 +305,19 @@ mod tests {
             let found = contacts.gap_at(contact, &at(1.0));
             assert!((found - gap).abs() < 1e-15, "{contact:?}: {found}, not {gap}");
         }
+        // Along (0, 0, -1.5) and (-4, 0, -3), over 2 m and 4 m; with accelerations the square of the speed, 4.3125.
+        let mechanism =
+            Mechanism::for_motion(&contacts.held().unwrap(), system.reference_m()).unwrap();
+        let mut state = State::at_rest(mechanism.places(&at(1.0)).unwrap());
+        let slot = mechanism.slot_of[1];
+        state.velocity[slot] = [0.5, -0.25, 2.0];
+        assert_eq!(contacts.rates(&mechanism, &state), [1.5, -2.0, 2.0]);
+        let mut acceleration = vec![[0.0; 3]; 3];
+        acceleration[slot] = [1.0, 2.0, -3.0];
+        assert_eq!(
+            contacts.accelerations(&mechanism, &state, &acceleration),
+            [-8.8125 / 2.0, 9.3125 / 4.0, -3.0]
+        );
         // Below the floor by less than what may be, and by more.
         for (part, held) in [(0.5, false), (2.0, true)] {
             let below = at(-0.25 - part * CLOSED * 6.0);

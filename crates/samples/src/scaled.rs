@@ -24,6 +24,7 @@ use model::{Bar, Vector};
 #[must_use]
 pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
     let force = mass * gravity;
+    let given = |within: f64| (within > 0.0).then_some(within);
     let times = |vector: Vector, factor: f64| vector.map(|x| x * factor);
     let joints = system.joints().iter().map(|joint| {
         let mut support = joint.support;
@@ -33,15 +34,19 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
                 *at_m = times(*at_m, length);
             }
         }
-        Joint::free(joint.name.to_string())
+        let scaled = Joint::free(joint.name.to_string())
             .held_by(support)
             .with_mass(joint.mass_kg * mass)
             .with_force(times(joint.force_n, force))
-            .drawn(joint.near_m.map(|at_m| times(at_m, length)))
+            .drawn(joint.near_m.map(|at_m| times(at_m, length)));
+        let within = joint.tolerances.as_deref().copied().unwrap_or_default();
+        let [by_kg, by_m, by_n] =
+            [within.mass_kg() * mass, within.at_m() * length, within.force_n() * force];
+        scaled.with_tolerances(given(by_kg), given(by_m), given(by_n)).expect("as before")
     });
     let members = system.members().iter().map(|member| {
-        let given = member.clone().as_given();
-        let bar = &given.body;
+        let original = member.clone().as_given();
+        let bar = &original.body;
         let inertia = bar.given_inertia_kg_m2().map(|x| times(x, mass * length * length));
         let centre_m = bar.given_centre_m().map(|x| x * length);
         let body = Bar::given(bar.length_m() * length, bar.mass_kg() * mass, centre_m, inertia);
@@ -49,13 +54,17 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             at_m: load.at_m * length,
             force_n: times(load.force_n, force),
         };
-        let within_m = given.length_tolerance_m().map(|within_m| within_m * length);
-        let stiffness_n = given.stiffness_n.map(|stiffness_n| stiffness_n * force);
-        let loads = given.loads.iter().map(load).collect();
-        let mut scaled = given.clone().stretching(stiffness_n).with_loads(loads);
+        let within_m = original.length_tolerance_m().map(|within_m| within_m * length);
+        let within = original.tolerances.as_deref().copied().unwrap_or_default();
+        let stiffness_n = original.stiffness_n.map(|stiffness_n| stiffness_n * force);
+        let loads = original.loads.iter().map(load).collect();
+        let mut scaled = original.clone().stretching(stiffness_n).with_loads(loads);
         scaled.body = body.expect("a bar in other units");
         scaled.tolerances = None;
         scaled.set_length_tolerance(within_m);
+        let scaled =
+            scaled.with_tolerances(given(within.stiffness()), given(within.mass_kg() * mass));
+        let scaled = scaled.expect("as before");
         match member.prestress_n() {
             Some(prestress_n) => scaled.with_prestress(prestress_n * force).expect("as before"),
             None => scaled,

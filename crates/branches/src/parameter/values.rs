@@ -191,3 +191,27 @@ fn points(text: &str, span: Range<usize>) -> Result<usize, ParameterError> {
         )),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lists, ranges with both ends, and both; what is none is told with its place.
+    #[test]
+    fn counts_are_lists_and_ranges() {
+        let values = |text: &str| text.parse::<Parameter>().map(|found| found.values);
+        assert_eq!(values("bars.1.count=12, 2 , 5..7").unwrap(), [12.0, 2.0, 5.0, 6.0, 7.0]);
+        assert_eq!(values("bars.1.count=3..3,1").unwrap(), [3.0, 1.0]);
+        for (text, wrong) in [
+            ("bars.1.count=2,0,4", "character 16: `0`"),
+            ("bars.1.count=2,3..x", "character 19: `x`"),
+            ("bars.1.count=2,7..5", "character 16: `7..5`"),
+            ("bars.1.count=1..1000001", "character 14: `1..1000001`"),
+            ("bars.1.count=1..1000000,1", "character 14: `1..1000000,1`"),
+        ] {
+            let error = values(text).unwrap_err().to_string();
+            assert!(error.contains(wrong), "{error}");
+        }
+        assert_eq!(values("bars.1.count=1..1000000").unwrap().len(), MAX_POINTS);
+    }
+}

@@ -16,6 +16,16 @@ fn attribute(line: &str, name: &str) -> f64 {
     rest.split_once('"').unwrap().0.parse().unwrap()
 }
 
+/// The corners of a line or an area.
+fn corners(line: &str) -> Vec<[f64; 2]> {
+    let (_, rest) = line.split_once("points=\"").unwrap();
+    let pair = |text: &str| {
+        let (x, y) = text.split_once(',').unwrap();
+        [x.parse().unwrap(), y.parse().unwrap()]
+    };
+    rest.split_once('"').unwrap().0.split(' ').map(pair).collect()
+}
+
 /// Level anchors from 1.1 m to 1.3 m apart, on 770 pixels with a margin of 2 % of the range on both sides.
 #[test]
 fn folds_stand_where_the_distance_is_the_root_of_three_halves() {
@@ -40,6 +50,19 @@ fn folds_stand_where_the_distance_is_the_root_of_three_halves() {
         for (circle, fold) in circles[..4].iter().zip(&folds) {
             let part = (fold.energy_j - low + 0.05 * (high - low)) / (1.1 * (high - low));
             assert!((attribute(circle, "cy") - (400.0 - 310.0 * part)).abs() < 0.01);
+        }
+        // Every point is a corner of its line in either panel.
+        let lines = svg.lines().filter(|line| line.contains("<polyline"));
+        let corners: Vec<[f64; 2]> = lines.flat_map(corners).collect();
+        for point in points() {
+            let over = point.values[1];
+            let x = 100.0 + 770.0 * (over - 1.1 + 0.004) / 0.208;
+            let part = (point.energy_j - low + 0.05 * (high - low)) / (1.1 * (high - low));
+            let turned = (point.angles_rad[1].to_degrees() + 190.0) / 380.0;
+            for y in [400.0 - 310.0 * part, 750.0 - 310.0 * turned] {
+                let near = |at: &[f64; 2]| (at[0] - x).abs() < 0.01 && (at[1] - y).abs() < 0.01;
+                assert!(corners.iter().any(near), "{x} {y}");
+            }
         }
         let named = |text: &str| svg.matches(&format!(">{text}<")).count();
         let over = match abscissa {
@@ -73,19 +96,34 @@ fn legends_name_what_is_drawn() {
             ),
             ("unstable", points().any(|p| p.index_in_plane > 0)),
         ];
-        for (name, drawn) in styles {
-            assert_eq!(svg.contains(&format!(">{name}<")), drawn, "{vary:?}: {name}");
-        }
         let exchanges = found.events.iter().any(|event| event.kind.name() == "space-exchange");
-        for (name, drawn) in [
+        let others = [
             ("fold", wanted.contains(&"fold")),
             ("several branches meet", wanted.contains(&"several branches meet")),
             ("branch point", wanted.contains(&"branch point")),
             ("straight chain", wanted.contains(&"straight chain")),
             ("stability in space changes", exchanges),
             ("no chain", wanted.contains(&"no chain")),
-        ] {
-            assert_eq!(svg.contains(&format!(">{name}<")), drawn, "{vary:?}: {name}");
+        ];
+        let mut at =
+            (0..).map(|k| [136.0 + 195.0 * f64::from(k % 4), 831.0 + 26.0 * f64::from(k / 4)]);
+        let line = |holds: &str| svg.lines().rfind(|line| line.contains(holds));
+        for (name, drawn) in styles.into_iter().chain(others) {
+            let text = line(&format!(">{name}<"));
+            assert_eq!(text.is_some(), drawn, "{vary:?}: {name}");
+            let Some(text) = text else { continue };
+            let [x, y] = at.next().unwrap();
+            let found = ["x", "y"].map(|name| attribute(text, name));
+            assert!((found[0] - x).abs() + (found[1] - y).abs() < 0.02, "{text} {x} {y}");
+            // What is left of it.
+            let (mark, wanted) = match name {
+                "fold" => ("<circle", [("cx", x - 20.0), ("cy", y - 5.0)]),
+                "no chain" => (" width=\"24.00\"", [("x", x - 32.0), ("y", y - 12.0)]),
+                _ => continue,
+            };
+            for (name, wanted) in wanted {
+                assert!((attribute(line(mark).unwrap(), name) - wanted).abs() < 0.01, "{mark}");
+            }
         }
     }
 }
@@ -94,14 +132,6 @@ fn legends_name_what_is_drawn() {
 /// level anchors are 2^(2/3) - 1 and 1 from each other, between 0.4 m and 1.1 m.
 #[test]
 fn marks_have_their_corners_around_their_events() {
-    let corners = |line: &str| -> Vec<[f64; 2]> {
-        let (_, rest) = line.split_once("points=\"").unwrap();
-        let pair = |text: &str| {
-            let (x, y) = text.split_once(',').unwrap();
-            [x.parse().unwrap(), y.parse().unwrap()]
-        };
-        rest.split_once('"').unwrap().0.split(' ').map(pair).collect()
-    };
     let angle = |degrees: f64| 750.0 - 310.0 * (degrees + 190.0) / 380.0;
     for (vary, kind, low, high, shape) in [
         (

@@ -118,19 +118,20 @@ impl Equations for Potential {
     }
 }
 
-/// V = z^4/4 - z^2/2 - t z + x^2/2: from z = -1 up to the fold t = 2/(3 sqrt 3), back to the other.
+/// V = 4 (z^4/4 - z^2/2 - t z + x^2/2): from z = -1 up to the fold t = 2/(3 sqrt 3), back to the other.
 #[test]
 fn folds_of_a_cubic() {
     let cubic = Potential::new(
-        |[x, z], t| [x, z.powi(3) - z - t],
-        |[_, z], _| [[1.0, 0.0], [0.0, 3.0 * z * z - 1.0]],
+        |[x, z], t| [4.0 * x, 4.0 * (z.powi(3) - z - t)],
+        |[_, z], _| [[4.0, 0.0], [0.0, 4.0 * (3.0 * z * z - 1.0)]],
     );
     let path = cubic.path([0.0, -1.0], [-1.0, 1.0]).unwrap();
     let fold = 2.0 / 27_f64.sqrt();
     let found: Vec<_> = path.events.iter().map(|event| (event.kind, event.index)).collect();
     assert_eq!(found, [(Kind::Limit, [0, 1]), (Kind::Limit, [1, 0])]);
     for (event, wanted) in path.events.iter().zip([fold, -fold]) {
-        assert!((event.t - wanted).abs() < 1e-12 && event.turns && event.load_on_mode > 0.9);
+        assert!((event.t - wanted).abs() < 1e-12 && event.turns);
+        assert!((event.load_on_mode - 1.0).abs() < 1e-9, "{event:?}");
         assert!(event.mode[0].abs() < 1e-12 && (event.mode[1] - 1.0).abs() < 1e-12);
     }
     assert_eq!((path.end, path.points.last().unwrap().t), (End::Range, 1.0));
@@ -151,17 +152,17 @@ fn a_pitchfork_is_passed_straight_on() {
     assert_eq!(path.points[event.point].event, Some(0));
 }
 
-/// The same: beyond t = 1 the upright one is left by x^2 = z - 1, z = t + x^2 / 2, so that
-/// x^2 / 2 = t - 1, both ways.
+/// The same under t^3, which changes nothing at t = 0: beyond t = 1 the upright one is left by x^2 = z - 1,
+/// z = t^3 + x^2 / 2, so that x^2 / 2 = t^3 - 1, both ways.
 #[test]
 fn both_paths_of_a_pitchfork_are_followed() {
     let pitchfork = || {
         Potential::new(
-            |[x, z], t| [(1.0 - z) * x + x.powi(3), z - t - 0.5 * x * x],
+            |[x, z], t| [(1.0 - z) * x + x.powi(3), z - t.powi(3) - 0.5 * x * x],
             |[x, z], _| [[1.0 - z + 3.0 * x * x, -x], [-x, 1.0]],
         )
     };
-    let paths = pitchfork().paths([0.0, 0.0], [0.0, 2.0], 1).unwrap();
+    let paths = pitchfork().paths([0.0, 0.0], [0.0, 1.5], 1).unwrap();
     assert_eq!(paths.len(), 3);
     let mut sides = vec![];
     for path in &paths[1..] {
@@ -169,13 +170,58 @@ fn both_paths_of_a_pitchfork_are_followed() {
         assert_eq!((path.end.clone(), path.events.len()), (End::Range, 0));
         for point in &path.points {
             let [x, z] = point.record;
-            assert!((0.5 * x * x - (point.t - 1.0)).abs() < 1e-9 && point.index == 0);
+            assert!((0.5 * x * x - (point.t.powi(3) - 1.0)).abs() < 1e-9 && point.index == 0);
             assert!((z - 1.0 - x * x).abs() < 1e-9);
         }
         sides.push(path.points.last().unwrap().record[0].signum());
     }
     assert!(sides.contains(&1.0) && sides.contains(&-1.0));
-    assert_eq!(pitchfork().paths([0.0, 0.0], [0.0, 2.0], 0).unwrap().len(), 1);
+    assert_eq!(pitchfork().paths([0.0, 0.0], [0.0, 1.5], 0).unwrap().len(), 1);
+}
+
+/// V = (1 - t) (x^2 + z^2)/2 + 400 (x^4/4 + x^2 z^2/4 + z^4/2): in t = 1 both give way at once, along each alone with
+/// 400 x^2 = t - 1 and 800 z^2 = t - 1, and along both with x^2 + z^2/2 = (t - 1)/400 = 2 z^2 + x^2/2.
+#[test]
+fn paths_leave_along_both_modes_that_meet() {
+    const STIFF: f64 = 400.0;
+    let double = Potential::new(
+        |[x, z], t| {
+            let [along_x, along_z] = [x * x + 0.5 * z * z, 2.0 * z * z + 0.5 * x * x];
+            [(1.0 - t + STIFF * along_x) * x, (1.0 - t + STIFF * along_z) * z]
+        },
+        |[x, z], t| {
+            let mixed = STIFF * x * z;
+            let own = [3.0 * x * x + 0.5 * z * z, 6.0 * z * z + 0.5 * x * x];
+            [[1.0 - t + STIFF * own[0], mixed], [mixed, 1.0 - t + STIFF * own[1]]]
+        },
+    );
+    let paths = double.paths([0.0, 0.0], [0.0, 2.0], 1).unwrap();
+    let [event] = &paths[0].events[..] else { panic!("{:?}", paths[0].events) };
+    assert_eq!((event.kind, event.index), (Kind::Branch, [0, 2]));
+    let mut leaves: Vec<[i8; 2]> = vec![];
+    for path in &paths[1..] {
+        assert_eq!(path.end, End::Range);
+        let [x, z] = path.points[path.points.len() / 2].record;
+        let way = [x, z].map(|x| i8::from(x > 1e-6) - i8::from(x < -1e-6));
+        for point in &path.points {
+            let ([x, z], load) = (point.record, point.t - 1.0);
+            let wanted = match way {
+                [_, 0] => [load, 0.0],
+                [0, _] => [0.0, 0.5 * load],
+                _ => [1.5 / 1.75 * load, 0.5 / 1.75 * load],
+            };
+            for (x, wanted) in [x, z].into_iter().zip(wanted) {
+                assert!((STIFF * x * x - wanted).abs() < 1e-6, "{way:?}: {x} at {load}");
+            }
+            assert_eq!(point.index, usize::from(way.contains(&0)));
+        }
+        leaves.push(way);
+    }
+    // Not all directions are tried, but none is followed twice.
+    leaves.sort_unstable();
+    let count = leaves.len();
+    leaves.dedup();
+    assert!(count == leaves.len() && count >= 6, "{leaves:?}");
 }
 
 /// V = x^4 / 4 - (z - 1) (2 - z) x^2 / 2 + z^2 / 2 - t z: the upright path is left in t = 1 by

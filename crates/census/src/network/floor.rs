@@ -88,3 +88,32 @@ fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval
     }
     pushes
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member};
+
+    use super::*;
+
+    /// Members of 2 m, 5 m and 8 m, 5 m on the average: joints lie on the floor up to 0.5 µm above it.
+    #[test]
+    fn joints_lie_by_the_mean_length_of_members() {
+        let mut joints = vec![Joint::anchor("A", [0.0, 0.0, 3.0])];
+        joints.extend((1..4).map(|k| Joint::free(k.to_string()).with_mass(1.0)));
+        let member =
+            |(k, length_m)| Member::bar(k, k + 1, Bar::homogeneous(length_m, 0.0).unwrap());
+        let members = [2.0, 5.0, 8.0].into_iter().enumerate().map(member).collect();
+        let system = System::new("floor", 10.0, joints, members).unwrap();
+        let at =
+            [[0.0, 0.0, 3.0], [1.0, 0.0, 0.9e-7 * 5.0], [6.0, 0.0, 1.1e-7 * 5.0], [9.0, 0.0, -1.0]];
+        let at = at.map(|[x, y, z]| [x, y, z + 1.0]);
+        let (laid, lies) = laid(&system, 1.0, &at).unwrap();
+        assert_eq!(lies, [false, true, false, true]);
+        let supports = laid.joints()[1..].iter().map(|joint| joint.support);
+        for ((support, lies), at_m) in supports.zip(&lies[1..]).zip(&at[1..]) {
+            let plane = Support::Plane { at_m: [at_m[0], at_m[1], 1.0], normal: [0.0, 0.0, 1.0] };
+            assert_eq!(support, if *lies { plane } else { Support::Free });
+        }
+    }
+}

@@ -74,6 +74,7 @@ fn places_and_pulls_give_the_same_list() {
         let by_places = taken(&system);
         let by_pulls = SystemCensus::take(&system, &by_pulls()).unwrap();
         assert!(by_places.complete && by_pulls.complete, "{bars:?}");
+        assert_ne!(by_places.cells(), by_pulls.cells(), "{bars:?}");
         assert_eq!(by_places.equilibria.len(), by_pulls.equilibria.len(), "{bars:?}");
         for (a, b) in by_places.equilibria.iter().zip(&by_pulls.equilibria) {
             assert!(!a.energy_j.disjoint(b.energy_j) && a.index_in_space == b.index_in_space);
@@ -93,9 +94,9 @@ fn work_of_small_bridles() {
     }
     let expected = [
         ([2, 1, 1], [2, 0, 2, 1533, 19154, -94, -90]),
-        ([2, 2, 1], [2, 0, 4, 912, 34245, -96, -88]),
-        ([3, 1, 1], [6, 0, 12, 1797, 45098, -282, -244]),
-        ([3, 2, 1], [2, 0, 6, 2172, 51133, -94, -81]),
+        ([2, 2, 1], [2, 0, 4, 912, 34245, -96, -90]),
+        ([3, 1, 1], [6, 0, 12, 1797, 45098, -282, -250]),
+        ([3, 2, 1], [2, 0, 6, 2172, 51133, -94, -82]),
     ];
     assert_frozen(&found[..], &expected);
 }

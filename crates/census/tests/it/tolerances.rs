@@ -89,6 +89,25 @@ fn a_hanger_of_two_bars_has_the_ranges_of_its_closed_form() {
     assert!((by_n - change).abs() < 1e-2 * change.abs(), "{by_n} {change}");
 }
 
+/// Of a bar of 2 kg ± 0.1 kg with its centre 1 m from the anchor a fifth hangs on the joint: 124 N ± 0.2 N on two bars
+/// alike, and four fifths on the anchor.
+#[test]
+fn masses_of_members_act_at_both_ends() {
+    let system = hanger(1e-9, None);
+    let heavy = Member::bar(0, 2, Bar::given(5.0, 2.0, Some(1.0), None).unwrap());
+    let light = Member::bar(1, 2, Bar::homogeneous(5.0, 0.0).unwrap());
+    let members = vec![heavy.with_tolerances(None, Some(0.1)).unwrap(), light];
+    let system = System::new("heavy", 10.0, system.joints().to_vec(), members).unwrap();
+    let found = prove_ranges(&system, &HANGS, &[77.5; 2], &[]).unwrap();
+    let axial = [123.8, 124.2].map(|load_n| load_n / 2.0 * 5.0 / 4.0);
+    for range in &found.axial_n {
+        is(*range, axial[0], axial[1], 120.0);
+    }
+    let up = |anchor: usize| found.reactions_n[anchor].unwrap()[2];
+    is(up(0), 61.9 + 15.2, 62.1 + 16.8, 120.0);
+    is(up(1), 61.9, 62.1, 120.0);
+}
+
 /// A horizontal force turns the plane of the hanger: across it the place is as far as the force leans.
 #[test]
 fn a_side_force_is_a_range_too() {
@@ -436,5 +455,57 @@ fn a_ring_on_a_rope_has_the_ranges_of_its_closed_form() {
         // The pulley at B holds what its span pulls.
         let up = found.reactions_n[1].unwrap()[2].guaranteed;
         assert!(up[0] < 50.0 && up[1] > 50.0 && up[0] > 49.0 && up[1] < 51.0, "{up:?}");
+    }
+}
+
+/// Lengths, masses and gravity times powers of two: not a digit of a range changes but by them.
+#[test]
+fn ranges_scale_without_rounding() {
+    let ring = Joint::free("P").with_mass(10.0).with_tolerances(Some(0.1), None, None).unwrap();
+    let anchor =
+        Joint::anchor("B", [4.0, 0.0, 1.0]).with_tolerances(None, Some(1e-3), None).unwrap();
+    let rope = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()).over(vec![2]);
+    let joints = vec![Joint::anchor("A", [0.0; 3]), anchor, ring];
+    let at = vec![[0.0; 3], [4.0, 0.0, 1.0], [4.0 / 3.0, 0.0, -1.0]];
+    let ring = System::new("ring", 10.0, joints, vec![rope.with_length_tolerance(0.01)]).unwrap();
+    let depth = [Depth { joint: 2, ends: [0, 1] }];
+    let above = hanger(2e-3, Some(1e-3)).with_floor(-9.0).unwrap();
+    for (system, at, axial) in [
+        (ring, at, vec![250.0 / 3.0]),
+        (above, HANGS.to_vec(), vec![75.0; 2]),
+        net(2, 5, 1e-4, 0.01),
+    ] {
+        let found = |[length, mass, gravity]: [f64; 3]| {
+            let scaled = samples::scaled(&system, [length, mass, gravity]);
+            let at: Vec<Vector> = at.iter().map(|x| x.map(|x| x * length)).collect();
+            let axial: Vec<f64> = axial.iter().map(|x| x * mass * gravity).collect();
+            prove_ranges(&scaled, &at, &axial, &depth).unwrap()
+        };
+        let one = found([1.0; 3]);
+        assert!(one.axial_n.iter().all(|range| range.most_by.is_some()));
+        for factors in [[8.0, 1.0, 1.0], [1.0, 0.0625, 4.0], [0.25, 32.0, 0.5]] {
+            let there = found(factors);
+            let (length, force) = (factors[0], factors[1] * factors[2]);
+            // What is nearly nothing has fewer digits.
+            let times = |range: &Range, by: f64| Range {
+                guaranteed: range.guaranteed.map(|x| if x.abs() < 1e-300 { 0.0 } else { x * by }),
+                reached: range.reached.map(|x| x * by),
+                most_by: range.most_by.map(|(number, change)| (number, change * by)),
+                ..*range
+            };
+            let same = |one: &Range, by: f64, other: &Range| {
+                assert_eq!(times(one, by), times(other, 1.0), "{factors:?}");
+            };
+            assert_eq!(one.boxes, there.boxes);
+            one.axial_n.iter().zip(&there.axial_n).for_each(|(a, b)| same(a, force, b));
+            one.depths_m.iter().zip(&there.depths_m).for_each(|(a, b)| same(a, length, b));
+            let places = one.joints_m.as_flattened().iter().zip(there.joints_m.as_flattened());
+            places.for_each(|(a, b)| same(a, length, b));
+            for (a, b) in one.reactions_n.iter().zip(&there.reactions_n) {
+                assert_eq!(a.is_some(), b.is_some());
+                let both = a.iter().flatten().zip(b.iter().flatten());
+                both.for_each(|(a, b)| same(a, force, b));
+            }
+        }
     }
 }

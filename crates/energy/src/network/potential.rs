@@ -35,3 +35,16 @@ impl Gradient for Potential {
         Ok(Arc::new(slope))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::finite;
+
+    #[test]
+    fn what_is_not_finite_is_refused() {
+        assert!(finite(-3.0, "a number").is_ok());
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(finite(value, "a number").is_err(), "{value}");
+        }
+    }
+}

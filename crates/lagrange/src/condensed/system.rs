@@ -9,6 +9,7 @@
 
 use super::kernel::{Bars, aligned, upright, versine_of};
 use super::parallel::Workers;
+use crate::larger::larger;
 use crate::thresholds::{CLOSURE_ROUNDING, SLACK_ROUNDINGS};
 
 /// Axes in which the closure is written.
@@ -137,8 +138,7 @@ impl Closure {
     /// The residual in units of its rounding error.
     pub fn size(&self) -> f64 {
         let [a, b] = [0, 1].map(|k| (self.residual[k] / self.floor[k]).abs());
-        // A NaN stays one: f64::max would drop it.
-        if a >= b || a.is_nan() { a } else { b }
+        larger(a, b)
     }
 
     /// Condition of the derivative of a chain in tension, by its trace and determinant, within a

@@ -21,6 +21,7 @@ use super::newton::{Run, with_held};
 use super::runs::{Runs, Step};
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
+use crate::larger::larger;
 use model::system::Kind;
 
 /// The compliance along a member that the matrix has beside its own, in units of that across: each
@@ -240,8 +241,7 @@ impl<'a> Shape<'a> {
         let left = self.skeleton.unbalance(self.pulls.iter().copied());
         let nodes = self.skeleton.nodes.iter().zip(&left);
         let balance = nodes.map(|(node, left)| node.free.components(left).norm() / unit);
-        // `f64::max` would lose a NaN.
-        spans.chain(balance).fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
+        spans.chain(balance).fold(0.0, larger)
     }
 
     /// Whether every force of the runs is far from none. Those of trees follow from loads alone.

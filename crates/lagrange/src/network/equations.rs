@@ -20,6 +20,7 @@ use super::settings::Settings;
 use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::larger::larger;
 
 /// A cable of a drawing that misses its length by less than this part of it is taut.
 const REACHES: f64 = 1e-12;
@@ -191,9 +192,7 @@ impl Equations {
         let rows = self.flat(&residual.forces, &residual.lengths);
         let forces = &rows[..3 * self.framework.nodes.len()];
         let unit = residual.unit.max(1.0);
-        let largest =
-            |most: f64, value: f64| if value > most || value.is_nan() { value } else { most };
-        let size = forces.iter().map(|force| force.abs() / unit).fold(residual.length.0, largest);
+        let size = forces.iter().map(|force| force.abs() / unit).fold(residual.length.0, larger);
         (rows, size)
     }
 

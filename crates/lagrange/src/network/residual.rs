@@ -6,6 +6,7 @@ use super::decided::Decided;
 use super::error::Error;
 use super::framework::Framework;
 use super::state::State;
+use crate::larger::larger;
 use model::system::System;
 
 /// Balance is measured against the loads of a joint (the mean load where it has none), or where the forces in its members are far
@@ -79,8 +80,7 @@ impl Residual {
 
     /// The larger of the two, dimensionless.
     pub fn size(&self) -> f64 {
-        // `f64::max` would lose a NaN.
-        if self.balance.0.is_nan() { self.balance.0 } else { self.balance.0.max(self.length.0) }
+        larger(self.balance.0, self.length.0)
     }
 
     /// The error of a solve that ends here.

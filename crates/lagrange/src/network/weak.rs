@@ -17,6 +17,7 @@ use super::newton::{Derivative, Run};
 use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
+use crate::larger::larger;
 
 /// Forces that are right to this part of the largest need nothing more.
 const SETTLED: f64 = 1e-10;
@@ -112,10 +113,7 @@ fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place>
 fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
     let elastic = framework.links.iter().zip(misfits).filter(|(link, _)| link.compliance > 0.0);
     let forces = elastic.map(|(link, misfit)| misfit.abs() / link.compliance / run.residual.unit);
-    forces.fold(
-        run.residual.balance.0,
-        |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) },
-    )
+    forces.fold(run.residual.balance.0, larger)
 }
 
 /// How much longer than unstretched a member is, right to rounding of this small number.

@@ -254,13 +254,19 @@ fn refusals() {
         Joint::free("P").with_mass(1.0),
     ];
     let members = vec![bar(0, 1, 1.0, 1.0), bar(0, 2, 2.0, 0.0)];
-    let system = System::new("held", 9.80665, joints, members).unwrap();
+    let system = System::new("held", 9.80665, joints.clone(), members).unwrap();
     let solution = hang(&system);
     let mut derivatives = Derivatives::new(&system, &solution).unwrap();
     let moved = derivatives.change(Parameter::Anchor { joint: 1, axis: 0 });
     assert!(matches!(moved, Err(Error::NoDerivative { .. })), "{moved:?}");
     let moved = derivatives.change(Parameter::Anchor { joint: 2, axis: 0 });
     assert_eq!(moved, Err(Error::NotAnAnchor { joint: "P".into() }));
+    // A slack cable lets them.
+    let slack = vec![cable(0, 1, 3.0, 0.0), bar(0, 2, 2.0, 0.0)];
+    let slack = System::new("slack", 9.80665, joints, slack).unwrap();
+    let mut moved = Derivatives::new(&slack, &hang(&slack)).unwrap();
+    let moved = moved.change(Parameter::Anchor { joint: 1, axis: 0 }).unwrap();
+    close(moved.joints_m[1][0], 1.0);
     // A pendulum: sideways force moves it by l / W.
     let aside = derivatives.change(Parameter::Force { joint: 2, axis: 1 }).unwrap();
     close(aside.joints_m[2][1], 2.0 / 9.80665);

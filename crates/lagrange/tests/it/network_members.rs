@@ -250,3 +250,26 @@ fn a_cable_that_pushes_a_little_is_slack() {
         assert!((axial[1] - pull_n).abs() < 1e-13, "{axial:?}");
     }
 }
+
+/// Weights between two anchors on one vertical each, where their bars fit one place alone. The least forces, by `sum F² l`
+/// those of two springs, push more than they pull, `W (l2/l1 - l1/l2)/(l1 + l2) < 0` across, and would let them fall
+/// aside; a self-stress that pulls both bars holds them.
+#[test]
+fn self_stresses_stiffen_what_the_least_forces_let_fall() {
+    let columns = [(2.0, 1.0, 30.0), (1.5, 0.5, 8.0)];
+    let (mut joints, mut members) = (vec![], vec![]);
+    for (k, (above, below, weight)) in columns.into_iter().enumerate() {
+        let x = 4.0 * k as f64;
+        joints.push(Joint::anchor(format!("A{k}"), [x, 1.0, above]));
+        joints.push(Joint::anchor(format!("B{k}"), [x, 1.0, -below]));
+        joints.push(Joint::free(format!("P{k}")).with_mass(weight));
+        members.push(bar(3 * k, 3 * k + 2, above, 0.0));
+        members.push(bar(3 * k + 1, 3 * k + 2, below, 0.0));
+    }
+    let answer = hang(&system(joints, members)).equilibrium;
+    for (k, (above, below, weight)) in columns.into_iter().enumerate() {
+        near(answer.joints_m[3 * k + 2], [4.0 * k as f64, 1.0, 0.0]);
+        close(answer.axial_n[2 * k], weight * below / (above + below));
+        close(answer.axial_n[2 * k + 1], -weight * above / (above + below));
+    }
+}

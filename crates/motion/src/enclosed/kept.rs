@@ -7,20 +7,19 @@
 use nalgebra::DMatrix;
 use numerics::Interval;
 
-use super::pencil::Pencil;
+use super::pencil::Row;
 use super::{NotEnclosed, less_unit, norm};
 
 /// `X`, a column for each column of `X̃`.
 pub(super) fn displacements(
-    pencil: &Pencil,
+    rows: &[Row],
     about: &DMatrix<f64>,
 ) -> Result<DMatrix<Interval>, NotEnclosed> {
-    let rows = &pencil.rows;
     let mut kept = about.map(Interval::point);
     if rows.is_empty() {
         return Ok(kept);
     }
-    let mut middle = DMatrix::<f64>::zeros(rows.len(), 3 * pencil.moving);
+    let mut middle = DMatrix::<f64>::zeros(rows.len(), about.nrows());
     for (i, row) in rows.iter().enumerate() {
         for (k, value) in row {
             middle[(i, *k)] = value.mid();
@@ -62,4 +61,33 @@ fn product(a: &DMatrix<Interval>, b: &DMatrix<Interval>) -> DMatrix<Interval> {
     DMatrix::from_fn(a.nrows(), b.ncols(), |i, j| {
         (0..a.ncols()).map(|k| a[(i, k)] * b[(k, j)]).sum()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `R = (r, 1)` with r from 0.8 to 1.2, `R̃ = (1, 1)`: `S = r + 1`, `C = 1/2`, `β = 1/10`. Of (0, 1) the multiplier
+    /// is 1/2 and off by a ninth of it at most, as it is for r = 0.8: `(-1, r)/(r + 1)` keeps the length. Of (2, 0) it
+    /// is within r, from 0.8 to 1.2, and a ninth of 1.2.
+    #[test]
+    fn displacements_keep_all_lengths_of_a_box() {
+        let rows = [vec![(0, Interval::new(0.8, 1.2)), (1, Interval::ONE)]];
+        let kept = displacements(&rows, &DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 1.0, 0.0]));
+        let kept = kept.unwrap();
+        let off = 1.2 / 9.0;
+        for (at, [lo, hi]) in [
+            ((0, 0), [-5.0 / 9.0, -4.0 / 9.0]),
+            ((1, 0), [4.0 / 9.0, 5.0 / 9.0]),
+            ((0, 1), [0.8 - off, 1.2 + off]),
+            ((1, 1), [-1.2 - off, -0.8 + off]),
+        ] {
+            let found = kept[at];
+            assert!(found.lo() <= lo && found.hi() >= hi, "{at:?}: {found:?}");
+            assert!(lo - found.lo() < 1e-14 && found.hi() - hi < 1e-14, "{at:?}: {found:?}");
+        }
+        let twice = [rows[0].clone(), rows[0].clone()];
+        let refused = displacements(&twice, &DMatrix::zeros(2, 1));
+        assert!(matches!(refused, Err(NotEnclosed::Dependent { .. })), "{refused:?}");
+    }
 }

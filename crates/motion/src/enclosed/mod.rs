@@ -153,7 +153,7 @@ pub fn enclose_modes(system: &System, at: &EquilibriumBox<'_>) -> Result<Enclosu
     let axial_n: Vec<_> = at.axial_n.iter().map(|n| n.mid()).collect();
     let about = approximate_modes(&mechanism, &joints_m, &axial_n)?;
     let pencil = Pencil::new(system, &mechanism, at)?;
-    let kept = kept::displacements(&pencil, &about)?;
+    let kept = kept::displacements(&pencil.rows, &about)?;
     let (stiffness, inertia) = pencil.projected(&kept);
     let norm = norm(&less_unit(inertia));
     let wanted = 3 * joints - pencil.rows.len();

@@ -3,17 +3,13 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::planes::Sector;
-use super::solved::Solved;
+use super::solved::{Solved, ZERO};
 use super::stiffness::{Entry, Stiffness};
 use crate::error::MotionError;
 
 /// Rows of the constraints whose part independent of the others is less than this, relative, are
 /// dependent.
 const INDEPENDENT: f64 = 1e-10;
-
-/// What is less than this, relative to the largest `ω²` that the forces alone make, is rounding: of
-/// the places and forces of the equilibrium, and of the eigenvalues.
-const ZERO: f64 = 1e-10;
 
 /// All modes whose displacements are along the axes of a sector.
 ///
@@ -47,15 +43,18 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
     };
     let ordinary_shapes = &free * &eigen.eigenvectors;
     let shapes = lower.transpose().solve_upper_triangular(&ordinary_shapes).ok_or_else(massless)?;
-    let zero =
-        ZERO * stiffness.largest_of_forces().min(largest) + size as f64 * f64::EPSILON * largest;
     let columns: Vec<DVector<f64>> = order.iter().map(|&k| shapes.column(k).into_owned()).collect();
     let omega2: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
+    let rounding = size as f64 * f64::EPSILON * largest;
+    let is_zero = |(omega2, y): (&f64, &DVector<f64>)| {
+        omega2.abs() <= ZERO * stiffness.energy(sector, y.as_slice())[1] + rounding
+    };
+    let zero: Vec<bool> = omega2.iter().zip(&columns).map(is_zero).collect();
     Ok(Solved {
-        zero: omega2.iter().map(|o| o.abs() <= zero).collect(),
         residual: order.iter().map(|&k| residual(k)).collect(),
         total: omega2.len(),
-        negative: omega2.iter().filter(|&&o| o < -zero).count(),
+        negative: omega2.iter().zip(&zero).filter(|(o, zero)| **o < 0.0 && !**zero).count(),
+        zero,
         omega2,
         shapes: DMatrix::from_columns(&columns),
     })

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use super::lanczos::{Operator, divide, dot, largest};
 use super::planes::Sector;
 use super::shifted::Shifted;
-use super::solved::Solved;
+use super::solved::{Solved, ZERO};
 use super::stiffness::{Entries, Stiffness};
 use crate::error::MotionError;
 use model::Vector;
@@ -40,10 +40,6 @@ const MOST_SEARCHES: usize = 8;
 /// counts.
 const ONE_FREQUENCY: f64 = 1e-6;
 
-/// A mode whose energy is less than this part of what the members' parts amount to is rounding of a
-/// zero.
-const ZERO: f64 = 1e-10;
-
 /// Systems of fewer coordinates in a sector are solved by dense linear algebra: Lanczos' method
 /// needs room.
 pub(super) const LEAST_SIZE: usize = 160;
@@ -67,14 +63,13 @@ pub(super) fn solve(
         search.add(missing);
         let mut pairs = search.pairs(stiffness, sector, shift);
         pairs.sort_by(|a, b| a.omega2.total_cmp(&b.omega2));
-        let lacking = if pairs.len() < count {
-            count - pairs.len()
-        } else {
+        let mut lacking = count.saturating_sub(pairs.len());
+        if lacking == 0 {
             let (shift, expected) = counting_shift(&pairs, count, total, unit);
             let below = Shifted::new(&entries, axes, shift).and_then(|shifted| shifted.below);
             let failed = MotionError::ModesUncounted { found: pairs.len(), asked: count };
-            below.and_then(|below| below.checked_sub(expected)).ok_or(failed)?
-        };
+            lacking = below.and_then(|below| below.checked_sub(expected)).ok_or(failed)?;
+        }
         if lacking == 0 {
             pairs.truncate(count);
             let negative = negative(&entries, axes, &pairs)?;

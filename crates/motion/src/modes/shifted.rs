@@ -288,3 +288,44 @@ impl Order {
         scale
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two coordinates of a joint with `R = (3, 4)` and one of the next. Along `(4, -3)`, across `R`, the first joint has
+    /// `(16 a + 9 b)/25`, the second `c`, of stiffness and inertia. The shifts take one diagonal to zero, which the
+    /// elimination meets first, then the other; `R` bears what is left.
+    #[test]
+    fn a_diagonal_of_zero_is_lifted() {
+        let (stiffness, inertia) = ([-6.0, 20.0, 9.0], [2.0, 5.0, 3.0]);
+        let entries = Entries {
+            size: 4,
+            inertia: (0..3).map(|k| (k, k, inertia[k])).chain([(3, 3, 1.0)]).collect(),
+            // In two parts, as of two members.
+            stiffness: (0..3)
+                .flat_map(|k| [(k, k, 0.75 * stiffness[k]), (k, k, 0.25 * stiffness[k])])
+                .chain([(3, 3, 50.0)])
+                .collect(),
+            // The second one says the same as the first.
+            rows: vec![(0, 0, 3.0), (0, 1, 4.0), (1, 0, 6.0), (1, 1, 8.0)],
+        };
+        let along = |of: [f64; 3]| (16.0 * of[0] + 9.0 * of[1]) / 25.0;
+        // ω² are 3.36/3.08 = 1.09, 3 and 50.
+        for (shift, below) in [(-3.0, 0), (1.0, 0), (2.0, 1), (4.0, 2), (51.0, 3)] {
+            let shifted = Shifted::new(&entries, 2, shift).unwrap();
+            assert_eq!((shifted.independent, shifted.below), (1, Some(below)), "{shift}");
+            let y = shifted.solve(&[1.0, 0.5, 2.0, -1.0]);
+            // The force along (4, -3)/5 is (4 - 1.5)/5.
+            let first = 0.5 / (along(stiffness) - shift * along(inertia));
+            let wanted =
+                [0.8 * first, -0.6 * first, 2.0 / (9.0 - 3.0 * shift), -1.0 / (50.0 - shift)];
+            for (found, wanted) in y.iter().zip(wanted) {
+                assert!(
+                    (found - wanted).abs() < 1e-10 * wanted.abs().max(0.1),
+                    "{shift}: {y:?} {wanted}"
+                );
+            }
+        }
+    }
+}

@@ -2,6 +2,10 @@
 
 use nalgebra::DMatrix;
 
+/// A mode whose energy is less than this part of what the members' parts amount to is rounding of a
+/// zero.
+pub(super) const ZERO: f64 = 1e-10;
+
 /// Solutions of one sector, ascending: all of them, or the lowest.
 pub(super) struct Solved {
     /// `ω²`, ascending, 1/s².

@@ -204,22 +204,6 @@ impl<'a> Stiffness<'a> {
         [sum, made_of]
     }
 
-    /// A bound on the `ω²` that the forces of the rigid bars make, 1/s²: stiffness over inertia,
-    /// joint by joint.
-    pub(super) fn largest_of_forces(&self) -> f64 {
-        let mut around = vec![0.0; self.mechanism.joint_at.len()];
-        let rigid = self.mechanism.rigid_spans();
-        for (link, block) in &self.members[..rigid] {
-            around[link.a] += 2.0 * block.amax();
-            around[link.b] += 2.0 * block.amax();
-        }
-        for link in &self.mechanism.spans[rigid..] {
-            around[link.a] += norm(self.mechanism.load[link.a]) / link.length_m;
-        }
-        let moving = around.iter().zip(&self.mechanism.mass).take(self.mechanism.moving);
-        moving.map(|(k, m)| k / m).fold(0.0, f64::max)
-    }
-
     /// What `ω²` are of the order of, 1/s²: the forces over the whole mass and the whole length, as
     /// `g/L` of a hanging chain.
     pub(super) fn unit(&self) -> f64 {

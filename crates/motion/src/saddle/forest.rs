@@ -380,9 +380,9 @@ mod tests {
     fn pivots_that_vanish_are_zero() {
         assert_eq!(invert(&mut [0.0; 4], 2), Err(0.0));
         assert_eq!(invert(&mut [4.0, 2.0, 2.0, 1.0], 2), Err(0.0));
-        let mut matrix = [4.0, 2.0, 2.0, 2.0];
-        assert_eq!(invert(&mut matrix, 2), Ok(0.5));
-        for (found, wanted) in matrix.into_iter().zip([0.5, -0.5, -0.5, 1.0_f64]) {
+        let mut matrix = [4.0, 2.0, 2.0, 1.25];
+        assert_eq!(invert(&mut matrix, 2), Ok(0.2));
+        for (found, wanted) in matrix.into_iter().zip([1.25, -2.0, -2.0, 4.0_f64]) {
             assert_eq!(found.to_bits(), wanted.to_bits(), "{matrix:?}");
         }
     }

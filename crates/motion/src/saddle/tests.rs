@@ -79,7 +79,10 @@ fn solves(saddle: &mut Saddle, layout: &Layout, rng: &mut ChaCha8Rng) {
 #[test]
 fn trees_are_solved_by_both_eliminations() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let layout = tree();
+    let mut layout = tree();
+    // Another one, whose root has two bars, either way round.
+    layout.mass.extend([2.2, 0.8, 1.7]);
+    layout.edges.extend([edge(5, 7, 0.3, Some(7)), edge(7, 6, -0.25, Some(8))]);
     for _ in 0..50 {
         solves(&mut Saddle::Forest(Forest::new(&layout)), &layout, &mut rng);
         solves(&mut Saddle::Sparse(Sparse::new(&layout)), &layout, &mut rng);

@@ -288,3 +288,62 @@ fn a_light_weight_above_its_cable_falls_beside_a_heavy_one() {
     let z = fall.snapshot().joints_m[1][2];
     assert!((z - (1.0 - 0.5 * G * 0.01)).abs() < 1e-9, "{z}");
 }
+
+/// Of three cables that bear a weight a push slackens one; of the impulses of all three two are negative, and one of
+/// these is needed after all: the first and the last then bear, and the weight moves along (9, -10, -18), across both.
+#[test]
+fn what_an_impact_lets_go_may_be_closed_by_it_again() {
+    let directions =
+        [[2.0, -9.0, 6.0], [-9.0, 6.0, -2.0], [6.0, 9.0, -2.0]].map(|d| d.map(|x| x / 11.0));
+    let lengths = [1.0, 0.7, 1.3];
+    let (mass_kg, push) = (2.0, [4.0, 3.0, -2.0]);
+    let mut joints: Vec<Joint> = (0..3)
+        .map(|k| Joint::anchor(format!("A{k}"), directions[k].map(|x| -lengths[k] * x)))
+        .collect();
+    // With its weight, 1 N along each.
+    let mut force = [0.0, 0.0, mass_kg * G];
+    for direction in directions {
+        force = std::array::from_fn(|k| force[k] + direction[k]);
+    }
+    joints.push(Joint::free("P").with_mass(mass_kg).with_force(force));
+    let members = (0..3).map(|k| Member::cable(k, 3, cord(lengths[k]))).collect();
+    let system = System::new("three", G, joints.clone(), members).unwrap();
+    let at: Vec<_> = joints.iter().map(|joint| joint.support.at_m().unwrap_or([0.0; 3])).collect();
+    let mut pushed = at_rest(&system, &at, Order::Second);
+    assert!(pushed.snapshot().axial_n.iter().all(|force| (force - 1.0).abs() < 1e-12));
+    pushed.push(&[[0.0; 3], [0.0; 3], [0.0; 3], push.map(|x| mass_kg * x)]).unwrap();
+    let along = [9.0, -10.0, -18.0];
+    let part = (4.0 * 9.0 - 3.0 * 10.0 + 2.0 * 18.0) / 505.0;
+    let found = pushed.velocities_m_s()[3];
+    for (found, along) in found.into_iter().zip(along) {
+        assert!((found - part * along).abs() < 1e-12, "{found} {}", part * along);
+    }
+}
+
+/// A cable that is taut and bears nothing beside one that bears 10 GN stops what would stretch it, whatever rounding
+/// makes of its force.
+#[test]
+fn cables_without_force_hold() {
+    let mass_kg = 1e9;
+    let main = [3.0, -2.0, 6.0].map(|x| x / 7.0);
+    let mut force = main.map(|x| 1e10 * x);
+    force[2] += mass_kg * G;
+    for [x, y, z] in
+        [[2.0, 3.0, 6.0], [-6.0, 2.0, 3.0], [6.0, 3.0, -2.0], [-3.0, 6.0, 2.0], [2.0, -6.0, -3.0]]
+    {
+        let aside = [x, y, z].map(|x| x / 7.0);
+        let joints = vec![
+            Joint::anchor("A", main.map(|x| -x)),
+            Joint::anchor("B", aside.map(|x| -0.7 * x)),
+            Joint::free("P").with_mass(mass_kg).with_force(force),
+        ];
+        let members = vec![Member::cable(0, 2, cord(1.0)), Member::cable(1, 2, cord(0.7))];
+        let at = [main.map(|x| -x), aside.map(|x| -0.7 * x), [0.0; 3]];
+        let system = System::new("beside", G, joints, members).unwrap();
+        let mut pushed = at_rest(&system, &at, Order::Second);
+        pushed.push(&[[0.0; 3], [0.0; 3], aside.map(|x| mass_kg * x)]).unwrap();
+        let v = pushed.velocities_m_s()[2];
+        let along = v[0] * aside[0] + v[1] * aside[1] + v[2] * aside[2];
+        assert!(along.abs() < 1e-12, "{along} m/s along {aside:?}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use model::Bar;
 use model::system::{Joint, Member, System};
-use motion::{Direction, What, modes};
+use motion::{Direction, MotionError, What, modes};
 
 use crate::common::{G, hanging, links, paper, rods, string};
 
@@ -181,8 +181,11 @@ fn the_papers_equilibria_turn_about_their_anchors_and_have_their_index() {
     for (one, other) in e1.modes.iter().zip(e2.modes.iter().rev()) {
         assert!((one.omega2_s2 + other.omega2_s2).abs() < 1e-10, "{e1:?} {e2:?}");
     }
-    let off = equilibrium([20.0, 38.0, -74.0]);
-    assert!(modes(&paper(), &off, None).is_err());
+    let off = modes(&paper(), &equilibrium([20.0, 38.0, -74.0]), None);
+    assert!(off.is_err());
+    // In balance, but longer than it is.
+    let long = modes(&hanging(&rods(1), &[]), &string(&[1.0 + 1e-6], &[0.0]), None);
+    assert!(matches!(long, Err(MotionError::NotClosed { .. })), "{long:?}");
 }
 
 #[test]
@@ -302,5 +305,24 @@ fn planes_of_modes_stand_anywhere() {
                 assert!((rate - 1.0).abs() < 1e-12 && oscillates.is_none());
             }
         }
+    }
+}
+
+/// A rod of 1 km whose end is lifted by half of its weight rests anywhere: it turns about the vertical of its anchor, if
+/// it stands off it by more than a millionth of its length.
+#[test]
+fn what_is_on_its_axis_does_not_turn() {
+    let length_m = 1000.0;
+    let rod = Bar::homogeneous(length_m, 2.0).unwrap();
+    let joints =
+        vec![Joint::anchor("O", [0.3, 0.1, 5.0]), Joint::free("P").with_force([0.0, 0.0, G])];
+    let system = System::new("lifted", G, joints, vec![Member::bar(0, 1, rod)]).unwrap();
+    for (part, turns) in [(3e-7, false), (3e-6, true)] {
+        let (aside, down) = (part * length_m, length_m * (1.0 - part * part).sqrt());
+        let at = [[0.3, 0.1, 5.0], [0.3 + 0.6 * aside, 0.1 + 0.8 * aside, 5.0 - down]];
+        let found = modes(&system, &at, None).unwrap();
+        let turn = What::Turn { axis_m: [0.3, 0.1] };
+        assert!(found.modes.len() == 2 && found.neutral() == 2, "{found:?}");
+        assert_eq!(found.modes.iter().any(|mode| mode.what == turn), turns, "{found:?}");
     }
 }

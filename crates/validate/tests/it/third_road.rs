@@ -106,6 +106,10 @@ fn supports_and_held_members_are_those_of_the_system() {
         }
     }
     assert!((cones.axial_n[2] - 100.0 * 0.1 / 2.9).abs() < 1e-12);
+    let rope = Member::cable(0, 1, Bar::homogeneous(4.5, 0.0).unwrap()).over(vec![2]);
+    let roped = System::new("roped", 9.81, joints.clone(), vec![members[0].clone(), rope]).unwrap();
+    let refused = hang_as_cables(&roped);
+    assert!(matches!(refused, Err(ConeError::Rope { member: 2 })), "{refused:?}");
     let strut = members[0].clone().of_kind(Kind::Strut);
     let pushed = System::new("pushed", 9.81, joints, vec![strut, members[1].clone()]).unwrap();
     let refused = hang_as_cables(&pushed);

@@ -80,6 +80,46 @@ fn joints_go_where_their_images_stand() {
     }
 }
 
+/// The same chain is its own image across the plane it lies in alone, if the joint that stands for another is held
+/// otherwise, or has another mass or force; wires are images of each other by their directions.
+#[test]
+fn images_are_held_and_loaded_alike() {
+    let wire = |x: f64| Support::Line { at_m: [0.0; 3], direction: [x, 0.0, 0.8] };
+    let shape: Vec<Point> = [-3.0, -1.0, 1.0, 3.0].map(|x: f64| [x, 0.0, 0.5 * x.abs()]).to_vec();
+    let mirrors = |joints: [Joint; 2]| {
+        let mut all = vec![Joint::anchor("A", shape[0]), Joint::anchor("B", shape[3])];
+        all.splice(1..1, joints);
+        for (joint, at) in all.iter_mut().zip(&shape) {
+            if let Support::Line { at_m, .. } | Support::Plane { at_m, .. } = &mut joint.support {
+                *at_m = *at;
+            }
+        }
+        let bar = Bar::homogeneous(2.0, 1.0).unwrap();
+        let members = (0..3).map(|k| Member::bar(k, k + 1, bar)).collect();
+        let system = System::new("chain", 9.81, all, members).unwrap();
+        Symmetry::of(&[&system], &shape).unwrap().mirrors.len()
+    };
+    let joint = || Joint::free("P").with_mass(1.0).with_force([0.25, 0.0, -1.0]);
+    let held = |support| joint().held_by(support);
+    let image = || {
+        let mut joint = joint().with_force([-0.25, 0.0, -1.0]);
+        joint.name = "Q".into();
+        joint
+    };
+    let level = Support::Plane { at_m: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    for (joints, wanted) in [
+        ([joint(), image()], 2),
+        ([joint(), image().with_mass(1.5)], 1),
+        ([joint(), image().with_force([-0.25, 0.0, -2.0])], 1),
+        ([joint(), image().held_by(level)], 1),
+        ([held(level), image().held_by(level)], 2),
+        ([held(wire(0.6)), image().held_by(wire(-0.6))], 2),
+        ([held(wire(0.6)), image().held_by(wire(0.6))], 1),
+    ] {
+        assert_eq!(mirrors(joints.clone()), wanted, "{joints:?}");
+    }
+}
+
 /// The derivative at a symmetric shape maps each block into itself.
 #[test]
 fn blocks_are_kept_by_the_derivative() {

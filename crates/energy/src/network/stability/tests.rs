@@ -169,6 +169,22 @@ fn the_condition_is_that_of_the_stiffnesses() {
     }
 }
 
+/// Zero is a billionth of the largest eigenvalue, or of the largest force.
+#[test]
+fn eigenvalues_count_beside_the_largest() {
+    let (frame, shape) = truss(0.0);
+    let mut dense = Dense::new(&frame, &shape);
+    for (small, size, index, neutral) in
+        [(5e-7, 1.0, 0, 2), (2e-6, 1.0, 1, 0), (2e-6, 4e3, 0, 2), (5e-6, 4e3, 1, 0)]
+    {
+        let diagonal = [small, -small, 1e3];
+        dense.hessian = Mat::from_fn(3, 3, |i, j| if i == j { diagonal[i] } else { 0.0 });
+        dense.size = size;
+        let found = dense.count();
+        assert_eq!((found.index, found.neutral), (index, neutral), "{small} {size}");
+    }
+}
+
 /// Where the truss slides along a level line its two bars pull against each other, and the slack
 /// cable has no part in that.
 #[test]

@@ -61,3 +61,37 @@ fn loads_give_a_vertical_line_its_plane() {
         assert!((plane(&framework, &state).unwrap().y.abs() - 1.0).abs() < 1e-15);
     }
 }
+
+/// A joint 2 m below one anchor and 1 m above another, with the curvatures -0.7 and -0.2 across. Of the self-stress
+/// (0.6, 0.8) each part adds 0.6/2 + 0.8/1 to both: to twice the way at which the weaker were zero is 1.4 more.
+#[test]
+fn self_stresses_go_twice_as_far_as_the_weakest_needs() {
+    let (mut framework, _) = shape(0.0, 0.0, 1.0, 0.0);
+    framework.nodes[0].free = Directions::Held;
+    framework.nodes[1].free = Directions::Held;
+    let bar = |from, length| {
+        let kind = Kind::Bar;
+        crate::network::framework::Link {
+            from,
+            to: 2,
+            length,
+            within: 0.0,
+            compliance: 0.0,
+            kind,
+            rope: None,
+        }
+    };
+    framework.links = vec![bar(0, 2.0), bar(1, 1.0)];
+    let link = || Link { u: Vector3::z(), across: 0.0, along: None, taut: true };
+    let links = [link(), link()];
+    let motions = Mat::from_fn(3, 2, |row, column| if row == column { 1.0 } else { 0.0 });
+    let stresses = Mat::from_fn(2, 1, |row, _| [0.6, 0.8][row]);
+    let projected =
+        Mat::from_fn(2, 2, |row, column| if row == column { [-0.7, -0.2][row] } else { 0.0 });
+    let of = (&framework, &links[..], &first_unknowns(&framework)[..], &[0, 1][..]);
+    let mut found = stiffened(of, &motions, &stresses, projected).unwrap();
+    found.sort_by(f64::total_cmp);
+    for (found, wanted) in found.iter().zip([0.7, 1.2]) {
+        assert!((found - wanted).abs() < 1e-14, "{found} {wanted}");
+    }
+}

@@ -13,6 +13,13 @@ fn small_elongations_keep_their_digits() {
         // 0.6 and 0.8 are rounded: 0.36 + 0.64 is one to the last place.
         assert!((found / e - 1.0).abs() < 1e-14, "{e}: {found}");
     }
+    // Lengths whose squares are rounded.
+    for length in [1.0 + 2.0_f64.powi(-30), 0.1, 7.3] {
+        for e in [1e-9, 1e-20] {
+            let found = elongation_m(&ORIGIN, &[two_sum(length, e), ORIGIN[0], ORIGIN[0]], length);
+            assert!((found / e - 1.0).abs() < 1e-10, "{length} {e}: {found}");
+        }
+    }
     // Across by e: longer by e²/10.
     let across = elongation_m(&ORIGIN, &[(3.0, 0.0), (4.0, 0.0), (1e-6, 0.0)], 5.0);
     assert!((across / 1e-13 - 1.0).abs() < 1e-12);

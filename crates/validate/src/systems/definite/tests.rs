@@ -75,6 +75,29 @@ fn what_is_wanted_is_given_where_there_is_as_much() {
     assert!(matrix.least_eigenvalue(f64::NAN).unwrap() > 0.0);
 }
 
+/// Everything times a power of four: its factor by a power of two, and no digit changes.
+#[test]
+fn bounds_are_in_units_of_the_matrix() {
+    for (size, below) in [(1, vec![]), (3, vec![(1, 0, 0.3), (2, 0, -0.2), (2, 1, 0.7)])] {
+        // What is wanted is little, what there is, and too much.
+        for wanted in [0.0, 0.1, 10.0] {
+            let bound = |scale: f64| {
+                let below = below.iter().map(|&(i, j, value)| (i, j, scale * value)).collect();
+                let diagonal = [1.0, 1.5, 2.25][..size].iter().map(|d| scale * d).collect();
+                let matrix = Symmetric { size, below, diagonal, uncertainty: 1e-9 * scale };
+                matrix.least_eigenvalue(scale * wanted).unwrap() / scale
+            };
+            for exponent in [-40, 40] {
+                assert_eq!(
+                    bound(4_f64.powi(exponent)).to_bits(),
+                    bound(1.0).to_bits(),
+                    "{size}, {wanted}"
+                );
+            }
+        }
+    }
+}
+
 /// Dense eigenvalues are right to some 1e-13 of the largest entry.
 #[test]
 fn the_bound_is_below_the_eigenvalues_of_random_matrices() {
