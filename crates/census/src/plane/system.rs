@@ -82,10 +82,8 @@ impl System {
 
         // c_i is all that hangs at the joints 1 to i-1. What joint 0 carries would be the same part
         // of every c_i: a large one would cost them their digits. What hangs at a joint is counted
-        // with the bar before it, what hangs at the last joint not at all.
-        let with_load = |weight: Interval, bar: usize| {
-            if bar + 1 < bars.len() { loads.added_to(weight, bar + 1) } else { weight }
-        };
+        // with the bar before it.
+        let with_load = |weight: Interval, bar: usize| loads.added_to(weight, bar + 1);
         let mut added: Vec<Interval> =
             (0..bars.len()).map(|k| with_load(Interval::point(bars[k].mass_kg()), k)).collect();
         added[0] = with_load(at_second_joint(&bars[0]), 0);

@@ -101,6 +101,36 @@ fn a_bar_told_against_its_row_is_the_same_bar() {
     }
 }
 
+/// A heavy bar hangs straight down from the last anchor, told from there with its centre where the distance from
+/// its other end is rounded, and four bars without mass bridge the gap in any way: `V = m g (z_B - r)`.
+#[test]
+fn a_family_with_slack_bars_has_the_energy_of_its_system() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P"),
+        Joint::free("Q"),
+        Joint::free("R"),
+        Joint::free("S"),
+        Joint::anchor("B", [0.0, 0.0, 0.15]),
+    ];
+    let light =
+        |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap());
+    let heavy = Member::bar(5, 4, Bar::new(0.6, 1.0, 0.1575, [0.0; 3]).unwrap());
+    let members =
+        vec![light(0, 1, 0.3), light(1, 2, 0.8), light(2, 3, 0.4), light(3, 4, 1.0), heavy];
+    let census = taken(&system(joints, members));
+    let families: Vec<_> = census.chains().flat_map(|chain| &chain.census.families).collect();
+    let wanted = [0.15 - 0.1575, 0.15 + 0.1575].map(|z_m| G * z_m);
+    assert_eq!(families.len(), 2);
+    for (family, wanted) in families.iter().zip(wanted) {
+        assert!(
+            (family.energy_j.mid() - wanted).abs() < 1e-13,
+            "{} {wanted}",
+            family.energy_j.mid()
+        );
+    }
+}
+
 /// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain
 /// is told from both ends to the middle; half of the load of 9 N is a force at the very end of a
 /// bar.

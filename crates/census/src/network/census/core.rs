@@ -11,7 +11,7 @@ use numerics::{DoubleDouble, Interval};
 
 use super::choice::Choice;
 use super::parts::Hanging;
-use super::weights::weights_kg;
+use super::weights::{shared_kg, weights_kg};
 use crate::census::Census;
 use crate::census::check::CheckError;
 use crate::equilibrium::ProvenEquilibrium;
@@ -70,7 +70,17 @@ impl LoadedChain {
         let anchor = |joint: usize| system.joints()[joint].support.at_m().ok_or(NoCensus::Settings);
         let anchors =
             Anchors { start_m: anchor(joints[0])?, end_m: anchor(joints[joints.len() - 1])? };
-        let kg: Vec<Option<DoubleDouble>> = joints.iter().map(|joint| kg[*joint]).collect();
+        let mut kg: Vec<Option<DoubleDouble>> = joints.iter().map(|joint| kg[*joint]).collect();
+        // Energies count from the height of the first anchor; what a bar without its own weight leaves at the
+        // last one has some.
+        let end = members.len();
+        kg[end] = members.last().zip(own.last()).and_then(|(last, own)| match own {
+            Some(_) => None,
+            None => {
+                let member = &system.members()[*last];
+                shared_kg(member, member.from == joints[end])
+            }
+        });
         let loads = JointLoads::new(kg);
         if groups(&bars, &loads).len() < 2 {
             return Err(NoCensus::Limp { member: members[0] + 1 });

@@ -1,6 +1,6 @@
 //! Loads of joints that are weights alone, to twice the usual precision.
 
-use model::system::{PointLoad, System};
+use model::system::{Member, PointLoad, System};
 use model::{NoCensus, Vector};
 use numerics::{DoubleDouble, lever};
 
@@ -31,9 +31,8 @@ pub(super) fn weights_kg(
             if !wanted[joint] {
                 continue;
             }
-            let share_of_weight = share(length_m, member.body.centre_m(), is_start);
-            if let Some(share) = share_of_weight.filter(|_| !bears) {
-                weights.add_mass(joint, member.body.mass_kg(), share);
+            if let Some(weight_kg) = shared_kg(member, is_start).filter(|_| !bears) {
+                weights.add(joint, weight_kg);
             }
             for PointLoad { at_m, force_n } in &member.loads {
                 if let Some(share) = share(length_m, *at_m, is_start) {
@@ -43,6 +42,13 @@ pub(super) fn weights_kg(
         }
     }
     Ok(weights.kg)
+}
+
+/// What an end of a member takes of its weight, kg.
+pub(super) fn shared_kg(member: &Member, is_start: bool) -> Option<DoubleDouble> {
+    let body = member.body;
+    let share = share(body.length_m(), body.centre_m(), is_start)?;
+    (body.mass_kg() > 0.0).then(|| DoubleDouble::point(body.mass_kg()) * share)
 }
 
 /// The part of a load at a point of a member that one end takes; nothing if the point is the other
