@@ -33,7 +33,7 @@ class Study(Result):
     >>> s.table["sag_m"][:3].round(6).tolist()          # a triangle: sqrt(1 - (d/2)^2)
     [0.979796, 0.953939, 0.916515]
     >>> s.table["refused"][-1]                          # anchors 2.2 m apart
-    'the anchors are 2.2 m apart and the bars reach only 2 m: 0.2 m are missing'
+    'the anchors "0" and "2" are 2.2 m apart and the members between them reach only 2 m: 0.2 m are missing'
     """
 
     def __init__(
