@@ -66,7 +66,8 @@ of the system file that leaves it one, a list or a range with points):
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
   --vary gravity_m_s2=1.62,9.80665          --vary 'bars.*.length_m=0.5..2:31'
   --vary joints.lamp.mass_kg=1..5:9         --vary loads=0.5,1
-Bars are counted from 1 along the chain. Between values the parameter runs straight. Branches are followed
+Bars are counted from 1 in the order of the file; in the columns, and in the angles of --json, along the row from
+the support that comes first in the file. A number that varies itself is no part of loads or lengths. Between values the parameter runs straight. Branches are followed
 along the last parameter; each combination of the others is a path of its own (or all go in step: --zip).
 
 Examples:

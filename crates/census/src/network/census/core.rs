@@ -74,12 +74,10 @@ impl LoadedChain {
         // Energies count from the height of the first anchor; what a bar without its own weight leaves at the
         // last one has some.
         let end = members.len();
-        kg[end] = members.last().zip(own.last()).and_then(|(last, own)| match own {
-            Some(_) => None,
-            None => {
-                let member = &system.members()[*last];
-                shared_kg(member, member.from == joints[end])
-            }
+        let without = members.last().zip(own.last()).filter(|(_, own)| own.is_none());
+        kg[end] = without.and_then(|(last, _)| {
+            let member = &system.members()[*last];
+            shared_kg(member, member.from == joints[end])
         });
         let loads = JointLoads::new(kg);
         if groups(&bars, &loads).len() < 2 {
