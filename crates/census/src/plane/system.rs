@@ -277,7 +277,7 @@ mod tests {
     use super::*;
 
     /// Bars of 2 kg, 4 kg and 2 kg with their centres in the middle, and 1 kg at each joint: what
-    /// the anchors bear besides is in no weight.
+    /// the anchors bear besides is in no `c_i`; the energy of the last one counts.
     #[test]
     fn what_hangs_at_the_anchors_moves_no_bar() {
         let bars = [2.0, 4.0, 2.0].map(|mass| Bar::homogeneous(1.0, mass).unwrap());
@@ -291,7 +291,7 @@ mod tests {
         };
         assert_eq!((system.mass_unit_kg, system.offset), (4.0, 1.0));
         assert!(is(&system.weight, [-4.0, 0.0, 4.0]), "{:?}", system.weight);
-        assert!(is(&system.added, [2.0, 5.0, 2.0]), "{:?}", system.added);
+        assert!(is(&system.added, [2.0, 5.0, 3.0]), "{:?}", system.added);
         assert!(is(system.weights(Face::Around(0)), [0.0, 4.0, 8.0]));
         assert!(is(system.weights(Face::Around(2)), [-8.0, -4.0, 0.0]));
     }
