@@ -100,7 +100,7 @@ pub use diagram::{Abscissa, diagram};
 pub use error::ContinuationError;
 pub use event::{Event, EventKind};
 pub use parameter::apply::PointError;
-pub use parameter::base::Base;
+pub use parameter::base::{check, resolved};
 pub use parameter::error::ParameterError;
 pub use parameter::number::{AnchorEnd, BarField, JointField, Number, Which};
 pub use parameter::system::apply;

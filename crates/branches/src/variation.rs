@@ -4,7 +4,7 @@ use model::Problem;
 use model::system::System;
 
 use crate::parameter::apply::PointError;
-use crate::parameter::base::Base;
+use crate::parameter::base::{check, resolved};
 use crate::parameter::error::ParameterError;
 use crate::parameter::number::Number;
 use crate::parameter::system::{self, Unchecked};
@@ -71,7 +71,7 @@ impl Variation {
     ) -> Result<Self, ParameterError> {
         let base = base.into();
         for one in vary {
-            base.check(one)?;
+            check(&base, one)?;
             one.with_points()?;
         }
         Self::along(base, vary, combine)
@@ -89,9 +89,9 @@ impl Variation {
     ) -> Result<Self, ParameterError> {
         let base = base.into();
         for (k, one) in vary.iter().enumerate() {
-            base.check(one)?;
-            let number = base.resolved(&one.number);
-            let same = |other: &&Parameter| base.resolved(&other.number).overlaps(&number);
+            check(&base, one)?;
+            let number = resolved(&base, &one.number);
+            let same = |other: &&Parameter| resolved(&base, &other.number).overlaps(&number);
             let earlier = vary[..k].iter().find(same);
             if let Some(earlier) = earlier {
                 let what = if earlier.number == one.number {
@@ -108,7 +108,7 @@ impl Variation {
             Combine::Product => product(vary)?,
             Combine::Zip => vec![zip(vary)?],
         };
-        let resolved = vary.iter().map(|one| base.resolved(&one.number)).collect();
+        let resolved = vary.iter().map(|one| resolved(&base, &one.number)).collect();
         Ok(Self { base, numbers, resolved, paths })
     }
 

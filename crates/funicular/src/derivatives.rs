@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::sync::Arc;
 
-use branches::{BarField, Base, JointField, Number, Which};
+use branches::{BarField, JointField, Number, Which};
 use lagrange::network::{self, Gradient, Settings};
 use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
@@ -320,7 +320,7 @@ impl DerivativesAnswer {
         let number = self.checked(text)?;
         let joint = |name: &str| self.system.joint(name);
         let is_rope = |member: usize| self.system.members()[member].rope.is_some();
-        let (parameter, scale) = match &self.system.resolved(&number) {
+        let (parameter, scale) = match &branches::resolved(&self.system, &number) {
             Number::Bar(Which::One(bar), BarField::Length) => {
                 (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
             }
@@ -355,7 +355,7 @@ impl DerivativesAnswer {
     /// The number of the system that a path names.
     fn checked(&self, path: &str) -> Result<Number, Error> {
         let parameter = parsed(path)?;
-        self.system.check(&parameter).map_err(|error| without_value(error, path))?;
+        branches::check(&self.system, &parameter).map_err(|error| without_value(error, path))?;
         Ok(parameter.number)
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use branches::{Base, Combine, Parameter, ParameterError, Variation};
+use branches::{Combine, Parameter, ParameterError, Variation};
 
 use crate::equilibria::system_of;
 use crate::error::Error;
@@ -114,7 +114,7 @@ impl Problem {
         let number = |(path, value): &(_, f64)| {
             let path: &str = AsRef::as_ref(path);
             let parameter = parsed(path)?;
-            system.check(&parameter).map_err(|error| without_value(error, path))?;
+            branches::check(&system, &parameter).map_err(|error| without_value(error, path))?;
             Ok::<_, Error>((parameter.number, *value))
         };
         let numbers = numbers.iter().map(number).collect::<Result<Vec<_>, _>>()?;

@@ -11,82 +11,70 @@ use crate::parameter::values::Parameter;
 /// So many names of joints are listed.
 const MOST_NAMES: usize = 12;
 
-/// The numbers of a [`System`] that vary.
-pub trait Base {
-    /// Check that the number of a parameter is there.
-    ///
-    /// # Errors
-    ///
-    /// [`ParameterError`] with what is missing and what there is.
-    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError>;
-
-    /// The number itself, where the path is another name for it.
-    fn resolved(&self, number: &Number) -> Number;
+/// The number itself, where the path is another name for it: an end of a row of bars is a joint, the bars of a
+/// row have numbers, and a count is that of a whole row.
+#[must_use]
+pub fn resolved(system: &System, number: &Number) -> Number {
+    if let Number::Row(name, field) = number {
+        return row(system, name).map_or(number.clone(), |[a, b]| {
+            resolved(system, &Number::Bar(Which::Range(a, b), *field))
+        });
+    }
+    if let Number::Bar(which, BarField::Count) = number {
+        let (joints, members) = (system.joints(), system.members());
+        let row = rows::whole(*which, members.len(), |bar| rows::row(joints, members, bar));
+        // Of several rows it is that of none.
+        return Number::Bar(row.unwrap_or(Which::All), BarField::Count);
+    }
+    let Number::Anchor(end, axis) = number else { return number.clone() };
+    let ends = ends(system).map(|[start, last]| match end {
+        AnchorEnd::Start => start,
+        AnchorEnd::End => last,
+    });
+    let field = JointField::Place(*axis);
+    ends.map_or(number.clone(), |k| Number::Joint(system.joints()[k].name.to_string(), field))
 }
 
-impl Base for System {
-    /// An end of a row of bars is a joint, the bars of a row have numbers, and a count is that of a whole row.
-    fn resolved(&self, number: &Number) -> Number {
-        if let Number::Row(name, field) = number {
-            return row(self, name).map_or(number.clone(), |[a, b]| {
-                self.resolved(&Number::Bar(Which::Range(a, b), *field))
-            });
+/// Check that the number of a parameter is there.
+///
+/// # Errors
+///
+/// [`ParameterError`] with what is missing and what there is.
+pub fn check(system: &System, parameter: &Parameter) -> Result<(), ParameterError> {
+    match &parameter.number {
+        Number::Loads | Number::Lengths | Number::Gravity | Number::Floor => Ok(()),
+        Number::Bar(which, _) => bar(parameter, *which, system.members().len()),
+        Number::Row(name, _) if row(system, name).is_some() => Ok(()),
+        Number::Row(name, _) => {
+            let what = format!("there is no row of bars `{name}`");
+            Err(of_path(parameter, what, "rows are called by the joints at their ends, FROM-TO"))
         }
-        if let Number::Bar(which, BarField::Count) = number {
-            let (joints, members) = (self.joints(), self.members());
-            let row = rows::whole(*which, members.len(), |bar| rows::row(joints, members, bar));
-            // Of several rows it is that of none.
-            return Number::Bar(row.unwrap_or(Which::All), BarField::Count);
+        Number::Anchor(..) if ends(system).is_some() => Ok(()),
+        Number::Anchor(..) => {
+            let what = "the system is no chain between two anchors";
+            Err(of_path(parameter, what, "its supports are `joints.NAME.at_m`"))
         }
-        let Number::Anchor(end, axis) = number else { return number.clone() };
-        let ends = ends(self).map(|[start, last]| match end {
-            AnchorEnd::Start => start,
-            AnchorEnd::End => last,
-        });
-        let field = JointField::Place(*axis);
-        ends.map_or(number.clone(), |k| Number::Joint(self.joints()[k].name.to_string(), field))
-    }
-
-    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
-        match &parameter.number {
-            Number::Loads | Number::Lengths | Number::Gravity | Number::Floor => Ok(()),
-            Number::Bar(which, _) => bar(parameter, *which, self.members().len()),
-            Number::Row(name, _) if row(self, name).is_some() => Ok(()),
-            Number::Row(name, _) => {
-                let what = format!("there is no row of bars `{name}`");
-                Err(of_path(
-                    parameter,
-                    what,
-                    "rows are called by the joints at their ends, FROM-TO",
-                ))
-            }
-            Number::Anchor(..) if ends(self).is_some() => Ok(()),
-            Number::Anchor(..) => {
-                let what = "the system is no chain between two anchors";
-                Err(of_path(parameter, what, "its supports are `joints.NAME.at_m`"))
-            }
-            Number::Joint(name, field) => {
-                if let Some(number) = self.joint(name) {
-                    let sides = || rows::sides(self.joints(), self.members(), number);
-                    if *field == JointField::Share && sides().is_none() {
-                        let what = format!("joint `{name}` is not where two rows of bars meet");
-                        let help = "it has a share of the rope on both sides of it";
-                        return Err(of_path(parameter, what, help));
-                    }
-                    return held(parameter, &self.joints()[number], *field);
+        Number::Joint(name, field) => {
+            if let Some(number) = system.joint(name) {
+                let sides = || rows::sides(system.joints(), system.members(), number);
+                if *field == JointField::Share && sides().is_none() {
+                    let what = format!("joint `{name}` is not where two rows of bars meet");
+                    let help = "it has a share of the rope on both sides of it";
+                    return Err(of_path(parameter, what, help));
                 }
-                let names: Vec<_> = self.joints().iter().map(|joint| joint.name.text()).collect();
-                let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
-                let help = match nearest(name, &names) {
-                    Some(meant) => format!("did you mean `{meant}`?"),
-                    None if names.len() <= MOST_NAMES => format!("joints: {}", names.join(", ")),
-                    None => format!("there are {} joints", names.len()),
-                };
-                Err(of_path(parameter, format!("there is no joint `{name}`"), help))
+                return held(parameter, &system.joints()[number], *field);
             }
-        }?;
-        one_row(parameter, &self.resolved(&parameter.number))
-    }
+            let names: Vec<_> = system.joints().iter().map(|joint| joint.name.text()).collect();
+            let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+            let help = match nearest(name, &names) {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None if names.len() <= MOST_NAMES => format!("joints: {}", names.join(", ")),
+                None => format!("there are {} joints", names.len()),
+            };
+            Err(of_path(parameter, format!("there is no joint `{name}`"), help))
+        }
+    }?;
+    one_row(parameter, &resolved(system, &parameter.number))
 }
 
 /// Refuse a count of bars that are not of one row.

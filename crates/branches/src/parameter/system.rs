@@ -5,7 +5,7 @@ use model::budget::Budget;
 use model::system::{Joint, Member, Support, System};
 
 use crate::parameter::apply::{PointError, UncheckedBar, counts};
-use crate::parameter::base::Base;
+use crate::parameter::base::resolved;
 use crate::parameter::number::{BarField, JointField, Number};
 use crate::parameter::rows;
 
@@ -18,7 +18,7 @@ use crate::parameter::rows;
 ///
 /// [`PointError`] when a number is out of range or the system has no equilibrium.
 pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
-    let resolved: Vec<Number> = numbers.iter().map(|(number, _)| base.resolved(number)).collect();
+    let resolved: Vec<Number> = numbers.iter().map(|(number, _)| resolved(base, number)).collect();
     let values: Vec<f64> = numbers.iter().map(|(_, value)| *value).collect();
     answerable(with_numbers(base, &resolved, &values)?)
 }

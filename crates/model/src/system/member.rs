@@ -192,12 +192,6 @@ impl Member {
         self
     }
 
-    /// The same member with what it bears before it breaks.
-    #[must_use]
-    pub fn with_strength(self, strength: Strength) -> Self {
-        self.bearing(Some(strength))
-    }
-
     /// The same member with what it bears before it breaks, if that is known.
     #[must_use]
     pub fn bearing(mut self, strength: Option<Strength>) -> Self {
