@@ -193,8 +193,8 @@ pub const BYTES_PER_MEMBER_READ: u64 = 640;
 pub const BYTES_PER_EQUAL_MEMBER_READ: u64 = 175;
 
 /// The same from the file to the answers of both solvers, of a row of rigid bars between two anchors:
-/// 415 are measured of a million.
-pub const BYTES_PER_MEMBER_IN_ROW: u64 = 460;
+/// 395 are measured of a million.
+pub const BYTES_PER_MEMBER_IN_ROW: u64 = 400;
 
 /// The same in other systems, and of any where it moves, is varied or has derivatives: 2,950 in a row of
 /// elastic cables, 3,450 in trees and bridles, 4,400 in a row in motion, and 4,700 in a net of 40,000 cables

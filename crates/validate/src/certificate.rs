@@ -120,22 +120,33 @@ impl Certificate {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, NoCertificate> {
+    let end_m = *found.joints_m.last().ok_or(NoCertificate::Unusable)?;
+    certify_pulled(problem, found.reactions_n.end, end_m, &found.axial_n, found.energy_j)
+}
+
+/// The same from nothing but what is used: of a long row the rest is large.
+pub(crate) fn certify_pulled(
+    problem: &Problem,
+    pull: Vector,
+    end_m: Vector,
+    axial_n: &[f64],
+    energy_j: f64,
+) -> Result<Certificate, NoCertificate> {
     let chain = problem.chain();
     let bars = chain.bars();
-    let pull = found.reactions_n.end;
-    if found.axial_n.len() != bars.len()
-        || !pull.iter().chain(&found.axial_n).chain([&found.energy_j]).all(|x| x.is_finite())
+    if axial_n.len() != bars.len()
+        || !pull.iter().chain(axial_n).chain([&energy_j]).all(|x| x.is_finite())
     {
         return Err(NoCertificate::Unusable);
     }
     let length_m = chain.total_length_m();
-    closed(chain, found)?;
+    closed(chain, end_m)?;
     // What the last bar leaves on its anchor moves nothing: without it the numbers are no larger
     // than what hangs.
     let resting_n = last_part(bars) * chain.gravity_m_s2();
     let pull = [pull[0], pull[1], pull[2] - resting_n];
     let force_n = norm(pull) + hanging_n(chain);
-    let compressed = the_compressed_bar(&found.axial_n, force_n)?;
+    let compressed = the_compressed_bar(axial_n, force_n)?;
 
     let forces = bar_forces(bars, chain.gravity_m_s2(), pull);
     let (mut nu_k, mut singular) = (0.0, false);
@@ -155,7 +166,7 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
     let rounding_j = TERM_ULPS * U * (force_n * (length_m + norm(difference)))
         + STORED_ULPS * U * resting_n * difference[2].abs();
     let bound_j = resting_n * difference[2] + (work - cables - slack_j - 2.0 * rounding_j);
-    let gap_j = found.energy_j - bound_j;
+    let gap_j = energy_j - bound_j;
     let gap = gap_j / (hanging_n(chain) * length_m);
     // An energy below a proven bound is as wrong as one far above it; NaN fails both.
     if !(0.0..=GAP_TOLERANCE).contains(&gap) {
@@ -169,10 +180,9 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
 const OPEN_PART: f64 = 0.1;
 
 /// Whether the answer is a configuration of the chain, as far as that matters.
-fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), NoCertificate> {
-    let Some(last) = found.joints_m.last() else { return Err(NoCertificate::Unusable) };
+fn closed(chain: &Chain, last_m: Vector) -> Result<(), NoCertificate> {
     let end = chain.anchors().end_m;
-    let off = norm(std::array::from_fn(|k| last[k] - end[k]));
+    let off = norm(std::array::from_fn(|k| last_m[k] - end[k]));
     let gap_m = off - stored_rounding_m(chain);
     let total = chain.total_length_m();
     let longest = chain.bars().iter().fold(0.0_f64, |most, bar| most.max(bar.length_m()));

@@ -131,14 +131,14 @@ fn a_family_with_slack_bars_has_the_energy_of_its_system() {
     }
 }
 
-/// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain
-/// is told from both ends to the middle; half of the load of 9 N is a force at the very end of a
-/// bar.
+/// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The members
+/// run from both ends to the middle; a float of 3 N lifts at P, and half of the load of 9 N is a force at
+/// the very end of a bar.
 #[test]
 fn the_loaded_string_is_in_the_list() {
     let joints = vec![
         Joint::anchor("A", [1.0, 0.0, 2.0]),
-        Joint::free("P").with_mass(1.6),
+        Joint::free("P").with_mass(1.9).with_force([0.0, 0.0, 3.0]),
         Joint::free("Q").with_mass(0.45),
         Joint::anchor("B", [13.0, 0.0, 1.0]),
     ];

@@ -60,8 +60,8 @@ pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
     /// Refuse what would need more memory: 80 bytes for each byte of a system file, 120 for each of
-    /// an answer in JSON, 460 for each bar of a chain (640 where bars are in a file of their own),
-    /// 460 for each in another row of rigid bars between two anchors, 5000 for each member of another
+    /// an answer in JSON, 400 for each bar of a chain (640 where bars are in a file of their own),
+    /// 400 for each in another row of rigid bars between two anchors, 5000 for each member of another
     /// system (640 of them while it is read) and of any that moves, is varied or has derivatives, 7000
     /// and 100 for each mode with `modes`, and twice its name for each joint. A line of a batch may need all of it. A sweep needs 50 MB
     /// for each thread, basins 50 bytes for each start, a trace what its --max-points says. If not

@@ -17,8 +17,8 @@ pub struct Row {
     problem: Problem,
     /// The joint of the system for each joint of the chain.
     joints: Vec<u32>,
-    /// The member for each bar, and whether it runs the other way.
-    members: Vec<(u32, bool)>,
+    /// The member for each bar.
+    members: Vec<Link>,
     /// Weight at each joint of the chain, N; empty where there is none.
     weights_n: Vec<f64>,
 }
@@ -30,7 +30,7 @@ impl From<&Problem> for Row {
         Self {
             problem: problem.clone(),
             joints: (0..).take(bars + 1).collect(),
-            members: (0..).map(|bar| (bar, false)).take(bars).collect(),
+            members: (0..).map(|bar| Link::new(bar, false)).take(bars).collect(),
             weights_n: vec![],
         }
     }
@@ -61,8 +61,26 @@ impl PartialEq for Once {
     }
 }
 
-/// Joints in their order, and members in theirs, with whether each runs the other way.
-type Walk = (Vec<u32>, Vec<(u32, bool)>);
+/// A member of a row, and whether it runs the other way: twice its number, and one more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Link(u32);
+
+impl Link {
+    fn new(member: u32, turned: bool) -> Self {
+        Self(2 * member + u32::from(turned))
+    }
+
+    fn member(self) -> usize {
+        (self.0 / 2) as usize
+    }
+
+    fn is_turned(self) -> bool {
+        self.0 % 2 == 1
+    }
+}
+
+/// Joints in their order, and members in theirs.
+type Walk = (Vec<u32>, Vec<Link>);
 
 impl System {
     /// The system as a chain, where it is one: rigid bars of exact length in a row between two anchors, nothing on
@@ -130,7 +148,7 @@ impl System {
     /// Joints and members in their order from the anchor of the smaller number, if they are one row.
     fn walk(&self) -> Option<Walk> {
         let mut at = vec![[u32::MAX; 2]; self.joints().len()];
-        for (k, member) in (0..u32::MAX).zip(self.members()) {
+        for (k, member) in (0..u32::MAX / 2).zip(self.members()) {
             for joint in [member.from, member.to] {
                 let free = at[joint].iter().position(|slot| *slot == u32::MAX)?;
                 at[joint][free] = k;
@@ -150,7 +168,7 @@ impl System {
             let turned = member.to == here as usize;
             here = u32::try_from(if turned { member.from } else { member.to }).ok()?;
             joints.push(here);
-            members.push((next, turned));
+            members.push(Link::new(next, turned));
             before = next;
         }
         let inner = &joints[1..joints.len() - 1];
@@ -170,8 +188,8 @@ impl System {
     }
 
     /// The body of a member with a weight at its second joint along the row.
-    fn loaded(&self, (member, turned): (u32, bool), weight_n: f64) -> Option<Bar> {
-        let body = self.members()[member as usize].body;
+    fn loaded(&self, link: Link, weight_n: f64) -> Option<Bar> {
+        let (body, turned) = (self.members()[link.member()].body, link.is_turned());
         if weight_n <= 0.0 && !turned {
             return Some(body);
         }
@@ -203,7 +221,7 @@ impl Row {
 
     /// The members of the system in the order of the chain, and whether each runs the other way.
     fn members(&self) -> impl Iterator<Item = (usize, bool)> + '_ {
-        self.members.iter().map(|(member, turned)| (*member as usize, *turned))
+        self.members.iter().map(|link| (link.member(), link.is_turned()))
     }
 
     /// Weight at a joint of the chain, N.
@@ -216,17 +234,21 @@ impl Row {
         [self.joints[0], self.joints[self.members.len()]].map(|joint| joint as usize)
     }
 
-    /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
-    /// one of this system. The character in the plane follows from the index alone.
+    /// The axial forces of an answer in the order of the chain, N; without value where it is not one of this system.
     #[must_use]
-    pub fn chain_equilibrium(&self, found: &SystemEquilibrium) -> Option<Equilibrium> {
+    pub fn chain_axial_n(&self, found: &SystemEquilibrium) -> Option<Vec<f64>> {
         let bars = self.members.len();
         let fits = [found.joints_m.len(), found.reactions_n.len()] == [bars + 1; 2]
             && [found.axial_n.len(), found.start_forces_n.len(), found.end_forces_n.len()]
                 == [bars; 3];
-        if !fits {
-            return None;
-        }
+        fits.then(|| self.members().map(|(member, _)| found.axial_n[member]).collect())
+    }
+
+    /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
+    /// one of this system. The character in the plane follows from the index alone.
+    #[must_use]
+    pub fn chain_equilibrium(&self, found: &SystemEquilibrium) -> Option<Equilibrium> {
+        let axial_n = self.chain_axial_n(found)?;
         let [first, last] = self.anchors();
         let reactions_n =
             Reactions { start: found.reactions_n[first], end: found.reactions_n[last] };
@@ -242,7 +264,7 @@ impl Row {
             joints_m: self.joints().map(|joint| found.joints_m[joint]).collect(),
             multipliers_n: std::iter::once(reactions_n.start).chain(passed_on).collect(),
             reactions_n,
-            axial_n: self.members().map(|(member, _)| found.axial_n[member]).collect(),
+            axial_n,
             stability: Stability {
                 in_plane: if index == 0 { InPlane::Minimum } else { InPlane::Saddle },
                 index_in_plane: index,

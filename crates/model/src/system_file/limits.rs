@@ -13,8 +13,8 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
 /// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes, where it is one of
-/// a `count`: 385 are measured of a million.
-pub const BYTES_PER_BAR: u64 = 460;
+/// a `count`: 370 are measured of a million.
+pub const BYTES_PER_BAR: u64 = 400;
 
 /// The same where bars are in a file of their own, each with its numbers: 550 are measured of a million.
 pub const BYTES_PER_BAR_OF_FILE: u64 = 640;
@@ -36,7 +36,7 @@ pub const BYTES_PER_FILE_BYTE: u64 = 80;
 ///
 /// ```standalone_crate
 /// use model::system_file::{limit_memory, parse};
-/// limit_memory(460_000);
+/// limit_memory(400_000);
 /// let chain = |count| format!(
 ///     "anchors = {{ start_m = [0, 0, 0], end_m = [0, 0, -1] }}\n\
 ///      [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = {count}\n"

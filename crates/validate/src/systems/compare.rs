@@ -16,6 +16,7 @@ use super::scale::Scale;
 use super::sliding::sliding;
 use super::statics::{SystemStatics, judge};
 use super::turn::turned_onto;
+use crate::certificate::certify_pulled;
 use crate::tolerances::Tolerances;
 use crate::verdict::{Verdict, with_sentences};
 use numerics::vector::{minus, norm, worse};
@@ -213,10 +214,11 @@ fn certify_row(
     answer: &SystemEquilibrium,
 ) -> Option<Result<Optimal, NoCertificate>> {
     let row = system.as_row()?;
-    let mut found = row.chain_equilibrium(answer)?;
-    // The bound needs the pull at the end alone.
-    found.multipliers_n = vec![];
-    Some(crate::certificate::certify(row.problem(), &found).map(|proof| proof.proof()))
+    let axial_n = row.chain_axial_n(answer)?;
+    let end = row.joints().last()?;
+    let (pull, end_m) = (answer.reactions_n[end], answer.joints_m[end]);
+    let proof = certify_pulled(row.problem(), pull, end_m, &axial_n, answer.energy_j);
+    Some(proof.map(|proof| proof.proof()))
 }
 
 impl<'a> Judgement<'a> {

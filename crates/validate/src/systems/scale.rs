@@ -54,9 +54,9 @@ pub(crate) struct Scale {
 impl Scale {
     pub(crate) fn new(system: &System, answer: &SystemEquilibrium) -> Self {
         let joints = system.joints().len();
-        let prestress: Vec<f64> =
-            system.members().iter().map(|member| prestress_n(member, &answer.joints_m)).collect();
-        let (load_n, prestress_n) = (total_load_n(system), prestress.iter().sum::<f64>());
+        let prestress_n = |member| prestress_n(member, &answer.joints_m);
+        let all_prestress_n: f64 = system.members().iter().map(prestress_n).sum();
+        let load_n = total_load_n(system);
         let loaded = load_n > 0.0;
         let mut joint_n = if loaded {
             // Not in the memory of the vectors, which is three times as large.
@@ -64,14 +64,14 @@ impl Scale {
         } else {
             vec![0.0; joints]
         };
-        for (member, prestress_n) in system.members().iter().zip(&prestress) {
+        for member in system.members() {
             let weight_n = member.body.mass_kg() * system.gravity_m_s2();
+            let acts_n = if loaded { weight_n } else { prestress_n(member) };
             for joint in member.path() {
-                joint_n[joint] =
-                    worse(joint_n[joint], if loaded { weight_n } else { *prestress_n });
+                joint_n[joint] = worse(joint_n[joint], acts_n);
             }
         }
-        let total_n = if loaded { load_n } else { prestress_n };
+        let total_n = if loaded { load_n } else { all_prestress_n };
         let mean_n = if total_n > 0.0 { total_n / joints as f64 } else { f64::INFINITY };
         for scale_n in &mut joint_n {
             *scale_n = scale_n.max(mean_n);
@@ -80,7 +80,7 @@ impl Scale {
         let far_m =
             system.reference_m().iter().fold(size_m, |most, x| worse(most, x.abs() + size_m));
         let stored_m = STORED_ULPS * f64::EPSILON * far_m;
-        Self { size_m, stored_m, load_n, total_n, held_n: load_n + prestress_n, joint_n }
+        Self { size_m, stored_m, load_n, total_n, held_n: load_n + all_prestress_n, joint_n }
     }
 
     /// What differences of forces are relative to where forces of this size meet, N: all that acts, or

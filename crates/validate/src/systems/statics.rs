@@ -173,7 +173,7 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
         let length_m = system.members()[k].body.length_m();
         found.note(|s| &mut s.length, over_m / length_m, Place::Member(k + 1));
     }
-    for (k, violation) in joint_balances(system, answer, &units).into_iter().enumerate() {
+    for (k, violation) in joint_balances(system, answer, &units).enumerate() {
         found.note(|s| &mut s.joint, violation, Place::Joint(k));
     }
     for k in 0..joints {
@@ -428,7 +428,11 @@ fn law(
 }
 
 /// What is left over at every joint.
-fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) -> Vec<f64> {
+fn joint_balances(
+    system: &System,
+    answer: &SystemEquilibrium,
+    units: &Units,
+) -> impl Iterator<Item = f64> {
     let gravity = system.gravity_m_s2();
     let joints = system.joints();
     let mut left: Vec<Vector> = joints
@@ -457,13 +461,12 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
         }
     }
     let all = left.into_iter().zip(unit_n).enumerate();
-    all.map(|(k, (left, unit_n))| {
+    all.map(move |(k, (left, unit_n))| {
         // Where nothing acts anywhere there is no size but that of the forces.
         let acts_n = units.acts_n.get(k).copied().filter(|acts_n| acts_n.is_finite());
         let least_n = IDLE * acts_n.unwrap_or_default();
         units.at(&[k]).part(norm(left), worse(unit_n, least_n))
     })
-    .collect()
 }
 
 /// A supported joint lies on its support, whose force is normal to the motion that it leaves free;

@@ -4,7 +4,7 @@ use model::system::{Member, PointLoad, System};
 use model::{NoCensus, Vector};
 use numerics::{DoubleDouble, lever};
 
-/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule, but for the weight of the
+/// What hangs at each joint in kg, the sum of all loads of joints and members shared by the lever rule, but for the weight of the
 /// members that bear their own; nothing where nothing hangs, exactly.
 pub(super) fn weights_kg(
     system: &System,
@@ -41,7 +41,12 @@ pub(super) fn weights_kg(
             }
         }
     }
-    Ok(weights.kg)
+    // A force up, as of a float, makes a joint lighter.
+    let is_down = |kg: &Option<DoubleDouble>| kg.is_none_or(|kg| kg.interval().lo() > 0.0);
+    match weights.kg.iter().position(|kg| !is_down(kg)) {
+        Some(joint) => Err(NoCensus::LoadsNotDown { joint: joint + 1 }),
+        None => Ok(weights.kg),
+    }
 }
 
 /// What an end of a member takes of its weight, kg.
@@ -84,10 +89,10 @@ impl Weights<'_> {
         [x, y, z]: Vector,
         share: DoubleDouble,
     ) -> Result<(), NoCensus> {
-        if x.abs() > 0.0 || y.abs() > 0.0 || z > 0.0 {
+        if x.abs() > 0.0 || y.abs() > 0.0 {
             return Err(NoCensus::LoadsNotDown { joint: joint + 1 });
         }
-        if z < 0.0 {
+        if z.abs() > 0.0 {
             let g = DoubleDouble::point(self.system.gravity_m_s2());
             self.add(joint, DoubleDouble::point(-z) / g * share);
         }

@@ -29,11 +29,21 @@ fn what_hangs_at_a_joint_is_its_share_of_all_loads() {
         let found = found.unwrap().interval().mid();
         assert!((found / wanted - 1.0).abs() < 1e-14, "{found}, not {wanted}");
     }
-    for force_n in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]] {
+    for force_n in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]] {
         let mut pushed = long.clone();
         pushed.loads[0].force_n = force_n;
         assert_eq!(weights(&pushed), Err(NoCensus::LoadsNotDown { joint: 2 }), "{force_n:?}");
     }
+    // Up, 8 N take 0.3 kg from the 12 of P and half a kilogram from the 2 of Q; 32 N are what Q bears.
+    let mut lifted = long.clone();
+    lifted.loads[0].force_n = [0.0, 0.0, 8.0];
+    let found = weights(&lifted).unwrap();
+    for (found, wanted) in [(found[1], 11.7), (found[2], 1.5)] {
+        let found = found.unwrap().interval().mid();
+        assert!((found / wanted - 1.0).abs() < 1e-14, "{found}, not {wanted}");
+    }
+    lifted.loads[0].force_n = [0.0, 0.0, 32.0];
+    assert_eq!(weights(&lifted), Err(NoCensus::LoadsNotDown { joint: 3 }));
     // A force of nothing is no load.
     let mut light = Member::bar(1, 2, Bar::new(8.0, 0.0, 2.0, [0.0; 3]).unwrap());
     light.loads.push(PointLoad { at_m: 5.0, force_n: [0.0; 3] });
