@@ -11,7 +11,8 @@ use crate::network::error::Error;
 use crate::network::frame::{Frame, Rod};
 use crate::network::polish::rounding_floor;
 use crate::network::shape::{NO_STRAIN, Shape, largest};
-use crate::vector::norm;
+use crate::network::weak::Settled;
+use crate::vector::{norm, scaled};
 
 /// Unbalanced force at a joint over its scale that counts as balance: a quarter of what two solvers are
 /// asked to agree to.
@@ -69,6 +70,16 @@ impl Frame {
             .then_some(Error::Absurd { member: member + 1, ratio })
     }
 
+    /// The sum of the forces of the members that meet at each joint.
+    pub(super) fn meeting(&self, force: &[f64]) -> Vec<f64> {
+        let mut forces = vec![0.0; self.spots.len()];
+        for (rod, force) in self.rods.iter().zip(force) {
+            forces[rod.from] += force.abs();
+            forces[rod.to] += force.abs();
+        }
+        forces
+    }
+
     /// The balance of the joint that is worst held against what it may be; refused where it is more.
     ///
     /// What the rounding of the forces at a joint leaves is allowed: of places of size `X` the
@@ -76,18 +87,14 @@ impl Frame {
     pub(super) fn balance(
         &self,
         system: &System,
-        shape: &Shape,
+        Settled { shape, along }: &Settled,
         tolerance: f64,
     ) -> Result<Balance, Error> {
-        let unbalance = self.lagrangian_gradient(&self.excesses(&shape.x), &shape.force);
+        let unbalance = self.gradient(|e| scaled(shape.force[e], along[e]));
         let loads: Vec<f64> = self.loads.iter().map(|load| norm(*load)).collect();
         let mean = loads.iter().sum::<f64>() / self.joints as f64;
         let least = if mean > 0.0 { mean } else { self.elastic_force(shape) };
-        let mut forces = vec![0.0; self.spots.len()];
-        for (rod, force) in self.rods.iter().zip(&shape.force) {
-            forces[rod.from] += force.abs();
-            forces[rod.to] += force.abs();
-        }
+        let forces = self.meeting(&shape.force);
         let rounding = rounding_floor(self, shape);
         let searched = tolerance.max(rounding);
         let most = self.force_scale(&shape.force);
@@ -140,17 +147,26 @@ mod tests {
         (system, frame, Shape { x, force })
     }
 
+    fn balance(
+        system: &System,
+        frame: &Frame,
+        shape: &Shape,
+        tolerance: f64,
+    ) -> Result<Balance, Error> {
+        frame.balance(system, &Settled::as_is(frame, shape.clone()), tolerance)
+    }
+
     #[test]
     fn each_joint_is_held_to_its_own_load() {
         let (system, frame, shape) = hung([20.005, 0.005]);
-        let held = frame.balance(&system, &shape, 1e-12).unwrap();
+        let held = balance(&system, &frame, &shape, 1e-12).unwrap();
         assert!(held.unbalance <= held.allowed && held.allowed < 1e-9, "{held:?}");
         // At P 2 N too much of 20 N; at Q 1e-6 N too much of 5 mN.
         for (forces_n, named, wanted) in
             [([22.005, 0.005], "P", 0.1), ([20.005_001, 0.005_001], "Q", 2e-4)]
         {
             let (system, frame, shape) = hung(forces_n);
-            let refused = frame.balance(&system, &shape, 1e-12);
+            let refused = balance(&system, &frame, &shape, 1e-12);
             let Err(Error::Unbalanced { joint, unbalance }) = refused else {
                 panic!("{refused:?}")
             };
@@ -165,12 +181,12 @@ mod tests {
         let frame = Frame::new(&system).unwrap();
         let x = [0.0, -1.0, -2.0].map(|z| [0.0, 0.0, (z - frame.origin_m[2]) / frame.length_m]);
         let force = [31.0, 30.0].map(|force_n| force_n / frame.force_n).to_vec();
-        let refused = frame.balance(&system, &Shape { x: x.to_vec(), force }, 1e-12);
+        let refused = balance(&system, &frame, &Shape { x: x.to_vec(), force }, 1e-12);
         let Err(Error::Unbalanced { joint, unbalance }) = refused else { panic!("{refused:?}") };
         assert!(joint == "P" && (unbalance - 0.1).abs() < 1e-9, "{joint} {unbalance}");
         // A tolerance is allowed, of either joint's own load.
         let (system, frame, shape) = hung([20.005 + 1e-4, 0.005 + 1e-8]);
-        let held = frame.balance(&system, &shape, 1e-5).unwrap();
+        let held = balance(&system, &frame, &shape, 1e-5).unwrap();
         assert!(held.unbalance > 1e-6 && held.unbalance < 1e-5, "{held:?}");
     }
 
@@ -193,7 +209,7 @@ mod tests {
         let force: Vec<f64> = [20.0, 10.0].map(|force_n| force_n / frame.force_n).to_vec();
         let shape = Shape { x: x.to_vec(), force };
         assert!((frame.elastic_force(&shape) * frame.force_n - 20.0).abs() < 1e-12);
-        let refused = frame.balance(&system, &shape, 1e-12);
+        let refused = balance(&system, &frame, &shape, 1e-12);
         let Err(Error::Unbalanced { joint, unbalance }) = refused else { panic!("{refused:?}") };
         assert!(joint == "P" && (unbalance - 0.5).abs() < 1e-12, "{joint} {unbalance}");
         assert!(frame.absurd(&shape).is_none());

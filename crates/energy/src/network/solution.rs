@@ -13,7 +13,7 @@ use crate::network::minimise::Minimum;
 use crate::network::settings::Settings;
 use crate::network::shape::{NO_STRAIN, Shape};
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
-use crate::network::weak;
+use crate::network::weak::{self, Settled};
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -81,21 +81,24 @@ impl Solution {
         clock: Instant,
     ) -> Result<Self, Error> {
         let Minimum { shape, mut factor, effort, limit } = minimum;
-        let mut shape = Arc::unwrap_or_clone(shape);
+        let shape = Arc::unwrap_or_clone(shape);
         let least = limit.is_some();
-        if !least {
-            shape = weak::settled(system, frame, &mut factor, shape);
-        }
-        let slope = frame.slope(&shape);
-        let second = second_order(frame, &shape, limit.as_ref(), &mut factor, settings.dense);
+        let settled = if least {
+            Settled::as_is(frame, shape)
+        } else {
+            weak::settled(system, frame, &mut factor, shape)
+        };
+        let shape = &settled.shape;
+        let slope = frame.slope(shape);
+        let second = second_order(frame, shape, limit.as_ref(), &mut factor, settings.dense);
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });
         }
-        if let Some(absurd) = frame.absurd(&shape) {
+        if let Some(absurd) = frame.absurd(shape) {
             return Err(absurd);
         }
-        let balance = frame.balance(system, &shape, settings.tolerance)?;
-        if let Some(member) = wrong_sign(frame, &shape) {
+        let balance = frame.balance(system, &settled, settings.tolerance)?;
+        if let Some(member) = wrong_sign(frame, shape) {
             let member = if frame.rods[member].ground { member } else { frame.member_of(member) };
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
@@ -104,7 +107,7 @@ impl Solution {
             }
             return Err(Error::WrongSign { member: member + 1, force_n });
         }
-        if system.is_unloaded() && frame.unstrained(&shape) {
+        if system.is_unloaded() && frame.unstrained(shape) {
             return Err(Error::NoLoad);
         }
         let forces = match second.rigidity {
@@ -127,7 +130,7 @@ impl Solution {
             self_stresses: counted.self_stresses,
             gap: counted.gap,
         });
-        let equilibrium = equilibrium(system, frame, &shape, &second, evidence);
+        let equilibrium = equilibrium(system, frame, &settled, &second, evidence);
         let work = Work {
             relaxation: effort.relaxation,
             iterations: effort.iterations,
@@ -173,7 +176,7 @@ fn self_stresses(second: &SecondOrder, limit: Option<&Limit>) -> Option<SelfStre
 fn equilibrium(
     system: &System,
     frame: &Frame,
-    shape: &Shape,
+    Settled { shape, along: directions }: &Settled,
     second: &SecondOrder,
     evidence: Evidence,
 ) -> SystemEquilibrium {
@@ -188,10 +191,7 @@ fn equilibrium(
         .collect();
     for (e, member) in system.members().iter().enumerate() {
         // By virtual work: the derivative of the energy by the place of an end.
-        let of = |e: usize| {
-            let gradient = frame.rods[e].excess(frame.span(&shape.x, e)).gradient;
-            scaled(frame.force_n * shape.force[e], gradient)
-        };
+        let of = |e: usize| scaled(frame.force_n * shape.force[e], directions[e]);
         let strands = frame.rods[e].rope.checked_sub(1).map(|rope| &frame.ropes[rope as usize]);
         let last = strands.and_then(|strands| strands.last()).map_or_else(|| of(e), |e| of(*e));
         let pull = of(e);

@@ -187,7 +187,7 @@ fn the_last_joint_may_be_a_tenth_of_the_slack_from_its_anchor() {
         let chain = chain(1.0, end_m, bars.to_vec());
         let open = |off: Vector| {
             let last = std::array::from_fn(|k| end_m[k] + off[k]);
-            closed(&chain, &Equilibrium { joints_m: vec![last], ..answer([0.0; 3], E1_SIGNS, 0.0) })
+            closed(&chain, last)
         };
         for k in 0..3 {
             for sign in [1.0, -1.0] {
@@ -208,11 +208,10 @@ fn the_last_joint_may_be_a_tenth_of_the_slack_from_its_anchor() {
     let chain = chain(1.0, [0.0, 0.0, -4.0], bars.to_vec());
     for (more, within) in [(0.0, true), (1e-14, false)] {
         let last = [0.0, 0.0, -3.5 + rounding + more];
-        let found = Equilibrium { joints_m: vec![last], ..answer([0.0; 3], E1_SIGNS, 0.0) };
-        assert_eq!(closed(&chain, &found).is_ok(), within, "{more}");
+        assert_eq!(closed(&chain, last).is_ok(), within, "{more}");
     }
-    let nowhere = Equilibrium { joints_m: vec![], ..answer([0.0; 3], E1_SIGNS, 0.0) };
-    assert_eq!(closed(&chain, &nowhere), Err(NoCertificate::Unusable));
+    let nowhere = Equilibrium { joints_m: vec![], ..answer(E1_END, E1_SIGNS, E1_ENERGY) };
+    assert_eq!(certify(&paper(), &nowhere), Err(NoCertificate::Unusable));
 }
 
 /// Bars of some lengths with forces of some sizes in any direction.
