@@ -16,8 +16,8 @@
 //! `lagrange` and `energy` answer the same question and know nothing of each other. Here their
 //! answers are held against each other ([`systems::compare`]), against a third judge written
 //! from Newton's laws ([`systems::judge`]), against a proof of global minimality
-//! ([`systems::certify`]), and against a list of all equilibria ([`systems::look_up`]). [`independence`] proves from the dependency
-//! graph that the agreement of the two is worth something. Answers from elsewhere are judged by the
+//! ([`systems::certify`]), and against a list of all equilibria ([`systems::look_up`]). A test (`independence`) proves from the
+//! dependency graph that the agreement of the two is worth something. Answers from elsewhere are judged by the
 //! same laws ([`foreign`]).
 
 pub mod census_checks;
@@ -27,7 +27,6 @@ pub mod field;
 pub mod foreign;
 mod free;
 pub mod gallery;
-pub mod independence;
 pub mod lever;
 pub mod question;
 pub mod systems;
