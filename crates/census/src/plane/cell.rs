@@ -12,6 +12,7 @@
 
 use numerics::Interval;
 
+use crate::branch_and_bound::halves;
 use crate::plane::face::Face;
 use crate::plane::system::System;
 
@@ -200,12 +201,7 @@ impl Cell {
 
     /// Cut in two halves across one coordinate.
     pub(crate) fn cut(&self, across: usize) -> [Self; 2] {
-        let whole = self.at[across];
-        let middle = whole.mid();
-        let (mut first, mut second) = (*self, *self);
-        first.at[across] = Interval::new(whole.lo(), middle);
-        second.at[across] = Interval::new(middle, whole.hi());
-        [first, second]
+        halves(self.at, across).map(|at| Self { at, ..*self })
     }
 
     /// Whether the cells have no pull in common; they must be on the same face.

@@ -6,7 +6,6 @@ use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::Pattern;
-use crate::degenerate::bound::Bound;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
@@ -39,9 +38,6 @@ pub struct Undecided {
     pub at: [Interval; 2],
     /// The pulls along the horizontal direction and along Z, N, where they are finite.
     pub pull_n: Option<[Interval; 2]>,
-    /// How many equilibria there can be, where that is proved.
-    #[serde(default)]
-    pub bound: Option<Bound>,
 }
 
 /// Why a cell is undecided.
@@ -141,7 +137,7 @@ impl Undecided {
         let signs = patterns.iter().map(|pattern| pattern.signs(system.bars()).collect()).collect();
         let finite = cell.homogeneous()[2].lo() > 0.0;
         let pull_n = finite.then(|| system.pull_on_anchor_n(cell.pull(system)));
-        Self { reason, signs, chart: cell.face, at: cell.at, pull_n, bound: None }
+        Self { reason, signs, chart: cell.face, at: cell.at, pull_n }
     }
 
     /// A slack family that may or may not exist.
@@ -151,14 +147,7 @@ impl Undecided {
         let face = Face::Around(u8::try_from(group).unwrap_or(u8::MAX));
         let cell = Cell { face, at: [Interval::ZERO; 2] };
         let pull_n = Some(system.pull_on_anchor_n(cell.pull(system)));
-        Self {
-            reason: Reason::Slack,
-            signs: vec![signs],
-            chart: face,
-            at: cell.at,
-            pull_n,
-            bound: None,
-        }
+        Self { reason: Reason::Slack, signs: vec![signs], chart: face, at: cell.at, pull_n }
     }
 }
 
