@@ -139,7 +139,7 @@ pub(crate) fn halves<const N: usize>(at: [Interval; N], across: usize) -> [[Inte
 
 /// What comes of each task, in order: by several threads where at least so many tests are expected
 /// of all.
-fn worked<T: Sync, R: Send>(
+pub(crate) fn worked<T: Sync, R: Send>(
     tasks: &[T],
     tests: usize,
     worth_threads: usize,

@@ -12,6 +12,7 @@ use model::{Chain, Equilibrium, Problem};
 use numerics::atan2;
 use rayon::prelude::*;
 
+use crate::branch_and_bound::worked;
 use crate::census::check::CheckError;
 use crate::census::estimate::refuse_long;
 use crate::census::position::Position;
@@ -193,8 +194,9 @@ impl CompactCensus {
     /// The first equilibria, and everything else of the census: a list that is cut off.
     #[must_use]
     pub fn first(&self, number: usize) -> Census {
-        let shown = self.records.iter().take(number).map(|record| self.whole(record));
-        Census { equilibria: shown.collect(), ..self.besides.clone() }
+        let shown = &self.records[..number.min(self.len())];
+        let equilibria = worked(shown, shown.len(), WORTH_THREADS, |record| self.whole(record));
+        Census { equilibria, ..self.besides.clone() }
     }
 
     /// Everything of the census but its list of isolated equilibria, which is empty there.
@@ -281,11 +283,7 @@ fn records(system: &System, precise: &PreciseSystem, zeros: Zeros) -> (Vec<Recor
         let zero = polish(system, precise, &signs, zero);
         Record::of(system, *pattern, &signs, &zero).ok_or((*pattern, zero))
     };
-    let made: Vec<_> = if zeros.len() < WORTH_THREADS {
-        zeros.iter().map(one).collect()
-    } else {
-        zeros.par_iter().map(one).collect()
-    };
+    let made = worked(&zeros, zeros.len(), WORTH_THREADS, one);
     drop(zeros);
     let (mut records, mut without_index) = (Vec::with_capacity(made.len()), vec![]);
     for result in made {

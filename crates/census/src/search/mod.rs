@@ -86,7 +86,7 @@ pub(crate) fn search(
 ) -> Search {
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
     let root = |cell| Task { cell, patterns: patterns.clone() };
-    let roots = Cell::roots(system).into_iter().map(root).collect();
+    let roots = Cell::roots(system.vertical).into_iter().map(root).collect();
     let size = |task: &Task| task.patterns.len();
     let plan = Plan { budget, batch: usize::MAX, worth_threads: WORTH_THREADS, size };
     Search::run(roots, &plan, |_, task| examine_cell(system, settled, task), watch)

@@ -147,7 +147,7 @@ fn four_merge() {
     output.is(&point("status"), json!(["complete", "undecided", "complete"]));
     output.is(&point("count"), json!([2, 6]));
     output.is(&point("proved"), 2);
-    output.is(&point("reasons[]"), json!(["budget"]));
+    output.is(&point("reasons[]"), json!(["unloaded"]));
     output.is(&point("straight"), 0);
     let event = |key: &str| format!("traces[].events[].{key}");
     // Two curves touch, each with a fold that is known to half of the digits.
