@@ -110,8 +110,8 @@ impl CompactCensus {
         let unloaded = unloaded(&system, &exact);
         let straight = Straight::of(&system, &exact);
         let settled = Settled { unloaded: &unloaded, straight: &straight };
-        let patterns = (0..1_u32 << system.bars()).map(Pattern).collect();
-        let mut search = search(&system, settings, &settled, patterns, watch);
+        let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
+        let mut search = search(&system, settings, &settled, &patterns, watch);
         let (zeros, unclear) = merge(&system, std::mem::take(&mut search.found));
         let (mut records, without_index) =
             records(&system, &PreciseSystem::new(chain, loads, &system), zeros);

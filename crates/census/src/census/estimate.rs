@@ -110,7 +110,7 @@ fn sampled(system: &System, number: u32) -> Search {
     let settled = Settled { unloaded: &unloaded, straight: &straight };
     // What cannot be decided must not take the time of a census.
     let settings = Settings { max_tests_per_pattern: 2_000, ..Settings::default() };
-    search(system, &settings, &settled, patterns, &|_| {})
+    search(system, &settings, &settled, &patterns, &|_| {})
 }
 
 /// Refuse a chain of more bars than the settings allow, with what its census would take.

@@ -81,11 +81,11 @@ pub(crate) fn search(
     system: &System,
     settings: &Settings,
     settled: &Settled,
-    patterns: Vec<Pattern>,
+    patterns: &[Pattern],
     watch: &dyn Fn(Progress),
 ) -> Search {
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
-    let root = |cell| Task { cell, patterns: patterns.clone() };
+    let root = |cell| Task { cell, patterns: patterns.to_vec() };
     let roots = Cell::roots(system.vertical).into_iter().map(root).collect();
     let size = |task: &Task| task.patterns.len();
     let plan = Plan { budget, batch: usize::MAX, worth_threads: WORTH_THREADS, size };
