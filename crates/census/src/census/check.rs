@@ -131,6 +131,8 @@ pub(super) type Listed<'a> = dyn Fn(usize) -> Cow<'a, ProvenEquilibrium> + Sync 
 
 /// What is asked of all equilibria together.
 struct Told {
+    /// The middle.
+    energy_j: f64,
     /// A number for its signs: three ways for each bar, of which there are fewer than forty.
     signs: i64,
     in_plane: usize,
@@ -141,7 +143,7 @@ impl Told {
     fn of(equilibrium: &ProvenEquilibrium) -> Self {
         let signs = equilibrium.signs.iter().fold(0, |all, sign| 3 * all + i64::from(*sign));
         let (in_plane, out_of_plane) = (equilibrium.index_in_plane, equilibrium.index_out_of_plane);
-        Self { signs, in_plane, out_of_plane }
+        Self { energy_j: equilibrium.energy_j.mid(), signs, in_plane, out_of_plane }
     }
 }
 
@@ -192,15 +194,18 @@ impl Census {
         let one = |number: usize| {
             let stated = at(number);
             check_one(&precise, &system, number + 1, &stated)?;
-            let ascends = number == 0 || by_energy_and_angles(&at(number - 1), &stated).is_lt();
-            if ascends {
-                Ok(Told::of(&stated))
-            } else {
-                Err(CheckError::Order { number: number + 1 })
-            }
+            Ok(Told::of(&stated))
         };
         let told: Vec<_> = (0..count).into_par_iter().map(one).collect();
         let told = told.into_iter().collect::<Result<Vec<Told>, _>>()?;
+        for number in 1..count {
+            let by_energy = told[number - 1].energy_j.total_cmp(&told[number].energy_j);
+            let ascends =
+                by_energy.then_with(|| by_energy_and_angles(&at(number - 1), &at(number))).is_lt();
+            if !ascends {
+                return Err(CheckError::Order { number: number + 1 });
+            }
+        }
         once(&told, at)?;
         self.check_claims(&system, &Exact::new(chain, loads))?;
         if self.undecided.is_empty() {
