@@ -197,7 +197,7 @@ impl Census {
             Ok(Told::of(&stated))
         };
         let told: Vec<_> = (0..count).into_par_iter().map(one).collect();
-        let told = told.into_iter().collect::<Result<Vec<Told>, _>>()?;
+        let told = told.into_iter().collect::<Result<Vec<Told>, CheckError>>()?;
         for number in 1..count {
             let by_energy = told[number - 1].energy_j.total_cmp(&told[number].energy_j);
             let ascends =
