@@ -1,6 +1,6 @@
 //! A point of the path with its census.
 
-use census::{Census, DegenerateEquilibrium, ProvenEquilibrium};
+use census::{Census, ProvenEquilibrium};
 use nalgebra::DVector;
 use serde::Serialize;
 
@@ -51,23 +51,12 @@ pub enum PointStatus {
         /// Positions in which the chain lies on the line of its anchors: upright, with any force
         /// along it, or held by none.
         straight: usize,
-        /// Equilibria at which several have merged, proved.
-        merged: Vec<Merged>,
     },
     /// The values describe no problem.
     Refused {
         /// Why.
         reason: String,
     },
-}
-
-/// A degenerate equilibrium at a point of the path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Merged {
-    /// So many equilibria have merged; none where a whole family has shrunk to it.
-    pub multiplicity: Option<usize>,
-    /// Σ (−1)^index over those into which it falls apart.
-    pub degree: i8,
 }
 
 /// An equilibrium of a census as a point of a curve.
@@ -92,12 +81,6 @@ pub(crate) struct CensusPoint {
     pub(crate) span_m: f64,
     /// Whether the anchors stand on one vertical.
     pub(crate) vertical: bool,
-}
-
-impl Merged {
-    fn of(found: &DegenerateEquilibrium) -> Self {
-        Self { multiplicity: found.multiplicity, degree: found.degree }
-    }
 }
 
 /// Relative difference of energies that both come from the same equilibrium; rounding is a
@@ -149,7 +132,6 @@ impl CensusPoint {
                     .collect(),
                 proved: census.count_in_plane(),
                 straight: census.straight.len(),
-                merged: census.degenerate.iter().map(Merged::of).collect(),
             };
         }
         Ok(census_point)
@@ -175,7 +157,7 @@ fn nodes(path: &Path<'_>, position: f64, census: &Census) -> Vec<Node> {
 }
 
 /// A pull in the homogeneous coordinates of the equations.
-pub(crate) fn homogeneous(plane: &PlanarChain, pull_n: [f64; 2]) -> [f64; 3] {
+fn homogeneous(plane: &PlanarChain, pull_n: [f64; 2]) -> [f64; 3] {
     let h = pull_n[0] / plane.force_unit_n;
     let v = (pull_n[1] + plane.offset_n) / plane.force_unit_n;
     let size = h.hypot(v).hypot(1.0);

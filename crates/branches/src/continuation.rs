@@ -12,7 +12,6 @@ use crate::census_point::{CensusPoint, PathPoint, PointStatus};
 use crate::checks::{Checks, agrees, incomplete};
 use crate::error::ContinuationError;
 use crate::event::{Event, EventKind};
-use crate::multiple;
 use crate::parameter::number::Number;
 use crate::path::Path;
 use crate::segment::Segment;
@@ -135,7 +134,7 @@ impl Continuation {
         let mut round = 0;
         let (branches, events) = loop {
             let segments = segments(&path, &census_points);
-            let (branches, events) = work.branches(&census_points, &segments)?;
+            let (branches, events) = work.branches(&census_points, &segments);
             work.checks.incomplete = incomplete(&branches, &events);
             let gaps = gaps(&census_points, &events);
             let mut differ = work.look_between(&census_points, &segments, &gaps, &branches)?;
@@ -232,7 +231,7 @@ impl Work<'_> {
         &mut self,
         census_points: &[CensusPoint],
         segments: &[[usize; 2]],
-    ) -> Result<(Vec<Branch>, Vec<Event>), ContinuationError> {
+    ) -> (Vec<Branch>, Vec<Event>) {
         let key = |pair: [usize; 2]| pair.map(|k| census_points[k].position.to_bits());
         let is_fresh = |pair: &[usize; 2]| !self.known.contains_key(&key(*pair));
         let fresh: Vec<[usize; 2]> = segments.iter().copied().filter(is_fresh).collect();
@@ -246,14 +245,8 @@ impl Work<'_> {
             curves: &self.known[&key(*pair)].curves,
         };
         let links = segments.iter().map(link);
-        let Assembly { mut branches, events, .. } = Assembly::new(self.path, census_points, links);
-        let mut proved = vec![];
-        for candidate in multiple::candidates(self.path, &events) {
-            let found = multiple::prove(self.path, &events, &candidate, &self.settings.census)?;
-            proved.extend(found);
-        }
-        let events = multiple::join(&mut branches, events, &proved);
-        Ok((branches, events))
+        let Assembly { branches, events, .. } = Assembly::new(self.path, census_points, links);
+        (branches, events)
     }
 
     /// Count again between the census points and events; the censuses that differ from the
@@ -355,20 +348,24 @@ impl Work<'_> {
     }
 }
 
-/// What lies between neighbouring census points and events in the plane.
+/// What lies between neighbouring census points and events in the plane, if that is known to be apart.
 fn gaps(census_points: &[CensusPoint], events: &[Event]) -> Vec<[f64; 2]> {
     let in_plane =
         |kind| !matches!(kind, EventKind::SpaceExchange { .. } | EventKind::Unloaded { .. });
-    let events = events.iter().filter(|event| in_plane(event.kind)).map(|event| event.position);
+    let events = events.iter().filter(|event| in_plane(event.kind));
+    let events = events.map(|event| (event.position, event.position_error));
     let (Some(first), Some(last)) = (census_points.first(), census_points.last()) else {
         return vec![];
     };
-    let mut bounds: Vec<f64> =
-        events.filter(|at| (first.position..=last.position).contains(at)).collect();
-    bounds.extend(census_points.iter().map(|census_point| census_point.position));
-    bounds.sort_by(f64::total_cmp);
-    let gaps = bounds.windows(2).map(|pair| [pair[0], pair[1]]);
-    gaps.filter(|[low, high]| high - low > NARROWEST).collect()
+    let mut bounds: Vec<(f64, f64)> =
+        events.filter(|(at, _)| (first.position..=last.position).contains(at)).collect();
+    bounds.extend(census_points.iter().map(|census_point| (census_point.position, 0.0)));
+    bounds.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let gap = |pair: &[(f64, f64)]| {
+        let [(low, before), (high, after)] = [pair[0], pair[1]];
+        (high - low > NARROWEST + before + after).then_some([low, high])
+    };
+    bounds.windows(2).filter_map(gap).collect()
 }
 
 /// The intervals in which to follow curves: between neighbouring complete censuses, past undecided

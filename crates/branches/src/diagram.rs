@@ -25,9 +25,8 @@ const STYLES: [(Look<'_>, &str); 3] = [
 ];
 
 /// Kinds of events that are marked, and what the legend calls them.
-const MARKS: [(&str, &str); 5] = [
+const MARKS: [(&str, &str); 4] = [
     ("fold", "fold"),
-    ("multiple", "several branches meet"),
     ("branch-point", "branch point"),
     ("straight", "straight chain"),
     ("space-exchange", "stability in space changes"),
@@ -239,7 +238,6 @@ fn mark(svg: &mut Svg, kind: &str, [x, y]: [f64; 2]) {
     let edge = Look::stroke(Colour::BLACK, 1.0);
     match kind {
         "fold" => svg.circle(ring, [x, y], 4.5),
-        "multiple" => svg.circle(edge.filled(Colour::BLACK), [x, y], 5.0),
         "branch-point" => svg.diamond(edge.filled(Colour::BLACK), [x, y], 6.0),
         "straight" => svg.rectangle(ring, [x - 4.0, y - 4.0], [8.0, 8.0]),
         "space-exchange" => {

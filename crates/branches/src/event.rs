@@ -12,7 +12,7 @@ pub struct Event {
     pub kind: EventKind,
     /// Position on the path.
     pub position: f64,
-    /// How far `position` may be off: 0 where a census proves it, else an estimate.
+    /// How far `position` may be off, an estimate.
     pub position_error: f64,
     /// The values of the parameters there.
     pub values: Vec<f64>,
@@ -52,15 +52,6 @@ pub enum EventKind {
         /// Index in space after.
         to: usize,
     },
-    /// Several branches end in one degenerate equilibrium, which a census proves at these very
-    /// values.
-    Multiple {
-        /// So many equilibria merge in it, with those that are complex; none where a whole family of
-        /// slack positions shrinks to it.
-        multiplicity: Option<usize>,
-        /// Σ (−1)^index over those into which it falls apart.
-        degree: i8,
-    },
     /// A bar changes between tension and compression; its number, from 1.
     Unloaded {
         /// Number of the bar, from 1.
@@ -81,7 +72,6 @@ impl EventKind {
             Self::Straight => "straight",
             Self::BranchPoint => "branch-point",
             Self::SpaceExchange { .. } => "space-exchange",
-            Self::Multiple { .. } => "multiple",
             Self::Unloaded { .. } => "unloaded",
         }
     }

@@ -23,8 +23,8 @@
 //! and events counts again. Where it differs, or a branch point lacks its branches, points are
 //! added.
 //!
-//! Where the equations are doubly singular (two curves touch) the census is asked whether that is
-//! one degenerate equilibrium: module `multiple`.
+//! Where the equations are doubly singular (two curves touch) each has a fold of its own in the point
+//! that they share, located to the square root of rounding only.
 //!
 //! # Limits
 //!
@@ -85,7 +85,6 @@ mod event;
 mod frame;
 pub mod load;
 mod locate;
-mod multiple;
 mod observables;
 mod parameter;
 mod path;
@@ -93,7 +92,7 @@ mod segment;
 mod variation;
 
 pub use branch::{Branch, BranchEnd, BranchPoint};
-pub use census_point::{Merged, PathPoint, PointStatus};
+pub use census_point::{PathPoint, PointStatus};
 pub use checks::Checks;
 pub use continuation::{Continuation, ContinuationSettings, Progress};
 pub use diagram::{Abscissa, diagram};

@@ -135,22 +135,6 @@ impl<'a> Path<'a> {
             && self.plane(position).force_unit_n > 0.0
     }
 
-    /// Number of the parameter that changes at a position, if one alone does.
-    pub(crate) fn moving(&self, position: f64) -> Option<usize> {
-        let (k, _) = self.interval(position);
-        let (from, to) = (&self.values[k], self.values.get(k + 1)?);
-        let mut changing = (0..from.len()).filter(|k| from[*k].to_bits() != to[*k].to_bits());
-        changing.next().filter(|_| changing.next().is_none())
-    }
-
-    /// The position next to another at which the parameter that changes has this value.
-    pub(crate) fn position_of(&self, parameter: usize, value: f64, near: f64) -> f64 {
-        let (k, _) = self.interval(near);
-        let [from, to] = [k, k + 1].map(|k| self.values[k][parameter]);
-        let intervals = (self.values.len() - 1).max(1) as f64;
-        (k as f64 + (value - from) / (to - from)) / intervals
-    }
-
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.row.members.len()
@@ -274,12 +258,6 @@ mod tests {
         near(&path.values_at(-0.1), &[-2.15, 0.7, 0.25]);
         // The third point is a corner alone.
         assert_eq!([0, 1, 2, 3].map(|point| path.bends(point)), [false, false, true, false]);
-        // Two parameters change before it, and two behind.
-        assert_eq!(path.moving(0.5), None);
-        let at = path.position_of(1, 2.5, 0.5);
-        assert!((at - 0.5).abs() < 1e-15, "{at}");
-        let at = path.position_of(2, 0.4375, 0.9);
-        assert!((at - 2.75 / 3.0).abs() < 1e-15, "{at}");
         assert!(path.is_chain(0.2) && !path.is_chain(-0.4));
     }
 
@@ -316,7 +294,7 @@ mod tests {
         let vary = ["gravity_m_s2=10,20".parse().unwrap()];
         let variation = Variation::new(system, &vary, Combine::Product).unwrap();
         let path = Path::new(&variation, &variation.paths()[0]).unwrap();
-        assert_eq!((path.bars(), path.moving(0.5)), (3, Some(0)));
+        assert_eq!(path.bars(), 3);
         let plane = path.plane(0.5);
         near(&plane.length, &[0.25, 0.125, 0.625]);
         // What is before each bar, and of its own mass the share at its first joint: 3/4, 1/4, 3/5; 0.5 kg,

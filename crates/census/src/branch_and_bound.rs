@@ -4,6 +4,7 @@
 //! A batch of tasks at a time, each by itself and in parallel, the results taken in order. So
 //! neither the answer nor the point where a search gives up depends on the number of threads.
 
+use numerics::Interval;
 use rayon::prelude::*;
 
 use crate::search::Progress;
@@ -32,13 +33,18 @@ pub(crate) struct Outcome<F, T> {
     pub(crate) undecided: Vec<T>,
     /// Tests that it took, those of Newton's method included.
     pub(crate) tests: u64,
+    /// Proofs of existence tried.
+    pub(crate) proofs: u64,
 }
 
 impl<F, T> Default for Outcome<F, T> {
     fn default() -> Self {
-        Self { found: vec![], next: vec![], undecided: vec![], tests: 0 }
+        Self { found: vec![], next: vec![], undecided: vec![], tests: 0, proofs: 0 }
     }
 }
+
+/// Tasks of a batch worked on before the progress is told: some seconds for long chains.
+const AT_ONCE: usize = 65_536;
 
 /// All that a search found.
 #[derive(Debug)]
@@ -51,21 +57,32 @@ pub(crate) struct Search<F, T> {
     pub(crate) cells: u64,
     /// Tests that they took.
     pub(crate) tests: u64,
+    /// Proofs of existence tried.
+    pub(crate) proofs: u64,
+    /// Batches of tasks; without a limit to them the levels of the search.
+    pub(crate) batches: u32,
     /// Whether the budget of tests ended the search.
     pub(crate) exhausted: bool,
 }
 
 impl<F: Send + Sync, T: Send + Sync> Search<F, T> {
     /// Work on all tasks that come of the roots. `work` hears what was found in earlier batches,
-    /// `watch` of the progress after each.
+    /// `watch` of the progress after each, and within large ones.
     pub(crate) fn run(
         roots: Vec<T>,
         plan: &Plan<T>,
         work: impl Fn(&[F], &T) -> Outcome<F, T> + Sync,
         watch: &dyn Fn(Progress),
     ) -> Self {
-        let mut search =
-            Self { found: vec![], undecided: vec![], cells: 0, tests: 0, exhausted: false };
+        let mut search = Self {
+            found: vec![],
+            undecided: vec![],
+            cells: 0,
+            tests: 0,
+            proofs: 0,
+            batches: 0,
+            exhausted: false,
+        };
         let mut waiting = roots;
         while !waiting.is_empty() {
             if search.tests >= plan.budget {
@@ -74,26 +91,50 @@ impl<F: Send + Sync, T: Send + Sync> Search<F, T> {
                 break;
             }
             let batch = waiting.split_off(waiting.len().saturating_sub(plan.batch));
-            let known = &search.found;
-            let of_task = |task: &T| work(known, task);
-            let size = batch.iter().map(plan.size).fold(0, usize::saturating_add);
-            let outcomes = worked(&batch, size, plan.worth_threads, of_task);
-            search.cells += batch.len() as u64;
-            for outcome in outcomes {
-                search.found.extend(outcome.found);
-                search.undecided.extend(outcome.undecided);
-                search.tests += outcome.tests;
-                waiting.extend(outcome.next);
+            let mut left = batch.len();
+            for some in batch.chunks(AT_ONCE) {
+                let known = &search.found;
+                let of_task = |task: &T| work(known, task);
+                let size = some.iter().map(plan.size).fold(0, usize::saturating_add);
+                let outcomes = worked(some, size, plan.worth_threads, of_task);
+                left -= some.len();
+                search.cells += some.len() as u64;
+                for outcome in outcomes {
+                    search.found.extend(outcome.found);
+                    search.undecided.extend(outcome.undecided);
+                    search.tests += outcome.tests;
+                    search.proofs += outcome.proofs;
+                    waiting.extend(outcome.next);
+                }
+                watch(Progress {
+                    done: search.cells,
+                    waiting: (left + waiting.len()) as u64,
+                    proved: search.found.len() as u64,
+                    undecided: search.undecided.len() as u64,
+                });
             }
-            watch(Progress {
-                done: search.cells,
-                waiting: waiting.len() as u64,
-                proved: search.found.len() as u64,
-                undecided: search.undecided.len() as u64,
-            });
+            search.batches += 1;
         }
         search
     }
+}
+
+/// The first coordinate of the largest width, and that.
+pub(crate) fn widest(at: &[Interval]) -> (usize, f64) {
+    at.iter().enumerate().fold((0, 0.0), |(best, width), (k, part)| {
+        if part.width() > width { (k, part.width()) } else { (best, width) }
+    })
+}
+
+/// A box cut in two halves across one coordinate.
+pub(crate) fn halves<const N: usize>(at: [Interval; N], across: usize) -> [[Interval; N]; 2] {
+    let middle = at[across].mid();
+    let parts = [Interval::new(at[across].lo(), middle), Interval::new(middle, at[across].hi())];
+    parts.map(|part| {
+        let mut half = at;
+        half[across] = part;
+        half
+    })
 }
 
 /// What comes of each task, in order: by several threads where at least so many tests are expected
@@ -150,6 +191,16 @@ mod tests {
         let search = numbers(3, usize::MAX, 0);
         assert!(search.exhausted && search.found.is_empty());
         assert_eq!(search.undecided, [(0, 16), (16, 16), (32, 16), (48, 16)]);
+    }
+
+    #[test]
+    fn the_first_of_the_widest_is_cut() {
+        let of = |widths: &[f64]| {
+            let parts: Vec<Interval> = widths.iter().map(|x| Interval::new(0.0, *x)).collect();
+            widest(&parts)
+        };
+        assert_eq!([of(&[1.0, 4.0, 2.0, 4.0]).0, of(&[0.0; 3]).0], [1, 0]);
+        assert!((of(&[1.0, 4.0, 2.0, 4.0]).1 - 4.0).abs() < 1e-14);
     }
 
     /// 64 tasks of three expected tests each.

@@ -17,10 +17,6 @@ pub struct Settings {
     /// Joints held by three long strands of more bars together are refused with an estimate of the
     /// cost. Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].
     pub max_bridle_bars: usize,
-    /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
-    /// is not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
-    /// errors decide.
-    pub min_width: f64,
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are
     /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹. A net whose members
     /// may be slack shares them among the sets of slack members.
@@ -59,58 +55,24 @@ impl Settings {
     /// assert!(census::Settings { max_bars: 1000, ..settings }.validate().is_err());
     /// ```
     pub fn validate(&self) -> Result<(), CensusError> {
-        /// 2⁻⁴⁸ and 2⁻⁴.
-        const WIDTHS: std::ops::RangeInclusive<f64> =
-            f64::from_bits((1023 - 48) << 52)..=f64::from_bits((1023 - 4) << 52);
-        const TESTS: std::ops::RangeInclusive<u64> = 1..=1_000_000_000;
-        if !(1..=Self::MAX_BARS).contains(&self.max_bars) {
-            return Err(CensusError::Setting {
-                name: "max_bars",
-                value: self.max_bars as f64,
-                allowed: "from 1 to 24",
-            });
+        let fields = [
+            ("max_bars", self.max_bars as u64, Self::MAX_BARS as u64, "from 1 to 24"),
+            ("max_bridle_bars", self.max_bridle_bars as u64, Self::MAX_BARS as u64, "from 1 to 24"),
+            ("max_tests_per_pattern", self.max_tests_per_pattern, 1_000_000_000, "from 1 to 1e9"),
+            ("max_motions", self.max_motions as u64, Self::MAX_MOTIONS as u64, "from 1 to 6"),
+        ];
+        match fields.into_iter().find(|(_, value, most, _)| !(1..=*most).contains(value)) {
+            Some((name, value, _, allowed)) => {
+                Err(CensusError::Setting { name, value: value as f64, allowed })
+            }
+            None => Ok(()),
         }
-        if !(1..=Self::MAX_BARS).contains(&self.max_bridle_bars) {
-            return Err(CensusError::Setting {
-                name: "max_bridle_bars",
-                value: self.max_bridle_bars as f64,
-                allowed: "from 1 to 24",
-            });
-        }
-        if !WIDTHS.contains(&self.min_width) {
-            return Err(CensusError::Setting {
-                name: "min_width",
-                value: self.min_width,
-                allowed: "from 2^-48 to 2^-4",
-            });
-        }
-        if !TESTS.contains(&self.max_tests_per_pattern) {
-            return Err(CensusError::Setting {
-                name: "max_tests_per_pattern",
-                value: self.max_tests_per_pattern as f64,
-                allowed: "from 1 to 1e9",
-            });
-        }
-        if !(1..=Self::MAX_MOTIONS).contains(&self.max_motions) {
-            return Err(CensusError::Setting {
-                name: "max_motions",
-                value: self.max_motions as f64,
-                allowed: "from 1 to 6",
-            });
-        }
-        Ok(())
     }
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            max_bars: 16,
-            max_bridle_bars: 12,
-            min_width: f64::from_bits((1023 - 40) << 52),
-            max_tests_per_pattern: 20_000,
-            max_motions: 3,
-        }
+        Self { max_bars: 16, max_bridle_bars: 12, max_tests_per_pattern: 20_000, max_motions: 3 }
     }
 }
 

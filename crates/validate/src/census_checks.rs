@@ -37,17 +37,6 @@ pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Ne
     all.filter(|place| place.beyond.is_finite()).min_by(|a, b| a.beyond.total_cmp(&b.beyond))
 }
 
-/// How far outside of the boxes of the nearest degenerate equilibrium a position lies, in units of the
-/// total length.
-pub(crate) fn nearest_degenerate(
-    chain: &Chain,
-    census: &Census,
-    joints_m: &[Vector],
-) -> Option<f64> {
-    let all = census.degenerate.iter().map(|merged| beyond(chain, &merged.joints_m, joints_m));
-    all.filter(|distance| distance.is_finite()).min_by(f64::total_cmp)
-}
-
 /// How far a position lies from the nearest straight one in the vertical through both anchors, in
 /// units of the total length.
 pub(crate) fn nearest_straight(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<f64> {

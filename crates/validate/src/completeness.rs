@@ -4,7 +4,7 @@
 use census::{Census, SlackFamily};
 use model::{Chain, Equilibrium, Problem, Reason, Status, Vector, Verified};
 
-use crate::census_checks::{Nearest, nearest, nearest_degenerate, nearest_straight, placed};
+use crate::census_checks::{Nearest, nearest, nearest_straight, placed};
 use crate::tolerances::Tolerances;
 
 /// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
@@ -57,9 +57,7 @@ pub(crate) fn unlisted(
     energy_j: f64,
 ) -> Reason {
     let near = |distance: Option<f64>| distance.filter(|distance| !refutes(chain, *distance));
-    if let Some(distance) = near(nearest_degenerate(chain, census, joints_m)) {
-        Reason::AtDegenerate { distance }
-    } else if let Some(distance) = near(nearest_straight(chain, census, joints_m)) {
+    if let Some(distance) = near(nearest_straight(chain, census, joints_m)) {
         Reason::AtStraight { distance }
     } else {
         not_listed(chain, census, nearest(chain, census, joints_m), energy_j)

@@ -21,46 +21,26 @@ fn run(vary: &[&str]) -> Continuation {
 }
 
 /// At (1, 0, −2) bar 1 hangs, bar 2 is level without force and bar 3 hangs below it, V = −3 mgl.
-/// Two curves touch there, each with a fold: one event, whatever the grid.
+/// Two curves touch there, each with a fold, known to half of the digits.
 #[test]
-fn two_curves_that_touch_are_one_event_at_a_round_number() {
+fn two_curves_that_touch_have_a_fold_each() {
     for grid in ["-2.5..-1.5:11", "-2.5..-1.4:12", "-2.3..-1.7:7", "-2.45..-1.6:9"] {
         let trace = run(&["anchors.end_m.x=1", &format!("anchors.end_m.z={grid}")]);
         assert!(trace.checks.agree(), "{grid}: {:?}", trace.checks);
-        let in_plane =
-            trace.events.iter().filter(|event| !matches!(event.kind, EventKind::Unloaded { .. }));
-        let [event] = &in_plane.collect::<Vec<_>>()[..] else { panic!("{:?}", trace.events) };
-        assert_eq!(event.kind, EventKind::Multiple { multiplicity: Some(4), degree: 0 });
-        assert_eq!(event.values.as_slice(), [1.0, -2.0], "{grid}");
-        assert!(event.values_error.iter().all(|error| *error <= 0.0));
-        assert!((event.energy_j + 3.0 * MGL).abs() < 1e-12, "{grid}: {}", event.energy_j);
-        let half_turn = std::f64::consts::FRAC_PI_2;
-        for (angle, wanted) in event.angles_rad.iter().zip([0.0, half_turn, 0.0]) {
-            assert!((angle - wanted).abs() < 1e-14, "{:?}", event.angles_rad);
+        let folds: Vec<_> = trace.events.iter().filter(|e| e.kind == EventKind::Fold).collect();
+        assert_eq!(folds.len(), 2, "{grid}: {:?}", trace.events);
+        for fold in &folds {
+            let off = (fold.values[1] + 2.0).abs();
+            assert!(off <= fold.values_error[1] && off < 1e-6, "{grid}: {fold:?}");
+            assert!((fold.energy_j + 3.0 * MGL).abs() < 1e-5, "{grid}: {}", fold.energy_j);
         }
         // The bar without force changes from tension to compression there.
-        let unloaded: Vec<_> = trace
-            .events
-            .iter()
-            .filter(|event| event.kind == EventKind::Unloaded { bar: 2 })
-            .collect();
-        assert!(!unloaded.is_empty(), "{grid}");
-        for other in unloaded {
-            assert_eq!(other.values.as_slice(), [1.0, -2.0], "{grid}");
-        }
-        assert_eq!(event.branches.len(), 4, "{grid}");
-        for id in &event.branches {
-            let branch = &trace.branches[*id - 1];
-            let tip = if branch.end == BranchEnd::Event(event.id) {
-                branch.points.last()
-            } else {
-                assert_eq!(branch.start, BranchEnd::Event(event.id));
-                branch.points.first()
-            };
-            assert_eq!(tip.unwrap().values.as_slice(), [1.0, -2.0]);
-            let places: Vec<_> = branch.points.iter().map(|p| (p.position, p.event)).collect();
-            assert!(places.is_sorted_by(|a, b| a.0 <= b.0), "{grid}: {places:?}");
-        }
+        let unloaded = trace.events.iter().filter(|e| e.kind == EventKind::Unloaded { bar: 2 });
+        assert!(unloaded.count() > 0, "{grid}");
+        let mut ends: Vec<usize> = folds.iter().flat_map(|fold| fold.branches.clone()).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        assert_eq!(ends.len(), 4, "{grid}");
     }
 }
 

@@ -4,8 +4,6 @@
 //! zero, and every number is computed from it. (Where a bar carries no force there is one
 //! proof, of module `unloaded`, and it is made again.)
 //!
-//! How many equilibria an undecided box can hold is counted again too (module `check_bounds`).
-//!
 //! That nothing is missing is not proved again: only the search proves it. A list that is called
 //! complete is held against what every complete list must be. The Morse inequalities see any one
 //! missing equilibrium, but not a pair of neighbouring index that topology does not need. The
@@ -17,7 +15,7 @@
 //! and exactly one has the largest that there is; a slack family stands for it if all other bars of
 //! the family are in tension, or all in compression.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
 
 use model::{Chain, Problem};
 use numerics::Interval;
@@ -25,7 +23,6 @@ use rayon::prelude::*;
 
 use crate::census::Census;
 use crate::census::by_energy_and_angles;
-use crate::census::check_bounds::check_bounds;
 use crate::count::morse::MorseError;
 use crate::count::topology::Topology;
 use crate::enclosure::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
@@ -38,7 +35,7 @@ use crate::plane::system::System;
 use crate::slack::families::families;
 use crate::slack::moments::Exact;
 use crate::slack::straight::Straight;
-use crate::slack::unloaded::{unloaded, with_signs};
+use crate::slack::unloaded::with_signs;
 
 /// A stated enclosure may be that much wider than the one computed by the check, both being at the
 /// level of rounding errors; measured: below 4 on thousands of equilibria.
@@ -99,20 +96,6 @@ pub enum CheckError {
         /// Number in the list, from 1.
         number: usize,
     },
-    /// Occurs when the number of equilibria that an undecided box can hold, or their degree, is not
-    /// what is proved.
-    #[error("the bound on the equilibria in undecided box {number} is wrong")]
-    Bound {
-        /// Number in the list of undecided boxes, from 1.
-        number: usize,
-    },
-    /// Occurs when an undecided box is said to hold fewer equilibria than is proved. That refutes
-    /// nothing.
-    #[error("the bound on the equilibria in undecided box {number} is not proved")]
-    BoundNotProved {
-        /// Number in the list of undecided boxes, from 1.
-        number: usize,
-    },
     /// Occurs when equilibria are listed twice or out of order.
     #[error("equilibrium {number} is listed twice or out of order")]
     Order {
@@ -143,6 +126,27 @@ pub enum CheckError {
     },
 }
 
+/// The isolated equilibria by their numbers, from 0.
+pub(super) type Listed<'a> = dyn Fn(usize) -> Cow<'a, ProvenEquilibrium> + Sync + 'a;
+
+/// What is asked of all equilibria together.
+struct Told {
+    /// The middle.
+    energy_j: f64,
+    /// A number for its signs: three ways for each bar, of which there are fewer than forty.
+    signs: i64,
+    in_plane: usize,
+    out_of_plane: usize,
+}
+
+impl Told {
+    fn of(equilibrium: &ProvenEquilibrium) -> Self {
+        let signs = equilibrium.signs.iter().fold(0, |all, sign| 3 * all + i64::from(*sign));
+        let (in_plane, out_of_plane) = (equilibrium.index_in_plane, equilibrium.index_out_of_plane);
+        Self { energy_j: equilibrium.energy_j.mid(), signs, in_plane, out_of_plane }
+    }
+}
+
 impl CheckError {
     /// Whether it shows that the census is wrong; else a proof did not succeed, which shows
     /// nothing.
@@ -154,10 +158,7 @@ impl CheckError {
     /// ```
     #[must_use]
     pub fn refutes(&self) -> bool {
-        !matches!(
-            self,
-            Self::NotOne { .. } | Self::IndexNotProved { .. } | Self::BoundNotProved { .. }
-        )
+        !matches!(self, Self::NotOne { .. } | Self::IndexNotProved { .. })
     }
 }
 
@@ -173,60 +174,51 @@ impl Census {
 
     /// Judge this census of a chain with loads at its joints.
     pub(crate) fn check_chain(&self, chain: &Chain, loads: &JointLoads) -> Result<(), CheckError> {
+        let at = |number: usize| Cow::Borrowed(&self.equilibria[number]);
+        self.check_list(chain, loads, self.equilibria.len(), &at)
+    }
+
+    /// Judge this census with so many isolated equilibria, whichever way they are kept.
+    pub(super) fn check_list(
+        &self,
+        chain: &Chain,
+        loads: &JointLoads,
+        count: usize,
+        at: &Listed<'_>,
+    ) -> Result<(), CheckError> {
         if chain.bars().len() != self.statistics.bars {
             return Err(CheckError::Claim { quantity: "the number of bars" });
         }
         let system = System::new(chain, loads);
         let precise = PreciseSystem::new(chain, loads, &system);
-        let exact = Exact::new(chain, loads);
-        self.check_each(&system, &precise)?;
-        self.check_claims(&system, &exact)?;
-        check_bounds(self, &system, &exact, &|signs| {
-            let around = |e: &ProvenEquilibrium| Cell { face: e.alone_in.chart, at: e.alone_in.at };
-            let equal = self.equilibria.iter().enumerate().filter(|(_, e)| e.signs == signs);
-            equal.map(|(k, e)| zero_again(&precise, &system, k + 1, signs, around(e))).collect()
-        })?;
+        let one = |number: usize| {
+            let stated = at(number);
+            check_one(&precise, &system, number + 1, &stated)?;
+            Ok(Told::of(&stated))
+        };
+        let told: Vec<_> = (0..count).into_par_iter().map(one).collect();
+        let told = told.into_iter().collect::<Result<Vec<Told>, CheckError>>()?;
+        for number in 1..count {
+            let by_energy = told[number - 1].energy_j.total_cmp(&told[number].energy_j);
+            let ascends =
+                by_energy.then_with(|| by_energy_and_angles(&at(number - 1), &at(number))).is_lt();
+            if !ascends {
+                return Err(CheckError::Order { number: number + 1 });
+            }
+        }
+        once(&told, at)?;
+        self.check_claims(&system, &Exact::new(chain, loads))?;
         if self.undecided.is_empty() {
-            self.morse()?;
+            self.morse_of(&self.count_of(told.iter().map(|told| told.in_plane)))?;
         }
         if self.complete {
-            self.extremes(|index| {
-                self.equilibria.iter().filter(|e| e.index_out_of_plane == index).count()
-            })?;
-        }
-        Ok(())
-    }
-
-    /// The isolated equilibria, one by one.
-    pub(super) fn check_each(
-        &self,
-        system: &System,
-        precise: &PreciseSystem,
-    ) -> Result<(), CheckError> {
-        let one = |(k, equilibrium)| check_one(precise, system, k + 1, equilibrium);
-        let each: Vec<_> = self.equilibria.par_iter().enumerate().map(one).collect();
-        let mut by_signs: HashMap<&[i8], Vec<&ProvenEquilibrium>> = HashMap::new();
-        for (k, (equilibrium, proved)) in self.equilibria.iter().zip(each).enumerate() {
-            proved?;
-            let in_order = k == 0 || {
-                let before = &self.equilibria[k - 1];
-                by_energy_and_angles(before, equilibrium).is_lt()
-            };
-            // The same equilibrium twice would have overlapping pulls and equal signs.
-            let others = by_signs.entry(&equilibrium.signs).or_default();
-            let twice = others
-                .iter()
-                .any(|other| (0..2).all(|k| !other.pull_n[k].disjoint(equilibrium.pull_n[k])));
-            others.push(equilibrium);
-            if twice || !in_order {
-                return Err(CheckError::Order { number: k + 1 });
-            }
+            self.extremes(|index| told.iter().filter(|told| told.out_of_plane == index).count())?;
         }
         Ok(())
     }
 
     /// What is claimed besides the isolated equilibria.
-    pub(super) fn check_claims(&self, system: &System, exact: &Exact) -> Result<(), CheckError> {
+    fn check_claims(&self, system: &System, exact: &Exact) -> Result<(), CheckError> {
         let claims = [
             (
                 "the list of slack families",
@@ -235,12 +227,6 @@ impl Census {
             (
                 "the list of straight positions",
                 self.straight == Straight::of(system, exact).positions,
-            ),
-            (
-                "the list of degenerate equilibria",
-                // Where something is open the list need not be whole.
-                (self.degenerate.is_empty() && !self.undecided.is_empty())
-                    || self.degenerate == unloaded(system, exact).degenerate,
             ),
             ("the topology", self.topology == Topology::of_system(system)),
             ("whether there are circles", self.circles == system.vertical),
@@ -257,7 +243,7 @@ impl Census {
 
     /// Whether the lowest and the highest position of all are listed, and once.
     /// `listed` counts the equilibria with an index out of the plane.
-    pub(super) fn extremes(&self, listed: impl Fn(usize) -> usize) -> Result<(), CheckError> {
+    fn extremes(&self, listed: impl Fn(usize) -> usize) -> Result<(), CheckError> {
         // The turn about vertical anchors is in the kernel of the stress matrix.
         let joints = self.statistics.bars - 1 - usize::from(self.circles);
         // Lengths that do not reach leave no position at all.
@@ -274,6 +260,23 @@ impl Census {
         }
         Ok(())
     }
+}
+
+/// Whether no equilibrium is listed twice, of numbers for the signs of each: the same one would have equal signs and
+/// overlapping pulls.
+fn once(told: &[Told], at: &Listed<'_>) -> Result<(), CheckError> {
+    let mut by_signs: Vec<(i64, usize)> = told.iter().map(|told| told.signs).zip(0..).collect();
+    by_signs.sort_unstable();
+    for group in by_signs.chunk_by(|(a, _), (b, _)| a == b).filter(|group| group.len() > 1) {
+        let pulls: Vec<_> = group.iter().map(|(_, number)| at(*number).pull_n).collect();
+        for (k, pull) in pulls.iter().enumerate() {
+            let overlaps = |other: &[Interval; 2]| (0..2).all(|i| !other[i].disjoint(pull[i]));
+            if pulls[..k].iter().any(overlaps) {
+                return Err(CheckError::Order { number: group[k].1 + 1 });
+            }
+        }
+    }
+    Ok(())
 }
 
 fn check_one(
@@ -305,7 +308,7 @@ fn check_one(
     compared(system, number, stated, &computed)
 }
 
-/// The equilibrium in a neighbourhood.
+/// The equilibrium in a neighbourhood, from the zero of the closure there.
 fn proved_again(
     precise: &PreciseSystem,
     system: &System,
@@ -313,19 +316,6 @@ fn proved_again(
     signs: &[i8],
     around: Cell,
 ) -> Result<ProvenEquilibrium, CheckError> {
-    let zero = zero_again(precise, system, number, signs, around)?;
-    ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::IndexNotProved { number })
-}
-
-/// The zero of the closure in the neighbourhood of an equilibrium; of a circle that on the side of
-/// the search.
-pub(super) fn zero_again(
-    precise: &PreciseSystem,
-    system: &System,
-    number: usize,
-    signs: &[i8],
-    around: Cell,
-) -> Result<Zero, CheckError> {
     let not_one = CheckError::NotOne { number };
     let image = krawczyk_about_zero(system, signs, &around).ok_or(not_one.clone())?;
     if image.disjoint(&around) {
@@ -338,7 +328,8 @@ pub(super) fn zero_again(
     let tight = polish(system, precise, signs, &Zero { tight, alone_in: around }).tight;
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
-    Ok(Zero { tight: flip(tight), alone_in: flip(around) })
+    let zero = Zero { tight: flip(tight), alone_in: flip(around) };
+    ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::IndexNotProved { number })
 }
 
 /// Every number of an equilibrium against the one that is proved.

@@ -119,11 +119,7 @@ impl Census {
                 system: None,
             });
         }
-        let merged = self.degenerate.len();
         Status::Open(match &self.topology {
-            _ if self.undecided.is_empty() && merged > 0 => {
-                Reason::DegenerateEquilibria { listed: merged }
-            }
             _ if self.undecided.is_empty() && self.singular_families() > 0 => {
                 Reason::SingularFamilies { listed: self.singular_families() }
             }

@@ -31,14 +31,9 @@ const CELL_S: f64 = 1e-6;
 /// force and what holds them, and the neighbourhood.
 const EQUILIBRIUM_GB: f64 = 3e-7;
 
-/// Memory for each equilibrium of a compact census, GB: its zero, as found, once each and with what
-/// is kept of it, while lists are made of one another.
-const COMPACT_GB: f64 = 5e-7;
-
 /// Beyond the bars of any census: that of sixteen bars and the growth for each bar more, measured
 /// on random chains.
-const SIXTEEN_BARS: Estimate =
-    Estimate { seconds: 13.0, gigabytes: 0.5, compact_gigabytes: 0.05, equilibria: 1e5 };
+const SIXTEEN_BARS: Estimate = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
 const GROWTH: f64 = 2.1;
 
 /// What a census would take. Cells and equilibria are good to a factor of two; the processor time
@@ -62,10 +57,8 @@ const GROWTH: f64 = 2.1;
 pub struct Estimate {
     /// Time of one processor, s.
     pub seconds: f64,
-    /// Memory, GB.
+    /// Memory, GB; a [`CompactCensus`](crate::CompactCensus) takes less.
     pub gigabytes: f64,
-    /// Memory of a [`CompactCensus`](crate::CompactCensus), GB.
-    pub compact_gigabytes: f64,
     /// Equilibria, those of a circle counted once.
     pub equilibria: f64,
 }
@@ -84,11 +77,10 @@ pub(crate) fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     if bars > Settings::MAX_BARS {
         // Beyond 600 bars more the numbers overflow; the message stays finite.
         let times = GROWTH.powf((bars as f64 - 16.0).min(600.0));
-        let Estimate { seconds, gigabytes, compact_gigabytes, equilibria } = SIXTEEN_BARS;
+        let Estimate { seconds, gigabytes, equilibria } = SIXTEEN_BARS;
         return Estimate {
             seconds: seconds * times,
             gigabytes: gigabytes * times,
-            compact_gigabytes: compact_gigabytes * times,
             equilibria: equilibria * times,
         };
     }
@@ -98,11 +90,10 @@ pub(crate) fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     let cells = |search: &Search| search.cells as f64;
     let power = (cells(&many) / cells(&few)).log(f64::from(SAMPLE) / f64::from(QUARTER));
     let times = f64::from(all) / f64::from(SAMPLE.min(all));
-    let equilibria = many.zeros.len() as f64 * times;
+    let equilibria = many.found.len() as f64 * times;
     Estimate {
         seconds: CELL_S * bars as f64 * cells(&many) * times.powf(power.clamp(0.0, 1.0)),
         gigabytes: EQUILIBRIUM_GB * bars as f64 * equilibria,
-        compact_gigabytes: COMPACT_GB * equilibria,
         equilibria,
     }
 }
@@ -119,16 +110,7 @@ fn sampled(system: &System, number: u32) -> Search {
     let settled = Settled { unloaded: &unloaded, straight: &straight };
     // What cannot be decided must not take the time of a census.
     let settings = Settings { max_tests_per_pattern: 2_000, ..Settings::default() };
-    search(system, &settings, &settled, patterns, &|_| {})
-}
-
-/// What is kept of each equilibrium.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Kept {
-    /// Everything.
-    Whole,
-    /// What the rest follows from.
-    Compact,
+    search(system, &settings, &settled, &patterns, &|_| {})
 }
 
 /// Refuse a chain of more bars than the settings allow, with what its census would take.
@@ -136,22 +118,18 @@ pub(crate) fn refuse_long(
     chain: &Chain,
     loads: &JointLoads,
     settings: &Settings,
-    kept: Kept,
 ) -> Result<(), CensusError> {
     let bars = chain.bars().len();
     if bars <= settings.max_bars {
         return Ok(());
     }
-    let Estimate { seconds, gigabytes, compact_gigabytes, .. } = of_chain(chain, loads);
+    let Estimate { seconds, gigabytes, .. } = of_chain(chain, loads);
     Err(CensusError::TooManyBars {
         bars,
         max_bars: settings.max_bars,
         patterns: 2.0_f64.powf((bars as f64).min(600.0)),
         estimate_s: seconds,
-        estimate_gb: match kept {
-            Kept::Whole => gigabytes,
-            Kept::Compact => compact_gigabytes,
-        },
+        estimate_gb: gigabytes,
     })
 }
 
@@ -185,34 +163,28 @@ mod tests {
             let anchors = Anchors { start_m: [0.0; 3], end_m: [3.0, 0.0, 0.0] };
             Chain::new("long", 10.0, anchors, vec![bar; bars]).unwrap()
         };
-        let told = |bars: usize, max_bars: usize, kept: Kept| {
+        let told = |bars: usize, max_bars: usize| {
             let settings = Settings { max_bars, ..Settings::default() };
-            refuse_long(&long(bars), JointLoads::NONE, &settings, kept)
+            refuse_long(&long(bars), JointLoads::NONE, &settings)
         };
         let times = 2.1_f64.powi(10);
-        for (kept, gigabytes) in [(Kept::Whole, 0.5), (Kept::Compact, 0.05)] {
-            let Err(CensusError::TooManyBars { bars, max_bars, patterns, estimate_s, estimate_gb }) =
-                told(26, 24, kept)
-            else {
-                panic!("{kept:?}")
-            };
-            assert_eq!((bars, max_bars), (26, 24));
-            for (found, wanted) in [
-                (patterns, 67_108_864.0),
-                (estimate_s, 13.0 * times),
-                (estimate_gb, gigabytes * times),
-            ] {
-                assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
-            }
+        let Err(CensusError::TooManyBars { bars, max_bars, patterns, estimate_s, estimate_gb }) =
+            told(26, 24)
+        else {
+            panic!()
+        };
+        assert_eq!((bars, max_bars), (26, 24));
+        for (found, wanted) in
+            [(patterns, 67_108_864.0), (estimate_s, 13.0 * times), (estimate_gb, 0.5 * times)]
+        {
+            assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
         }
         assert!(
             (of_chain(&long(26), JointLoads::NONE).equilibria / (1e5 * times) - 1.0).abs() < 1e-12
         );
-        assert!(told(3, 3, Kept::Whole).is_ok() && told(3, 2, Kept::Whole).is_err());
+        assert!(told(3, 3).is_ok() && told(3, 2).is_err());
         // However long the message stays finite.
-        let Err(CensusError::TooManyBars { patterns, estimate_s, .. }) =
-            told(2_000, 24, Kept::Whole)
-        else {
+        let Err(CensusError::TooManyBars { patterns, estimate_s, .. }) = told(2_000, 24) else {
             panic!()
         };
         assert!(patterns.is_finite() && estimate_s.is_finite() && estimate_s > 1e190);

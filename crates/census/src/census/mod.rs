@@ -1,22 +1,18 @@
 //! The census.
 
 pub(crate) mod check;
-mod check_bounds;
 pub(crate) mod compact;
 mod convert;
 pub(crate) mod estimate;
 mod figure;
-mod gathered;
 pub(crate) mod position;
 
 use model::{Chain, Problem};
 use serde::{Deserialize, Serialize};
 
-use crate::census::estimate::Kept;
-use crate::census::gathered::Gathered;
+use crate::census::compact::CompactCensus;
 use crate::count::morse::{self, MorseError};
 use crate::count::topology::{Topology, TopologyError};
-use crate::degenerate::unloaded::DegenerateEquilibrium;
 use crate::equilibrium::ProvenEquilibrium;
 use crate::error::CensusError;
 use crate::plane::loads::JointLoads;
@@ -39,14 +35,11 @@ pub struct Census {
     /// force holds the others.
     #[serde(default)]
     pub straight: Vec<StraightPosition>,
-    /// Equilibria at which several have merged; most chains have none.
-    #[serde(default)]
-    pub degenerate: Vec<DegenerateEquilibrium>,
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
     /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
-    /// undecided, no equilibrium is degenerate, no straight position is an equilibrium, and the
-    /// Morse inequalities hold (where a straight position exists there are none).
+    /// undecided, no straight position is an equilibrium, and the Morse inequalities hold (where a
+    /// straight position exists there are none).
     pub complete: bool,
     /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
     pub circles: bool,
@@ -93,30 +86,7 @@ impl Census {
     /// # Ok::<(), census::CensusError>(())
     /// ```
     pub fn take(problem: &Problem, settings: &Settings) -> Result<Self, CensusError> {
-        Self::take_watched(problem, settings, &|_| {})
-    }
-
-    /// Take the census of a chain, and tell `watch` of the progress after each level of the search.
-    ///
-    /// # Errors
-    ///
-    /// As [`take`](Self::take).
-    ///
-    /// ```
-    /// use std::cell::Cell;
-    /// use census::{Census, Settings};
-    /// let levels = Cell::new(0);
-    /// let watch = |_| levels.set(levels.get() + 1);
-    /// let census = Census::take_watched(&model::cases::paper(), &Settings::default(), &watch)?;
-    /// assert_eq!(levels.get(), census.statistics.levels);
-    /// # Ok::<(), census::CensusError>(())
-    /// ```
-    pub fn take_watched(
-        problem: &Problem,
-        settings: &Settings,
-        watch: &dyn Fn(Progress),
-    ) -> Result<Self, CensusError> {
-        Self::of_chain(problem.chain(), JointLoads::NONE, settings, watch)
+        Self::of_chain(problem.chain(), JointLoads::NONE, settings, &|_| {})
     }
 
     /// Take the census of a chain with loads at its joints.
@@ -126,18 +96,11 @@ impl Census {
         settings: &Settings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, CensusError> {
-        let mut gathered = Gathered::of(chain, loads, settings, Kept::Whole, watch)?;
-        let mut equilibria = gathered.take_unloaded();
-        equilibria.extend(gathered.each(ProvenEquilibrium::new));
-        equilibria.sort_by(by_energy_and_angles);
-        let (_, mut census) = gathered.finish();
-        census.equilibria = equilibria;
-        census.complete = census.decided() && census.may_be_complete();
-        Ok(census)
+        let compact = CompactCensus::of_chain(chain, loads, settings, watch)?;
+        Ok(compact.first(compact.len()))
     }
 
-    /// Whether every equilibrium is named: in `equilibria`, `families` or `degenerate`, or upright
-    /// in `straight`. So the census is complete but for what has no regular second derivative.
+    /// Whether every equilibrium is named: in `equilibria` or `families`, or upright in `straight`. So the census is complete but for what has no regular second derivative.
     ///
     /// ```
     /// use census::{Census, Settings};
@@ -169,7 +132,6 @@ impl Census {
     /// regular.
     pub(crate) fn may_be_complete(&self) -> bool {
         self.topology_is_known()
-            && self.degenerate.is_empty()
             && self.singular_families() == 0
             && self.straight.iter().all(|straight| !straight.upright)
     }
@@ -222,26 +184,14 @@ impl Census {
         count
     }
 
-    /// Σ (−1)^index over the equilibria in the plane; degenerate ones count with their degree.
+    /// Σ (−1)^index over the equilibria in the plane.
     #[must_use]
     pub fn alternating_sum(&self) -> i64 {
-        self.alternating_sum_of(&self.count_by_index())
-    }
-
-    /// The same of these equilibria by index.
-    pub(crate) fn alternating_sum_of(&self, regular: &[i64]) -> i64 {
-        let merged = self.degenerate.iter().map(|merged| i64::from(merged.degree));
-        regular
-            .iter()
-            .zip([1, -1].into_iter().cycle())
-            .map(|(count, sign)| sign * count)
-            .sum::<i64>()
-            + merged.sum::<i64>()
+        morse::alternating_sum(&self.count_by_index())
     }
 
     /// The Morse inequalities between the equilibria and the topology of the configuration space;
-    /// nothing is said where the topology is not known. With degenerate equilibria the inequalities
-    /// do not hold, but the sum of all is the Euler characteristic all the same.
+    /// nothing is said where the topology is not known.
     ///
     /// # Errors
     ///
@@ -255,11 +205,7 @@ impl Census {
         match &self.topology {
             // What these count for is not known.
             Ok(_) if self.singular_families() > 0 => Ok(()),
-            Ok(topology) if self.degenerate.is_empty() => morse::check(by_index, topology),
-            Ok(topology) => match (self.alternating_sum_of(by_index), topology.euler) {
-                (found, expected) if found == expected => Ok(()),
-                (found, expected) => Err(MorseError::Euler { found, expected }),
-            },
+            Ok(topology) => morse::check(by_index, topology),
             Err(_) => Ok(()),
         }
     }

@@ -54,7 +54,7 @@ pub(crate) fn check(count: &[i64], topology: &Topology) -> Result<(), MorseError
     if let Some(index) = (dimension + 1..count.len()).find(|k| count[*k] != 0) {
         return Err(MorseError::Index { index, dimension });
     }
-    let found: i64 = count.iter().zip([1, -1].into_iter().cycle()).map(|(c, sign)| sign * c).sum();
+    let found = alternating_sum(count);
     if found != topology.euler {
         return Err(MorseError::Euler { found, expected: topology.euler });
     }
@@ -67,6 +67,11 @@ pub(crate) fn check(count: &[i64], topology: &Topology) -> Result<(), MorseError
         }
     }
     Ok(())
+}
+
+/// Σ (−1)^index over critical points, counted by index.
+pub(crate) fn alternating_sum(count: &[i64]) -> i64 {
+    count.iter().zip([1, -1].into_iter().cycle()).map(|(c, sign)| sign * c).sum()
 }
 
 #[cfg(test)]

@@ -21,11 +21,9 @@
 //! M. Farber, D. Schütz, "Homology of planar polygon spaces", Geometriae Dedicata 125 (2007) 75-92,
 //! doi:10.1007/s10711-007-9139-7, Theorem 1
 
-use model::Problem;
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
-use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 
 /// Betti numbers and Euler characteristic of a closed manifold.
@@ -76,16 +74,6 @@ impl Topology {
     /// # Errors
     ///
     /// [`TopologyError`] when a straight position exists (or may exist), or the chain is too long.
-    ///
-    /// ```
-    /// // Three bars: one circle of positions, so as many minima as maxima.
-    /// let topology = census::Topology::of(&model::cases::paper()).unwrap();
-    /// assert_eq!((topology.betti, topology.euler), (vec![1, 1], 0));
-    /// ```
-    pub fn of(problem: &Problem) -> Result<Self, TopologyError> {
-        Self::of_system(&System::shape(problem.chain(), JointLoads::NONE))
-    }
-
     pub(crate) fn of_system(system: &System) -> Result<Self, TopologyError> {
         let [x, z] = system.span;
         if x == Interval::ZERO && z == Interval::ZERO {

@@ -102,38 +102,6 @@ impl ProvenEquilibrium {
     pub(crate) fn new(system: &System, signs: &[i8], zero: &Zero) -> Option<Self> {
         Some(Proof::of(system, signs, zero)?.assemble(system, signs))
     }
-
-    /// From what is proved about it. A bar with the sign 0 has its axial force, sign and all, as
-    /// its size.
-    pub(crate) fn assemble(
-        system: &System,
-        signs: &[i8],
-        observed: &Observed,
-        alone_in: Neighbourhood,
-        Indices { in_plane, out_of_plane, condition }: Indices,
-        optimal: bool,
-    ) -> Self {
-        let newton = system.force_unit_n();
-        Self {
-            signs: signs.to_vec(),
-            pull_n: system.pull_on_anchor_n(observed.pull),
-            alone_in,
-            angles_rad: observed.angles(),
-            energy_j: observed.energy_j(system),
-            joints_m: observed.joints(system),
-            multipliers_n: observed.multipliers(system),
-            axial_n: signs
-                .iter()
-                .zip(&observed.sizes)
-                .map(|(sign, size)| signed(*sign, *size) * newton)
-                .collect(),
-            index_in_plane: in_plane,
-            index_out_of_plane: out_of_plane,
-            condition,
-            optimal,
-            circle: system.vertical,
-        }
-    }
 }
 
 /// What is proved about a zero of the closure.
@@ -169,8 +137,27 @@ impl Proof {
     /// The equilibrium.
     pub(crate) fn assemble(self, system: &System, signs: &[i8]) -> ProvenEquilibrium {
         let Self { shown: Zero { alone_in, .. }, observed, indices, optimal } = self;
-        let alone_in = Neighbourhood { chart: alone_in.face, at: alone_in.at };
-        ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal)
+        let Indices { in_plane, out_of_plane, condition } = indices;
+        let newton = system.force_unit_n();
+        ProvenEquilibrium {
+            signs: signs.to_vec(),
+            pull_n: system.pull_on_anchor_n(observed.pull),
+            alone_in: Neighbourhood { chart: alone_in.face, at: alone_in.at },
+            angles_rad: observed.angles(),
+            energy_j: observed.energy_j(system),
+            joints_m: observed.joints(system),
+            multipliers_n: observed.multipliers(system),
+            axial_n: signs
+                .iter()
+                .zip(&observed.sizes)
+                .map(|(sign, size)| signed(*sign, *size) * newton)
+                .collect(),
+            index_in_plane: in_plane,
+            index_out_of_plane: out_of_plane,
+            condition,
+            optimal,
+            circle: system.vertical,
+        }
     }
 }
 
@@ -179,6 +166,7 @@ pub(crate) struct Observed {
     /// Pull of bar 1 on joint 0, not centred.
     pub(crate) pull: [Interval; 2],
     pub(crate) forces: Vec<[Interval; 2]>,
+    /// |F|; of a bar with the sign 0 its axial force, sign and all.
     pub(crate) sizes: Vec<Interval>,
     pub(crate) directions: Vec<[Interval; 2]>,
 }

@@ -104,6 +104,51 @@ pub(super) fn unit(a: Vector) -> Vector {
     })
 }
 
+/// `x/w` with `w ≥ 0`, the limits at w = 0 included.
+pub(super) fn quotient(x: Interval, w: Interval) -> Interval {
+    if w == Interval::ONE {
+        return x;
+    }
+    if w.lo() > 0.0 {
+        return x / w;
+    }
+    let least = x / Interval::point(w.hi());
+    if w.hi() <= 0.0 {
+        Interval::LINE
+    } else if x.lo() > 0.0 {
+        Interval::new(least.lo(), f64::INFINITY)
+    } else if x.hi() < 0.0 {
+        Interval::new(f64::NEG_INFINITY, least.hi())
+    } else {
+        Interval::LINE
+    }
+}
+
+/// `a · (b × c)`.
+pub(super) fn det(a: Vector, b: Vector, c: Vector) -> Interval {
+    dot(a, cross(b, c))
+}
+
+/// The factors with which one, two or three vectors add up to another one in their span, by Cramer's rule; nothing
+/// where they may be dependent.
+pub(super) fn factors(vectors: &[Vector], of: Vector) -> Option<Vec<Interval>> {
+    let over = |part: Interval, whole: Interval| (whole.mig() > 0.0).then(|| part / whole);
+    match *vectors {
+        [one] => Some(vec![over(dot(of, one), squared(one))?]),
+        [one, two] => {
+            let both = cross(one, two);
+            let parts = [cross(of, two), cross(one, of)].map(|part| dot(part, both));
+            parts.into_iter().map(|part| over(part, squared(both))).collect()
+        }
+        [one, two, three] => {
+            let whole = det(one, two, three);
+            let parts = [det(of, two, three), det(one, of, three), det(one, two, of)];
+            parts.into_iter().map(|part| over(part, whole)).collect()
+        }
+        _ => None,
+    }
+}
+
 /// Three numbers that are exact as they stand.
 pub(super) fn points(a: model::Vector) -> Vector {
     a.map(Interval::point)
@@ -145,6 +190,24 @@ mod tests {
         let [along, first, second] = unit([Interval::new(-1.0, 2.0), y, y]);
         assert!(near(along, -1.0, 1.0) && near(first, 0.0, 1.0) && near(second, 0.0, 1.0));
         assert_eq!(unit(NOWHERE), [whole; 3]);
+    }
+
+    #[test]
+    fn quotients_have_their_limits() {
+        let x = Interval::new(2.0, 3.0);
+        assert_eq!(quotient(x, Interval::ONE), x);
+        let both = quotient(x, Interval::new(4.0, 8.0));
+        assert!(both.encloses(Interval::new(0.25, 0.75)) && both.width() < 0.5 + 1e-15);
+        let half = Interval::new(0.0, 2.0);
+        let up = quotient(x, half);
+        assert!(up.contains(1.0) && up.lo() > 1.0 - 1e-15 && up.hi() >= f64::INFINITY);
+        let down = quotient(-x, half);
+        assert!(down.contains(-1.0) && down.hi() < -1.0 + 1e-15 && down.lo() <= -f64::INFINITY);
+        assert_eq!(quotient(Interval::new(-1.0, 1.0), half), Interval::LINE);
+        // Nothing over nothing may be anything.
+        assert_eq!(quotient(Interval::new(0.0, 1.0), half), Interval::LINE);
+        assert_eq!(quotient(Interval::new(-1.0, 0.0), half), Interval::LINE);
+        assert_eq!(quotient(x, Interval::ZERO), Interval::LINE);
     }
 
     /// Products of vectors by hand.

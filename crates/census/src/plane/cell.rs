@@ -12,6 +12,7 @@
 
 use numerics::Interval;
 
+use crate::branch_and_bound::halves;
 use crate::plane::face::Face;
 use crate::plane::system::System;
 
@@ -27,16 +28,16 @@ pub(crate) struct Cell {
 impl Cell {
     /// The rectangles that hold every pull, each once: whole faces. With vertical anchors the
     /// mirror image of an equilibrium has the opposite H, so H ≥ 0 is enough.
-    pub(crate) fn roots(system: &System) -> Vec<Self> {
+    pub(crate) fn roots(vertical: bool) -> Vec<Self> {
         let (full, half) = (Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0));
-        let horizontal = if system.vertical { half } else { full };
+        let horizontal = if vertical { half } else { full };
         let mut roots = vec![
             Self { face: Face::Near, at: [horizontal, full] },
             Self { face: Face::Right, at: [full, half] },
             Self { face: Face::Below, at: [horizontal, half] },
             Self { face: Face::Above, at: [horizontal, half] },
         ];
-        if !system.vertical {
+        if !vertical {
             roots.push(Self { face: Face::Left, at: [full, half] });
         }
         roots
@@ -200,12 +201,7 @@ impl Cell {
 
     /// Cut in two halves across one coordinate.
     pub(crate) fn cut(&self, across: usize) -> [Self; 2] {
-        let whole = self.at[across];
-        let middle = whole.mid();
-        let (mut first, mut second) = (*self, *self);
-        first.at[across] = Interval::new(whole.lo(), middle);
-        second.at[across] = Interval::new(middle, whole.hi());
-        [first, second]
+        halves(self.at, across).map(|at| Self { at, ..*self })
     }
 
     /// Whether the cells have no pull in common; they must be on the same face.

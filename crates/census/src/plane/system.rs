@@ -69,14 +69,6 @@ impl System {
     /// A chain with loads at its joints in its units. Some joint between the anchors carries
     /// weight: a problem where none does is refused.
     pub(crate) fn new(chain: &Chain, loads: &JointLoads) -> Self {
-        let mut system = Self::shape(chain, loads);
-        system.local =
-            system.groups.iter().map(|group| system.weights_from(chain, loads, group)).collect();
-        system
-    }
-
-    /// A chain in its units; the weights make sense only after [`new`](Self::new).
-    pub(crate) fn shape(chain: &Chain, loads: &JointLoads) -> Self {
         let bars = chain.bars();
         let length_unit_m = power_of_two_above(chain.total_length_m());
 
@@ -128,7 +120,7 @@ impl System {
             (distance, [x / distance, y / distance])
         };
         let shorten = |x: Interval| x.scale(length_unit_m.recip());
-        Self {
+        let mut system = Self {
             length: bars.iter().map(|bar| shorten(Interval::point(bar.length_m()))).collect(),
             weight,
             local: vec![],
@@ -144,7 +136,10 @@ impl System {
             end_m: anchors.end_m,
             on_start: at_first_joint(&bars[0]).scale(mass_unit_kg.recip()),
             added: added.into_iter().map(|mass| mass.scale(mass_unit_kg.recip())).collect(),
-        }
+        };
+        system.local =
+            system.groups.iter().map(|group| system.weights_from(chain, loads, group)).collect();
+        system
     }
 
     /// Number of bars.

@@ -10,7 +10,7 @@ pub(crate) mod undecided;
 
 use std::borrow::Cow;
 
-use crate::branch_and_bound::worked;
+use crate::branch_and_bound::{self, Plan};
 use crate::closure::Pattern;
 use crate::enclosure::krawczyk::{Finding, Zero, examine};
 use crate::plane::cell::Cell;
@@ -25,8 +25,9 @@ use crate::slack::unloaded::Unloaded;
 /// a test a tenth of one.
 const WORTH_THREADS: usize = 2_000;
 
-/// Cells of a level worked on before the progress is told: some seconds for long chains.
-const AT_ONCE: usize = 65_536;
+/// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2), is not cut any more:
+/// 2⁻⁴⁰. Below 2⁻⁴⁸ rounding errors decide.
+const MIN_WIDTH: f64 = f64::from_bits((1023 - 40) << 52);
 
 /// A contracted cell smaller than this part of the old one is looked at again before it is cut.
 const GOOD_CONTRACTION: f64 = 0.5;
@@ -51,32 +52,9 @@ pub(crate) struct Task {
     pub(crate) patterns: Vec<Pattern>,
 }
 
-/// All that the search found.
-#[derive(Debug, Default)]
-pub(crate) struct Search {
-    /// Zeros, proved; the same one several times where cells meet.
-    pub(crate) zeros: Vec<(Pattern, Zero)>,
-    /// Cells that could not be decided.
-    pub(crate) undecided: Vec<Task>,
-    /// Cells worked on.
-    pub(crate) cells: u64,
-    /// Tests of one cell for one pattern.
-    pub(crate) tests: u64,
-    /// Proofs tried.
-    pub(crate) proofs: u64,
-    /// Levels of the search.
-    pub(crate) levels: u32,
-    /// Whether the budget of tests ended the search.
-    pub(crate) exhausted: bool,
-}
-
-#[derive(Debug, Default)]
-struct Outcome {
-    zeros: Vec<(Pattern, Zero)>,
-    next: Vec<Task>,
-    undecided: Option<Task>,
-    proofs: u64,
-}
+/// Zeros, proved, the same one several times where cells meet; and cells that could not be decided.
+pub(crate) type Search = branch_and_bound::Search<(Pattern, Zero), Task>;
+type Outcome = branch_and_bound::Outcome<(Pattern, Zero), Task>;
 
 /// What is settled before the search.
 pub(crate) struct Settled<'a> {
@@ -103,60 +81,21 @@ pub(crate) fn search(
     system: &System,
     settings: &Settings,
     settled: &Settled,
-    patterns: Vec<Pattern>,
+    patterns: &[Pattern],
     watch: &dyn Fn(Progress),
 ) -> Search {
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
-    let mut level: Vec<Task> = Cell::roots(system)
-        .into_iter()
-        .map(|cell| Task { cell, patterns: patterns.clone() })
-        .collect();
-    drop(patterns);
-    let mut search = Search::default();
-    while !level.is_empty() {
-        if search.tests >= budget {
-            search.exhausted = true;
-            search.undecided.append(&mut level);
-            break;
-        }
-        let work = |task: &Task| examine_cell(system, settings, settled, task);
-        let mut next = vec![];
-        let mut left = level.len();
-        for some in level.chunks(AT_ONCE) {
-            let tests: usize = some.iter().map(|task| task.patterns.len()).sum();
-            let outcomes = worked(some, tests, WORTH_THREADS, work);
-            left -= some.len();
-            search.cells += some.len() as u64;
-            search.tests += tests as u64;
-            for outcome in outcomes {
-                search.zeros.extend(outcome.zeros);
-                search.undecided.extend(outcome.undecided);
-                search.proofs += outcome.proofs;
-                next.extend(outcome.next);
-            }
-            watch(search.progress(left + next.len()));
-        }
-        search.levels += 1;
-        level = next;
-    }
-    search
-}
-
-impl Search {
-    fn progress(&self, waiting: usize) -> Progress {
-        Progress {
-            done: self.cells,
-            waiting: waiting as u64,
-            proved: self.zeros.len() as u64,
-            undecided: self.undecided.len() as u64,
-        }
-    }
+    let root = |cell| Task { cell, patterns: patterns.to_vec() };
+    let roots = Cell::roots(system.vertical).into_iter().map(root).collect();
+    let size = |task: &Task| task.patterns.len();
+    let plan = Plan { budget, batch: usize::MAX, worth_threads: WORTH_THREADS, size };
+    Search::run(roots, &plan, |_, task| examine_cell(system, settled, task), watch)
 }
 
 /// Exclude, contract, prove, cut.
-fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &Task) -> Outcome {
+fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
     let cell = task.cell.recentred(system);
-    let mut outcome = Outcome::default();
+    let mut outcome = Outcome { tests: task.patterns.len() as u64, ..Outcome::default() };
     let mut noisy = [true; 2];
     let mut asked = Cow::Borrowed(&task.patterns[..]);
     if cell.unit().is_infinite() {
@@ -185,7 +124,7 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
                     let signs: Vec<i8> = open.pattern.signs(system.bars()).collect();
                     match examine(system, &signs, &cell) {
                         Finding::One(zero) => {
-                            outcome.zeros.push((open.pattern, zero));
+                            outcome.found.push((open.pattern, zero));
                             continue;
                         }
                         Finding::None => continue,
@@ -212,10 +151,10 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
     }
     // Cutting is of use across coordinates that are wide and not lost in rounding errors.
     let unit = left.unit();
-    let useful = |k: usize| !noisy[k] && left.at[k].width() >= settings.min_width * unit;
+    let useful = |k: usize| !noisy[k] && left.at[k].width() >= MIN_WIDTH * unit;
     let across = if useful(across) { across } else { 1 - across };
     if !useful(across) {
-        outcome.undecided = Some(Task { cell: left, patterns });
+        outcome.undecided.push(Task { cell: left, patterns });
         return outcome;
     }
     let area = |cell: &Cell| cell.at[0].width() * cell.at[1].width();

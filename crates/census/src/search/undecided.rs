@@ -1,12 +1,9 @@
 //! What could not be decided, listed with its cell.
 
-use std::collections::BTreeMap;
-
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::Pattern;
-use crate::degenerate::bound::Bound;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
@@ -39,9 +36,6 @@ pub struct Undecided {
     pub at: [Interval; 2],
     /// The pulls along the horizontal direction and along Z, N, where they are finite.
     pub pull_n: Option<[Interval; 2]>,
-    /// How many equilibria there can be, where that is proved.
-    #[serde(default)]
-    pub bound: Option<Bound>,
 }
 
 /// Why a cell is undecided.
@@ -84,35 +78,19 @@ impl std::fmt::Display for Reason {
     }
 }
 
-/// More cells than this are first gathered on a grid: merging them takes the square of their
-/// number.
-const DIRECT: usize = 2_048;
-
-/// Squares of that grid along the edge of a face, whose length is 2.
-const GRID: f64 = 32.0;
+/// More cells than this on a face are not told apart: merging them takes the square of their number.
+const MOST: usize = 2_048;
 
 /// Touching cells become one; the order is that of faces and coordinates.
-pub(crate) fn gather(mut tasks: Vec<Task>) -> Vec<Task> {
-    if tasks.len() > DIRECT {
-        let mut squares: BTreeMap<(Face, [i64; 2]), Task> = BTreeMap::new();
-        for task in tasks {
-            #[expect(clippy::cast_possible_truncation, reason = "coordinates lie in [-2, 2]")]
-            let square = task.cell.middle().map(|x| (x * GRID / 2.0).floor() as i64);
-            match squares.entry((task.cell.face, square)) {
-                std::collections::btree_map::Entry::Vacant(entry) => {
-                    entry.insert(task);
-                }
-                std::collections::btree_map::Entry::Occupied(mut entry) => {
-                    unite(entry.get_mut(), &task);
-                }
-            }
-        }
-        tasks = squares.into_values().collect();
-    }
+pub(crate) fn gather(tasks: Vec<Task>) -> Vec<Task> {
     let mut gathered: Vec<Task> = vec![];
     for mut task in tasks {
+        let many = gathered.len() >= MOST;
+        let joins = |other: &Task, task: &Task| {
+            other.cell.face == task.cell.face && (many || !other.cell.disjoint(&task.cell))
+        };
         // What the growing cell touches joins it, until nothing does.
-        while let Some(k) = gathered.iter().position(|other| touch(other, &task)) {
+        while let Some(k) = gathered.iter().position(|other| joins(other, &task)) {
             unite(&mut task, &gathered.swap_remove(k));
         }
         gathered.push(task);
@@ -123,10 +101,6 @@ pub(crate) fn gather(mut tasks: Vec<Task>) -> Vec<Task> {
         face.cmp(&other).then(x.total_cmp(&p)).then(y.total_cmp(&q))
     });
     gathered
-}
-
-fn touch(a: &Task, b: &Task) -> bool {
-    a.cell.face == b.cell.face && !a.cell.disjoint(&b.cell)
 }
 
 fn unite(all: &mut Task, more: &Task) {
@@ -141,7 +115,7 @@ impl Undecided {
         let signs = patterns.iter().map(|pattern| pattern.signs(system.bars()).collect()).collect();
         let finite = cell.homogeneous()[2].lo() > 0.0;
         let pull_n = finite.then(|| system.pull_on_anchor_n(cell.pull(system)));
-        Self { reason, signs, chart: cell.face, at: cell.at, pull_n, bound: None }
+        Self { reason, signs, chart: cell.face, at: cell.at, pull_n }
     }
 
     /// A slack family that may or may not exist.
@@ -151,14 +125,7 @@ impl Undecided {
         let face = Face::Around(u8::try_from(group).unwrap_or(u8::MAX));
         let cell = Cell { face, at: [Interval::ZERO; 2] };
         let pull_n = Some(system.pull_on_anchor_n(cell.pull(system)));
-        Self {
-            reason: Reason::Slack,
-            signs: vec![signs],
-            chart: face,
-            at: cell.at,
-            pull_n,
-            bound: None,
-        }
+        Self { reason: Reason::Slack, signs: vec![signs], chart: face, at: cell.at, pull_n }
     }
 }
 
@@ -190,21 +157,14 @@ mod tests {
         assert_eq!(found[1].cell, Cell { face: Face::Near, at: [whole; 2] });
     }
 
-    /// As many as are merged one by one stay apart where they do not touch; one more, and those of
-    /// each of 32 by 32 squares are one.
+    /// As many as are told apart stay apart where they do not touch; with one more those of its face are one.
     #[test]
-    fn too_many_to_compare_are_gathered_on_a_grid() {
-        let side = 64;
-        let all: Vec<Task> = (0..side * side)
-            .map(|k| {
-                let [i, j] = [k % side, k / side].map(|n| f64::from(n) / 32.0 - 1.0);
-                task(Face::Near, [i, j], 1)
-            })
-            .collect();
-        assert_eq!(gather(all[..DIRECT].to_vec()).len(), DIRECT);
-        // 33 rows of 64 are cut into 32 by 17 squares.
-        let rows = gather(all[..33 * 64].to_vec());
-        assert_eq!(rows.len(), 32 * 17);
-        assert_eq!(gather(all).len(), 32 * 32);
+    fn too_many_to_compare_are_one() {
+        let all = |count: usize| -> Vec<Task> {
+            let place = |k: usize| [k % 64, k / 64].map(|n| n as f64 / 32.0 - 1.0);
+            (0..count).map(|k| task(Face::Near, place(k), 1)).collect()
+        };
+        assert_eq!(gather(all(MOST)).len(), MOST);
+        assert_eq!(gather(all(MOST + 1)).len(), 1);
     }
 }

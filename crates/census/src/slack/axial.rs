@@ -26,6 +26,7 @@ use numerics::Interval;
 use crate::closure::bar::unit;
 use crate::closure::signed;
 use crate::enclosure::krawczyk::{image, inside};
+use crate::equilibrium::Observed;
 use crate::equilibrium::inertia::Indices;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
@@ -55,16 +56,6 @@ pub(crate) struct AxialClosure<'a> {
     pub(crate) axis: [Interval; 2],
 }
 
-/// What the bars do over a box of (ρ, t).
-pub(crate) struct Bars {
-    /// F of each bar but k, and of k with ρ e.
-    pub(crate) forces: Vec<[Interval; 2]>,
-    /// Direction of each bar.
-    pub(crate) directions: Vec<[Interval; 2]>,
-    /// |F|, but ρ for bar k.
-    pub(crate) sizes: Vec<Interval>,
-}
-
 impl AxialClosure<'_> {
     /// The way of a bar of the group along e.
     fn way(&self, bar: usize) -> i8 {
@@ -76,11 +67,12 @@ impl AxialClosure<'_> {
         unit([x - t * z, z + t * x])
     }
 
-    /// `None` where the force of another bar may vanish.
-    pub(crate) fn bars(&self, [rho, t]: [Interval; 2]) -> Option<Bars> {
+    /// What the bars do over a box of (ρ, t); `None` where the force of another bar may vanish.
+    pub(crate) fn bars(&self, [rho, t]: [Interval; 2]) -> Option<Observed> {
         let e = self.direction(t);
         let force = e.map(|part| rho * part);
-        let mut bars = Bars { forces: vec![], directions: vec![], sizes: vec![] };
+        let pull = Cell { face: self.face, at: force }.pull(self.system);
+        let mut bars = Observed { pull, forces: vec![], directions: vec![], sizes: vec![] };
         let weights = self.system.weights(self.face);
         for (i, (sign, weight)) in self.signs.iter().zip(weights).enumerate() {
             if *sign == 0 {
@@ -102,14 +94,14 @@ impl AxialClosure<'_> {
     }
 
     /// G.
-    fn gap(&self, bars: &Bars) -> [Interval; 2] {
+    fn gap(&self, bars: &Observed) -> [Interval; 2] {
         let terms = bars.directions.iter().zip(&self.system.length);
         let sum = |k: usize| terms.clone().map(|(u, length)| *length * u[k]).sum::<Interval>();
         std::array::from_fn(|k| sum(k) - self.system.span[k])
     }
 
     /// The derivative of G by ρ and t, first index the component.
-    pub(crate) fn slope(&self, bars: &Bars, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
+    pub(crate) fn slope(&self, bars: &Observed, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
         let first = self.group.start;
         let e = bars.directions[first].map(|part| signed(self.way(first), part));
         let n = normal(e);
@@ -200,7 +192,7 @@ impl AxialClosure<'_> {
     /// plane the closure is one equation, which bar k can meet without force: as many as are
     /// compressed. Of a group that carries nothing, ρ = 0 exactly, these are the directions across
     /// those in which its bars turn among themselves, where the second derivative vanishes.
-    pub(crate) fn indices(&self, bars: &Bars, condition: f64) -> Option<Indices> {
+    pub(crate) fn indices(&self, bars: &Observed, condition: f64) -> Option<Indices> {
         let k = self.group.start;
         let e = bars.directions[k];
         let n_k = normal(e);

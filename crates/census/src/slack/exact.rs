@@ -82,11 +82,6 @@ impl ExactSides {
         &self.lengths
     }
 
-    /// The square of the distance of the anchors across the vertical, and their distance along it.
-    pub(super) fn level_square_and_rise(&self) -> [i128; 2] {
-        [self.level_square, self.rise]
-    }
-
     /// The square of the gap that bars leave which stand upright and point up (+1) or down (−1) towards the
     /// last anchor; 0 for those that are to bridge it. Nothing where it has too many digits.
     pub(crate) fn gap_square(&self, up: &[i8]) -> Option<i128> {

@@ -28,15 +28,28 @@ use crate::plane::system::System;
 /// Those of the patterns, sorted, that a cell with free bars may hold a zero of, the pulls at which
 /// they are free excepted where a group of several bars is free.
 pub(crate) fn open(system: &System, cell: &Cell, patterns: &[Pattern]) -> Vec<Pattern> {
+    let System { length, groups, span, .. } = system;
+    open_of(length, system.weights(cell.face), groups, *span, cell, patterns)
+}
+
+/// The same for bars of these lengths and weights, to any place of a range of spans.
+pub(crate) fn open_of(
+    lengths: &[Interval],
+    weights: &[Interval],
+    groups: &[Range<usize>],
+    span: [Interval; 2],
+    cell: &Cell,
+    patterns: &[Pattern],
+) -> Vec<Pattern> {
     let mut open = vec![];
-    Gaps::over(system, cell).walk(0, patterns, system.span, &mut open);
+    Gaps::over(lengths, weights, groups, cell).walk(0, patterns, span, &mut open);
     open
 }
 
 /// The gaps that the bars with a direction leave to the free ones, for all patterns at once: sums
 /// over the bars that patterns have in common are made once.
 struct Gaps<'a> {
-    system: &'a System,
+    lengths: &'a [Interval],
     /// What each bar in tension takes off the gap; nothing for free ones.
     held: Vec<Option<[Interval; 2]>>,
     /// How much bar i and all after it can take off, at most.
@@ -47,12 +60,16 @@ struct Gaps<'a> {
 }
 
 impl<'a> Gaps<'a> {
-    fn over(system: &'a System, cell: &Cell) -> Self {
-        let bars = system.bars();
-        let weights = system.weights(cell.face);
+    fn over(
+        lengths: &'a [Interval],
+        weights: &[Interval],
+        groups: &[Range<usize>],
+        cell: &Cell,
+    ) -> Self {
+        let bars = lengths.len();
         let mut held = vec![None; bars];
         let mut free = vec![];
-        for (number, group) in system.groups.iter().enumerate() {
+        for (number, group) in groups.iter().enumerate() {
             let force = cell.force(weights[group.start]);
             let lost = cell.is_lost_around(number);
             if lost || force[0].contains(0.0) && force[1].contains(0.0) {
@@ -60,7 +77,7 @@ impl<'a> Gaps<'a> {
                 continue;
             }
             for i in group.clone() {
-                held[i] = Some(BarTerm::value_over(cell, system.length[i], weights[i]));
+                held[i] = Some(BarTerm::value_over(cell, lengths[i], weights[i]));
             }
         }
         let mut rest = vec![[Interval::ZERO; 2]; bars + 1];
@@ -68,8 +85,8 @@ impl<'a> Gaps<'a> {
             let value = value.map_or([Interval::ZERO; 2], |value| value.map(Interval::abs));
             rest[bar] = std::array::from_fn(|k| rest[bar + 1][k] + value[k]);
         }
-        let longest = free.iter().flat_map(|group| &system.length[group.clone()]).copied().sum();
-        Self { system, held, rest, free, longest }
+        let longest = free.iter().flat_map(|group| &lengths[group.clone()]).copied().sum();
+        Self { lengths, held, rest, free, longest }
     }
 
     fn walk(&self, bar: usize, patterns: &[Pattern], gap: [Interval; 2], open: &mut Vec<Pattern>) {
@@ -78,7 +95,7 @@ impl<'a> Gaps<'a> {
         if patterns.is_empty() || wide(0) || wide(1) {
             return;
         }
-        let bars = self.system.bars();
+        let bars = self.lengths.len();
         if bar == bars {
             open.extend(patterns.iter().filter(|pattern| self.may_close(**pattern, gap)));
             return;
@@ -99,12 +116,12 @@ impl<'a> Gaps<'a> {
 
     /// Whether the free bars may bridge the gap.
     fn may_close(&self, pattern: Pattern, gap: [Interval; 2]) -> bool {
-        let (system, bars) = (self.system, self.system.bars());
+        let bars = self.lengths.len();
         let distance = (gap[0].square() + gap[1].square()).sqrt();
         let links = self.free.iter().map(|group| {
             group
                 .clone()
-                .map(|i| signed(if pattern.compressed(bars, i) { -1 } else { 1 }, system.length[i]))
+                .map(|i| signed(if pattern.compressed(bars, i) { -1 } else { 1 }, self.lengths[i]))
                 .sum::<Interval>()
                 .abs()
         });
@@ -114,7 +131,7 @@ impl<'a> Gaps<'a> {
 }
 
 /// The smallest and the largest distance that links of these lengths bridge, rounded outward.
-pub(crate) fn reach(links: impl Iterator<Item = Interval>) -> [f64; 2] {
+fn reach(links: impl Iterator<Item = Interval>) -> [f64; 2] {
     let mut total = Interval::ZERO;
     let mut longest = Interval::ZERO;
     for link in links {

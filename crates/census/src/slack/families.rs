@@ -11,12 +11,13 @@
 //! Where the slack bars also fit into one line, some up and some down it, the polygons are no
 //! manifold there, and the second derivative is singular; where the gap is nothing, known from
 //! integers, they close upon themselves and turn about it, two as long as each other folded. These
-//! are families all the same: every position that bridges the gap is an equilibrium. That the
-//! straight ones are next to no other equilibrium is proved with
-//! [`unloaded`](crate::slack::unloaded) and [`straight`](crate::slack::straight).
+//! are families all the same: every position that bridges the gap is an equilibrium. A gap that they just
+//! bridge, known from integers, leaves one position. That the straight ones are next to no other
+//! equilibrium is proved with [`unloaded`](crate::slack::unloaded) and [`straight`](crate::slack::straight).
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use model::{Bar, Problem};
 use numerics::Interval;
@@ -27,6 +28,7 @@ use crate::count::topology::{Topology, TopologyError};
 use crate::plane::face::Face;
 use crate::plane::system::{System, at_first_joint};
 use crate::slack::exact::ExactSides;
+use crate::slack::unloaded::ways;
 
 /// A set of equilibria of one energy, in which some bars carry nothing.
 ///
@@ -63,7 +65,7 @@ pub struct SlackFamily {
     /// Directions in the plane, across the family, in which the energy falls.
     pub index_in_plane: usize,
     /// Dimension of the family in the plane: the number of slack bars less two, but one for those that
-    /// only turn, folded, about a gap of nothing.
+    /// only turn, folded, about a gap of nothing, and none for those that just bridge their gap.
     pub dimension_in_plane: usize,
     /// The family in the plane, if it is a manifold and the second derivative across it regular. Else
     /// the sides are slack bars, in their order, and last the gap.
@@ -132,20 +134,20 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
     let mut gap = system.span;
     let mut hanging = Interval::ZERO;
     let mut forces = vec![];
-    let (mut slack, mut ways) = (vec![], vec![]);
+    let (mut slack, mut up) = (vec![], vec![]);
     for (i, sign) in signs.iter().enumerate() {
         let (length, weight) = (system.length[i], system.weight[i]);
         if *sign == 0 {
             slack.push(length);
             forces.push(Interval::ZERO);
-            ways.push(0);
+            up.push(0);
             continue;
         }
         // F = (0, c_i − c): its direction is up or down.
         let force = system.weights(Face::Around(group))[i];
-        let Some(up) = force.sign() else { return Existence::Unclear };
-        ways.push(sign * up);
-        let rise = signed(sign * up, length);
+        let Some(way) = force.sign().map(|way| sign * way) else { return Existence::Unclear };
+        up.push(way);
+        let rise = signed(way, length);
         gap[1] = gap[1] - rise;
         hanging = hanging + weight * rise;
         forces.push(signed(*sign, force.abs()));
@@ -155,10 +157,15 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
         _ => (gap[0].square() + gap[1].square()).sqrt(),
     };
     let range = &system.groups[usize::from(group)];
-    let closed = exact.filter(|sides| sides.gap_square(&ways) == Some(0));
+    let closed = exact.filter(|sides| sides.gap_square(&up) == Some(0));
     let polygons = match closed {
         Some(sides) => closed_polygons(&slack, &sides.lengths()[range.clone()]),
-        None => polygons(slack, distance),
+        None => match exact.and_then(|sides| bridging_side(system, sides, &up, range)) {
+            // It is upright, and listed as straight.
+            Some(_) if system.vertical => Err(Existence::Refuted),
+            Some(side) => Ok((0, Err(TopologyError::Straight { sides: vec![side] }))),
+            None => polygons(slack, distance),
+        },
     };
     let (dimension_in_plane, topology) = match polygons {
         Ok(polygons) => polygons,
@@ -204,6 +211,20 @@ fn polygons(slack: Vec<Interval>, gap: Interval) -> Result<Polygons, Existence> 
         return Err(Existence::Unclear);
     }
     Ok((dimension, counted(Topology::polygons(&sides))?))
+}
+
+/// The side that is as long as the others where slack bars have one way alone to bridge the gap that upright ones
+/// leave: the gap, with all along it, or the longest bar, with the others back.
+fn bridging_side(
+    system: &System,
+    sides: &ExactSides,
+    up: &[i8],
+    range: &Range<usize>,
+) -> Option<usize> {
+    let mut ways = ways(system, range).into_iter();
+    let along = ways.find(|along| sides.just_bridges(up, range.clone(), along))?;
+    let is_folded = along.contains(&-1);
+    Some(if is_folded { along.iter().position(|way| *way > 0)? + 1 } else { along.len() + 1 })
 }
 
 /// The polygons of slack bars alone, which turn about a point: lengths as intervals, and in integers.

@@ -4,9 +4,8 @@
 //!
 //! $$ M_k = \sum_i s_i l_i c_i^k . $$
 //!
-//! Where pulls have no bound, the closure is a series in these numbers, and where a bar carries
-//! nothing one in sums over inverse powers of the weights; which of them vanish is a question
-//! without rounding. The weights follow from masses and centres by the lever rule: quotients of
+//! Where pulls have no bound, the closure is a series in these numbers; which of them vanish is a
+//! question without rounding. The weights follow from masses and centres by the lever rule: quotients of
 //! integers, of which a common denominator makes integers.
 
 use model::{Bar, Chain};
@@ -21,9 +20,6 @@ use crate::slack::exact::{ExactSides, integers};
 pub(crate) struct ExactMoments {
     lengths: Vec<i128>,
     weights: Vec<i128>,
-    /// The square of the distance of the anchors across the vertical, and their distance along it.
-    level_square: i128,
-    rise: i128,
 }
 
 /// What is known of a chain in integers.
@@ -40,27 +36,6 @@ impl Exact {
         let sides = ExactSides::new(chain);
         let moments = sides.as_ref().and_then(|sides| ExactMoments::new(chain, loads, sides));
         Self { sides, moments }
-    }
-}
-
-/// A fraction with a positive denominator.
-#[derive(Debug, Clone, Copy)]
-struct Fraction {
-    over: i128,
-    under: i128,
-}
-
-impl Fraction {
-    const ZERO: Self = Self { over: 0, under: 1 };
-
-    /// The sum; nothing where it has too many digits.
-    fn plus(self, other: Self) -> Option<Self> {
-        let common = divisor(self.under, other.under);
-        let [a, b] = [other.under / common, self.under / common];
-        let over = self.over.checked_mul(a)?.checked_add(other.over.checked_mul(b)?)?;
-        let under = self.under.checked_mul(a)?;
-        let common = divisor(over.checked_abs()?, under);
-        Some(Self { over: over / common, under: under / common })
     }
 }
 
@@ -111,8 +86,7 @@ impl ExactMoments {
                 *weight /= common;
             }
         }
-        let [level_square, rise] = sides.level_square_and_rise();
-        Some(Self { lengths: sides.lengths().to_vec(), weights, level_square, rise })
+        Some(Self { lengths: sides.lengths().to_vec(), weights })
     }
 
     /// The moment of an order; nothing where it has too many digits.
@@ -137,46 +111,6 @@ impl ExactMoments {
         }
         None
     }
-
-    /// Whether the signed variance of the weights, $M_0 M_2 - M_1^2$, vanishes.
-    pub(crate) fn is_without_variance(&self, pattern: Pattern) -> Option<bool> {
-        let [m0, m1, m2] = [0, 1, 2].map(|order| self.moment(pattern, order));
-        Some(m0?.checked_mul(m2?)? == m1?.checked_mul(m1?)?)
-    }
-
-    /// The multiplicity of the equilibrium in which a bar carries nothing and the others, upright,
-    /// have these signs, if there is one and it is degenerate: see
-    /// [`degenerate::unloaded`](crate::degenerate::unloaded).
-    pub(crate) fn multiplicity(&self, bar: usize, signs: &[i8]) -> Option<usize> {
-        // Counted from the first anchor upwards.
-        let mut gap = self.rise;
-        let mut sums = [Fraction::ZERO; 3];
-        for (i, sign) in signs.iter().enumerate().filter(|(i, _)| *i != bar) {
-            let force = self.weights[i].checked_sub(self.weights[bar])?;
-            let way = force.signum();
-            let length = i128::from(*sign) * self.lengths[i];
-            gap -= length * way;
-            for (m, sum) in (1..).zip(&mut sums) {
-                let under = force.checked_abs()?.checked_pow(m)?;
-                if under == 0 {
-                    return None;
-                }
-                let over = if m == 2 { length * way } else { length };
-                *sum = sum.plus(Fraction { over, under })?;
-            }
-        }
-        let length = self.lengths[bar];
-        let bridged = gap.checked_mul(gap)?.checked_add(self.level_square)?;
-        if bridged != length.checked_mul(length)? || self.level_square == 0 {
-            return None;
-        }
-        match (sums.map(|sum| sum.over != 0), gap != 0) {
-            ([false, true, _], true) => Some(2),
-            ([false, _, true], _) => Some(3),
-            ([false, true, false], false) => Some(4),
-            ([true, _, _] | [_, false, false], _) => None,
-        }
-    }
 }
 
 #[cfg(test)]
@@ -196,69 +130,26 @@ mod tests {
         ExactMoments::new(&chain, JointLoads::NONE, &sides).unwrap()
     }
 
-    /// By hand, signs from the first bar on: the moments, the first that is not zero, and whether
-    /// the signed variance is.
+    /// By hand, signs from the first bar on: the moments, and the first that is not zero.
     #[test]
     fn moments_of_signed_lengths() {
         let moments = moments();
         let cases = [
             // 1 + 2 + 1 + 2, 2 + 2 + 6, 2 + 4 + 18.
-            (0b0000, [6, 10, 24], Some(0), false),
+            (0b0000, [6, 10, 24], Some(0)),
             // 1 − 2 − 1 + 2, −2 − 2 + 6, −2 − 4 + 18.
-            (0b0110, [0, 2, 12], Some(1), false),
+            (0b0110, [0, 2, 12], Some(1)),
             // 1 − 2 + 1 + 2, −2 + 2 + 6, −2 + 4 + 18.
-            (0b0100, [2, 6, 20], Some(0), false),
+            (0b0100, [2, 6, 20], Some(0)),
         ];
-        for (pattern, expected, first, flat) in cases {
+        for (pattern, expected, first) in cases {
             let pattern = Pattern(pattern);
             let found = [0, 1, 2].map(|order| moments.moment(pattern, order));
             assert_eq!(found, expected.map(Some), "{pattern:?}");
             assert_eq!(moments.first(pattern), first);
-            assert_eq!(moments.is_without_variance(pattern), Some(flat));
         }
-        // 1 − 3 + 3, −3 + 6, −3 + 12: 1 · 9 = 3².
-        let flat = ExactMoments { lengths: vec![1, 3, 3], weights: vec![0, 1, 2], ..moments };
-        assert_eq!(flat.is_without_variance(Pattern(0b010)), Some(true));
-        assert_eq!(flat.is_without_variance(Pattern(0b000)), Some(false));
         // 1 − 2 + 1, −2 + 2, −2 + 4: all but the second vanish.
-        let even = ExactMoments { lengths: vec![1, 2, 1], ..flat };
+        let even = ExactMoments { lengths: vec![1, 2, 1], weights: vec![0, 1, 2] };
         assert_eq!(even.first(Pattern(0b010)), Some(2));
-        assert_eq!(even.is_without_variance(Pattern(0b010)), Some(true));
-    }
-
-    /// 1/6 + 1/3, 3/4 − 1/4, 1/2 + 1/3.
-    #[test]
-    fn fractions_are_reduced() {
-        let sum = |[a, b]: [i128; 2], [c, d]: [i128; 2]| {
-            let [one, other] = [Fraction { over: a, under: b }, Fraction { over: c, under: d }];
-            one.plus(other).map(|sum| [sum.over, sum.under])
-        };
-        assert_eq!(sum([1, 6], [1, 3]), Some([1, 2]));
-        assert_eq!(sum([3, 4], [-1, 4]), Some([1, 2]));
-        assert_eq!(sum([1, 2], [1, 3]), Some([5, 6]));
-        assert_eq!(sum([i128::MAX, 1], [1, 1]), None);
-    }
-
-    /// Bar 2 of three carries nothing: 1 m hangs and 1 m stands with the forces 1 and 1 to either side, whose turning
-    /// parts 1/1 - 1/1 cancel; it bridges sqrt(5) m exactly or not at all.
-    #[test]
-    fn a_bar_without_force_has_to_bridge_its_gap() {
-        let moments = |length: i128, level_square: i128, rise: i128| ExactMoments {
-            lengths: vec![1, length, 1],
-            weights: vec![-1, 0, 1],
-            level_square,
-            rise,
-        };
-        // Bar 1 is drawn down by its force -1 and bar 3 up by 1: with the signs + - the gap is rise + 2.
-        let found = |length, level_square, rise| {
-            moments(length, level_square, rise).multiplicity(1, &[1, 0, -1])
-        };
-        let bridged = found(5, 16, 1);
-        assert!(bridged.is_some());
-        for (length, level_square, rise) in [(4, 16, 1), (6, 16, 1), (5, 15, 1), (5, 16, 2)] {
-            assert_eq!(found(length, level_square, rise), None);
-        }
-        // On one vertical it may turn about it.
-        assert_eq!(found(3, 0, 1), None);
     }
 }

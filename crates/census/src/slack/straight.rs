@@ -23,11 +23,7 @@
 //! If the second sum is proved not to vanish over a rectangle about the point, then no equilibrium
 //! has its pull there: the straight position is isolated from all equilibria. (For w = 0 the first
 //! equation asks for α = 0.) In the limit its sign is that of $\sum s_i l_i (c_i - \bar c)^2$ with
-//! the mean $\bar c$ of the weights.
-//!
-//! Where this signed variance vanishes, exactly, the two sums have a common zero at w = 0. If their
-//! derivative by (ψ, w), or by (ψ, w²) between level anchors, ν = |D|, is proved to be regular over a rectangle of such, the pair takes no value
-//! twice there, and this zero, the straight position itself, is the only one.
+//! the mean $\bar c$ of the weights. Where this signed variance vanishes, exactly, nothing is proved.
 //!
 //! The straight position itself is then no equilibrium: no force along the line holds a weight
 //! across it. It is a singular point of the configurations: with small angles $\theta_i$ they are the
@@ -51,7 +47,6 @@ use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::{Pattern, signed};
-use crate::degenerate::maps::blown_up;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
@@ -121,15 +116,11 @@ impl Straight {
         let bars = system.bars();
         let all = (1_u32 << bars) - 1;
         let mut settled = vec![];
-        let moments = exact.moments.as_ref();
         if !system.vertical {
             // Along the line, and against it with all signs turned.
             for (way, turned) in [(1, 0), (-1, all)] {
                 let patterns = fits.iter().map(|pattern| Pattern(pattern.0 ^ turned));
-                let cells = patterns.filter_map(|p| {
-                    let none = moments.and_then(|m| m.is_without_variance(p));
-                    Some((p, isolated(system, p, way, none == Some(true))?))
-                });
+                let cells = patterns.filter_map(|p| Some((p, isolated(system, p, way)?)));
                 settled.extend(Settled::new(cells.collect()));
             }
         }
@@ -139,7 +130,7 @@ impl Straight {
         });
         let mut first = HashMap::new();
         if is_one_point(system)
-            && let Some(moments) = moments
+            && let Some(moments) = &exact.moments
         {
             first = fits.iter().filter_map(|p| Some((*p, moments.first(*p)?))).collect();
         }
@@ -191,9 +182,8 @@ fn is_one_point(system: &System) -> bool {
     system.vertical && system.span[1] == Interval::ZERO
 }
 
-/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern,
-/// whose signed variance of the weights may be known to vanish.
-fn isolated(system: &System, pattern: Pattern, way: i8, no_variance: bool) -> Option<Cell> {
+/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern.
+fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     let f = system.span.map(|part| signed(way, part));
     // The chart on which the pull is largest.
     let along = usize::from(f[1].mid().abs() > f[0].mid().abs());
@@ -208,7 +198,7 @@ fn isolated(system: &System, pattern: Pattern, way: i8, no_variance: bool) -> Op
     for _ in 0..RECTANGLES {
         let at = [Interval::around(centre, size), Interval::new(-size, size)];
         let cell = Cell { face, at };
-        if is_isolated(system, &cell, f, pattern, no_variance) == Some(true) {
+        if is_isolated(system, &cell, f, pattern) == Some(true) {
             return Some(cell);
         }
         size *= NEXT;
@@ -216,14 +206,8 @@ fn isolated(system: &System, pattern: Pattern, way: i8, no_variance: bool) -> Op
     None
 }
 
-/// Whether the blown-up closure has no zero over a rectangle but the straight position.
-fn is_isolated(
-    system: &System,
-    cell: &Cell,
-    f: [Interval; 2],
-    pattern: Pattern,
-    no_variance: bool,
-) -> Option<bool> {
+/// Whether the blown-up closure has no zero over a rectangle.
+fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern) -> Option<bool> {
     let size = |[x, z]: [Interval; 2]| (x.square() + z.square()).sqrt();
     let along = |[x, z]: [Interval; 2]| f[0] * x + f[1] * z;
     let whole = size(f);
@@ -247,15 +231,6 @@ fn is_isolated(
         return None;
     }
     let psi = -(nu * lean / turn);
-    if no_variance {
-        // The weights in the unit in which the pull is as long as f.
-        let [h, v, w] = cell.homogeneous();
-        let most = w / along([h, v]) * whole.square();
-        let over = [psi, Interval::ZERO.hull(Interval::point(most.hi()))];
-        let signs: Vec<i8> = pattern.signs(system.bars()).collect();
-        let [[a, b], [c, d]] = blown_up(system, &signs, f, over)?.map(|part| part.gradient());
-        return Some(!(a * d - b * c).contains(0.0));
-    }
     let second: Interval = terms.into_iter().map(|(part, c)| part * (psi + c).square()).sum();
     Some(!second.contains(0.0))
 }
@@ -289,7 +264,7 @@ mod tests {
         let level = system(3, [1.0, 0.0, 0.0]);
         for pattern in [0b001, 0b010, 0b100] {
             for (way, turned) in [(1, 0), (-1, 0b111)] {
-                let cell = isolated(&level, Pattern(pattern ^ turned), way, false);
+                let cell = isolated(&level, Pattern(pattern ^ turned), way);
                 let face = if way > 0 { Face::Right } else { Face::Left };
                 let Cell { face: found, at } = cell.unwrap();
                 assert_eq!(found, face, "{pattern:03b}");
@@ -297,7 +272,7 @@ mod tests {
             }
         }
         let even = system(4, [1.0, 0.0, 0.0]);
-        assert!(isolated(&even, Pattern(0b0110), 1, false).is_none());
+        assert!(isolated(&even, Pattern(0b0110), 1).is_none());
     }
 
     /// Three bars over 1 m, each with its weight at its end.
@@ -314,7 +289,7 @@ mod tests {
     fn straight_positions_without_variance_are_not_isolated() {
         let system = with_weights_at_ends([1.0, 3.0, 3.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
-            assert!(isolated(&system, Pattern(pattern), way, false).is_none());
+            assert!(isolated(&system, Pattern(pattern), way).is_none());
         }
     }
 
@@ -324,7 +299,7 @@ mod tests {
     fn the_variance_is_about_the_mean_of_the_weights() {
         let system = with_weights_at_ends([1.0, 4.0, 4.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
-            assert!(isolated(&system, Pattern(pattern), way, false).is_some());
+            assert!(isolated(&system, Pattern(pattern), way).is_some());
         }
     }
 
@@ -339,8 +314,8 @@ mod tests {
             System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
         };
         for (way, pattern) in [(1, 0b100), (-1, 0b011)] {
-            assert!(isolated(&system(3.0), Pattern(pattern), way, false).is_none());
-            assert!(isolated(&system(2.5), Pattern(pattern), way, false).is_some());
+            assert!(isolated(&system(3.0), Pattern(pattern), way).is_none());
+            assert!(isolated(&system(2.5), Pattern(pattern), way).is_some());
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Equilibria in which one bar carries no force, or next to none, or several in one line do.
+//! Equilibria in which one bar carries no force, or next to none, and pulls at which several in one line do.
 //!
 //! There is at most one near the pull at which the force of bar k vanishes, for each pattern of the
 //! others: proved in the coordinates of [`axial`](crate::slack::axial).
 //!
 //! The same holds for a group, bars in a row whose common joints carry no weight, as long as they
-//! lie in one line. Where they carry nothing they need not; but a group that is just as long as the gap
-//! has no other way to bridge it: see [`straightened`](crate::degenerate::straightened).
+//! lie in one line. Where they carry nothing they need not: a group that also bridges its gap in one line is
+//! one of the [`families`](crate::slack::families), next to which there is no equilibrium with a force.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -14,14 +14,13 @@ use std::ops::Range;
 use numerics::Interval;
 
 use crate::closure::{Pattern, signed};
-use crate::degenerate::straightened;
-use crate::degenerate::unloaded::{self as degenerate, DegenerateEquilibrium};
-use crate::equilibrium::stress;
-use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
+use crate::enclosure::krawczyk::Zero;
+use crate::equilibrium::{Proof, ProvenEquilibrium, stress};
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
 use crate::slack::axial::AxialClosure;
+use crate::slack::exact::ExactSides;
 use crate::slack::moments::Exact;
 
 /// A gap between upright bars that differs from the length of the bar by more than this is not
@@ -47,8 +46,6 @@ const DISCS: usize = 12;
 #[derive(Debug, Default)]
 pub(crate) struct Unloaded {
     pub(crate) equilibria: Vec<ProvenEquilibrium>,
-    /// Those with a singular second derivative.
-    pub(crate) degenerate: Vec<DegenerateEquilibrium>,
     settled: Vec<Settled>,
 }
 
@@ -94,24 +91,9 @@ impl Unloaded {
         }
         left
     }
-
-    /// Whether the slack family with these signs is known to be one position, and that is listed: here,
-    /// or between anchors on one vertical as a straight one.
-    pub(crate) fn is_one_position(&self, system: &System, exact: &Exact, signs: &[i8]) -> bool {
-        if !system.vertical {
-            return self.degenerate.iter().any(|straightened| straightened.signs == signs);
-        }
-        let slack = |group: &&Range<usize>| signs[group.start] == 0;
-        let group = system.groups.iter().enumerate().find(|(_, group)| slack(group));
-        let (Some(sides), Some((number, group))) = (&exact.sides, group) else { return false };
-        let Ok(number) = u8::try_from(number) else { return false };
-        let up = upright(system, Face::Around(number), signs);
-        let fits = |along: Vec<i8>, up: &[i8]| sides.just_bridges(up, group.clone(), &along);
-        up.is_some_and(|up| ways(system, group).into_iter().any(|along| fits(along, &up)))
-    }
 }
 
-/// All of them. Degenerate ones are found where lengths and weights are known as integers.
+/// All of them.
 pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
     let mut all = Unloaded::default();
     let bars = system.bars();
@@ -133,32 +115,21 @@ pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
                 .filter(|(_, w)| **w != along[0])
                 .map(|(i, _)| bit(i))
                 .sum();
-            for others in candidates(system, group, &along) {
+            for others in (0..1_u32 << bars).filter(|pattern| pattern & settled.bits == 0) {
+                let others = Pattern(others);
                 let Some(closure) = axial_closure(system, group, &along, others) else { continue };
                 let side = if group.len() > 1 {
+                    // It is one position of a family.
                     let sides = exact.sides.as_ref();
-                    let Some(radius) = sides.and_then(|sides| straightened::alone(sides, &closure))
-                    else {
+                    let Some(radius) = sides.and_then(|sides| alone(sides, &closure)) else {
                         continue;
                     };
-                    // Else it is one position of a family.
-                    if is_the_only_way(&along) {
-                        let Some(found) = straightened::prove(&closure, radius) else { continue };
-                        all.degenerate.push(found);
-                    }
                     0.5 * radius
-                } else if let Some(equilibrium) = prove(&closure) {
+                } else {
+                    let Some(equilibrium) = prove(&closure) else { continue };
                     let side = equilibrium.alone_in.at[0].hi();
                     all.equilibria.push(equilibrium);
                     side
-                } else if let Some(moments) = &exact.moments
-                    && let Some(merged) = degenerate::prove(moments, &closure)
-                {
-                    let side = merged.alone_in.at[0].hi();
-                    all.degenerate.push(merged);
-                    side
-                } else {
-                    continue;
                 };
                 settled.largest = settled.largest.max(side);
                 settled.half.insert(others.0 | turned, side);
@@ -186,7 +157,7 @@ fn lines(system: &System, group: &Range<usize>, exact: &Exact) -> Vec<Vec<i8>> {
 
 /// Those in which no other position of them reaches as far, or none reaches less far: all along, or all
 /// but the longest against it.
-fn ways(system: &System, group: &Range<usize>) -> Vec<Vec<i8>> {
+pub(super) fn ways(system: &System, group: &Range<usize>) -> Vec<Vec<i8>> {
     let one = |one: usize| group.clone().map(|i| if i == one { 1 } else { -1 }).collect();
     let mut all = vec![vec![1; group.len()]];
     if group.len() > 1 {
@@ -200,14 +171,8 @@ fn reaching(system: &System, group: &Range<usize>, all: Vec<Vec<i8>>) -> Vec<Vec
     all.into_iter().filter(|along| reach(system, group, along).lo() > 0.0).collect()
 }
 
-/// Whether bars that reach over a gap in this way have no other way to: all along it, or one alone.
-fn is_the_only_way(along: &[i8]) -> bool {
-    let against = along.iter().filter(|way| **way < 0).count();
-    against == 0 || against + 1 == along.len()
-}
-
 /// Which way the bars with these signs point at the pull without force in those with sign 0: up, down.
-pub(crate) fn upright(system: &System, face: Face, signs: &[i8]) -> Option<Vec<i8>> {
+fn upright(system: &System, face: Face, signs: &[i8]) -> Option<Vec<i8>> {
     let force = |(sign, weight): (&i8, &Interval)| match sign {
         0 => Some(0),
         _ => Some(sign * weight.sign().filter(|up| *up != 0)?),
@@ -224,59 +189,17 @@ fn reach(system: &System, group: &Range<usize>, along: &[i8]) -> Interval {
     }
 }
 
-/// The patterns, ascending, that [`axial_closure`] has anything to say of: it looks at them again.
-fn candidates(system: &System, group: &Range<usize>, along: &[i8]) -> Vec<Pattern> {
-    let mut found = vec![];
-    let number = system.groups.iter().position(|other| other == group);
-    let face = number.and_then(|number| u8::try_from(number).ok()).map(Face::Around);
-    if let (Some(face), false) = (face, system.vertical) {
-        let weights = system.weights(face).iter().zip(&system.length).enumerate();
-        // How far each bar in tension reaches up; the group bridges what is left.
-        let up: Option<Vec<Interval>> = weights
-            .map(|(i, (weight, length))| match weight.sign() {
-                _ if group.contains(&i) => Some(Interval::ZERO),
-                sign => sign.map(|up| signed(up, *length)),
-            })
-            .collect();
-        if let Some(up) = up {
-            let bridge = Bridge { system, group, reach: reach(system, group, along), up: &up };
-            bridge.bridged((0, 0, system.span[1]), &mut found);
-        }
+/// The radius of a disc of pulls in which no other has the group in this line, pulled or pushed, than that
+/// without force, if the group exactly bridges its gap so.
+fn alone(sides: &ExactSides, closure: &AxialClosure) -> Option<f64> {
+    let AxialClosure { system, group, along, face, signs, .. } = closure;
+    let up = upright(system, *face, signs)?;
+    if !sides.just_bridges(&up, group.clone(), along) {
+        return None;
     }
-    found
-}
-
-/// What may bridge the gap between upright bars.
-struct Bridge<'a> {
-    system: &'a System,
-    group: &'a Range<usize>,
-    reach: Interval,
-    up: &'a [Interval],
-}
-
-impl Bridge<'_> {
-    /// Those with the signs chosen so far (bars, pattern, height that is left) that bring the end
-    /// of the chain within the reach of the group.
-    fn bridged(&self, (chosen, pattern, left): (usize, u32, Interval), found: &mut Vec<Pattern>) {
-        let Self { system, group, reach, up } = self;
-        let rest: f64 = system.length[chosen..].iter().map(|length| length.hi()).sum();
-        // Rounding is far below the room that is left.
-        if left.mig() > rest + reach.hi() + 4.0 * NEAR {
-            return;
-        }
-        if chosen == up.len() {
-            let distance = (system.span[0].square() + left.square()).sqrt();
-            if (distance - *reach).mig() <= 2.0 * NEAR {
-                found.push(Pattern(pattern));
-            }
-            return;
-        }
-        self.bridged((chosen + 1, pattern, left - up[chosen]), found);
-        if !group.contains(&chosen) {
-            let bit = Pattern::bit(up.len(), chosen);
-            self.bridged((chosen + 1, pattern | bit, left + up[chosen]), found);
-        }
-    }
+    let (only, radius) = widest_disc(closure)?;
+    // The zero without force is in the disc, so it is the only one.
+    only.at[0].contains(0.0).then_some(radius)
 }
 
 /// The equilibrium with these signs, 0 for the bar without force.
@@ -331,7 +254,7 @@ fn axial_closure<'a>(
 /// The equilibrium near the pull without force in a bar, if there is exactly one and its bar
 /// carries next to nothing.
 fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
-    let (system, bar, face) = (closure.system, closure.group.start, closure.face);
+    let system = closure.system;
     let (tight, radius) = widest_disc(closure)?;
     // Any other the search finds by itself, and one outside of the square that is settled too.
     let most = tight.at[0].mag();
@@ -339,25 +262,18 @@ fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
     if outside || most > TOO_LITTLE || most > NEXT_TO_NOTHING && !tight.at[0].contains(0.0) {
         return None;
     }
-    let bars = closure.bars(tight.at)?;
-    let slope = closure.slope(&bars, tight.at).map(|row| row.map(Interval::mid));
-    let indices = closure.indices(&bars, condition(slope))?;
+    let observed = closure.bars(tight.at)?;
+    let slope = closure.slope(&observed, tight.at).map(|row| row.map(Interval::mid));
+    let indices = closure.indices(&observed, condition(slope))?;
     // A square inside the disc.
     let side = Interval::new(-0.5 * radius, 0.5 * radius);
-    let optimal = stress::proves_optimal(&closure.signs, &system.length, &bars.sizes, false);
-    let observed = Observed {
-        pull: Cell { face, at: bars.forces[bar] }.pull(system),
-        forces: bars.forces,
-        sizes: bars.sizes,
-        directions: bars.directions,
-    };
-    let alone_in = Neighbourhood { chart: face, at: [side, side] };
-    let signs = &closure.signs;
-    Some(ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal))
+    let optimal = stress::proves_optimal(&closure.signs, &system.length, &observed.sizes, false);
+    let shown = Zero { tight, alone_in: Cell { face: closure.face, at: [side, side] } };
+    Some(Proof { shown, observed, indices, optimal }.assemble(system, &closure.signs))
 }
 
 /// The only zero in the largest disc of pulls that is proved to hold one, and the radius of that.
-pub(crate) fn widest_disc(closure: &AxialClosure) -> Option<(Cell, f64)> {
+fn widest_disc(closure: &AxialClosure) -> Option<(Cell, f64)> {
     let radii = std::iter::successors(Some(LARGEST_DISC), |radius| Some(radius * NEXT_DISC));
     let one = |radius| closure.only_one(radius).map(|tight| (tight, radius));
     radii.take(DISCS).find_map(one)

@@ -52,14 +52,13 @@ fn cells_and_equilibria_are_estimated_from_a_sample() {
 /// Beyond the bars of any census: 2.1 times for each bar more than sixteen, whatever the chain.
 #[test]
 fn estimates_beyond_any_census_grow_by_the_bar() {
-    let sixteen =
-        Estimate { seconds: 13.0, gigabytes: 0.5, compact_gigabytes: 0.05, equilibria: 1e5 };
+    let sixteen = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
     for bars in [25, 40, 1000] {
         let times = 2.1_f64.powf((bars as f64 - 16.0).min(600.0));
         let found = Census::estimate(&crate::support::equal(bars, [2.0, 0.0, 0.5]));
         let parts = |estimate: Estimate| {
-            let Estimate { seconds, gigabytes, compact_gigabytes, equilibria } = estimate;
-            [seconds, gigabytes, compact_gigabytes, equilibria]
+            let Estimate { seconds, gigabytes, equilibria } = estimate;
+            [seconds, gigabytes, equilibria]
         };
         for (found, of_sixteen) in parts(found).into_iter().zip(parts(sixteen)) {
             assert!((found / (of_sixteen * times) - 1.0).abs() < 1e-12, "{bars}: {found}");
@@ -68,7 +67,7 @@ fn estimates_beyond_any_census_grow_by_the_bar() {
 }
 
 /// Where the sample is a part of the patterns the equilibria are in proportion to them, and memory
-/// to the equilibria: 0.3 µGB for each and bar, 0.5 µGB for each of a compact census.
+/// to the equilibria: 0.3 µGB for each and bar.
 #[test]
 fn memory_is_that_of_the_equilibria() {
     for bars in [4, 11] {
@@ -76,6 +75,5 @@ fn memory_is_that_of_the_equilibria() {
         let equilibria = found.equilibria;
         assert!(equilibria > 0.0);
         assert!((found.gigabytes / (3e-7 * bars as f64 * equilibria) - 1.0).abs() < 1e-12);
-        assert!((found.compact_gigabytes / (5e-7 * equilibria) - 1.0).abs() < 1e-12);
     }
 }

@@ -11,7 +11,6 @@ mod degenerate;
 mod estimate;
 mod figure;
 mod integers;
-mod multiplicity;
 mod mutations;
 mod nets;
 mod paper;

@@ -62,7 +62,7 @@ impl LargeCensusAnswer {
             chain.decided = summary.decided;
             chain.count_in_plane = summary.count;
             chain.circle_count = summary.circles.then_some(proven.len());
-            chain.count_by_index = proven.count_by_index().to_vec();
+            chain.count_by_index = proven.count_by_index();
             chain.alternating_sum = proven.alternating_sum();
         }
         let mut answer = Self { first, proven };
@@ -161,7 +161,7 @@ impl LargeCensusAnswer {
 
 impl Line {
     fn of(proven: &CompactCensus, number: usize) -> Self {
-        let outline = proven.outline(number);
+        let whole = proven.equilibrium(number);
         let letter = |sign: &i8| match sign {
             1 => 'T',
             -1 => 'C',
@@ -169,12 +169,12 @@ impl Line {
         };
         Self {
             number: number + 1,
-            energy_j: outline.energy_j.mid(),
-            pattern: outline.signs.iter().map(letter).collect(),
-            pull_n: outline.pull_n,
-            index_in_plane: outline.index_in_plane,
-            index_in_space: outline.index_in_plane + outline.index_out_of_plane,
-            optimal: outline.optimal,
+            energy_j: whole.energy_j.mid(),
+            pattern: whole.signs.iter().map(letter).collect(),
+            pull_n: whole.pull_n,
+            index_in_plane: whole.index_in_plane,
+            index_in_space: whole.index_in_space(),
+            optimal: whole.optimal,
         }
     }
 

@@ -1,10 +1,7 @@
 //! What is known of the list of equilibria, as `funicular census --json` prints it.
 
 use census::network::{ChainCensus, NetCensus, PartCensus, SystemCensus};
-use census::{
-    DegenerateEquilibrium, Face, Interval, Reason, SlackFamily, Statistics, StraightPosition,
-    Undecided,
-};
+use census::{Face, Interval, Reason, SlackFamily, Statistics, StraightPosition, Undecided};
 use model::Chain as Bars;
 use model::system::System;
 use serde::Serialize;
@@ -14,8 +11,7 @@ use serde::Serialize;
 pub struct Summary {
     /// Whether every equilibrium is in `equilibria`, or in a family of slack bars.
     pub complete: bool,
-    /// The same; of a row of bars, also whether every other one is degenerate, or upright in a
-    /// straight position.
+    /// The same; of a row of bars, also whether every other one is upright in a straight position.
     pub decided: bool,
     /// Number of isolated equilibria: the length of `equilibria`, where each is listed with everything; by signs and
     /// pulls a circle is listed once.
@@ -92,7 +88,7 @@ pub struct Chain {
     pub joints: Vec<String>,
     /// Whether every equilibrium is isolated, or in a slack family.
     pub complete: bool,
-    /// Whether every equilibrium is isolated, in `slack_families` or `degenerate`, or upright in
+    /// Whether every equilibrium is isolated, in `slack_families`, or upright in
     /// `straight`.
     pub decided: bool,
     /// Number of isolated equilibria in one vertical plane, both images of each circle.
@@ -111,8 +107,6 @@ pub struct Chain {
     pub topology_unknown: Option<String>,
     /// Positions in which all bars lie in the line between the anchors.
     pub straight: Vec<StraightPosition>,
-    /// Equilibria at which several have merged.
-    pub degenerate: Vec<DegenerateEquilibrium>,
     /// The boxes that could not be decided.
     pub undecided: Vec<Open>,
     /// Sets of equilibria with bars that carry nothing.
@@ -140,11 +134,6 @@ pub struct Open {
     pub at: [Interval; 2],
     /// The pulls in it, if they are bounded.
     pub pull_n: Option<[Interval; 2]>,
-    /// At most so many equilibria in the box and next to it, counted with multiplicity, besides
-    /// those listed; if that is proved.
-    pub at_most: Option<usize>,
-    /// Of what degree they are together: their number has the same parity.
-    pub degree: Option<i8>,
 }
 
 /// A set of equilibria with bars that carry nothing.
@@ -294,7 +283,6 @@ impl Chain {
             betti: topology.ok().map(|topology| topology.betti.clone()),
             topology_unknown: topology.err().map(ToString::to_string),
             straight: census.straight.clone(),
-            degenerate: census.degenerate.clone(),
             undecided: census.undecided.iter().map(open).collect(),
             slack_families: census.families.iter().map(slack).collect(),
             check: Check {
@@ -321,8 +309,6 @@ fn open(undecided: &Undecided) -> Open {
         chart: undecided.chart,
         at: undecided.at,
         pull_n: undecided.pull_n.filter(|parts| parts.iter().all(is_finite)),
-        at_most: undecided.bound.map(|bound| bound.at_most),
-        degree: undecided.bound.and_then(|bound| bound.degree),
     }
 }
 

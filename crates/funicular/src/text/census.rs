@@ -83,11 +83,9 @@ fn headline(answer: &CensusAnswer) -> String {
         let parts: Vec<_> = census.parts.iter().map(|part| part.count.to_string()).collect();
         let _ = write!(text, " ({} of parts that move without each other)", parts.join(" times "));
     }
-    let merged = census.chains().map(|chain| chain.degenerate.len()).sum();
     let upright = census.chains().flat_map(|chain| &chain.straight).filter(|at| at.upright).count();
     for (number, one, many) in [
         (census.slack_families, "family of slack bars", "families of slack bars"),
-        (merged, "degenerate one", "degenerate ones"),
         (upright, "upright position with any force", "upright positions with any force"),
     ] {
         if number > 0 {

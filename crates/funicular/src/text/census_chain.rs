@@ -2,8 +2,6 @@
 
 use std::fmt::Write as _;
 
-use census::Interval;
-
 use super::census::{left_out, pattern, plural};
 use super::tables::{duration, long, numbers_from, short, table};
 use crate::census::Chain;
@@ -13,7 +11,7 @@ const PRINTED_OPEN: usize = 12;
 
 /// All that is known of its list.
 pub(super) fn text(chain: &Chain) -> String {
-    families(chain) + &merged(chain) + &undecided(chain) + &sums(chain)
+    families(chain) + &undecided(chain) + &sums(chain)
 }
 
 fn families(chain: &Chain) -> String {
@@ -46,36 +44,6 @@ fn families(chain: &Chain) -> String {
     text + "\n"
 }
 
-/// Equilibria at which several have merged.
-fn merged(chain: &Chain) -> String {
-    if chain.degenerate.is_empty() {
-        return String::new();
-    }
-    let mut rows = table(["bars", "energy / J", "multiplicity", "degree", "angles / deg"]);
-    for merged in chain.degenerate.iter().take(PRINTED_OPEN) {
-        let angle = |angle: &Interval| short(angle.mid().to_degrees());
-        rows.add_row([
-            pattern(&merged.signs),
-            long(merged.energy_j.mid()),
-            match merged.multiplicity {
-                Some(2) => "2 (a fold)".to_owned(),
-                Some(number) => number.to_string(),
-                None => "a family".to_owned(),
-            },
-            merged.degree.to_string(),
-            merged.angles_rad.iter().map(angle).collect::<Vec<_>>().join(", "),
-        ]);
-    }
-    numbers_from(&mut rows, 1);
-    let mut text = format!(
-        "Degenerate equilibria, at which several have merged (bars with a dot carry nothing; the second derivative \
-         of the energy\nvanishes in some direction; degree: the sum of (-1)^index over those into which it falls apart \
-         when the chain is changed a little):\n{rows}\n"
-    );
-    left_out(&mut text, chain.degenerate.len(), PRINTED_OPEN, "of them");
-    text + "\n"
-}
-
 fn undecided(chain: &Chain) -> String {
     if chain.undecided.is_empty() {
         return String::new();
@@ -91,10 +59,7 @@ fn undecided(chain: &Chain) -> String {
             upright,
             open.pattern_count.to_string(),
             open.patterns.first().map_or_else(String::new, |signs| pattern(signs)),
-            match open.at_most {
-                Some(number) => format!("{}; at most {number} equilibria", open.why),
-                None => open.why.clone(),
-            },
+            open.why.clone(),
         ]);
     }
     let mut text = format!(

@@ -73,25 +73,14 @@ fn text(trace: &Continuation, many: bool) -> String {
     tables::fitted(&text)
 }
 
-/// An equilibrium at which several have merged.
-fn of(multiplicity: Option<usize>) -> String {
-    multiplicity.map_or_else(
-        || "an equilibrium to which a family of slack ones has shrunk".to_owned(),
-        |number| format!("an equilibrium of multiplicity {number}"),
-    )
-}
-
 /// What is known of a degenerate point.
 fn degenerate(status: &PointStatus) -> String {
-    let PointStatus::Undecided { straight, merged, .. } = status else { return String::new() };
-    let mut known = vec![];
+    let PointStatus::Undecided { straight, .. } = status else { return String::new() };
     match straight {
-        0 => {}
-        1 => known.push("the chain fits into the line of its anchors".to_owned()),
-        ways => known.push(format!("the chain fits into the line of its anchors in {ways} ways")),
+        0 => String::new(),
+        1 => ": the chain fits into the line of its anchors".to_owned(),
+        ways => format!(": the chain fits into the line of its anchors in {ways} ways"),
     }
-    known.extend(merged.iter().map(|merged| format!("{} is proved", of(merged.multiplicity))));
-    if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
 }
 
 /// What the checks say.
@@ -174,9 +163,6 @@ fn table(trace: &Continuation) -> String {
             EventKind::Fold => "fold: two branches meet and end".to_owned(),
             EventKind::Straight => "straight chain: two branches meet and end".to_owned(),
             EventKind::BranchPoint => "branch point".to_owned(),
-            EventKind::Multiple { multiplicity, .. } => {
-                format!("branches meet in {}, proved", of(multiplicity))
-            }
             EventKind::SpaceExchange { from, to } => {
                 format!("index in space {from} \u{2192} {to}")
             }

@@ -68,13 +68,6 @@ pub enum Reason {
         #[serde(with = "finite")]
         distance: f64,
     },
-    /// The answer is at a degenerate equilibrium, at which several have merged: the census proves that
-    /// it is one, and lists it apart.
-    AtDegenerate {
-        /// How far outside of its boxes, in units of the total length.
-        #[serde(with = "finite")]
-        distance: f64,
-    },
     /// The answer is at a straight position in the vertical through both anchors, an equilibrium
     /// under any force along it: the census lists it apart.
     AtStraight {
@@ -88,12 +81,6 @@ pub enum Reason {
     CensusUndecided {
         /// How many.
         cells: usize,
-    },
-    /// Occurs when the census names equilibria at which several have merged: their second
-    /// derivative is singular, and they are listed apart.
-    DegenerateEquilibria {
-        /// How many.
-        listed: usize,
     },
     /// Occurs when the census names families with slack bars that are no manifold: the bars also fit
     /// into one line, or close upon themselves.

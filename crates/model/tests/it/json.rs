@@ -196,7 +196,6 @@ fn reasons_read_back() {
         Reason::SlackFamily,
         Reason::NotAmongDecided { cells: 2 },
         Reason::Elsewhere { distance: 1e-6 },
-        Reason::AtDegenerate { distance: 0.0 },
         Reason::AtStraight { distance: 1e-15 },
         Reason::SingularFamilies { listed: 2 },
         Reason::StraightPosition { sides: vec![1, 2] },

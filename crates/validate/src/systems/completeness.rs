@@ -129,7 +129,7 @@ pub fn certify_by_census(system: &System, census: &SystemCensus, answer: &mut Sy
     }
 }
 
-/// Why the census of a row does not list an answer: it also knows straight and degenerate positions,
+/// Why the census of a row does not list an answer: it also knows straight positions
 /// and families with slack bars.
 fn unlisted_row(
     system: &System,

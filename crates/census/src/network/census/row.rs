@@ -7,7 +7,7 @@ use super::parts::{Core, parts};
 use super::{ChainCensus, PartCensus, SystemCensus};
 use crate::census::check::CheckError;
 use crate::census::compact::CompactCensus;
-use crate::census::estimate::{Estimate, Kept, of_chain, refuse_long};
+use crate::census::estimate::{Estimate, of_chain, refuse_long};
 use crate::error::CensusError;
 use crate::search::Progress;
 use crate::settings::Settings;
@@ -49,7 +49,7 @@ impl LoadedRow {
     /// As [`Census::take`](crate::Census::take).
     pub fn refusal(&self, settings: &Settings) -> Result<(), CensusError> {
         settings.validate()?;
-        refuse_long(&self.loaded.chain, &self.loaded.loads, settings, Kept::Whole)
+        refuse_long(&self.loaded.chain, &self.loaded.loads, settings)
     }
 
     /// Its census, judged again; and the same without its list of equilibria.

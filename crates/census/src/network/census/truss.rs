@@ -19,7 +19,7 @@ use numerics::Interval;
 
 use super::choice::Choice;
 use crate::network::arithmetic::{
-    Vector, cross, difference, dot, minus, norm, plus, product, squared, sum, times,
+    Vector, cross, difference, dot, factors, minus, norm, plus, product, squared, sum, times,
 };
 use crate::network::frame::Frame;
 
@@ -201,31 +201,12 @@ fn balance(choice: &mut Choice, order: &[Placed], loads: &[Vector]) -> Result<()
         for (_, other) in &placed.held_by {
             spans.push(minus(choice.place(*other).ok_or(flat)?, here));
         }
-        let densities = densities(&spans, forces[placed.joint]).ok_or(flat)?;
+        let borne = times(-Interval::ONE, forces[placed.joint]);
+        let densities = factors(&spans, borne).ok_or(flat)?;
         for (((member, other), span), density) in placed.held_by.iter().zip(&spans).zip(densities) {
             forces[*other] = minus(forces[*other], times(density, *span));
             choice.axial.push((*member, product(density, norm(*span))));
         }
     }
     Ok(())
-}
-
-/// The force densities of two or three members that balance a force, by Cramer's rule.
-fn densities(spans: &[Vector], force: Vector) -> Option<Vec<Interval>> {
-    let ratio = |over: Interval, under: Interval| (!under.contains(0.0)).then(|| -(over / under));
-    match *spans {
-        [a, b, c] => {
-            let volume = dot(a, cross(b, c));
-            let parts = [dot(force, cross(b, c)), dot(a, cross(force, c)), dot(a, cross(b, force))];
-            parts.into_iter().map(|part| ratio(part, volume)).collect()
-        }
-        // In balance the force lies in the plane of both.
-        [a, b] => {
-            let normal = cross(a, b);
-            let size = squared(normal);
-            let parts = [dot(cross(force, b), normal), dot(cross(a, force), normal)];
-            parts.into_iter().map(|part| ratio(part, size)).collect()
-        }
-        _ => None,
-    }
 }

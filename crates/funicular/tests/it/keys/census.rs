@@ -194,7 +194,7 @@ fn summary(output: &mut Output) {
     output.is(&of_chain("euler_characteristic"), 2);
     output.is(&of_chain("betti[]"), json!([2]));
     output.is(&of_chain("topology_unknown"), json!(null));
-    for none in ["straight[]", "degenerate[]", "undecided[]", "slack_families[]"] {
+    for none in ["straight[]", "undecided[]", "slack_families[]"] {
         output.is(&of_chain(none), json!([]));
     }
     output.is("census.energy_unit_j", 10.0);
@@ -274,40 +274,6 @@ fn straight_positions() {
     output.done();
 }
 
-/// To (1, 0, -2): down, along, down without force in the middle bar. 10 N at each end hold the
-/// chain, each outer bar bears its own half weight and that of the middle one.
-#[test]
-fn a_quadruple_point() {
-    let mut output = census("a_quadruple_point", &three_bars("[1, 0, -2]"));
-    let at = |key: &str| of_chain(&format!("degenerate[].{key}"));
-    output.is(&at("signs[]"), json!([1, 0, -1]));
-    let open = "equilibria[].evidence.ladder[].reason.listed";
-    output.each(open, 1);
-    // A minimum and a maximum are listed, of a closed curve: what is left has the degree 0.
-    output.is(&of_chain("count_by_index[]"), json!([1, 1]));
-    output.is(&of_chain("euler_characteristic"), 0);
-    output.is(&at("multiplicity"), 4);
-    output.is(&at("degree"), 0);
-    output.is(&at("index_in_plane"), 0);
-    output.is(&at("index_out_of_plane"), 1);
-    // Centres at -1/2, -1 and -3/2 m.
-    output.encloses(&at("energy_j[]"), json!([-30.0]));
-    output.encloses(&at("pull_n[][]"), json!([0.0, -15.0]));
-    let right = std::f64::consts::FRAC_PI_2;
-    output.encloses(&at("angles_rad[][]"), json!([0.0, right, 0.0]));
-    let joints = [[0, 0, 0], [0, 0, -1], [1, 0, -1], [1, 0, -2]].map(|at| at.map(f64::from));
-    output.encloses(&at("joints_m[][][]"), json!(joints));
-    output.encloses(&at("axial_n[][]"), json!([10.0, 0.0, -10.0]));
-    // The middle bar hangs between 5 N that the first one pulls and 5 N that the last one pushes.
-    let forces = [15, -5, 5, 15].map(|n| [0.0, 0.0, f64::from(n)]);
-    output.encloses(&at("multipliers_n[][][]"), json!(forces));
-    // Next to no force of the middle bar, in coordinates that count from there.
-    output.is(&at("alone_in.chart.around"), 1);
-    let around = output.numbers(&at("alone_in.at[][]"));
-    assert!(around.chunks(2).all(|ends| ends[0] < 0.0 && 0.0 < ends[1]), "{around:?}");
-    output.done();
-}
-
 /// Two bars that hang plumb 1 m apart, with two weightless ones of 1 m between: these lie as they
 /// like, above or below.
 #[test]
@@ -347,6 +313,7 @@ fn slack_bars_that_fit_into_a_line() {
     output.encloses(&at("gap_m[]"), json!([1.0, 5.0_f64.sqrt()]));
     output.is("census.decided", true);
     output.is("census.complete", false);
+    output.each("equilibria[].evidence.ladder[].reason.listed", 1);
     output.done();
 }
 

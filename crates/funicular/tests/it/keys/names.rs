@@ -43,10 +43,6 @@ fn ends_and_events_of_branches() {
             EventKind::SpaceExchange { from: 1, to: 2 },
             json!({ "kind": "space-exchange", "from": 1, "to": 2 }),
         ),
-        (
-            EventKind::Multiple { multiplicity: Some(4), degree: -1 },
-            json!({ "kind": "multiple", "multiplicity": 4, "degree": -1 }),
-        ),
         (EventKind::Unloaded { bar: 5 }, json!({ "kind": "unloaded", "bar": 5 })),
     ];
     for (kind, object) in kinds {

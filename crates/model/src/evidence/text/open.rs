@@ -54,11 +54,6 @@ impl Display for Reason {
                 f,
                 "the nearest equilibrium of the census lies {distance:.1e} of the total length away"
             ),
-            Self::AtDegenerate { distance } => write!(
-                f,
-                "the answer lies within {distance:.1e} of the total length of a degenerate equilibrium, which the census \
-                 proves and lists apart: several have merged there"
-            ),
             Self::AtStraight { distance } => write!(
                 f,
                 "the answer lies within {distance:.1e} of the total length of a straight position, which the census lists \
@@ -68,12 +63,6 @@ impl Display for Reason {
                 f.write_str("the census lists no equilibrium to compare with")
             }
             Self::CensusUndecided { cells } => write!(f, "{cells} cells of pulls are undecided"),
-            Self::DegenerateEquilibria { listed: 1 } => {
-                f.write_str("one degenerate equilibrium is listed apart")
-            }
-            Self::DegenerateEquilibria { listed } => {
-                write!(f, "{listed} degenerate equilibria are listed apart")
-            }
             Self::SingularFamilies { listed: 1 } => f.write_str(
                 "one family with slack bars is no manifold: they also fit into one line, or close upon themselves",
             ),

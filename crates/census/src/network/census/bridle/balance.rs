@@ -16,7 +16,9 @@ use numerics::Interval;
 
 use super::pulls::{Pulls, density};
 use super::strand::{Span, Strand};
-use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, squared, times};
+use crate::network::arithmetic::{
+    Vector, cross, det, dot, factors, minus, norm, plus, quotient, times,
+};
 
 /// The force of the last bar of a strand over a cell of pulls and a box of places.
 #[derive(Debug, Clone)]
@@ -48,26 +50,6 @@ impl Held {
 
     fn bounded(&self) -> bool {
         self.w.lo() > 0.0
-    }
-}
-
-/// `x/w` with `w ≥ 0`, the limits at w = 0 included.
-fn quotient(x: Interval, w: Interval) -> Interval {
-    if w == Interval::ONE {
-        return x;
-    }
-    if w.lo() > 0.0 {
-        return x / w;
-    }
-    let least = x / Interval::point(w.hi());
-    if w.hi() <= 0.0 {
-        Interval::LINE
-    } else if x.lo() > 0.0 {
-        Interval::new(least.lo(), f64::INFINITY)
-    } else if x.hi() < 0.0 {
-        Interval::new(f64::NEG_INFINITY, least.hi())
-    } else {
-        Interval::LINE
     }
 }
 
@@ -167,26 +149,7 @@ pub(super) fn densities<'a>(
         }
         b = minus(b, held.force);
     }
-    let over = |part: Interval, whole: Interval| (whole.mig() > 0.0).then(|| part / whole);
-    match *arms {
-        [one] => Some(vec![over(dot(b, one), squared(one))?]),
-        [one, two] => {
-            let both = cross(one, two);
-            let whole = squared(both);
-            let first = over(dot(cross(b, two), both), whole)?;
-            Some(vec![first, over(dot(cross(one, b), both), whole)?])
-        }
-        [one, two, three] => {
-            let whole = det(one, two, three);
-            let parts = [det(b, two, three), det(one, b, three), det(one, two, b)];
-            parts.into_iter().map(|part| over(part, whole)).collect()
-        }
-        _ => None,
-    }
-}
-
-fn det(a: Vector, b: Vector, c: Vector) -> Interval {
-    dot(a, cross(b, c))
+    factors(arms, b)
 }
 
 fn two_may_hold(one: &Held, two: &Held, b: Vector) -> bool {
@@ -208,24 +171,6 @@ fn three_may_hold(all: [&Held; 3], b: Vector) -> bool {
 mod tests {
     use super::*;
     use crate::network::arithmetic::points;
-
-    #[test]
-    fn quotients_have_their_limits() {
-        let x = Interval::new(2.0, 3.0);
-        assert_eq!(quotient(x, Interval::ONE), x);
-        let both = quotient(x, Interval::new(4.0, 8.0));
-        assert!(both.encloses(Interval::new(0.25, 0.75)) && both.width() < 0.5 + 1e-15);
-        let half = Interval::new(0.0, 2.0);
-        let up = quotient(x, half);
-        assert!(up.contains(1.0) && up.lo() > 1.0 - 1e-15 && up.hi() >= f64::INFINITY);
-        let down = quotient(-x, half);
-        assert!(down.contains(-1.0) && down.hi() < -1.0 + 1e-15 && down.lo() <= -f64::INFINITY);
-        assert_eq!(quotient(Interval::new(-1.0, 1.0), half), Interval::LINE);
-        // Nothing over nothing may be anything.
-        assert_eq!(quotient(Interval::new(0.0, 1.0), half), Interval::LINE);
-        assert_eq!(quotient(Interval::new(-1.0, 0.0), half), Interval::LINE);
-        assert_eq!(quotient(x, Interval::ZERO), Interval::LINE);
-    }
 
     fn bounded(force: [f64; 3]) -> Held {
         let force = points(force);

@@ -93,7 +93,7 @@ pub(super) fn taken(
     let bars = bridle.bars();
     let patterns = bridle.strands.iter().map(|strand| 1_u64 << strand.length.len()).sum();
     let budget = settings.max_tests_per_pattern.saturating_mul(TESTS).saturating_mul(patterns);
-    let Search { found, undecided, cells, tests, exhausted } = search(&bridle, budget, watch);
+    let Search { found, undecided, cells, tests, exhausted, .. } = search(&bridle, budget, watch);
     let reason = if exhausted { Open::Budget } else { Open::Degenerate };
     let places = |at: Vector, patterns: usize, reason: Open| {
         let knots_m = vec![core.frame.place_m(at)];

@@ -13,24 +13,9 @@ use crate::closure::bar::BarTerm;
 use crate::closure::{Pattern, signed};
 use crate::network::arithmetic::squared;
 use crate::network::census::net::dense::Dense;
-use crate::network::census::net::newton::{Newton, step};
+use crate::network::census::net::newton::{Linear, Newton, around, step, zero};
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
-
-/// Steps of Newton's method in double precision to a zero.
-const STEPS: usize = 30;
-
-/// A step of this part of the unknowns is rounding.
-const CONVERGED: f64 = 1e-13;
-
-/// How far outside of a box, in its widths, Newton's method may end to be worth a proof.
-const OUTSIDE: f64 = 0.75;
-
-/// Room about a box and a zero for the proof, relative to it.
-const ROOM: f64 = 0.125;
-
-/// Room in units of length and of pulls.
-const LEAST_ROOM: f64 = 1e-9;
 
 /// The charts of the pulls of all strands, and their patterns.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,12 +41,6 @@ pub(super) enum Verdict {
     One(Found),
 }
 
-/// Values and derivative over a box.
-struct Equations {
-    value: Vec<Interval>,
-    slope: Dense<Interval>,
-}
-
 /// What is known of a box; nothing can be said where a force may vanish or be infinite, or the
 /// knot stand over an anchor.
 pub(super) fn examine(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Verdict {
@@ -76,50 +55,19 @@ pub(super) fn examine(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Verd
 }
 
 fn narrowed(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Newton> {
-    let slope = equations(bridle, charts, at)?.slope;
+    let (_, slope) = equations(bridle, charts, at)?;
     let middle: Vec<Interval> = at.iter().map(|part| Interval::point(part.mid())).collect();
-    let value = equations(bridle, charts, &middle)?.value;
+    let (value, _) = equations(bridle, charts, &middle)?;
     step(at, &slope, &value)
 }
 
 /// The proof that one equilibrium at most is in a box around this one and the zero next to it.
 fn one(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Found> {
-    let zero = zero(bridle, charts, at.iter().map(|part| part.mid()).collect())?;
-    let near = at.iter().zip(&zero).all(|(part, x)| {
-        let room = OUTSIDE * part.width() + LEAST_ROOM;
-        part.lo() - room <= *x && *x <= part.hi() + room
-    });
-    if !near {
-        return None;
-    }
-    let room = |(part, x): (&Interval, &f64)| {
-        let both = part.hull(Interval::point(*x));
-        both + Interval::around(0.0, ROOM * both.width() + LEAST_ROOM)
-    };
-    let alone_in: Vec<Interval> = at.iter().zip(&zero).map(room).collect();
+    let middle = at.iter().map(|part| part.mid()).collect();
+    let zero = zero(middle, |unknowns| equations(bridle, charts, unknowns))?;
+    let alone_in = around(at, &zero)?;
     let newton = narrowed(bridle, charts, &alone_in)?;
     newton.single.then_some(Found { charts: charts.clone(), alone_in, at: zero })
-}
-
-/// Newton's method in double precision.
-fn zero(bridle: &Bridle, charts: &Charts, mut at: Vec<f64>) -> Option<Vec<f64>> {
-    for _ in 0..STEPS {
-        let point: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
-        let Equations { value, slope } = equations(bridle, charts, &point)?;
-        let step = slope.middle().inverse()?.times(&value);
-        let mut size = 0.0_f64;
-        for (x, step) in at.iter_mut().zip(step) {
-            *x -= step.mid();
-            size = size.max(step.mid().abs() / x.abs().max(1.0));
-        }
-        if size.is_nan() {
-            return None;
-        }
-        if size < CONVERGED {
-            return Some(at);
-        }
-    }
-    None
 }
 
 /// The cell of the pulls of a strand in a box of all unknowns.
@@ -129,15 +77,12 @@ pub(super) fn cell(bridle: &Bridle, charts: &Charts, at: &[Interval], strand: us
     Cell { face: charts.faces[strand], at: [at[first], second] }
 }
 
-fn equations(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Equations> {
+fn equations(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Linear> {
     let size = at.len();
     let knot = [at[0], at[1], at[2]];
-    let mut all = Equations {
-        value: vec![Interval::ZERO; size],
-        slope: Dense::filled(size, size, Interval::ZERO),
-    };
+    let mut all = (vec![Interval::ZERO; size], Dense::filled(size, size, Interval::ZERO));
     for k in 0..3 {
-        all.value[size - 3 + k] = -bridle.load[k];
+        all.0[size - 3 + k] = -bridle.load[k];
     }
     for (i, strand) in bridle.strands.iter().enumerate() {
         let cell = cell(bridle, charts, at, i);
@@ -153,35 +98,40 @@ fn equations(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Equati
 }
 
 /// The length of a bar alone and its force, with the density τ: $(|a|^2 - l^2)/2$ and $\tau a$.
-fn rod(all: &mut Equations, strand: &Strand, span: &Span, cell: &Cell, own: usize) -> Option<()> {
-    let (row, balance) = (own - 3, all.value.len() - 3);
+fn rod(
+    (value, slope): &mut Linear,
+    strand: &Strand,
+    span: &Span,
+    cell: &Cell,
+    own: usize,
+) -> Option<()> {
+    let (row, balance) = (own - 3, value.len() - 3);
     let [t, w] = density(cell);
     if w.lo() <= 0.0 {
         return None;
     }
     let tau = if w == Interval::ONE { t } else { t / w };
     let by = if w == Interval::ONE { Interval::ONE } else { -(tau / w) };
-    all.value[row] = (squared(span.arm) - strand.length[0].square()).scale(0.5);
+    value[row] = (squared(span.arm) - strand.length[0].square()).scale(0.5);
     for (k, arm) in span.arm.into_iter().enumerate() {
-        all.slope.set(row, k, arm);
-        all.value[balance + k] = all.value[balance + k] + tau * arm;
-        all.slope.add(balance + k, k, tau);
-        all.slope.set(balance + k, own, by * arm);
+        slope.set(row, k, arm);
+        value[balance + k] = value[balance + k] + tau * arm;
+        slope.add(balance + k, k, tau);
+        slope.set(balance + k, own, by * arm);
     }
     Some(())
 }
 
 /// The closure of a strand of several bars, and the force of its last one.
 fn several(
-    all: &mut Equations,
+    (value, slope): &mut Linear,
     strand: &Strand,
     span: &Span,
     cell: &Cell,
     own: usize,
     pattern: Pattern,
 ) -> Option<()> {
-    let (row, balance) = (own - 3, all.value.len() - 3);
-    let Equations { value, slope } = all;
+    let (row, balance) = (own - 3, value.len() - 3);
     let toward = span.toward?;
     let [distance, rise] = span.way;
     let mut gap = [-distance, -rise];
@@ -325,7 +275,7 @@ mod tests {
         closures
     }
 
-    fn over(charts: &Charts, at: &[f64]) -> Equations {
+    fn over(charts: &Charts, at: &[f64]) -> Linear {
         let at: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
         equations(&bridle(), charts, &at).unwrap()
     }
@@ -333,7 +283,7 @@ mod tests {
     #[test]
     fn equations_and_their_slope_are_those_of_plain_numbers() {
         for charts in (0..5).map(charts) {
-            let Equations { value, slope } = over(&charts, &AT);
+            let (value, slope) = over(&charts, &AT);
             for (found, expected) in value.iter().zip(plain(&bridle(), &charts)) {
                 let near = (found.mid() - expected).abs() < 1e-13 && found.width() < 1e-12;
                 assert!(near, "{charts:?}: {found:?} {expected}");
@@ -342,7 +292,7 @@ mod tests {
                 let moved = |step: f64| {
                     let mut at = AT;
                     at[column] += step;
-                    over(&charts, &at).value
+                    over(&charts, &at).0
                 };
                 let quotient = |step: f64, row: usize| {
                     (moved(step)[row].mid() - moved(-step)[row].mid()) / (2.0 * step)

@@ -10,12 +10,11 @@ use numerics::Interval;
 
 use super::strand::{Span, Strand};
 use crate::closure::Pattern;
-use crate::closure::bar::BarTerm;
 use crate::network::arithmetic::norm;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::search::pattern_sums::PatternSums;
-use crate::slack::exclusion::reach;
+use crate::slack::exclusion::open_of;
 
 /// A part of a cell smaller than this is looked at by itself.
 const GOOD: f64 = 0.5;
@@ -48,15 +47,8 @@ impl Pulls {
             return [(Face::Near, full), (Face::Left, half), (Face::Right, half)].map(rod).into();
         }
         let patterns: Vec<Pattern> = (0..1 << strand.length.len()).map(Pattern).collect();
-        [
-            (Face::Near, full, full),
-            (Face::Left, full, half),
-            (Face::Right, full, half),
-            (Face::Below, full, half),
-            (Face::Above, full, half),
-        ]
-        .map(|(face, x, y)| Self { cell: Cell { face, at: [x, y] }, patterns: patterns.clone() })
-        .into()
+        let roots = Cell::roots(false).into_iter();
+        roots.map(|cell| Self { cell, patterns: patterns.clone() }).collect()
     }
 }
 
@@ -111,7 +103,15 @@ pub(super) fn reaching(
         let many = kept.len() + alone.len() + waiting.len() >= MOST;
         let size = cell.at[0].width().max(cell.at[1].width());
         let Some(sums) = PatternSums::of(&strand.length, &strand.weight, span.way, &cell) else {
-            let patterns = loose(strand, span, &cell, &patterns);
+            // Bars whose forces may vanish may point anywhere.
+            let patterns = open_of(
+                &strand.length,
+                &strand.weight,
+                &strand.groups(),
+                span.way,
+                &cell,
+                &patterns,
+            );
             if patterns.is_empty() {
                 continue;
             }
@@ -196,35 +196,6 @@ fn both(strand: &Strand, span: &Span, one: &Pulls, other: &Pulls) -> Option<Cell
 
 fn area(at: &[Interval; 2]) -> f64 {
     at[0].width() * at[1].width()
-}
-
-/// The patterns that may reach the knot from a cell in which the forces of some bars may vanish:
-/// these may then point anywhere, and bridge what the others leave.
-fn loose(strand: &Strand, span: &Span, cell: &Cell, patterns: &[Pattern]) -> Vec<Pattern> {
-    let bars = strand.length.len();
-    let mut free = vec![];
-    let mut held = vec![];
-    for (k, (length, weight)) in strand.length.iter().zip(&strand.weight).enumerate() {
-        let force = cell.force(*weight);
-        if force[0].contains(0.0) && force[1].contains(0.0) {
-            free.push(*length);
-        } else {
-            held.push((k, BarTerm::value_over(cell, *length, *weight)));
-        }
-    }
-    let [inner, outer] = reach(free.into_iter());
-    let may_reach = |pattern: &&Pattern| {
-        let mut gap = span.way;
-        for (bar, value) in &held {
-            for k in 0..2 {
-                let compressed = pattern.compressed(bars, *bar);
-                gap[k] = if compressed { gap[k] + value[k] } else { gap[k] - value[k] };
-            }
-        }
-        let distance = (gap[0].square() + gap[1].square()).sqrt();
-        !(distance.lo() > outer || distance.hi() < inner)
-    };
-    patterns.iter().filter(may_reach).copied().collect()
 }
 
 #[cfg(test)]

@@ -8,18 +8,12 @@ use super::balance::{Held, balanced, densities};
 use super::newton::{Charts, Found, Verdict, cell, examine};
 use super::pulls::{Pulls, reaching, with_density};
 use super::strand::{Bridle, Span};
-use crate::branch_and_bound::{self, Plan};
+use crate::branch_and_bound::{self, Plan, halves, widest};
 use crate::closure::Pattern;
 use crate::network::arithmetic::Vector;
+use crate::network::census::net::search::{GOOD, LEAST_WIDTH};
 use crate::plane::cell::Cell;
 use crate::search::Progress;
-
-/// A box is not cut below this part of the unit of length, 2⁻²⁶: what is not decided there is
-/// degenerate, or all but.
-const LEAST_WIDTH: f64 = f64::from_bits((1023 - 26) << 52);
-
-/// A part of a box smaller than this one is looked at again before it is cut.
-const GOOD: f64 = 0.6;
 
 /// More choices of pulls than this are not looked at one by one: the box is cut first.
 const MOST_CHOICES: usize = 64;
@@ -225,13 +219,6 @@ fn chosen(lists: &[Vec<Pulls>], choices: &[Vec<usize>]) -> Vec<Vec<Pulls>> {
     lists.iter().enumerate().map(kept).collect()
 }
 
-/// The coordinate with the largest width.
-fn widest(at: &[Interval]) -> (usize, f64) {
-    at.iter().enumerate().fold((0, 0.0), |(best, width), (k, part)| {
-        if part.width() > width { (k, part.width()) } else { (best, width) }
-    })
-}
-
 /// Two halves of the box of places.
 fn cut(at: &Vector, pulls: Vec<Vec<Pulls>>, outcome: &mut Outcome) {
     let (across, width) = widest(at);
@@ -239,12 +226,7 @@ fn cut(at: &Vector, pulls: Vec<Vec<Pulls>>, outcome: &mut Outcome) {
         outcome.undecided.push(Task { at: *at, pulls });
         return;
     }
-    let middle = at[across].mid();
-    for part in [Interval::new(at[across].lo(), middle), Interval::new(middle, at[across].hi())] {
-        let mut half = *at;
-        half[across] = part;
-        outcome.next.push(Task { at: half, pulls: pulls.clone() });
-    }
+    outcome.next.extend(halves(*at, across).map(|at| Task { at, pulls: pulls.clone() }));
 }
 
 /// Two halves of a cell of pulls where one is much wider than the box of places.
@@ -269,16 +251,6 @@ mod tests {
     use crate::network::arithmetic::points;
     use crate::network::census::bridle::strand::Strand;
     use crate::plane::face::Face;
-
-    #[test]
-    fn the_first_of_the_widest_is_cut() {
-        let of = |widths: &[f64]| {
-            let parts: Vec<Interval> = widths.iter().map(|x| Interval::new(0.0, *x)).collect();
-            widest(&parts)
-        };
-        assert_eq!([of(&[1.0, 4.0, 2.0, 4.0]).0, of(&[0.0; 3]).0], [1, 0]);
-        assert!((of(&[1.0, 4.0, 2.0, 4.0]).1 - 4.0).abs() < 1e-14);
-    }
 
     /// Three bars, each with 128 cells of pulls, cannot hold a load of a thousand. Of so many choices
     /// none is formed: the box is cut with all cells. With one cell each it is excluded.

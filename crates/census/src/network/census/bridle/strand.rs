@@ -1,5 +1,7 @@
 //! A bridle taken apart into its knot and the strands that hold it.
 
+use std::ops::Range;
+
 use numerics::Interval;
 
 use crate::network::arithmetic::Vector;
@@ -31,6 +33,11 @@ impl Strand {
     /// force density.
     pub(super) fn is_rod(&self) -> bool {
         self.length.len() == 1
+    }
+
+    /// Each bar for itself: joints between them bear loads.
+    pub(super) fn groups(&self) -> Vec<Range<usize>> {
+        (0..self.length.len()).map(|bar| bar..bar + 1).collect()
     }
 }
 

@@ -5,24 +5,9 @@ use numerics::Interval;
 use super::cell::{self, Cell, Pattern};
 use super::columns::{Columns, Forces};
 use super::layout::{Layout, Swing};
-use super::newton::{Newton, step};
+use super::newton::{Newton, around, step, zero};
 use super::swing::Swung;
 use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, times};
-
-/// Steps of Newton's method in double precision to a zero.
-const STEPS: usize = 30;
-
-/// A step of this part of the unknowns is rounding.
-const CONVERGED: f64 = 1e-13;
-
-/// How far outside of a box, in its widths, Newton's method may end to be worth a proof.
-const OUTSIDE: f64 = 0.75;
-
-/// Room about a box and a zero for the proof, relative to it.
-const ROOM: f64 = 0.125;
-
-/// Room in units of length.
-const LEAST_ROOM: f64 = 1e-9;
 
 /// What is known of a box for a pattern.
 pub(super) enum Verdict<const N: usize> {
@@ -122,29 +107,26 @@ impl<'a, const N: usize> Examined<'a, N> {
     /// The proof that one equilibrium at most is in a box around this one and the zero next to it.
     fn one(&self, pattern: Pattern, densities: &[Interval]) -> Option<Found<N>> {
         let layout = self.cell.layout;
-        let middle = self.cell.at.map(Interval::mid);
-        let start: Vec<f64> = densities.iter().map(|density| density.mid()).collect();
-        let (at, densities) = zero(layout, pattern, middle, start)?;
-        let near = self.cell.at.iter().zip(at).all(|(part, x)| {
-            let room = OUTSIDE * part.width() + LEAST_ROOM;
-            part.lo() - room <= x && x <= part.hi() + room
-        });
-        if !near {
+        let coordinates = layout.coordinates();
+        let places = &self.cell.at[..coordinates];
+        let start = places.iter().chain(densities).map(|part| part.mid()).collect();
+        let found = zero(start, |unknowns| {
+            let cell = Cell::over(layout, self.cell.places(unknowns)).filter(Cell::smooth)?;
+            let densities = &unknowns[coordinates..];
+            Some((cell.residual(pattern, densities), cell.derivative(pattern, densities)))
+        })?;
+        let alone_in = self.cell.places(&around(places, &found)?);
+        let wider = Examined::new(layout, alone_in)?;
+        if wider.cell.swung.iter().any(|swung| swung.folded) {
             return None;
         }
-        let alone_in: [Interval; N] = std::array::from_fn(|k| {
-            let both = self.cell.at[k].hull(Interval::point(at[k]));
-            both + Interval::around(0.0, ROOM * both.width() + LEAST_ROOM)
-        });
-        let around = Examined::new(layout, alone_in)?;
-        if around.cell.swung.iter().any(|swung| swung.folded) {
-            return None;
-        }
-        let loads = around.cell.rough(&around.rough, pattern, None);
-        let Forces::Within(bounds) = around.columns.forces(&around.cell, pattern, &loads) else {
+        let loads = wider.cell.rough(&wider.rough, pattern, None);
+        let Forces::Within(bounds) = wider.columns.forces(&wider.cell, pattern, &loads) else {
             return None;
         };
-        let newton = newton(&around.cell, around.middle.as_ref()?, pattern, &bounds)?;
+        let newton = newton(&wider.cell, wider.middle.as_ref()?, pattern, &bounds)?;
+        let at = std::array::from_fn(|k| if k < coordinates { found[k] } else { 0.0 });
+        let densities = found[coordinates..].to_vec();
         newton.single.then_some(Found { pattern, alone_in, at, densities })
     }
 }
@@ -197,34 +179,6 @@ fn newton<const N: usize>(
     let places = &cell.at[..cell.layout.coordinates()];
     let whole: Vec<Interval> = places.iter().chain(densities).copied().collect();
     step(&whole, &slope, &middle.residual(pattern, &middles))
-}
-
-/// Newton's method in double precision.
-fn zero<const N: usize>(
-    layout: &Layout,
-    pattern: Pattern,
-    mut at: [f64; N],
-    mut densities: Vec<f64>,
-) -> Option<([f64; N], Vec<f64>)> {
-    for _ in 0..STEPS {
-        let cell = Cell::over(layout, at.map(Interval::point)).filter(Cell::smooth)?;
-        let points: Vec<Interval> = densities.iter().copied().map(Interval::point).collect();
-        let inverse = cell.derivative(pattern, &points).middle().inverse()?;
-        let step = inverse.times(&cell.residual(pattern, &points));
-        let mut size = 0.0_f64;
-        let places = &mut at[..layout.coordinates()];
-        for (x, step) in places.iter_mut().chain(&mut densities).zip(step) {
-            *x -= step.mid();
-            size = size.max(step.mid().abs() / x.abs().max(1.0));
-        }
-        if size.is_nan() {
-            return None;
-        }
-        if size < CONVERGED {
-            return Some((at, densities));
-        }
-    }
-    None
 }
 
 #[cfg(test)]

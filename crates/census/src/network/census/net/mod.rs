@@ -41,7 +41,7 @@ mod jet;
 mod layout;
 pub(super) mod newton;
 mod reach;
-mod search;
+pub(super) mod search;
 mod swing;
 
 use model::NoCensus;
@@ -202,7 +202,7 @@ fn searched<const N: usize>(
 ) -> (NetCensus, Vec<Choice>) {
     let patterns = 1_u64 << layout.swings.len();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns).saturating_mul(TESTS);
-    let Search { found, undecided, mut cells, mut tests, exhausted } =
+    let Search { found, undecided, mut cells, mut tests, exhausted, .. } =
         search::<N>(layout, budget, watch);
     let reason = |at: &[Interval; N]| match Cell::over(layout, *at) {
         Some(cell) if cell.jams() => Open::Jam,

@@ -1,11 +1,65 @@
-//! The interval Newton method on a dense system of equations.
+//! Newton's method on a dense system of equations, in intervals and in double precision.
 
 use numerics::Interval;
 
 use super::dense::Dense;
 use crate::network::arithmetic::sum;
 
-/// A step of the method.
+/// Steps of Newton's method in double precision to a zero.
+const STEPS: usize = 30;
+
+/// A step of this part of the unknowns is rounding.
+const CONVERGED: f64 = 1e-13;
+
+/// How far outside of a box, in its widths, Newton's method may end to be worth a proof.
+const OUTSIDE: f64 = 0.75;
+
+/// Room about a box and a zero for the proof, relative to it.
+const ROOM: f64 = 0.125;
+
+/// Room in units of the unknowns.
+const LEAST_ROOM: f64 = 1e-9;
+
+/// Left-hand sides and their derivative.
+pub(in crate::network::census) type Linear = (Vec<Interval>, Dense<Interval>);
+
+/// Newton's method in double precision, from a point on.
+pub(in crate::network::census) fn zero(
+    mut at: Vec<f64>,
+    equations: impl Fn(&[Interval]) -> Option<Linear>,
+) -> Option<Vec<f64>> {
+    for _ in 0..STEPS {
+        let points: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
+        let (value, slope) = equations(&points)?;
+        let step = slope.middle().inverse()?.times(&value);
+        let mut size = 0.0_f64;
+        for (x, step) in at.iter_mut().zip(step) {
+            *x -= step.mid();
+            size = size.max(step.mid().abs() / x.abs().max(1.0));
+        }
+        if size.is_nan() {
+            return None;
+        }
+        if size < CONVERGED {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// A box with room about another one and a zero, if that is near.
+pub(in crate::network::census) fn around(at: &[Interval], zero: &[f64]) -> Option<Vec<Interval>> {
+    let pairs = at.iter().zip(zero);
+    let with_room = |(part, x): (&Interval, &f64)| {
+        let outside = OUTSIDE * part.width() + LEAST_ROOM;
+        let both = part.hull(Interval::point(*x));
+        let is_near = part.lo() - outside <= *x && *x <= part.hi() + outside;
+        is_near.then(|| both + Interval::around(0.0, ROOM * both.width() + LEAST_ROOM))
+    };
+    pairs.map(with_room).collect()
+}
+
+/// A step of the method in intervals.
 pub(in crate::network::census) struct Newton {
     /// What is left of the box; nothing if it holds no zero.
     pub(in crate::network::census) left: Option<Vec<Interval>>,

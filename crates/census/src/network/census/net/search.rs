@@ -7,15 +7,15 @@ use super::cell::Pattern;
 use super::examine::{Examined, Found, Verdict};
 use super::layout::Layout;
 use super::reach;
-use crate::branch_and_bound::{self, Plan};
+use crate::branch_and_bound::{self, Plan, halves, widest};
 use crate::search::Progress;
 
 /// A box is not cut below this part of the unit of length, 2⁻²⁶: rounding errors of forces are far
 /// smaller, and what is not decided there is degenerate.
-const LEAST_WIDTH: f64 = f64::from_bits((1023 - 26) << 52);
+pub(in crate::network::census) const LEAST_WIDTH: f64 = f64::from_bits((1023 - 26) << 52);
 
 /// A part of a box smaller than this one is looked at again before it is cut.
-const GOOD: f64 = 0.6;
+pub(in crate::network::census) const GOOD: f64 = 0.6;
 
 /// Below so many tests in a level, threads cost more than they save.
 const WORTH_THREADS: usize = 64;
@@ -69,7 +69,7 @@ fn examine<const N: usize>(layout: &Layout, known: &[Found<N>], task: &Task<N>) 
         match examined.pattern(pattern) {
             Verdict::Empty => {}
             Verdict::One(found) => outcome.found.push(found),
-            Verdict::Within(part) if size(&part, &at) < GOOD => {
+            Verdict::Within(part) if widest(&part).1 < GOOD * widest(&at).1 => {
                 outcome.next.push(Task { at: part, patterns: vec![pattern] });
             }
             Verdict::Within(part) => {
@@ -79,26 +79,14 @@ fn examine<const N: usize>(layout: &Layout, known: &[Found<N>], task: &Task<N>) 
         }
     }
     let Some(left) = left else { return outcome };
-    let widest =
-        (0..N).fold(0, |best, k| if left[k].width() > left[best].width() { k } else { best });
-    if left[widest].width() < LEAST_WIDTH {
+    let (across, width) = widest(&left);
+    if width < LEAST_WIDTH {
         outcome.undecided.push(Task { at: left, patterns });
         return outcome;
     }
-    let middle = left[widest].mid();
-    for half in [Interval::new(left[widest].lo(), middle), Interval::new(middle, left[widest].hi())]
-    {
-        let mut at = left;
-        at[widest] = half;
-        outcome.next.push(Task { at, patterns: patterns.clone() });
-    }
+    let half = |at| Task { at, patterns: patterns.clone() };
+    outcome.next.extend(halves(left, across).map(half));
     outcome
-}
-
-/// The largest width of a part against that of the whole, where that is wide at all.
-fn size<const N: usize>(part: &[Interval; N], whole: &[Interval; N]) -> f64 {
-    let most = whole.iter().map(|x| x.width()).fold(0.0, f64::max);
-    part.iter().map(|x| x.width()).fold(0.0, f64::max) / most
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ use numerics::Interval;
 
 use super::jet::{Jet, Jets, across, along, cross, minus, plus, scaled, squared, values};
 use super::layout::{End, Swing};
-use crate::network::arithmetic::{self, Vector, product, sum};
+use crate::network::arithmetic::{self, Vector, product, quotient, sum};
 
 /// A swinging joint over a box of the places of its ends.
 #[derive(Debug, Clone)]
@@ -259,7 +259,7 @@ impl<const N: usize> Parts<N> {
         let off_centre = arithmetic::difference(alpha, Interval::ONE.scale(0.5));
         let quarter = Interval::ONE.scale(0.25);
         let leverage = arithmetic::difference(quarter, squared_or_zero(off_centre));
-        over(product(self.aside(), leverage), self.bars.square_height.value.sqrt())
+        quotient(product(self.aside(), leverage), self.bars.square_height.value.sqrt())
     }
 
     /// Base, and what is taken off it times σ, where that is differentiable.
@@ -294,40 +294,9 @@ impl<const N: usize> Parts<N> {
     }
 }
 
-/// A quotient by what is not negative, without a bound where it may be zero.
-fn over(above: Interval, below: Interval) -> Interval {
-    if below.lo() > 0.0 {
-        return above / below;
-    }
-    let least = Interval::ONE / Interval::point(below.hi());
-    match above.sign() {
-        Some(1) => Interval::new(product(above, least).lo(), f64::INFINITY),
-        Some(-1) => Interval::new(f64::NEG_INFINITY, product(above, least).hi()),
-        _ => Interval::LINE,
-    }
-}
-
 /// `a + b` of the parts of two vectors.
 pub(super) fn added(to: &mut [Interval], part: Vector) {
     for (sum_so_far, part) in to.iter_mut().zip(part) {
         *sum_so_far = sum(*sum_so_far, part);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What lies between 1 and 2 is at least a quarter of what lies between 0 and 4.
-    #[test]
-    fn a_quotient_by_what_may_vanish_has_one_bound() {
-        let [above, below] = [Interval::new(1.0, 2.0), Interval::new(0.0, 4.0)];
-        let up = over(above, below);
-        assert!(up.contains(0.25) && up.lo() > 0.25 - 1e-15 && up.hi() >= f64::INFINITY);
-        let down = over(-above, below);
-        assert!(down.contains(-0.25) && down.hi() < -0.25 + 1e-15 && down.lo() <= -f64::INFINITY);
-        assert_eq!(over(Interval::new(-1.0, 2.0), below), Interval::LINE);
-        let both = over(above, Interval::new(2.0, 4.0));
-        assert!(both.encloses(Interval::new(0.25, 1.0)) && both.width() < 0.75 + 1e-15);
     }
 }
