@@ -14,7 +14,6 @@ mod census;
 mod judge;
 mod modes;
 mod nets;
-mod outcomes;
 mod printable;
 mod problem;
 mod raise;

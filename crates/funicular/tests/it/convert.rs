@@ -136,8 +136,7 @@ fn a_drawing_is_a_system_to_be_edited() {
         let read = |file: &str| Problem::read(folder.join(file)).unwrap();
         let (drawn, again) = (read("drawn.dxf"), read("drawn.toml"));
         assert_eq!(drawn, again);
-        let (drawn, first) = (drawn.as_system().unwrap(), Problem::case(case).unwrap());
-        let first = first.as_system().unwrap();
+        let (drawn, first) = (drawn.system(), Problem::case(case).unwrap().system());
         let ends = |system: &System| -> Vec<_> {
             system
                 .members()
@@ -145,7 +144,7 @@ fn a_drawing_is_a_system_to_be_edited() {
                 .map(|m| (m.kind, system.joints()[m.from].name.to_string()))
                 .collect()
         };
-        assert_eq!(ends(drawn), ends(first));
+        assert_eq!(ends(&drawn), ends(&first));
     }
     assert_eq!(run(folder, &["convert", "--case", "tackle", "--to", "rope.dxf"]).0, Some(0));
     let (code, _, said) = run(folder, &["solve", "rope.dxf"]);

@@ -62,7 +62,7 @@ fn judgements() {
     let problem = Problem::case("three-equal-bars").unwrap();
     let name = file.to_str().unwrap();
     let answer = parse(table, name).unwrap().remove(0);
-    let answer = fit(&funicular::system_of(&problem), answer).unwrap();
+    let answer = fit(&problem.system(), answer).unwrap();
     let judged = Judge::new().run(&problem, &answer).unwrap();
     assert_said(&["judge", "--case", "three-equal-bars", "--answer", name], &judged);
 }

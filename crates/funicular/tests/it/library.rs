@@ -115,7 +115,7 @@ fn errors_are_joined_and_say_what_they_said() {
 }
 
 #[test]
-fn a_system_of_joints_is_told_apart_from_a_chain() {
+fn a_system_of_joints_is_the_row_that_it_is() {
     use model::system::{Joint, Member, System};
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
@@ -125,7 +125,7 @@ fn a_system_of_joints_is_told_apart_from_a_chain() {
     let bar = Bar::homogeneous(1.0, 1.0).unwrap();
     let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
     let problem = Problem::from(System::new("a lamp", 9.81, joints, members).unwrap());
-    assert!(problem.as_chain().is_none() && problem.as_system().is_some());
+    assert!(problem.row().is_some() && problem.to_toml().contains("[joints]"));
     let found = Census::new().run(&problem).unwrap();
     // Two equal bars between level anchors hang, or stand: a row of bars, however it is told.
     assert!(found.complete() && found.equilibria.len() == 2 && found.row().is_some());

@@ -205,7 +205,7 @@ fn a_page_of_a_hundred_members_is_small() {
     let motion = Simulate::new().start(Start::Rest).time_s(0.5).push("4-4", [1.0, 0.0, 0.0]);
     let page = Page::new().vary("loads=0.5..2").unwrap().simulate(motion).modes(Modes::new());
     let page = page.run(&problem).unwrap();
-    let members = funicular::system_of(&problem).members().len();
+    let members = problem.system().members().len();
     assert!(members > 100 && page.html().len() < 1_000_000, "{} for {members}", page.html().len());
 }
 

@@ -334,7 +334,7 @@ fn every_parameter_means_the_number_of_the_file() {
         for value in own.into_iter().chain([*value]) {
             let (wanted, found) =
                 (edited::edited(text, path, value), edited::varied(text, path, value));
-            let [same, system] = [&found, &wanted].map(funicular::system_of);
+            let [same, system] = [&found, &wanted].map(Problem::system);
             assert_eq!(same, system, "{path} = {value}");
             assert_eq!(write_network(&same), write_network(&system), "{path} = {value}");
             let solved = Solve::new().run(&wanted).unwrap();

@@ -23,9 +23,7 @@ fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output 
     assert_eq!(found, Some(code), "{text}");
     let mut output = Output::json("judge", test, &text);
     output.is("schema_version", 3);
-    output.is("system.name", "lamp");
-    output.is("system.joints", 3);
-    output.is("system.bars", 2);
+    output.system("lamp", [3, 2], [7.0, 2.0, 10.0]);
     output.is("source", "places.csv");
     // A millionth of 5 m and of 20 N.
     output.is("bounds.tolerance", 1e-6);
