@@ -2,14 +2,15 @@
 
 use serde_json::Value;
 
-use crate::census::{chain, funicular, stderr, stdout, thirteen_bars};
+use crate::census::{chain, funicular, thirteen_bars};
+use crate::run::{stdout, words};
 
 /// What is written one by one is what is written from one list.
 #[test]
 fn a_long_list_is_that_of_the_library() {
     let path = thirteen_bars("long-list", 13.0);
     let output = funicular(&[&path, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let mut written: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let problem = funicular::Problem::read(&path).unwrap();
     let answer = funicular::Census::new().run(&problem).unwrap();
@@ -44,14 +45,14 @@ fn a_list_is_as_large_as_is_allowed() {
 
     let output = funicular(&[&path, "--list", "full", "--json", "--max-output", "10kB"]);
     assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""));
-    let told = stderr(&output);
+    let told = words(&output);
     assert!(
         told.contains("the limit is 10 kB") && told.contains("takes it all the same"),
         "{told}"
     );
     // What is not listed takes no room.
     let output = funicular(&[&path, "--list", "full", "--max-output", "10kB"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     assert!(stdout(&output).contains("Evidence of the first"), "{}", stdout(&output));
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use assert_cmd::Command;
 
-use crate::program::{funicular, stderr, stdout};
+use crate::run::{funicular, stderr, stdout};
 
 #[test]
 fn help_version_and_completions() {
@@ -120,4 +120,26 @@ fn every_command_has_a_manual_page() {
     assert!(pages >= 14, "{help}");
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), pages + 1);
     assert!(page("funicular-solve").contains("\\-\\-batch"));
+}
+
+/// What the help of a command has to say, wherever its lines are broken.
+#[test]
+fn the_help_says_what_there_is_to_know() {
+    let gone = "130 interrupted; nothing is kept to go on from";
+    for (command, says) in [
+        ("solve", &[gone][..]),
+        ("census", &[gone, "all up to 70, of more the first 70 by energy"]),
+        ("reproduce", &[gone]),
+        ("trace", &[gone]),
+        ("basins", &[gone]),
+        ("sweep", &["130 interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on"]),
+        // It has no --resume.
+        ("merge", &["130 interrupted (Ctrl-C or SIGTERM): the same command goes on"]),
+        ("judge", &["0 confirmed:", "1 refuted:", "3 undecided:"]),
+    ] {
+        let help = stdout(&funicular(&[command, "--help"]));
+        assert_eq!(help.matches("Exit codes:").count(), 1, "{help}");
+        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(says.iter().all(|says| help.contains(says)), "{command}: {says:?}: {help}");
+    }
 }

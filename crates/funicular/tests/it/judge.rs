@@ -2,12 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::{Path, PathBuf};
-use std::process::Output;
-
-use assert_cmd::Command;
 use formats::system::parse_moordyn;
 use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+use crate::run::{command, run};
 
 /// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
 /// it hangs 4 m deep, and each cable pulls with 5/4 of 10 N.
@@ -18,25 +17,14 @@ const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n[joints]\nA = { at_m = [
 const RIGHT: &str = "joint,x_m,y_m,z_m\nP,0,0,-4\nA,-3,0,0\nB,3,0,0\n";
 
 fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
+    let path = crate::run::folder(name);
     std::fs::write(path.join("lamp.toml"), LAMP).unwrap();
     std::fs::write(path.join("right.csv"), RIGHT).unwrap();
     path
 }
 
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("NO_COLOR", "1").args(arguments);
-    command
-}
-
 fn judge(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let all: Vec<_> = std::iter::once("judge").chain(arguments.iter().copied()).collect();
-    let Output { status, stdout, stderr } = command(folder, &all).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code(), text(stdout), text(stderr))
+    run(folder, &[&["judge"], arguments].concat())
 }
 
 fn write(folder: &Path, name: &str, text: &str) {
@@ -166,15 +154,6 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
         out.contains("With --tolerance 1e-2 the answer") && !out.contains("look rounded"),
         "{out}"
     );
-}
-
-#[test]
-fn the_help_has_the_exit_codes_of_a_judge() {
-    let (code, out, _) = judge(&folder("judge-help"), &["--help"]);
-    assert_eq!((code, out.matches("Exit codes:").count()), (Some(0), 1), "{out}");
-    for says in ["0  confirmed:", "1  refuted:", "3  undecided:"] {
-        assert!(out.contains(says), "{says}: {out}");
-    }
 }
 
 /// With oblique sliders, as in the issue: its own answer in 8 digits, 5e-8 m off.

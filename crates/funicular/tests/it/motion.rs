@@ -4,18 +4,8 @@
 
 use std::path::Path;
 
-use assert_cmd::Command;
+use crate::run::{funicular, ran};
 use serde_json::Value;
-
-fn funicular(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("funicular").unwrap().args(arguments).output().unwrap()
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = funicular(arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
 
 fn file(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);
@@ -23,25 +13,8 @@ fn file(folder: &Path, name: &str, text: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-#[test]
-fn modes_of_the_paper_have_the_keys_that_others_rely_on() {
-    let found = json(&["modes", "--case", "three-equal-bars", "--json"]);
-    assert_eq!(found["schema_version"], 3);
-    assert_eq!(found["complete"], true);
-    let equilibria = found["equilibria"].as_array().unwrap();
-    assert_eq!(equilibria.len(), 4);
-    for equilibrium in equilibria {
-        let modes = equilibrium["modes"].as_array().unwrap();
-        assert_eq!(modes.len(), 3);
-        let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
-        assert!(omega2.windows(2).all(|pair| pair[0] <= pair[1]), "{omega2:?}");
-        let negative = omega2.iter().filter(|o| **o < 0.0).count();
-        assert_eq!(equilibrium["index_in_space"], negative);
-        for mode in modes {
-            assert_eq!(mode["shape"].as_array().unwrap().len(), 4);
-            assert!(mode["what"].is_string());
-        }
-    }
+fn json(arguments: &[&str]) -> Value {
+    crate::run::json(&funicular(arguments))
 }
 
 /// A double pendulum of point masses on massless links, by name.
@@ -348,10 +321,9 @@ fn forces_of_a_table_drive_a_weight() {
     std::fs::write(path("slider.toml"), slider).unwrap();
     std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n2,A,6,0,0\n").unwrap();
     let run = |more: &[&str]| {
-        let mut command = Command::cargo_bin("funicular").unwrap();
-        command.current_dir(folder.path()).args(["simulate", "slider.toml", "--forces", "f.csv"]);
-        command.args(["--time", "3", "--store", "1", "--order", "4", "--out", "m.csv"]);
-        command.args(more).output().unwrap()
+        let simulate = ["simulate", "slider.toml", "--forces", "f.csv", "--out", "m.csv"];
+        let times = ["--time", "3", "--store", "1", "--order", "4"];
+        ran(folder.path(), &[&simulate[..], &times, more].concat())
     };
     let output = run(&[]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

@@ -2,26 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::PathBuf;
-use std::process::Output;
-
-use assert_cmd::Command;
+use crate::run::{first_line, folder, funicular, words};
 use serde_json::Value;
-
-fn funicular(arguments: &[&str]) -> Output {
-    Command::cargo_bin("funicular").unwrap().env("NO_COLOR", "1").args(arguments).output().unwrap()
-}
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// A folder of this test alone.
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("trace").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
 }
 
 const LEVEL: [&str; 7] = [
@@ -37,9 +22,9 @@ const LEVEL: [&str; 7] = [
 #[test]
 fn the_level_chain_has_its_folds_and_branch_points() {
     let out = folder("level");
-    let [csv, svg] = ["level.csv", "level.svg"].map(|name| out.join(name));
+    let svg = out.join("level.svg");
     let mut arguments = LEVEL.to_vec();
-    arguments.extend(["--json", "--csv", csv.to_str().unwrap(), "--svg", svg.to_str().unwrap()]);
+    arguments.extend(["--json", "--svg", svg.to_str().unwrap()]);
     let output = funicular(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -59,22 +44,6 @@ fn the_level_chain_has_its_folds_and_branch_points() {
         assert!(found.iter().all(|place| (place - wanted).abs() <= 1e-10), "{kind}: {found:?}");
     }
     assert!(!text(&output.stdout).contains("null"));
-    let csv = std::fs::read_to_string(csv).unwrap();
-    let head = csv.lines().next().unwrap();
-    assert!(head.starts_with("path,branch,position,anchors.end_m.z,anchors.end_m.x,span_m,"));
-    // The anchors are level, the first one in the origin: the span is the parameter itself.
-    for line in csv.lines().skip(1) {
-        let cells: Vec<f64> = line.split(',').take(6).map(|cell| cell.parse().unwrap()).collect();
-        assert!((cells[5] - cells[4]).abs() <= 1e-15 && cells[3].abs() <= 0.0, "{line}");
-    }
-    let points: usize = trace["branches"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|branch| branch["points"].as_array().unwrap().len())
-        .sum();
-    assert_eq!(csv.lines().count(), points + 1);
-    assert!(csv.lines().all(|line| line.matches(',').count() == head.matches(',').count()));
     let svg = std::fs::read_to_string(svg).unwrap();
     for wanted in ["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"] {
         assert!(svg.contains(wanted), "{wanted} is not in the picture");
@@ -236,10 +205,8 @@ fn more_points_than_memory_are_refused_beforehand() {
     let vary = ["trace", "--case", "two-bars", "--vary", "gravity_m_s2=1..2:1000000"];
     let output = funicular(&vary);
     assert_eq!(output.status.code(), Some(2));
-    let error = text(&output.stderr);
-    // Without the frame and the breaks of the lines.
-    let words = error.split(|c: char| c.is_whitespace() || c == '│');
-    let error = words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+    // Without the frame of the lines.
+    let error = words(&output).replace(" │", "");
     assert!(error.contains("100000 allowed") && error.contains("--max-points"), "{error}");
     assert!(start.elapsed().as_secs() < 20);
 }
@@ -251,18 +218,7 @@ fn a_long_trace_says_so_before_it_begins() {
     let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\n[[bars]]\nlength_m = 1\n\
                 mass_kg = 1\ncount = 12\n";
     std::fs::write(out.join("twelve.toml"), text).unwrap();
-    let mut running = std::process::Command::new(assert_cmd::cargo::cargo_bin!("funicular"))
-        .args(["trace", "twelve.toml", "--vary", "anchors.end_m.x=1..5:1000"])
-        .current_dir(&out)
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut line = String::new();
-    let mut said = std::io::BufReader::new(running.stderr.take().unwrap());
-    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
-    running.kill().unwrap();
-    running.wait().unwrap();
+    let line = first_line(&out, &["trace", "twelve.toml", "--vary", "anchors.end_m.x=1..5:1000"]);
     // 0.3 s for ten bars, 2.1 times as long for each bar more: 1323 s for a thousand points.
     assert!(line.contains("this trace: about 22 minutes of one processor"), "{line}");
 }
