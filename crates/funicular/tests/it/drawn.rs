@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::run::{command, stdout, words};
+use crate::run::{column, command, stdout, words};
 use funicular::prelude::*;
 use serde_json::Value;
 
@@ -204,10 +204,7 @@ fn modes_derivatives_and_motions_are_those_of_the_shape() {
     let (code, out, error) = run(at, &[&["simulate"], &near[..], &motion[..]].concat(), "");
     assert_eq!(code, Some(0), "{out}{error}");
     let rest = std::fs::read_to_string(at.join("rest.csv")).unwrap();
-    let mut lines = rest.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let head = lines.next().unwrap();
-    let column = head.iter().position(|name| *name == "joint_P_z_m").unwrap();
-    let heights: Vec<f64> = lines.map(|line| line[column].parse().unwrap()).collect();
+    let heights = column(&rest, "joint_P_z_m");
     assert!(heights.len() > 100 && heights.iter().all(|z| (z - height).abs() < 1e-9));
 }
 

@@ -8,7 +8,7 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
-use crate::run::{Running, command, files, program, wait_until};
+use crate::run::{Running, column, command, files, program, wait_until};
 
 /// The outcome of the program in a folder, on so many threads of the pool.
 fn run(folder: &Path, threads: usize, arguments: &[&str]) -> std::process::Output {
@@ -284,15 +284,11 @@ fn of_two_stable_rests_each_release_is_given_its_own() {
     // Each end has the energy of the rest that it is given: m g z and the three bars'.
     let energy = |z: f64| 9.806_65 * z + 1.5 * 400.0 / 0.7 * (z.hypot(0.5) - 0.7).powi(2);
     let rows = read("one/part-000000.csv");
-    let mut lines = rows.lines();
-    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
     let mut counts = [0, 0];
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let outcome: usize = cells[column("motion_outcome")].parse().unwrap();
-        let found: f64 = cells[column("motion_energy_j")].parse().unwrap();
-        assert!((found - energy(heights[outcome])).abs() < 1e-6, "{line}");
+    let outcomes = column(&rows, "motion_outcome");
+    for (outcome, found) in outcomes.into_iter().zip(column(&rows, "motion_energy_j")) {
+        let outcome = outcome as usize;
+        assert!((found - energy(heights[outcome])).abs() < 1e-6, "{outcome}: {found}");
         counts[outcome] += 1;
     }
     assert!(counts[0] + counts[1] == 400 && counts[0] > 100 && counts[1] > 40, "{counts:?}");

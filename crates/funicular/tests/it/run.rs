@@ -106,9 +106,39 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// What is told, in one line: long messages are wrapped.
+/// What is told, in one line: long messages are wrapped, in a frame.
 pub fn words(output: &Output) -> String {
-    stderr(output).split_whitespace().collect::<Vec<_>>().join(" ")
+    let said = stderr(output);
+    let words = said.split(|c: char| c.is_whitespace() || c == '│');
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// What a command has to refuse as bad input, each with words that it has to say.
+#[track_caller]
+pub fn refused(folder: impl AsRef<Path>, command: &[&str], table: &[(&[&str], &str)]) {
+    for (arguments, wanted) in table {
+        let output = ran(&folder, &[command, *arguments].concat());
+        let said = words(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments:?}: {}", stdout(&output));
+        assert!(said.contains(wanted), "{arguments:?}: {said}");
+    }
+}
+
+/// A text says all of these.
+#[track_caller]
+pub fn says(text: &str, wanted: &[&str]) {
+    for wanted in wanted {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+}
+
+/// What is printed where all is well.
+#[track_caller]
+pub fn good(folder: impl AsRef<Path>, arguments: &[&str]) -> String {
+    let output = ran(folder, arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
 }
 
 /// The object that is printed where all is well.
@@ -125,6 +155,13 @@ pub fn folder(name: &str) -> PathBuf {
     let _ = std::fs::remove_dir_all(&path);
     std::fs::create_dir_all(&path).unwrap();
     path
+}
+
+/// The numbers in a column of a table.
+pub fn column(text: &str, name: &str) -> Vec<f64> {
+    let mut lines = text.lines().map(|line| line.split(','));
+    let at = lines.next().unwrap().position(|column| column == name).expect(name);
+    lines.map(|mut line| line.nth(at).unwrap().parse().unwrap()).collect()
 }
 
 /// The files of a folder by their names.

@@ -9,16 +9,13 @@ use std::path::Path;
 use std::process::Output;
 use std::time::Duration;
 
-use crate::run::{folder, words};
-use assert_cmd::Command;
+use crate::run::{command, folder, words};
 
 /// Patience of a loaded machine; what is refused here took minutes, or memory without end.
 const PATIENCE: Duration = Duration::from_secs(100);
 
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("NO_COLOR", "1").timeout(PATIENCE);
-    command.args(arguments).output().unwrap()
+    command(folder, arguments).timeout(PATIENCE).output().unwrap()
 }
 
 #[track_caller]
@@ -302,8 +299,8 @@ fn names_stay_names_in_tables_pictures_and_pages() {
 fn a_parameter_is_not_echoed_raw() {
     let folder = folder("vary");
     let study = ["study", "--case", "lamp", "--vary", "joints.lamp.mass_kg=1\u{1b}[31m,2"];
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(&folder).env("FORCE_COLOR", "1").args(study).output().unwrap();
+    let mut command = command(&folder, &study);
+    let output = command.env_remove("NO_COLOR").env("FORCE_COLOR", "1").output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(text.contains("1?[31m") && !text.contains("1\u{1b}[31m"), "{text:?}");
 }

@@ -10,7 +10,7 @@ use model::system_file::write_network;
 use serde_json::Value;
 
 use crate::edited;
-use crate::run::{ran, stderr, stdout};
+use crate::run::{json, ran, refused, says, stderr, stdout};
 
 pub fn study(folder: &Path, arguments: &[&str]) -> Output {
     ran(folder, &[&["study"], arguments].concat())
@@ -38,9 +38,7 @@ fn tables_fit_80_columns_and_figures_have_their_axes() {
     assert!(said.contains("24 of 60 points"), "{said}");
     for file in ["sag-1.svg", "sag-2.svg"] {
         let drawn = std::fs::read_to_string(folder.join(file)).unwrap();
-        for word in ["sag / m", "force / N", "anchors.end_m.x / m", "largest tension"] {
-            assert!(drawn.contains(word), "{file}: {word}");
-        }
+        says(&drawn, &["sag / m", "force / N", "anchors.end_m.x / m", "largest tension"]);
         roxmltree::Document::parse(&drawn).unwrap();
     }
 }
@@ -50,7 +48,7 @@ fn what_is_refused_everywhere_leaves_files_alone() {
     let folder = folder("refused");
     std::fs::write(folder.join("kept.csv"), "mine").unwrap();
     let far = ["two.toml", "--vary", "anchors.end_m.x=3,4", "--csv", "kept.csv"];
-    for (arguments, wanted) in [
+    let table = [
         (&far[..], "no value of the parameters"),
         (&["two.toml", "--vary", "bars.3.mass_kg=1"], "bars.3"),
         (&["two.toml", "--vary", "anchors.end_m.x=1", "--csv", "two.toml"], "two.toml"),
@@ -61,11 +59,8 @@ fn what_is_refused_everywhere_leaves_files_alone() {
         (&["--case", "lamp", "--vary", "joints.B.at_m.x=8,9"], "no value of the parameters"),
         (&["--case", "bridle", "--vary", "anchors.end_m.x=1"], "no chain between two anchors"),
         (&["two.toml", "--vary", "joints.3.mass_kg=1"], "joints: 0, 1, 2"),
-    ] {
-        let output = study(&folder, arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
-    }
+    ];
+    refused(&folder, &["study"], &table);
     assert_eq!(std::fs::read_to_string(folder.join("kept.csv")).unwrap(), "mine");
 }
 
@@ -283,8 +278,7 @@ fn a_prestressed_string_is_that_of_the_file_at_its_own_numbers() {
     assert!((force_n(low) - 101.29).abs() < 0.005);
     for vary in ["bars.1.length_m=1", "bars.1.stiffness_n=1000", "bars.*.prestress_n=100"] {
         let output = study(&folder, &["string.json", "--vary", vary, "--json"]);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let json = json(&output);
         let tension = json["points"][0]["tension_n"][1].as_f64().unwrap();
         assert!((tension - force_n(low)).abs() < 1e-9, "{vary}: {tension}");
     }

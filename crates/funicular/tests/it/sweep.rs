@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::{Output, Stdio};
 
 use crate::run::{
-    Running, files, first_line, folder, funicular, limited, program, wait_until, words,
+    Running, files, first_line, folder, funicular, good, limited, program, refused, says,
+    wait_until, words,
 };
 use serde_json::{Value, json};
 
@@ -53,9 +54,7 @@ fn the_tables_and_the_object_say_the_same() {
     let output = sweep(&out.join("a"), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    for wanted in ["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"] {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
-    }
+    says(&text, &["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"]);
     assert_eq!(sweep(&out.join("b"), &["--json"]).status.code(), Some(0));
     assert_eq!(files(&out.join("a")), files(&out.join("b")));
 }
@@ -104,8 +103,7 @@ fn a_degenerate_point_is_listed_once() {
         format!("anchors = {{ start_m = [0, 0, 0], end_m = [6, 0, -1] }}\nbars = [{bars}]\n");
     let file = out.join("file.toml");
     fs::write(&file, text).unwrap();
-    let solved = funicular(&["solve", file.to_str().unwrap()]);
-    assert_eq!(solved.status.code(), Some(0), "{}", words(&solved));
+    good(".", &["solve", file.to_str().unwrap()]);
     let swept = out.join("swept");
     let arguments =
         ["sweep", file.to_str().unwrap(), "--seeds=500", "--out", swept.to_str().unwrap()];
@@ -128,9 +126,7 @@ fn a_degenerate_point_is_listed_once() {
 fn a_list_that_ends_is_no_check_that_failed() {
     let out = folder("gaps").join("out");
     let name = out.to_str().unwrap();
-    let output = funicular(&["sweep", "--case", "thirty-bars", "--seeds=2000", "--out", name]);
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = good(".", &["sweep", "--case", "thirty-bars", "--seeds=2000", "--out", name]);
     let wanted = ["equilibria in the list, the lowest of those reached: none from "];
     for wanted in wanted.iter().chain(&["unknown: the list ends below", "in no list"]) {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
@@ -271,8 +267,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     assert_eq!(other.status.code(), Some(2));
     assert!(words(&other).contains("`seed_number` is 1, not 2"), "{}", words(&other));
     let output = funicular(&long(&cut, &["--resume", "--json"]));
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = crate::run::json(&output);
     assert!(object["seeds_before"].as_u64().unwrap() > 0);
     assert_eq!(files(&cut), files(&whole));
 }
@@ -291,8 +286,7 @@ fn an_interrupted_sweep_says_how_to_go_on() {
         assert_eq!(running.code(), Some(130), "{text}");
         assert!(text.contains("--resume") && text.contains(" of 500000 seeds"), "{text}");
         assert!(files(&cut).keys().all(|name| !name.starts_with(".part")));
-        let output = funicular(&long(&cut, &["--resume"]));
-        assert_eq!(output.status.code(), Some(0), "{}", words(&output));
+        good(".", &long(&cut, &["--resume"]));
     }
     assert_eq!(files(&out.join("INT")), files(&out.join("TERM")));
 }
@@ -301,10 +295,15 @@ fn an_interrupted_sweep_says_how_to_go_on() {
 fn bad_usage_is_refused_with_a_reason() {
     let out = folder("usage");
     let new = out.join("new");
-    for (arguments, wanted) in [
-        (&["--seeds", "0"][..], "a whole number from 1"),
+    let case = ["sweep", "--out", new.to_str().unwrap(), "--case", "three-equal-bars"];
+    let table: [(&[&str], _); 4] = [
+        (&["--seeds", "0"], "a whole number from 1"),
         (&["--seeds", "-5"], "a whole number from 1"),
         (&["--seeds", "1e20"], "a whole number from 1"),
+        (&["--seeds", SEEDS, "--spread", "grid"], "15^3 and 4096 = 16^3"),
+    ];
+    refused(".", &case, &table);
+    let table: [(&[&str], _); 7] = [
         (&["--shard", "0/3"], "there is no shard 0 of 3"),
         (&["--shard", "4/3"], "there is no shard 4 of 3"),
         (&["--shard", "1"], "a shard is K/N"),
@@ -312,22 +311,11 @@ fn bad_usage_is_refused_with_a_reason() {
         (&["--threads", "9999999"], "a whole number up to"),
         (&["--spread", "random"], "possible values: uniform, sobol, grid"),
         (&["--format", "xml"], "possible values: parquet, csv"),
-        (&["--spread", "grid"], "15^3 and 4096 = 16^3"),
-        (&["--case", "nonsense"], "there is no case named `nonsense`"),
-    ] {
-        let mut all = vec!["sweep", "--out", new.to_str().unwrap()];
-        if !arguments.contains(&"--seeds") {
-            all.extend(["--seeds", SEEDS]);
-        }
-        if !arguments.contains(&"--case") {
-            all.extend(["--case", "three-equal-bars"]);
-        }
-        all.extend(arguments);
-        let output = funicular(&all);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(words(&output).contains(wanted), "{arguments:?}: {}", words(&output));
-        assert!(output.stdout.is_empty() && !new.exists(), "{arguments:?}");
-    }
+    ];
+    refused(".", &[&case[..], &["--seeds", SEEDS]].concat(), &table);
+    let nonsense = ["--seeds", SEEDS, "--case", "nonsense"];
+    refused(".", &case[..3], &[(&nonsense, "there is no case named `nonsense`")]);
+    assert!(!new.exists());
     let output = funicular(&["sweep", "--seeds", "10", "--out", new.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
 
@@ -366,8 +354,7 @@ fn counts(case: &str, seeds: &str) -> (Value, BTreeMap<String, Vec<(f64, u64)>>)
     let out = folder(&format!("system-{case}"));
     let path = out.to_str().unwrap();
     let output = funicular(&["sweep", "--case", case, "--seeds", seeds, "--out", path, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = crate::run::json(&output);
     let list = object["equilibria"].as_array().unwrap();
     let of = |row: &Value| {
         let place = usize::try_from(row["outcome"].as_i64().unwrap()).ok()?;
@@ -435,14 +422,12 @@ fn what_is_for_angles_is_refused_for_places() {
 fn basins_of_a_system_are_over_the_place_of_a_joint() {
     let out = folder("system-basins");
     let path = out.to_str().unwrap();
-    let drawn = funicular(&["basins", "--case", "tripod", "--size", "12", "--out", path]);
-    assert_eq!(drawn.status.code(), Some(0), "{}", words(&drawn));
+    good(".", &["basins", "--case", "tripod", "--size", "12", "--out", path]);
     let svg = fs::read_to_string(out.join("energy.svg")).unwrap();
-    for words in
-        ["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"]
-    {
-        assert!(svg.contains(words), "{words}");
-    }
+    says(
+        &svg,
+        &["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"],
+    );
     let refused = funicular(&["basins", "--case", "tripod", "--joint", "A", "--out", path]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(words(&refused).contains("no joint that can move"), "{}", words(&refused));

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use crate::run::{first_line, folder, funicular, words};
+use crate::run::{first_line, folder, funicular, good, json, refused, says, words};
 use serde_json::Value;
 
 fn text(bytes: &[u8]) -> String {
@@ -26,8 +26,7 @@ fn the_level_chain_has_its_folds_and_branch_points() {
     let mut arguments = LEVEL.to_vec();
     arguments.extend(["--json", "--svg", svg.to_str().unwrap()]);
     let output = funicular(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let json = json(&output);
     assert_eq!(json["schema_version"], 3);
     let trace = &json["traces"][0];
     let events = trace["events"].as_array().unwrap();
@@ -45,29 +44,21 @@ fn the_level_chain_has_its_folds_and_branch_points() {
     }
     assert!(!text(&output.stdout).contains("null"));
     let svg = std::fs::read_to_string(svg).unwrap();
-    for wanted in ["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"] {
-        assert!(svg.contains(wanted), "{wanted} is not in the picture");
-    }
+    says(&svg, &["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"]);
     assert!(roxmltree::Document::parse(&svg).is_ok());
 }
 
 #[test]
 fn people_get_a_table() {
-    let output = funicular(&LEVEL);
-    assert_eq!(output.status.code(), Some(0));
-    let said = text(&output.stdout);
-    for wanted in ["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"] {
-        assert!(said.contains(wanted), "{wanted} is not in\n{said}");
-    }
+    let said = good(".", &LEVEL);
+    says(&said, &["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"]);
 }
 
 /// Digits shown are digits known: where two curves touch, their folds are one equilibrium, proved.
 #[test]
 fn a_degenerate_point_is_told_as_what_it_is() {
     let vary = ["--vary", "anchors.end_m.x=1", "--vary", "anchors.end_m.z=-2.5..-1.4:12"];
-    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    let said = good(".", &[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
     let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("of multiplicity 4 is proved") && words.contains("-2 m"), "{said}");
     assert!(!said.contains("fold:") && !said.contains("-2.0000") && !said.contains("1.9999"));
@@ -77,9 +68,7 @@ fn a_degenerate_point_is_told_as_what_it_is() {
 #[test]
 fn a_path_to_no_mass_prints_no_number_that_is_none() {
     let vary = ["trace", "--case", "three-equal-bars", "--vary", "bars.*.mass_kg=0..1:3"];
-    let output = funicular(&vary);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    let said = good(".", &vary);
     assert!(!said.contains("NaN") && !said.contains("index in space"), "{said}");
 }
 
@@ -87,38 +76,15 @@ fn a_path_to_no_mass_prints_no_number_that_is_none() {
 fn a_product_has_a_path_for_each_combination() {
     let out = folder("product");
     let svg = out.join("masses.svg");
-    let output = funicular(&[
-        "trace",
-        "--case",
-        "three-equal-bars",
-        "--vary",
-        "bars.2.mass_kg=0.5,2",
-        "--vary",
-        "anchors.end_m.z=-2.5..-1.5:3",
-        "--json",
-        "--svg",
-        svg.to_str().unwrap(),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(json["traces"].as_array().unwrap().len(), 2);
-    assert_eq!(json["traces"][1]["points"][0]["values"][0], 2.0);
+    let masses = ["--vary", "bars.2.mass_kg=0.5,2", "--vary", "anchors.end_m.z=-2.5..-1.5:3"];
+    let product = [&["trace", "--case", "three-equal-bars"], &masses[..]].concat();
+    let files = ["--json", "--svg", svg.to_str().unwrap()];
+    let found = json(&funicular(&[&product[..], &files].concat()));
+    assert_eq!(found["traces"].as_array().unwrap().len(), 2);
+    assert_eq!(found["traces"][1]["points"][0]["values"][0], 2.0);
     assert!(out.join("masses-1.svg").exists() && out.join("masses-2.svg").exists());
-}
-
-#[test]
-fn each_path_says_for_which_values_it_is() {
-    let output = funicular(&[
-        "trace",
-        "--case",
-        "three-equal-bars",
-        "--vary",
-        "bars.2.mass_kg=0.5,2",
-        "--vary",
-        "anchors.end_m.z=-2.5..-1.5:3",
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    // Each says for which values it is.
+    let said = text(&funicular(&product).stdout);
     for mass in ["0.5", "2"] {
         let head =
             format!("bars.2.mass_kg, anchors.end_m.z (bars.2.mass_kg = {mass} kg): 3 points");
@@ -144,8 +110,7 @@ fn where_nothing_is_decided_nothing_is_claimed() {
 fn the_columns_are_in_the_help() {
     let csv = folder("columns").join("two.csv");
     let vary = ["--vary", "anchors.end_m.z=-1.5,-1.4", "--csv", csv.to_str().unwrap()];
-    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    good(".", &[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
     let help = text(&funicular(&["trace", "--help"]).stdout);
     let written = std::fs::read_to_string(csv).unwrap();
     for column in written.lines().next().unwrap().split(',') {
@@ -157,19 +122,15 @@ fn the_columns_are_in_the_help() {
 
 #[test]
 fn errors_point_at_what_is_wrong() {
-    for (vary, wanted) in [
-        ("bars.2.mas_kg=1,2", "did you mean `mass_kg`?"),
-        ("bars.9.mass_kg=1,2", "there is no bar 9"),
-        ("bars[2.mass_kg=1,2", "this bracket is not closed"),
-        ("bars.2]mass_kg=1,2", "this bracket is not opened"),
-        ("anchors.end_m.z=-9,-8", "no value of the parameters describes a chain"),
-    ] {
-        let output = funicular(&["trace", "--case", "three-equal-bars", "--vary", vary]);
-        assert_eq!(output.status.code(), Some(2), "{vary}");
-        assert!(output.stdout.is_empty());
-        let said = text(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains(wanted), "{vary}: {said}");
-    }
+    let vary = ["trace", "--case", "three-equal-bars", "--vary"];
+    let table: [(&[&str], _); 5] = [
+        (&["bars.2.mas_kg=1,2"], "did you mean `mass_kg`?"),
+        (&["bars.9.mass_kg=1,2"], "there is no bar 9"),
+        (&["bars[2.mass_kg=1,2"], "this bracket is not closed"),
+        (&["bars.2]mass_kg=1,2"], "this bracket is not opened"),
+        (&["anchors.end_m.z=-9,-8"], "no value of the parameters describes a chain"),
+    ];
+    refused(".", &vary, &table);
     let output = funicular(&["trace", "--case", "three-equal-bars"]);
     assert_eq!(output.status.code(), Some(2));
     let output = funicular(&["trace", "--case", "thirty-bars", "--vary", "gravity_m_s2=1,2"]);
@@ -205,8 +166,7 @@ fn more_points_than_memory_are_refused_beforehand() {
     let vary = ["trace", "--case", "two-bars", "--vary", "gravity_m_s2=1..2:1000000"];
     let output = funicular(&vary);
     assert_eq!(output.status.code(), Some(2));
-    // Without the frame of the lines.
-    let error = words(&output).replace(" │", "");
+    let error = words(&output);
     assert!(error.contains("100000 allowed") && error.contains("--max-points"), "{error}");
     assert!(start.elapsed().as_secs() < 20);
 }
@@ -226,16 +186,10 @@ fn a_long_trace_says_so_before_it_begins() {
 #[test]
 fn basins_are_drawn_for_both_solvers() {
     let out = folder("basins");
-    let output = funicular(&[
-        "basins",
-        "--case",
-        "three-equal-bars",
-        "--size",
-        "24",
-        "--out",
-        out.to_str().unwrap(),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    good(
+        ".",
+        &["basins", "--case", "three-equal-bars", "--size", "24", "--out", out.to_str().unwrap()],
+    );
     for solver in ["lagrange", "energy"] {
         for suffix in ["", "-iterations"] {
             let picture =
