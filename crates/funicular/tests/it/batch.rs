@@ -4,9 +4,9 @@
 
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader, Write as _};
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
-use crate::run::{folder, good, program, ran};
+use crate::run::{Running, folder, good, program, ran};
 use serde_json::Value;
 
 /// A mass of 2 kg on two massless cables: by the triangle 3, 4, 5 each pulls with 5/4 of 10 N.
@@ -133,26 +133,21 @@ fn an_empty_batch_is_done_and_a_missing_one_is_bad_input() {
 #[test]
 fn an_interrupted_batch_leaves_whole_lines() {
     let folder = folder("interrupt");
-    let mut child = program(&folder, &["solve", "--batch", "-", "--summary"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut to = child.stdin.take().unwrap();
+    let mut command = program(&folder, &["solve", "--batch", "-", "--summary"]);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut running = Running(command.spawn().unwrap());
+    let mut to = running.0.stdin.take().unwrap();
     // More than are answered while `kill` begins on a loaded machine, and few enough to be held where nothing is interrupted.
     let feed = std::thread::spawn(move || {
         (0..1_000_000).take_while(|_| writeln!(to, "{}", chain(1.0)).is_ok()).count()
     });
-    let mut from = BufReader::new(child.stdout.take().unwrap());
+    let mut from = BufReader::new(running.0.stdout.take().unwrap());
     let mut first = String::new();
     from.read_line(&mut first).unwrap();
-    assert!(
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success()
-    );
+    running.signal("INT");
     let mut rest = String::new();
     std::io::Read::read_to_string(&mut from, &mut rest).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(running.code(), Some(130));
     feed.join().unwrap();
     assert!(rest.is_empty() || rest.ends_with('\n'));
     for line in rest.lines() {

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::census::{chain, funicular, thirteen_bars};
+use crate::run::peak;
 use crate::run::{stdout, words};
 
 /// What is written one by one is what is written from one list.
@@ -61,23 +62,9 @@ fn a_list_is_as_large_as_is_allowed() {
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_list() {
-    use std::io::Read as _;
-
     let path = chain("memory", [0.3, 0.0, -4.0], &[(1.0, 1.0); 13]);
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_funicular"))
-        .args(["census", &path, "--list", "full", "--json", "--threads", "1"])
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let arguments = ["census", &path, "--list", "full", "--json", "--threads", "1"];
     // It waits for its reader in the middle of the list.
-    let mut out = child.stdout.take().unwrap();
-    let read = std::io::copy(&mut out.by_ref().take(100_000_000), &mut std::io::sink()).unwrap();
-    assert_eq!(read, 100_000_000);
-    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
-    drop(out);
-    child.wait().unwrap();
-    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
-    let most_kb: u64 = most.trim().trim_end_matches(" kB").parse().unwrap();
+    let most_kb = peak(".", &arguments, 100_000_000) / 1024;
     assert!(most_kb < 50_000, "{most_kb} kB");
 }

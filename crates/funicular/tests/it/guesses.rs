@@ -5,7 +5,6 @@
 use std::process::Output;
 
 use crate::run::{folder, good, json, ran, refused};
-use serde_json::Value;
 
 fn said(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

@@ -5,7 +5,7 @@
 use funicular::live::{Ask, Live};
 use serde_json::{Value, json};
 
-use crate::run::{refused, run};
+use crate::run::refused;
 
 fn asked(question: &Value) -> Live {
     serde_json::from_value::<Ask>(question.clone()).unwrap().run()

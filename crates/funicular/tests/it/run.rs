@@ -73,6 +73,20 @@ pub fn first_line(folder: &Path, arguments: &[&str]) -> String {
     line
 }
 
+/// The most memory that the program has held, bytes, when it has printed so much. It waits for its
+/// reader there: an answer is longer than what a pipe holds.
+#[cfg(target_os = "linux")]
+pub fn peak(folder: impl AsRef<Path>, arguments: &[&str], printed: u64) -> u64 {
+    let mut program = program(folder, arguments);
+    let piped = program.stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut running = Running(piped.spawn().unwrap());
+    let mut out = std::io::Read::take(running.0.stdout.take().unwrap(), printed);
+    assert_eq!(std::io::copy(&mut out, &mut std::io::sink()).unwrap(), printed);
+    let status = std::fs::read_to_string(format!("/proc/{}/status", running.0.id())).unwrap();
+    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    most.trim().trim_end_matches(" kB").parse::<u64>().unwrap() * 1024
+}
+
 /// Wait until something is so.
 pub fn wait_until(otherwise: &str, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
