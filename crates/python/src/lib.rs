@@ -12,6 +12,7 @@ mod basins;
 mod batch;
 mod census;
 mod judge;
+mod many;
 mod modes;
 mod nets;
 mod printable;
