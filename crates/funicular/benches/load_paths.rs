@@ -29,7 +29,7 @@ fn timed(
         best = best.min(clock.elapsed().as_secs_f64());
     }
     let path = &found.load_paths().map_or(&[][..], |found| found.paths())[0];
-    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::LimitPoint);
+    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::Limit);
     Ok((best, path.points.len(), limit.map(|event| event.values[0])))
 }
 

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let manifest = Manifest {
         schema_version: SCHEMA_VERSION,
         program: "store_speed".to_owned(),
-        system: SystemText::of(problem.chain()),
+        system: SystemText::from(&(&problem).into()),
         seeds,
         seed_number: 1,
         source: "uniform".to_owned(),

@@ -38,6 +38,7 @@ pub struct Basins {
 
 /// The plane in which the start of a joint varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum Plane {
     /// X and Z.
     #[default]
@@ -122,7 +123,7 @@ impl Basins {
         if let Some(chain) = problem.row() {
             return self.axes(chain.chain().bars().len()).map(|_| ());
         }
-        let system = equilibria::system_of(problem);
+        let system = problem.system();
         system.refusal()?;
         self.moved(&system).map(|_| ())
     }

@@ -4,7 +4,6 @@ use model::system::SystemEquilibrium;
 use validate::Tolerances;
 use validate::systems::SystemAgreement;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
@@ -22,5 +21,5 @@ pub fn compare(
     if answers.len() < 2 {
         return Err(Error::NothingToCompare { answers: answers.len() });
     }
-    Ok(validate::systems::compare(&system_of(problem), answers, &Tolerances::project()))
+    Ok(validate::systems::compare(&problem.system(), answers, &Tolerances::project()))
 }

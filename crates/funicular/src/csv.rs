@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::text::tables::short;
+
 /// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
 /// to less.
 const ROUNDING: f64 = 1e-12;
@@ -20,32 +22,35 @@ impl Numbers {
         Self { rounding: ROUNDING * largest }
     }
 
-    /// A number in the fewest digits that read back to it.
-    pub(crate) fn cell(self, x: f64) -> impl fmt::Display {
-        Cell(if x.abs() <= self.rounding { 0.0 } else { x })
+    /// The number, or 0.
+    pub(crate) fn number(self, x: f64) -> f64 {
+        if x.abs() <= self.rounding { 0.0 } else { x }
+    }
+
+    /// For reading.
+    pub(crate) fn short(self, x: f64) -> String {
+        short(self.number(x))
+    }
+
+    /// In the fewest digits that read back to it.
+    pub(crate) fn cell(self, x: f64) -> String {
+        exact(&self.number(x))
     }
 
     /// Three of them with commas between.
-    pub(crate) fn cells(self, [x, y, z]: model::Vector) -> impl fmt::Display {
-        let [x, y, z] = [x, y, z].map(|x| Cell(if x.abs() <= self.rounding { 0.0 } else { x }));
-        Three(x, y, z)
+    pub(crate) fn cells(self, at: model::Vector) -> String {
+        at.map(|x| self.cell(x)).join(",")
     }
 }
 
-struct Cell(f64);
-
-impl fmt::Display for Cell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(&self.0, f)
-    }
+/// A number in the fewest digits that read back to it.
+pub(crate) fn exact(x: &impl fmt::Debug) -> String {
+    format!("{x:?}")
 }
 
-struct Three(Cell, Cell, Cell);
-
-impl fmt::Display for Three {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{},{},{}", self.0, self.1, self.2)
-    }
+/// The same, empty where there is none.
+pub(crate) fn or_empty(x: Option<impl fmt::Debug>) -> String {
+    x.map_or_else(String::new, |x| exact(&x))
 }
 
 /// A name, in quotes where it has to be (RFC 4180), and never a formula.
@@ -69,11 +74,11 @@ mod tests {
         for (x, wanted) in
             [(-0.0, "0.0"), (5.5e-17, "0.0"), (-2e-12, "0.0"), (3e-12, "3e-12"), (0.1, "0.1")]
         {
-            assert_eq!(numbers.cell(x).to_string(), wanted);
+            assert_eq!(numbers.cell(x), wanted);
         }
-        assert_eq!(numbers.cells([1.0, -1e-16, -2.5]).to_string(), "1.0,0.0,-2.5");
+        assert_eq!(numbers.cells([1.0, -1e-16, -2.5]), "1.0,0.0,-2.5");
         // All of a kind may be small.
-        assert_eq!(Numbers::of(&[1e-20]).cell(1e-21).to_string(), "1e-21");
+        assert_eq!(Numbers::of(&[1e-20]).cell(1e-21), "1e-21");
     }
 
     #[test]

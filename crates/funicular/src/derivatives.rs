@@ -11,7 +11,6 @@ use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
 use crate::csv::quoted;
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
@@ -149,7 +148,7 @@ impl Derivatives {
     /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
         problem.fits(BYTES_PER_MEMBER)?;
-        let system = system_of(problem);
+        let system = problem.system();
         system.refusal()?;
         let settings = Settings::default();
         let solution = match system.drawing() {

@@ -6,16 +6,14 @@ use std::path::Path;
 use model::Vector;
 use model::system::System;
 use motion::{Order, Simulation};
-use sweep::{
-    Chunk, Compute as _, Failure, Manifest, Release, Run, RunSettings, SCHEMA_VERSION, Shard,
-};
+use sweep::{Chunk, Compute as _, Failure, Manifest, Release, Run, RunSettings, Shard};
 
-use crate::equilibria::{self, system_of};
+use crate::equilibria;
 use crate::error::Error;
 use crate::followed::{End, Follow, Followed};
 use crate::problem::Problem;
 use crate::simulate::{CENSUS_BARS, Simulate, SimulateError};
-use crate::sweep::Format;
+use crate::sweep::{Format, Sweep, SweptBy};
 
 /// Releases a system from many positions at random, and tells where each comes to rest.
 ///
@@ -32,10 +30,8 @@ use crate::sweep::Format;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ensemble {
     simulate: Simulate,
-    seeds: u64,
-    number: u64,
-    shard: Shard,
-    format: Format,
+    /// How many there are, and what is written of them.
+    rows: Sweep,
 }
 
 /// At rest are joints that are slower than this times `sqrt(g L)` and gain less speed than this
@@ -50,25 +46,25 @@ impl Ensemble {
     /// damping, step and longest time. Its start, pushes and stored times mean nothing here.
     #[must_use]
     pub fn new(simulate: Simulate, seeds: u64) -> Self {
-        Self { simulate, seeds, number: 1, shard: Shard::WHOLE, format: Format::default() }
+        Self { simulate, rows: Sweep::new(seeds) }
     }
 
     /// The number that all positions come from (1); another one gives others.
     #[must_use]
     pub fn number(self, number: u64) -> Self {
-        Self { number, ..self }
+        Self { rows: self.rows.number(number), ..self }
     }
 
     /// Only one of several parts, to be joined by [`merge`](sweep::merge).
     #[must_use]
     pub fn shard(self, shard: Shard) -> Self {
-        Self { shard, ..self }
+        Self { rows: self.rows.shard(shard), ..self }
     }
 
     /// The form of the rows.
     #[must_use]
     pub fn format(self, format: Format) -> Self {
-        Self { format, ..self }
+        Self { rows: self.rows.format(format), ..self }
     }
 
     /// Make the list of places where the system may come to rest: the equilibria of a complete
@@ -80,7 +76,7 @@ impl Ensemble {
     /// range; [`Error::Motion`] when the system cannot be moved; the errors of
     /// [`Solve`](crate::Solve).
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedEnsemble, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         let settings = self.simulate.settings;
         settings.validate()?;
         if settings.damping_1_s.max(settings.friction_n_m_s) <= 0.0 {
@@ -97,7 +93,7 @@ impl Ensemble {
         let step_s = self.simulate.time_s / steps as f64;
         let released =
             Released { settings, step_s, steps_per_look, looks: steps.div_ceil(steps_per_look) };
-        let compute = Followed::new(problem, &found, self.number, released)?;
+        let compute = Followed::new(problem, &found, self.rows.number, released)?;
         let release = Release {
             time_s: self.simulate.time_s,
             step_s,
@@ -111,24 +107,8 @@ impl Ensemble {
             },
             rest: REST,
         };
-        let manifest = Manifest {
-            schema_version: SCHEMA_VERSION,
-            program: concat!("funicular ", env!("CARGO_PKG_VERSION")).to_owned(),
-            system: compute.text(),
-            seeds: self.seeds,
-            seed_number: self.number,
-            source: "released".to_owned(),
-            solvers: compute.names(),
-            release: Some(release),
-            angles: Vec::new(),
-            equilibria: compute.list().to_vec(),
-            equilibria_complete: found.complete,
-            format: self.format.name().to_owned(),
-            part_seeds: 0,
-            shard: Shard::WHOLE,
-            range: 0..0,
-        }
-        .with_shard(self.shard);
+        let of = SweptBy::places(&compute, "released", found.complete);
+        let manifest = Manifest { release: Some(release), ..self.rows.manifest(of) };
         Ok(PreparedEnsemble { compute, manifest })
     }
 }

@@ -1,11 +1,9 @@
 //! The equilibria of a problem, all of them where a census is complete.
 
-use std::sync::Arc;
-
 use census::Settings;
 use census::network::SystemCensus;
 use model::budget::BYTES_PER_MEMBER;
-use model::system::{System, SystemEquilibrium};
+use model::system::SystemEquilibrium;
 use validate::systems::quick_census;
 
 use crate::census::{CensusAnswer, Found};
@@ -30,13 +28,6 @@ pub(crate) struct Equilibria {
     pub complete: bool,
 }
 
-/// The system of joints and members of a problem: a chain as a system has joints named by their
-/// numbers, from `0`.
-#[must_use]
-pub fn system_of(problem: &Problem) -> Arc<System> {
-    problem.system()
-}
-
 /// The equilibrium that the solvers find, the stable one.
 pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     let found = Solve::new().run(problem)?.into_parts().1.into_iter().take(1);
@@ -49,7 +40,7 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 /// drawing.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
     problem.fits(BYTES_PER_MEMBER)?;
-    let system = system_of(problem);
+    let system = problem.system();
     let known = match system.as_row() {
         _ if system.drawing().is_some() => None,
         Some(row) if row.problem().chain().bars().len() > max_bars => None,

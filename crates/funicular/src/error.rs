@@ -201,9 +201,7 @@ pub enum Error {
 
 impl Error {
     pub(crate) fn unknown_case(name: &str) -> Self {
-        let cases = model::cases::all().iter().map(|case| case.name);
-        let systems = model::cases::exhibits().map(|exhibit| exhibit.name);
-        let names: Vec<_> = cases.chain(systems).collect();
+        let names: Vec<_> = model::cases::named().map(|(name, _)| name).collect();
         let suggestion = model::system_file::nearest(name, &names);
         Self::UnknownCase { name: name.to_owned(), suggestion }
     }

@@ -11,7 +11,7 @@ use sweep::{Chunk, Compute, Failure, Member, Origin, Outcomes, Stream, Summary, 
 
 use validate::systems::energy_size_j;
 
-use crate::equilibria::{Equilibria, Located, system_of};
+use crate::equilibria::{Equilibria, Located};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::resting::Resting;
@@ -78,14 +78,11 @@ impl<F: Follow> Followed<F> {
         number: u64,
         follow: F,
     ) -> Result<Self, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         system.refusal()?;
         let places = Resting::new(&system, known.list.iter().map(|one| &one.found.joints_m[..]));
         let list = known.list.iter().map(|one| listed(one, known.complete)).collect();
-        let mut text = match problem.as_chain() {
-            Some(chain) => SystemText::of(chain.chain()),
-            None => SystemText::from(&*system),
-        };
+        let mut text = SystemText::from(&*system);
         if let Some(one) = known.list.first() {
             text.unit_j = energy_size_j(&system, &one.found);
         }

@@ -99,6 +99,7 @@ mod load_cases;
 mod losses;
 mod modes;
 mod moving_page;
+mod object;
 #[cfg(feature = "branches")]
 mod observable;
 mod page;
@@ -163,7 +164,7 @@ pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
 #[cfg(feature = "branches")]
 pub use self::trace::load::{
-    BranchesFrom, LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
+    BranchesFrom, LoadEnd, LoadError, LoadEvent, LoadPath, LoadPaths, LoadPoint,
 };
 #[cfg(feature = "branches")]
 pub use self::trace::{Confirmed, PathProved, Trace, TraceAnswer};
@@ -171,11 +172,12 @@ pub use ::census::network::{NoRanges, Range, ToleranceRanges};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]
+pub use branches::load::Kind as LoadEventKind;
+#[cfg(feature = "branches")]
 pub use branches::{Combine, JointField, Number, PointError};
 pub use compare::compare;
 pub use draws::{Distribution, Drawn, Draws};
 pub use enclosed::{Enclosed, Inertia};
-pub use equilibria::system_of;
 pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
@@ -188,14 +190,15 @@ pub use lagrange::network::Gradient;
 pub use model::budget::limit_work;
 pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
-pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
+pub use modes::{JointAt, Mode, Modes, ModesAnswer, WithModes};
 pub use motion::Order;
+pub use object::{SCHEMA_VERSION, Summary};
 pub use picture::drawn_modes;
 pub use problem::{Problem, Reading, case, case_text};
 pub use sag::Sag;
 pub use settled::{Outcome, Settled, Unsettled};
 pub use simulate::{Motion, Simulate, SimulateError, Start};
-pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
+pub use solve::{Failure, Lists, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;
 pub use tolerances::TolerancesAnswer;
 pub use weakest::Weakest;

@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use model::system::{System, SystemEquilibrium};
 use rayon::prelude::*;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use validate::UseCensus;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
-use crate::modes::Summary;
+use crate::object::{either, head};
 use crate::problem::Problem;
-use crate::settled::{Outcome, Settled, Unsettled, either, settle};
-use crate::solve::{SCHEMA_VERSION, Solve};
+use crate::settled::{Outcome, Settled, Unsettled, settle};
+use crate::solve::Solve;
 use crate::weakest::from_one;
 
 /// What a system does in one of its load cases.
@@ -61,9 +60,11 @@ pub struct SupportEnvelope {
     pub most_n: Governing,
 }
 
-/// What a system does in each of its load cases, and the envelope over them.
-#[derive(Debug, Clone, PartialEq)]
+/// What a system does in each of its load cases, and the envelope over them; it serialises to what
+/// `funicular solve --load-case each --json` prints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadCasesAnswer {
+    #[serde(flatten, serialize_with = "head")]
     system: Arc<System>,
     cases: Vec<CaseAnswer>,
     bars: Vec<BarEnvelope>,
@@ -91,7 +92,7 @@ impl Problem {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn in_case(&self, name: &str) -> Result<Self, Error> {
-        let system = system_of(self).in_case(name)?;
+        let system = self.system().in_case(name)?;
         system.refusal()?;
         Ok(system.into())
     }
@@ -99,8 +100,7 @@ impl Problem {
     /// The names of the load cases, in the order of the file.
     #[must_use]
     pub fn load_cases(&self) -> Vec<&str> {
-        let cases = self.as_system().map_or(&[][..], System::load_cases);
-        cases.iter().map(|case| case.name.as_str()).collect()
+        self.0.load_cases().iter().map(|case| case.name.as_str()).collect()
     }
 }
 
@@ -142,7 +142,7 @@ impl Solve {
         problem: &Problem,
         watch: &(dyn Fn() + Sync),
     ) -> Result<LoadCasesAnswer, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         let (first, others) = system.load_cases().split_first().ok_or(Error::NoCases)?;
         let solve = self.census(UseCensus::Never);
         let answer = |name: &str, before_m: &[_]| {
@@ -273,23 +273,5 @@ impl LoadCasesAnswer {
 
     fn settled(&self) -> impl Iterator<Item = &Settled> {
         self.cases.iter().filter_map(|case| case.settled.as_ref().ok())
-    }
-}
-
-/// As `funicular solve --load-case each --json` prints it.
-impl Serialize for LoadCasesAnswer {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Object<'a> {
-            schema_version: u32,
-            system: Summary,
-            cases: &'a [CaseAnswer],
-            bars: &'a [BarEnvelope],
-            supports: &'a [SupportEnvelope],
-        }
-        let system = Summary::new(&self.system);
-        let Self { cases, bars, supports, .. } = self;
-        Object { schema_version: SCHEMA_VERSION, system, cases, bars, supports }
-            .serialize(serializer)
     }
 }

@@ -5,15 +5,14 @@ use std::sync::Arc;
 use model::Vector;
 use model::system::System;
 use rayon::prelude::*;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use validate::UseCensus;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
-use crate::modes::Summary;
+use crate::object::{either, head};
 use crate::problem::Problem;
-use crate::settled::{Outcome, Settled, Unsettled, either, settle};
-use crate::solve::{SCHEMA_VERSION, Solve};
+use crate::settled::{Outcome, Settled, Unsettled, settle};
+use crate::solve::Solve;
 use crate::weakest::from_one;
 
 /// The loss of one member.
@@ -27,9 +26,10 @@ pub struct Loss {
     pub left: Result<Settled, Unsettled>,
 }
 
-/// What the loss of each member does.
-#[derive(Debug, Clone, PartialEq)]
+/// What the loss of each member does; it serialises to what `funicular solve --without each --json` prints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LossesAnswer {
+    #[serde(flatten, serialize_with = "head")]
     system: Arc<System>,
     losses: Vec<Loss>,
 }
@@ -75,7 +75,7 @@ impl Solve {
         problem: &Problem,
         watch: &(dyn Fn() + Sync),
     ) -> Result<LossesAnswer, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         let solve = self.census(UseCensus::Never);
         let before = solve.run(problem)?;
         let places = before.equilibria().first().map_or(&[][..], |e| &e.joints_m);
@@ -143,20 +143,5 @@ impl LossesAnswer {
 
     fn left(&self) -> impl Iterator<Item = &Settled> {
         self.losses.iter().filter_map(|loss| loss.left.as_ref().ok())
-    }
-}
-
-/// As `funicular solve --without each --json` prints it.
-impl Serialize for LossesAnswer {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Object<'a> {
-            schema_version: u32,
-            system: Summary,
-            losses: &'a [Loss],
-        }
-        let system = Summary::new(&self.system);
-        Object { schema_version: SCHEMA_VERSION, system, losses: &self.losses }
-            .serialize(serializer)
     }
 }

@@ -7,10 +7,10 @@ use motion::{Direction, What};
 use serde::Serialize;
 
 use crate::enclosed::{Enclosed, enclose};
-use crate::equilibria::{self, Equilibria, Located, system_of};
+use crate::equilibria::{self, Equilibria, Located};
 use crate::error::Error;
+use crate::object::{SCHEMA_VERSION, Summary};
 use crate::problem::Problem;
-use crate::solve::SCHEMA_VERSION;
 use crate::threads;
 
 /// Finds the frequencies and shapes of small oscillations, and the rates at which a system leaves
@@ -123,7 +123,7 @@ impl Modes {
     /// The modes of known equilibria.
     pub(crate) fn of(&self, problem: &Problem, found: &Equilibria) -> Result<ModesAnswer, Error> {
         self.fits(problem)?;
-        let system = system_of(problem);
+        let system = problem.system();
         let equilibria = found.list.iter().map(|located| self.with_modes(&system, located));
         Ok(ModesAnswer {
             schema_version: SCHEMA_VERSION,
@@ -171,23 +171,6 @@ pub struct ModesAnswer {
     pub equilibria: Vec<WithModes>,
     /// Whether a census proves that there are no others.
     pub complete: bool,
-}
-
-/// The few numbers that name a system.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Summary {
-    /// Its name.
-    pub name: String,
-    /// Number of joints.
-    pub joints: usize,
-    /// Number of members.
-    pub bars: usize,
-    /// Sum of their lengths, m.
-    pub total_length_m: f64,
-    /// Sum of the masses, kg.
-    pub total_mass_kg: f64,
-    /// Gravity along −Z, m/s².
-    pub gravity_m_s2: f64,
 }
 
 /// One equilibrium with its modes.
@@ -256,19 +239,6 @@ impl ModesAnswer {
             let proved = found.enclosed.index().unwrap_or(found.index_by_modes);
             found.index_in_space == found.index_by_modes && proved == found.index_by_modes
         })
-    }
-}
-
-impl Summary {
-    pub(crate) fn new(system: &System) -> Self {
-        Self {
-            name: system.name().to_owned(),
-            joints: system.joints().len(),
-            bars: system.members().len(),
-            total_length_m: system.total_length_m(),
-            total_mass_kg: system.total_mass_kg(),
-            gravity_m_s2: system.gravity_m_s2(),
-        }
     }
 }
 

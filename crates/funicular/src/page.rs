@@ -6,7 +6,7 @@ use std::sync::Arc;
 use model::system::{System, SystemEquilibrium};
 
 use crate::animation::Animation;
-use crate::equilibria::{self, Equilibria, system_of};
+use crate::equilibria::{self, Equilibria};
 use crate::error::Error;
 use crate::modes::{Modes, ModesAnswer};
 use crate::moving_page::{plain, plain_lines, six};
@@ -16,7 +16,8 @@ use crate::problem::Problem;
 use crate::shown::{Shape, Shown};
 use crate::simulate::Simulate;
 use crate::solve::{Solve, SolveAnswer};
-use crate::text;
+use crate::text::census::plural;
+use crate::text::{self, tables::counted};
 use crate::track::Track;
 
 /// Modes of each equilibrium, if nothing else is asked for.
@@ -141,10 +142,10 @@ impl Page {
         for [group, one, several] in TRACKS {
             let count = tracks.iter().filter(|track| track.group == group).count();
             if count > 0 {
-                contents = contents + ", " + &plural(count, one, several);
+                contents = format!("{contents}, {count} {}", plural(count, one, several));
             }
         }
-        let html = Shown { play: self.modes.is_some(), tracks, ..shown }.html(&system_of(problem));
+        let html = Shown { play: self.modes.is_some(), tracks, ..shown }.html(&problem.system());
         Ok(PageAnswer { answer, html, contents })
     }
 
@@ -161,7 +162,7 @@ impl Page {
         problem: &Problem,
         found: &Equilibria,
     ) -> Result<(SolveAnswer, Shown, String), Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         let answer = Solve::new().run(problem)?;
         let modes = self.asked_modes().of(problem, found).ok();
         let (mut shapes, count) = equilibria(&system, &answer, found, modes.as_ref());
@@ -173,9 +174,10 @@ impl Page {
         }
         let cases = shapes.len() - listed;
         let modes = if modes.is_some() { " with modes" } else { "" };
-        let mut contents = plural(count, "equilibrium", "equilibria") + modes;
+        let mut contents =
+            format!("{count} {}", plural(count, "equilibrium", "equilibria")) + modes;
         if cases > 0 {
-            contents = contents + ", " + &plural(cases, "load case", "load cases");
+            contents = contents + ", " + &counted(cases, "load case");
         }
         let words = text::answer(&answer, false, false);
         Ok((answer, Shown { words, shapes, ..Shown::default() }, contents))
@@ -187,7 +189,7 @@ impl Page {
 
     fn moved(&self, problem: &Problem, found: &Equilibria) -> Result<Option<Track>, Error> {
         let Some(simulate) = &self.simulate else { return Ok(None) };
-        let mut animation = Animation::new(&system_of(problem)).near(found);
+        let mut animation = Animation::new(&problem.system()).near(found);
         simulate.run_watched(problem, &mut |at| {
             animation.add(at);
             ControlFlow::Continue(())
@@ -205,10 +207,6 @@ impl Page {
     fn varied(&self, _: &Problem) -> Result<Vec<Track>, Error> {
         Ok(vec![])
     }
-}
-
-fn plural(count: usize, one: &str, several: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 /// The first equilibrium with its system.

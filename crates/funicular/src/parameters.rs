@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use branches::{Combine, Parameter, ParameterError, Variation};
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
@@ -110,7 +109,7 @@ impl Problem {
     /// [`Error::Parameter`] for what the problem has not, [`Error::Point`] where the numbers describe
     /// no problem.
     pub fn with(&self, numbers: &[(impl AsRef<str>, f64)]) -> Result<Self, Error> {
-        let system = system_of(self);
+        let system = self.system();
         let number = |(path, value): &(_, f64)| {
             let path: &str = AsRef::as_ref(path);
             let parameter = parsed(path)?;

@@ -65,7 +65,7 @@ const MOST_DRAWN: usize = 24;
 /// use funicular::prelude::*;
 /// let problem = Problem::case("two-bars")?;
 /// let found = Modes::new().run(&problem)?;
-/// let system = funicular::system_of(&problem);
+/// let system = problem.system();
 /// let svg = funicular::drawn_modes(&system, &found.equilibria[0], funicular::picture::Seen::Best).unwrap();
 /// assert!(svg.starts_with("<svg") && svg.contains("Hz"));
 /// # Ok::<(), Error>(())

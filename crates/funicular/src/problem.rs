@@ -25,13 +25,7 @@ use crate::judge::ForeignAnswer;
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Problem(Kind);
-
-#[derive(Debug, Clone, PartialEq)]
-enum Kind {
-    Chain(model::Problem),
-    System(Arc<System>),
-}
+pub struct Problem(pub(crate) Arc<System>);
 
 /// A problem that was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,7 +118,7 @@ impl Problem {
         }
     }
 
-    /// The system file that reads back to the same, bit for bit.
+    /// The system file that reads back to the same, bit for bit; a chain under its own weight is written as one.
     ///
     /// ```
     /// let problem = funicular::Problem::case("footbridge")?;
@@ -133,45 +127,19 @@ impl Problem {
     /// ```
     #[must_use]
     pub fn to_toml(&self) -> String {
-        match &self.0 {
-            Kind::Chain(problem) => system_file::write_system(problem.chain()),
-            Kind::System(system) => system_file::write_network(system),
-        }
+        system_file::write(&self.0)
     }
 
     /// The name, for people.
     #[must_use]
     pub fn name(&self) -> &str {
-        match &self.0 {
-            Kind::Chain(problem) => problem.chain().name(),
-            Kind::System(system) => system.name(),
-        }
+        self.0.name()
     }
 
-    /// The chain, if it is one.
+    /// Its joints and members, which may be shared; joints of a chain are named by their numbers, from `0`.
     #[must_use]
-    pub fn as_chain(&self) -> Option<&model::Problem> {
-        match &self.0 {
-            Kind::Chain(problem) => Some(problem),
-            Kind::System(_) => None,
-        }
-    }
-
-    /// The same as joints and members, which may be shared.
-    pub(crate) fn system(&self) -> Arc<System> {
-        match &self.0 {
-            Kind::Chain(problem) => Arc::new(System::from(problem)),
-            Kind::System(system) => Arc::clone(system),
-        }
-    }
-
-    /// The system of joints and members, if it is one.
-    #[must_use]
-    pub fn as_system(&self) -> Option<&System> {
-        match &self.0 {
-            Kind::Chain(_) => None,
-            Kind::System(system) => Some(system),
-        }
+    pub fn system(&self) -> Arc<System> {
+        Arc::clone(&self.0)
     }
 
     /// The chain that this is, however its file is written: a row of rigid bars between two anchors,
@@ -179,30 +147,22 @@ impl Problem {
     /// ([`Row`](model::system::Row)).
     #[must_use]
     pub fn row(&self) -> Option<&model::Problem> {
-        match &self.0 {
-            Kind::Chain(problem) => Some(problem),
-            Kind::System(system) => system.as_row().map(Row::problem),
-        }
+        self.0.as_row().map(Row::problem)
     }
 
     /// Whether a member has a strength that its force can be held against.
     #[must_use]
     pub fn has_strengths(&self) -> bool {
-        self.as_system().is_some_and(System::has_strengths)
+        self.0.has_strengths()
     }
 
     /// Refuse what would need more memory than readers may ask for, at so many bytes for each member.
     pub(crate) fn fits(&self, each: u64) -> Result<(), Error> {
-        let members = match &self.0 {
-            Kind::Chain(problem) => problem.chain().bars().len(),
-            Kind::System(system) => system.members().len(),
-        };
-        Ok(Budget::default().fits_members(members, each)?)
+        Ok(Budget::default().fits_members(self.0.members().len(), each)?)
     }
 
     /// The same problem with another question: the equilibrium next to this shape, a place for every
-    /// joint, m. A chain becomes a system with joints named by their numbers, from `0`. Every
-    /// builder then starts there: [`Solve`](crate::Solve), `Study`,
+    /// joint, m. Every builder then starts there: [`Solve`](crate::Solve), `Study`,
     /// [`Modes`](crate::Modes), `Derivatives`, [`Simulate`](crate::Simulate).
     ///
     /// ```
@@ -224,9 +184,8 @@ impl Problem {
     /// [`Error::System`] when two joints are at one place, or a coordinate is not finite;
     /// [`Error::Given`] when there are more or fewer places than joints.
     pub fn near(&self, joints_m: &[Vector]) -> Result<Self, Error> {
-        let system = crate::system_of(self);
-        let shape = ForeignAnswer::in_order(&system, "a shape", joints_m.to_vec(), None)?;
-        Ok(Arc::unwrap_or_clone(system).drawn_at(&shape.joints_m)?.into())
+        let shape = ForeignAnswer::in_order(&self.0, "a shape", joints_m.to_vec(), None)?;
+        Ok(System::clone(&self.0).drawn_at(&shape.joints_m)?.into())
     }
 }
 
@@ -253,7 +212,7 @@ pub fn case_text(name: &str) -> Result<&'static str, Error> {
 
 impl From<model::Problem> for Problem {
     fn from(problem: model::Problem) -> Self {
-        Self(Kind::Chain(problem))
+        System::from(&problem).into()
     }
 }
 
@@ -276,7 +235,7 @@ impl From<Described> for Problem {
 
 impl From<System> for Problem {
     fn from(system: System) -> Self {
-        Self(Kind::System(Arc::new(system)))
+        Self(Arc::new(system))
     }
 }
 

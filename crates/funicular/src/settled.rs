@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use model::system::{System, SystemEquilibrium, SystemRefusal};
 use model::{Rung, Vector};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::extremes::Extremes;
 use crate::solve::{Solve, SolveAnswer};
@@ -60,17 +60,6 @@ pub enum Outcome {
     NoLoad,
     /// No solver has an answer.
     Unknown,
-}
-
-/// Either, as its keys.
-pub(crate) fn either<S: Serializer>(
-    found: &Result<Settled, Unsettled>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    match found {
-        Ok(settled) => settled.serialize(serializer),
-        Err(reason) => reason.serialize(serializer),
-    }
 }
 
 /// Where a system comes to rest whose joints were at `before_m`, m, if that is known; the system as it was

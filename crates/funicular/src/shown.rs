@@ -33,7 +33,7 @@ pub(crate) struct Shown {
 }
 
 /// A shape at rest.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Shape {
     pub group: &'static str,
     pub label: String,
@@ -68,19 +68,8 @@ impl Shape {
         label: &str,
         joints_m: impl Iterator<Item = Vector>,
     ) -> Self {
-        let x = flat(system, joints_m);
-        let label = plain(label);
-        Self {
-            group,
-            label,
-            x,
-            axial: None,
-            used: None,
-            facts: None,
-            ground: vec![],
-            rungs: vec![],
-            modes: None,
-        }
+        let (label, x) = (plain(label), flat(system, joints_m));
+        Self { group, label, x, ..Self::default() }
     }
 
     /// The same with modes.

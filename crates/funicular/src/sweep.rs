@@ -11,9 +11,9 @@ use sweep::{
 };
 use validate::Solvers;
 
-use crate::equilibria::{self, system_of};
+use crate::equilibria;
 use crate::error::Error;
-use crate::followed::{Follow as _, Followed};
+use crate::followed::{Follow, Followed};
 use crate::problem::Problem;
 use crate::starts::{FromPlaces, solvers};
 use crate::threads::{self, MOST_THREADS};
@@ -39,7 +39,7 @@ const TOLD: u64 = 1_000_000;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     seeds: u64,
-    number: u64,
+    pub(crate) number: u64,
     spread: Spread,
     solvers: Solvers,
     threads: usize,
@@ -50,6 +50,7 @@ pub struct Sweep {
 
 /// How starts are spread over the angles of the bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum Spread {
     /// At random, every angle by itself.
     #[default]
@@ -74,6 +75,7 @@ impl Spread {
 
 /// The form of the rows on disk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum Format {
     /// Apache Parquet: small, with units.
     #[default]
@@ -221,7 +223,7 @@ impl Sweep {
         let settings = Settings { number: self.number, source, ..Settings::default() };
         let sweep = sweep::Sweep::new(chain, settings, self.asked(chain)?)?;
         let of = SweptBy {
-            system: SystemText::of(chain.chain()),
+            system: SystemText::from(&*problem.system()),
             source: self.spread.name(),
             solvers: sweep.solvers().names().map(str::to_owned).collect(),
             angles: if self.angles { chain.chain().bars().len() } else { 0 },
@@ -240,14 +242,7 @@ impl Sweep {
         let starts = threads::on(self.threads, || {
             Followed::new(problem, &known, self.number, FromPlaces(self.solvers))
         })??;
-        let of = SweptBy {
-            system: starts.text(),
-            source: Manifest::PLACES,
-            solvers: starts.names(),
-            angles: 0,
-            list: starts.list(),
-            complete: known.complete,
-        };
+        let of = SweptBy::places(&starts, Manifest::PLACES, known.complete);
         Ok(PreparedSweep {
             manifest: self.manifest(of),
             compute: Compute::Places(Box::new(starts)),
@@ -273,7 +268,7 @@ impl Sweep {
             let settings = Settings { number: self.number, ..Settings::default() };
             return Ok(sweep::expected_time_s(chain, &settings, &self.asked(chain)?, seeds)?);
         }
-        let (system, start) = (system_of(problem), Instant::now());
+        let (system, start) = (problem.system(), Instant::now());
         for k in 0..TIMED {
             FromPlaces(self.solvers).follow(&system, k);
         }
@@ -291,7 +286,7 @@ impl Sweep {
         Ok(Source::Grid(vec![Axis::full(side); bars]))
     }
 
-    fn manifest(&self, of: SweptBy<'_>) -> Manifest {
+    pub(crate) fn manifest(&self, of: SweptBy<'_>) -> Manifest {
         Manifest {
             schema_version: SCHEMA_VERSION,
             program: concat!("funicular ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -314,7 +309,7 @@ impl Sweep {
 }
 
 /// What differs between starts over angles and starts in space.
-struct SweptBy<'a> {
+pub(crate) struct SweptBy<'a> {
     system: SystemText,
     source: &'static str,
     solvers: Vec<String>,
@@ -322,6 +317,18 @@ struct SweptBy<'a> {
     angles: usize,
     list: &'a [Member],
     complete: bool,
+}
+
+impl<'a> SweptBy<'a> {
+    /// Of starts that are places of joints.
+    pub(crate) fn places<F: Follow>(
+        starts: &'a Followed<F>,
+        source: &'static str,
+        complete: bool,
+    ) -> Self {
+        let (system, solvers, list) = (starts.text(), starts.names(), starts.list());
+        Self { system, source, solvers, angles: 0, list, complete }
+    }
 }
 
 /// Points of a regular grid with so many on each side.
@@ -382,6 +389,14 @@ impl PreparedSweep {
             Compute::Angles(sweep) => sweep::run(folder, &self.manifest, &**sweep, settings)?,
             Compute::Places(starts) => sweep::run(folder, &self.manifest, &**starts, settings)?,
         })
+    }
+}
+
+impl SweepAnswer {
+    /// The counts as JSON, with the keys of `funicular sweep --json`: `solvers`, `comparisons`, `disagreements`.
+    #[must_use]
+    pub fn outcomes(&self) -> serde_json::Value {
+        crate::text::sweep::object(&self.manifest, &self.summary)
     }
 }
 

@@ -8,7 +8,7 @@ use model::system::{MemberTolerances, Strength, System, Uncertain, UncertainNumb
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use crate::csv::{Numbers, quoted};
+use crate::csv::{Numbers, or_empty, quoted};
 use crate::draws::{Distribution, Draws};
 use crate::error::Error;
 use crate::problem::Problem;
@@ -186,31 +186,24 @@ impl TolerancesAnswer {
     ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
-        let columns = ["", "reaction_"].into_iter().zip(["m", "n"]);
-        let columns = columns.flat_map(|(what, unit)| {
-            let ends =
-                move |axis| ["least", "most"].map(|end| format!(",{what}{axis}_{end}_{unit}"));
-            AXES.into_iter().flat_map(ends)
-        });
-        writeln!(to, "joint{}", columns.collect::<String>())?;
+        let mut columns = vec!["joint".to_owned()];
+        for (what, unit) in [("", "m"), ("reaction_", "n")] {
+            let ends = |axis| ["least", "most"].map(|end| format!("{what}{axis}_{end}_{unit}"));
+            columns.extend(AXES.into_iter().flat_map(ends));
+        }
+        writeln!(to, "{}", columns.join(","))?;
         let Ok(ranges) = &self.ranges else { return Ok(()) };
-        let ends = |all: &[[Range; 3]]| -> Vec<[f64; 6]> { all.iter().map(ends).collect() };
+        let all = |all: &[[Range; 3]]| -> Vec<f64> { all.iter().flat_map(ends).collect() };
         let forces: Vec<_> = ranges.reactions_n.iter().flatten().copied().collect();
-        let at = Numbers::of(ends(&ranges.joints_m).as_flattened());
-        let pulls = Numbers::of(ends(&forces).as_flattened());
+        let (at, pulls) = (Numbers::of(&all(&ranges.joints_m)), Numbers::of(&all(&forces)));
         let joints = self.answer.system().joints().iter().zip(&ranges.joints_m);
         for ((joint, at_m), force_n) in joints.zip(&ranges.reactions_n) {
-            write!(to, "{}", quoted(&joint.name))?;
-            self::ends(at_m).iter().try_for_each(|x| write!(to, ",{}", at.cell(*x)))?;
-            match force_n {
-                Some(force_n) => {
-                    self::ends(force_n)
-                        .iter()
-                        .try_for_each(|x| write!(to, ",{}", pulls.cell(*x)))?;
-                }
-                None => write!(to, ",,,,,,")?,
-            }
-            writeln!(to)?;
+            let mut cells = vec![quoted(&joint.name)];
+            cells.extend(ends(at_m).map(|x| at.cell(x)));
+            let pulled = force_n.iter().flat_map(ends);
+            cells.extend(pulled.map(|x| pulls.cell(x)));
+            cells.resize(columns.len(), String::new());
+            writeln!(to, "{}", cells.join(","))?;
         }
         Ok(())
     }
@@ -234,11 +227,11 @@ impl TolerancesAnswer {
             let [from, end] =
                 [member.from, member.to].map(|joint| quoted(&system.joints()[joint].name));
             let forces = [range.guaranteed, range.reached];
-            let forces = forces.as_flattened().iter().map(|x| numbers.cell(*x).to_string());
+            let forces = forces.as_flattened().iter().map(|x| numbers.cell(*x));
             let forces = forces.collect::<Vec<_>>().join(",");
             let (number, by) = range.most_by.unzip();
             let name = number.and_then(|number| self.number_name(number)).unwrap_or_default();
-            let by = by.map(|by| format!("{by:?}")).unwrap_or_default();
+            let by = or_empty(by);
             let used =
                 self.utilisation(k).map_or_else(|| ",".to_owned(), |[a, b]| format!("{a:?},{b:?}"));
             let (bar, is_hull, name) = (k + 1, range.is_hull, quoted(&name));

@@ -18,15 +18,15 @@ use branches::{
     Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, ParameterError,
     PointStatus, Progress, Variation,
 };
-
+use model::system::System;
 use serde::Serialize;
 
 use self::load::{LoadEnd, LoadPath, LoadPaths};
+use crate::csv::{exact, or_empty};
 use crate::error::Error;
-use crate::modes::Summary;
+use crate::object::head;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
-use crate::solve::SCHEMA_VERSION;
 use crate::threads;
 
 /// Follows equilibria over a number of the system file. With values of a chain all of them:
@@ -253,7 +253,7 @@ impl Trace {
                 Continuation::follow(&variation, path, &self.settings, &watch)
             };
             let paths = (0..variation.paths().len()).map(follow).collect::<Result<_, _>>()?;
-            Ok(TraceAnswer(Found::All { system: Summary::new(variation.base()), paths }))
+            Ok(TraceAnswer(Found::All { system: variation.base().clone(), paths }))
         })?
     }
 }
@@ -261,13 +261,19 @@ impl Trace {
 /// Most points of a load path: from start to limit some 50 are usual.
 const LOAD_POINTS: usize = 1_000;
 
-/// All equilibria along every path, or load paths.
-#[derive(Debug, Clone, PartialEq)]
+/// All equilibria along every path, or load paths; it serialises to what `funicular trace --json` prints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraceAnswer(Found);
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 enum Found {
-    All { system: Summary, paths: Vec<Continuation> },
+    All {
+        #[serde(flatten, serialize_with = "head")]
+        system: System,
+        #[serde(rename = "traces")]
+        paths: Vec<Continuation>,
+    },
     Load(LoadPaths),
 }
 
@@ -328,7 +334,7 @@ impl TraceAnswer {
     pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
         match &self.0 {
             Found::All { system, paths } => {
-                Some(branches::diagram(paths.get(path)?, &system.name, abscissa, bar))
+                Some(branches::diagram(paths.get(path)?, system.name(), abscissa, bar))
             }
             Found::Load(found) => {
                 let main =
@@ -360,56 +366,23 @@ impl TraceAnswer {
             write!(to, ",angle_{bar}_rad,axial_{bar}_n")?;
         }
         writeln!(to)?;
-        let number = |number: Option<usize>| number.map_or(String::new(), |k| k.to_string());
         for (path, trace) in self.paths().iter().enumerate() {
             for branch in &trace.branches {
                 for p in &branch.points {
-                    write!(to, "{},{},{:?}", path + 1, branch.id, p.position)?;
-                    for value in &p.values {
-                        write!(to, ",{value:?}")?;
-                    }
-                    write!(
-                        to,
-                        ",{:?},{},{},{}",
-                        p.span_m,
-                        number(p.grid),
-                        p.proved,
-                        number(p.event)
-                    )?;
-                    match p.pull_n {
-                        Some([h, v]) => write!(to, ",{h:?},{v:?}")?,
-                        None => write!(to, ",,")?,
-                    }
-                    write!(to, ",{:?},{},{}", p.energy_j, p.index_in_plane, p.index_in_space)?;
+                    let mut cells = vec![exact(&(path + 1)), exact(&branch.id), exact(&p.position)];
+                    cells.extend(p.values.iter().map(exact));
+                    let proved = p.proved.to_string();
+                    cells.extend([exact(&p.span_m), or_empty(p.grid), proved, or_empty(p.event)]);
+                    let pull_n = p.pull_n.map(|[level, upright]| (level, upright)).unzip();
+                    cells.extend([or_empty(pull_n.0), or_empty(pull_n.1), exact(&p.energy_j)]);
+                    cells.extend([exact(&p.index_in_plane), exact(&p.index_in_space)]);
                     for (bar, angle) in p.angles_rad.iter().enumerate() {
-                        write!(to, ",{angle:?},")?;
-                        if let Some(axial) = p.axial_n.get(bar) {
-                            write!(to, "{axial:?}")?;
-                        }
+                        cells.extend([exact(angle), or_empty(p.axial_n.get(bar))]);
                     }
-                    writeln!(to)?;
+                    writeln!(to, "{}", cells.join(","))?;
                 }
             }
         }
         Ok(())
-    }
-}
-
-/// As `funicular trace --json` prints it.
-impl Serialize for TraceAnswer {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Object<'a> {
-            schema_version: u32,
-            system: &'a Summary,
-            traces: &'a [Continuation],
-        }
-        match &self.0 {
-            Found::All { system, paths } => {
-                Object { schema_version: SCHEMA_VERSION, system, traces: paths }
-                    .serialize(serializer)
-            }
-            Found::Load(found) => found.serialize(serializer),
-        }
     }
 }

@@ -2,7 +2,6 @@
 
 use branches::Number;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::moving_page::plain;
 use crate::parameters::Parameters;
@@ -25,7 +24,7 @@ pub(crate) fn tracks(problem: &Problem, parameters: &Parameters) -> Result<Vec<T
             if found.shapes().next().is_none() {
                 return Err(Error::NoShapes { because: why });
             }
-            Ok(found.tracks(&system_of(problem), &why))
+            Ok(found.tracks(&problem.system(), &why))
         }
     }
 }

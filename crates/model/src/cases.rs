@@ -187,6 +187,12 @@ pub fn all() -> &'static [Case] {
     REGISTRY
 }
 
+/// The names of all cases and systems of the gallery, chains first, with what they are.
+pub fn named() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let chains = all().iter().map(|case| (case.name, case.about));
+    chains.chain(exhibits().map(|exhibit| (exhibit.name, exhibit.about)))
+}
+
 /// The case of this name.
 ///
 /// ```

@@ -10,7 +10,6 @@ use pyo3::types::PyDict;
 
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::raise;
 use crate::{words, work};
 
 /// What the axes are, and where each begins and ends.
@@ -38,7 +37,7 @@ pub fn basins<'py>(
         None => basins,
     };
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let (found, pictures) = work::answer(py, threads, progress, move |watch| {
         watch.tell("starts", 0, u64::from(size).pow(2));
         let found = basins.run(&of)?;
         let draw = |solver: &SolverName| {
@@ -50,7 +49,6 @@ pub fn basins<'py>(
         let pictures = [draw(&SolverName::LAGRANGE)?, draw(&SolverName::ENERGY)?];
         Ok((found, pictures))
     })?;
-    let (found, pictures) = found.map_err(|error: Error| raise(&error))?;
     let all = PyDict::new(py);
     let square = [size as usize; 2];
     for (solver, [outcome, iterations]) in

@@ -5,9 +5,7 @@ use std::sync::Arc;
 use funicular::prelude::Census;
 use pyo3::prelude::*;
 
-use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{raise, unwritten};
 use crate::solve::{Arrays, Told, told};
 use crate::work;
 
@@ -22,15 +20,13 @@ pub fn census<'py>(
 ) -> PyResult<(Told<'py>, String)> {
     let of = Arc::clone(&problem.of);
     let census = max_bars.map_or_else(Census::new, |bars| Census::new().max_bars(bars));
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let (text, arrays, said) = work::answer(py, threads, progress, move |watch| {
         let tell = |done, waiting| watch.tell("cells", done, done + waiting);
         let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;
         let all = found.equilibria.iter().map(|one| one.equilibrium.clone());
-        let is_chain = of.as_chain().is_some();
-        let arrays: Vec<_> = all.map(|one| Arrays::new(found.system(), one, is_chain)).collect();
-        Ok((serde_json::to_string(&found), arrays, found.to_string()))
+        let arrays: Vec<_> = all.map(|one| Arrays::new(found.system(), one)).collect();
+        let (text, said) = work::told(&found);
+        Ok((text, arrays, said))
     })?;
-    let (text, arrays, said) = found.map_err(|error: funicular::Error| raise(&error))?;
-    let told = told(py, text.map_err(|error| unwritten(&error))?, arrays)?;
-    Ok((told, printable(&said)))
+    Ok((told(py, text, arrays)?, said))
 }

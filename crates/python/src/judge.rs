@@ -5,14 +5,11 @@ use std::sync::Arc;
 use funicular::judge::{ForeignAnswer, Judge};
 use funicular::picture::Seen;
 use funicular::prelude::Vector;
-use funicular::system_of;
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 
 use crate::arrays::{numbers, vectors};
-use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{raise, unwritten};
 use crate::work;
 
 /// What `funicular judge --json` prints, whether the answer is confirmed and whether refuted, the
@@ -34,25 +31,16 @@ pub fn judge<'py>(
     let axial = axial_n.as_ref().map(numbers).transpose()?;
     let of = Arc::clone(&problem.of);
     let judge = tolerance.map_or_else(Judge::new, |tolerance| Judge::new().tolerance(tolerance));
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        let system = system_of(&of);
+    work::answer(py, threads, progress, move |watch| {
+        let system = of.system();
         let mut answer = ForeignAnswer::in_order(&system, source, joints, axial)?;
         if let Some(reactions) = reactions_n {
             answer = answer.with_reactions(&system, reactions)?;
         }
         let judged = judge.run_watched(&of, &answer, &|what| watch.tell(what, 0, 0))?;
         let judgement = judged.judgement();
-        let verdict = (judgement.is_confirmed(), judgement.is_refuted());
-        Ok((
-            serde_json::to_string(&judged),
-            verdict,
-            judged.html(&[], Seen::Best),
-            judged.to_string(),
-            judged.is_strong(),
-        ))
-    })?;
-    let (text, (confirmed, refuted), page, said, is_strong) =
-        found.map_err(|error: funicular::Error| raise(&error))?;
-    let text = text.map_err(|error| unwritten(&error))?;
-    Ok((text, confirmed, refuted, page, printable(&said), is_strong))
+        let (confirmed, refuted) = (judgement.is_confirmed(), judgement.is_refuted());
+        let (text, said) = work::told(&judged);
+        Ok((text, confirmed, refuted, judged.html(&[], Seen::Best), said, judged.is_strong()))
+    })
 }

@@ -5,9 +5,7 @@ use std::sync::Arc;
 use funicular::prelude::Modes;
 use pyo3::prelude::*;
 
-use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{raise, unwritten};
 use crate::work;
 
 /// What `funicular modes` prints, with `--json` and without.
@@ -25,8 +23,5 @@ pub fn modes<'py>(
     if let Some(count) = lowest {
         modes = modes.lowest(count);
     }
-    let found = work::run(py, threads, progress.as_ref(), move |_| modes.run(&of))?;
-    let found = found.map_err(|error| raise(&error))?;
-    let text = serde_json::to_string(&found).map_err(|error| unwritten(&error))?;
-    Ok((text, printable(&found.to_string())))
+    work::answer(py, threads, progress, move |_| Ok(work::told(&modes.run(&of)?)))
 }

@@ -184,8 +184,7 @@ impl Problem {
     /// The names of all cases.
     #[staticmethod]
     fn cases() -> Vec<&'static str> {
-        let chains = model::cases::all().iter().map(|case| case.name);
-        chains.chain(model::cases::exhibits().map(|exhibit| exhibit.name)).collect()
+        model::cases::named().map(|(name, _)| name).collect()
     }
 
     /// The same with another question: the equilibrium next to this shape.
@@ -218,10 +217,10 @@ impl Problem {
         self.of.name()
     }
 
-    /// Whether it is a chain between two anchors.
+    /// Whether it is a row of rigid bars between two anchors.
     #[getter]
     fn is_chain(&self) -> bool {
-        self.of.as_chain().is_some()
+        self.of.row().is_some()
     }
 
     /// Gravity along -Z, m/s².
@@ -281,7 +280,7 @@ impl Problem {
 impl Problem {
     /// As joints and members.
     pub fn system(&self) -> Arc<System> {
-        funicular::system_of(&self.of)
+        self.of.system()
     }
 }
 

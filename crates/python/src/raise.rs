@@ -68,13 +68,3 @@ pub fn bad_word(setting: &'static str, word: &str, allowed: &[&str]) -> PyErr {
     ];
     exception(Told::new("SettingError", message, fields))
 }
-
-/// More threads than make sense.
-pub fn too_many_threads(threads: usize) -> PyErr {
-    raise(&funicular::Error::TooManyThreads { threads })
-}
-
-/// A text of JSON that could not be written: a bug, for no answer has a number that JSON has not.
-pub fn unwritten(error: &serde_json::Error) -> PyErr {
-    internal(&error.to_string())
-}

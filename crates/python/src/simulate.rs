@@ -101,7 +101,7 @@ pub fn simulate<'py>(
     let of = Arc::clone(&problem.of);
     let system = problem.system();
     let (joints, members) = (system.joints().len(), system.members().len());
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let (stored, page) = work::answer(py, threads, progress, move |watch| {
         let mut stored = Stored::default();
         let mut animation = Animation::new(&system);
         let moved = simulate.run_watched(&of, &mut |now| {
@@ -132,7 +132,6 @@ pub fn simulate<'py>(
         });
         moved.map(|_| (stored, animation.page()))
     })?;
-    let (stored, page) = found.map_err(|error| raise(&error))?;
     Ok((stored.dict(py, joints, members)?, page))
 }
 

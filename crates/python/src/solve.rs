@@ -1,12 +1,11 @@
 //! The hanging equilibrium.
 
-use std::fmt::Display;
 use std::sync::Arc;
 
 use funicular::export::{Shape, Target};
 use funicular::live::Ask;
 use funicular::picture::Format;
-use funicular::prelude::{Simulate, Solve, SolveAnswer, Vector};
+use funicular::prelude::{Simulate, Solve, Vector};
 use funicular::{Error, Extremes, Lists, Page, Weakest, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
@@ -14,19 +13,18 @@ use numpy::PyReadonlyArrayDyn;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict as _, PyBytes, PyDict, PyList};
-use serde::Serialize;
 
 use crate::arrays::{column, numbers, rows, vectors};
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{bad_word, internal, raise, unwritten};
+use crate::raise::{bad_word, internal, raise};
 use crate::simulate::start;
 use crate::{words, work};
 
 /// One equilibrium in arrays, in the order of joints and members.
 pub struct Arrays {
     joints_m: Vec<Vector>,
-    /// Those of a chain alone.
+    /// Those of a row of rigid bars between two anchors alone.
     multipliers_n: Option<Vec<Vector>>,
     axial_n: Vec<f64>,
     along: Vec<AxialForce>,
@@ -40,14 +38,10 @@ pub struct Arrays {
 }
 
 impl Arrays {
-    /// Of a system; `is_chain` says whether it was given as a chain between two anchors, which alone has
-    /// multipliers.
-    pub fn new(system: &System, found: SystemEquilibrium, is_chain: bool) -> Self {
-        // The ground on the first bar; on each bar the next one, or the ground.
-        let multipliers =
-            || found.start_forces_n.iter().take(1).chain(&found.end_forces_n).copied().collect();
+    /// Of a system; a row of rigid bars between two anchors alone has multipliers.
+    pub fn new(system: &System, found: SystemEquilibrium) -> Self {
         Self {
-            multipliers_n: is_chain.then(multipliers),
+            multipliers_n: system.as_row().map(|row| row.multipliers_n(&found)),
             along: found.axial_forces(system),
             extremes: Extremes::of(system, &found),
             utilisation: found
@@ -124,20 +118,14 @@ pub fn solve<'py>(
 ) -> PyResult<Told<'py>> {
     let solve = solver_of(solver, equations, census)?;
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let (text, all) = work::answer(py, threads, progress, move |watch| {
         let found = solve.run_watched(&of, &|what| watch.tell(what, 0, 0))?;
-        Ok::<_, Error>(parts(found, of.as_chain().is_some()))
+        let text = work::json(&found.json(Lists::None));
+        let (system, equilibria) = found.into_parts();
+        let arrays = equilibria.into_iter().map(|found| Arrays::new(&system, found));
+        Ok((text, arrays.collect()))
     })?;
-    let (text, all) = found.map_err(|error| raise(&error))?;
-    told(py, text.map_err(|error| unwritten(&error))?, all)
-}
-
-/// The summary and the arrays.
-fn parts(answer: SolveAnswer, is_chain: bool) -> (serde_json::Result<String>, Vec<Arrays>) {
-    let text = serde_json::to_string(&answer.json(Lists::None));
-    let (system, equilibria) = answer.into_parts();
-    let arrays = equilibria.into_iter().map(|found| Arrays::new(&system, found, is_chain));
-    (text, arrays.collect())
+    told(py, text, all)
 }
 
 /// What `funicular solve` prints. It is solved again: tables take longer than short chains, and most
@@ -152,8 +140,7 @@ pub fn solve_text(
 ) -> PyResult<String> {
     let solve = solver_of(solver, equations, census)?;
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, 0, None, move |_| Ok(solve.run(&of)?.to_string()))?;
-    found.map(|text| printable(&text)).map_err(|error: Error| raise(&error))
+    work::answer(py, 0, None, move |_| Ok(printable(&solve.run(&of)?.to_string())))
 }
 
 /// The loss of each member in turn: as JSON, as text, and whether the system survives it.
@@ -167,10 +154,11 @@ pub fn losses<'py>(
 ) -> PyResult<(String, String, bool)> {
     let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
-    run_told(py, threads, progress, "losses", move || {
+    work::answer(py, threads, progress, move |watch| {
+        watch.tell("losses", 0, 0);
         let found = solve.without_each(&of)?;
-        let survives = found.survives();
-        Ok((found, survives))
+        let (text, said) = work::told(&found);
+        Ok((text, said, found.survives()))
     })
 }
 
@@ -185,10 +173,11 @@ pub fn load_cases<'py>(
 ) -> PyResult<(String, String, Option<bool>)> {
     let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
-    run_told(py, threads, progress, "load cases", move || {
+    work::answer(py, threads, progress, move |watch| {
+        watch.tell("load cases", 0, 0);
         let found = solve.load_cases(&of)?;
-        let is_strong = found.is_strong();
-        Ok((found, is_strong))
+        let (text, said) = work::told(&found);
+        Ok((text, said, found.is_strong()))
     })
 }
 
@@ -209,12 +198,11 @@ pub fn page<'py>(
         let released = Simulate::new().start(start(&word, None)?);
         page = page.simulate(released.time_s(time_s).damping_1_s(damping_1_s));
     }
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         watch.tell("equilibria, modes and what moves", 0, 0);
         let page = vary.iter().try_fold(page, |page, text| page.vary(text))?;
-        Ok::<_, Error>(page.run(&of)?.html().to_owned())
-    })?;
-    found.map_err(|error| raise(&error))
+        Ok(page.run(&of)?.html().to_owned())
+    })
 }
 
 /// The page of a notebook in which a system file is changed.
@@ -228,23 +216,6 @@ pub fn live_page(py: Python<'_>, text: String) -> String {
 pub fn live_answer(py: Python<'_>, path: &str, question: &str) -> PyResult<String> {
     let found = py.detach(|| Ask::answer(path, question.as_bytes()));
     found.unwrap_or_else(|| Err(format!("no page {path:?}"))).map_err(PyValueError::new_err)
-}
-
-/// An answer as JSON and as text, and what else is said of it.
-fn run_told<'py, T: Serialize + Display, V: Send + 'static>(
-    py: Python<'py>,
-    threads: usize,
-    progress: Option<Bound<'py, PyAny>>,
-    what: &'static str,
-    run: impl FnOnce() -> Result<(T, V), Error> + Send + 'static,
-) -> PyResult<(String, String, V)> {
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        watch.tell(what, 0, 0);
-        let (found, verdict) = run()?;
-        let (text, said) = (serde_json::to_string(&found), found.to_string());
-        Ok::<_, Error>(text.map(|text| (text, printable(&said), verdict)))
-    })?;
-    found.map_err(|error| raise(&error))?.map_err(|error| unwritten(&error))
 }
 
 /// Ranges over the tolerances of a system: the answer with its ranges as JSON, and as text.
@@ -261,9 +232,10 @@ pub fn tolerances<'py>(
     let of = Arc::clone(&problem.of);
     let (draws, seed, distribution) = draws;
     let distribution = words::distribution(&distribution)?;
-    let prove = move || Ok((solve.tolerances_drawn(&of, draws, seed, distribution)?, ()));
-    let (text, said, ()) = run_told(py, threads, progress, "proving ranges", prove)?;
-    Ok((text, said))
+    work::answer(py, threads, progress, move |watch| {
+        watch.tell("proving ranges", 0, 0);
+        Ok(work::told(&solve.tolerances_drawn(&of, draws, seed, distribution)?))
+    })
 }
 
 /// What is asked, by its words.

@@ -5,23 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use funicular::prelude::Sweep;
-use funicular::{Error, Format};
+use funicular::text;
 use pyo3::prelude::*;
 use serde_json::json;
 use sweep::{Manifest, RunSettings, Shard, StoreSummary};
 
-use crate::outcomes::outcomes;
 use crate::problem::Problem;
-use crate::raise::{bad_word, raise};
 use crate::{words, work};
-
-fn format(word: &str) -> PyResult<Format> {
-    match word {
-        "parquet" => Ok(Format::Parquet),
-        "csv" => Ok(Format::Csv),
-        _ => Err(bad_word("format", word, &["parquet", "csv"])),
-    }
-}
 
 /// The same keys as those of a sweep in memory, and what the folder knows.
 fn told(manifest: &Manifest, summary: &StoreSummary) -> String {
@@ -30,7 +20,7 @@ fn told(manifest: &Manifest, summary: &StoreSummary) -> String {
         "equilibria": summary.equilibria(manifest).collect::<Vec<_>>(),
         "complete": manifest.equilibria_complete,
         "listed_below_j": summary.listed_below_j(),
-        "outcomes": outcomes(&summary.outcomes),
+        "outcomes": text::sweep::object(manifest, &summary.outcomes),
         "parts": summary.parts,
         "check_failed": summary.check_failed(manifest),
     });
@@ -61,9 +51,9 @@ pub fn sweep_write<'py>(
         .solvers(words::solvers(solver)?)
         .shard(Shard { number: shard.0, of: shard.1 })
         .angles(angles)
-        .format(format(file_format)?);
+        .format(words::format(file_format)?);
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         let prepared = sweep.prepare(&of)?;
         let range = prepared.range();
         let so_far = AtomicU64::new(0);
@@ -78,9 +68,8 @@ pub fn sweep_write<'py>(
         let stop = watch.stop();
         let settings = RunSettings { threads, resume, stop, done: &done, found: &|_| () };
         let run = prepared.write(&folder, &settings)?;
-        Ok::<_, Error>(run.summary.map(|summary| told(prepared.manifest(), &summary)))
-    })?;
-    found.map_err(|error| raise(&error))
+        Ok(run.summary.map(|summary| told(prepared.manifest(), &summary)))
+    })
 }
 
 /// Join the folders of all shards. `None` if it was stopped.
@@ -92,12 +81,11 @@ pub fn sweep_merge<'py>(
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Option<String>> {
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         let done = |_| {};
         let threads = rayon::current_num_threads();
         let merged = sweep::merge(&folders, &out, threads, watch.stop(), &done)?;
         let Some(summary) = merged else { return Ok(None) };
-        Ok::<_, Error>(Some(told(&Manifest::read(&out)?, &summary)))
-    })?;
-    found.map_err(|error| raise(&error))
+        Ok(Some(told(&Manifest::read(&out)?, &summary)))
+    })
 }

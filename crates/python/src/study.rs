@@ -9,9 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{column, numbers, rows, vectors};
-use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{raise, unwritten};
 use crate::{words, work};
 
 /// What `funicular study --json` prints, the same as CSV, and a figure of each path as SVG; whether a
@@ -34,7 +32,7 @@ pub fn study<'py>(
 ) -> PyResult<Told> {
     let of = Arc::clone(&problem.of);
     let solvers = words::solvers(solver)?;
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         let combine = if zip { Combine::Zip } else { Combine::Product };
         let parameters = Ok::<_, Error>(Parameters::new().combine(combine));
         let parameters = vary.iter().fold(parameters, |all, text| all?.vary(text))?;
@@ -45,14 +43,10 @@ pub fn study<'py>(
         // A vector takes all that is written.
         let _ = found.write_csv(&mut csv);
         let figures = (1..=found.paths()).map(|path| found.figure(path)).collect();
-        let verdict = (found.check_failed(), found.is_decided());
-        Ok((serde_json::to_string(&found), csv, figures, verdict, found.to_string()))
-    })?;
-    let (text, csv, figures, (failed, decided), said) =
-        found.map_err(|error: Error| raise(&error))?;
-    let text = text.map_err(|error| unwritten(&error))?;
-    let csv = String::from_utf8_lossy(&csv).into_owned();
-    Ok((text, csv, figures, failed, decided, printable(&said)))
+        let (text, said) = work::told(&found);
+        let csv = String::from_utf8_lossy(&csv).into_owned();
+        Ok((text, csv, figures, found.check_failed(), found.is_decided(), said))
+    })
 }
 
 /// As JSON: the gradient of one number, the change by one parameter, or the stiffness of the anchors.
@@ -66,17 +60,15 @@ pub fn derivatives<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<String> {
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         watch.tell("derivatives", 0, 0);
         let derivatives = Derivatives::new().run(&of)?;
-        Ok::<_, Error>(match (number, by) {
-            (Some(number), _) => serde_json::to_string(&derivatives.gradient(&number)?),
-            (None, Some(by)) => serde_json::to_string(&derivatives.change(&by)?),
-            (None, None) => serde_json::to_string(&derivatives.anchor_stiffness()?),
+        Ok(match (number, by) {
+            (Some(number), _) => work::json(&derivatives.gradient(&number)?),
+            (None, Some(by)) => work::json(&derivatives.change(&by)?),
+            (None, None) => work::json(&derivatives.anchor_stiffness()?),
         })
-    })?;
-    let text = found.map_err(|error: Error| raise(&error))?;
-    text.map_err(|error| unwritten(&error))
+    })
 }
 
 /// The equilibrium by `lagrange` in arrays; and of a function of joints and axial forces, whose
@@ -95,13 +87,12 @@ pub fn pullback<'py>(
         _ => None,
     };
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, None, move |_| {
+    let (joints_m, axial_n, energy_j, gradient) = work::answer(py, threads, None, move |_| {
         let found = Derivatives::new().run(&of)?;
         let gradient = by.map(|(joints, axial)| found.pullback(&joints, &axial)).transpose()?;
         let at = found.equilibrium();
         Ok((at.joints_m.clone(), at.axial_n.clone(), at.energy_j, gradient))
     })?;
-    let (joints_m, axial_n, energy_j, gradient) = found.map_err(|error: Error| raise(&error))?;
     let dict = PyDict::new(py);
     dict.set_item("joints_m", rows(py, joints_m)?)?;
     dict.set_item("axial_n", column(py, axial_n))?;

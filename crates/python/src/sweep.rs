@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
+use funicular::SweepAnswer;
 use funicular::prelude::Sweep;
-use funicular::{Error, SweepAnswer};
 use pyo3::prelude::*;
 use serde_json::json;
 
-use crate::outcomes::outcomes;
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::raise;
 use crate::{words, work};
 
 /// The equilibria and the counts of outcomes, in memory, and the tables.
@@ -31,19 +29,18 @@ pub fn sweep<'py>(
         .spread(words::spread(spread)?)
         .solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let found = work::answer(py, threads, progress, move |watch| {
         sweep.threads(rayon::current_num_threads()).run_watched(&of, &|done| {
             watch.tell("starts", done, seeds);
         })
     })?;
-    let found: SweepAnswer = found.map_err(|error: Error| raise(&error))?;
-    let SweepAnswer { equilibria, complete, listed_below_j, summary, .. } = &found;
+    let SweepAnswer { equilibria, complete, listed_below_j, .. } = &found;
     let object = json!({
         "seeds": seeds,
         "equilibria": equilibria,
         "complete": complete,
         "listed_below_j": listed_below_j,
-        "outcomes": outcomes(summary),
+        "outcomes": found.outcomes(),
     });
     Ok((object.to_string(), printable(&found.to_string())))
 }

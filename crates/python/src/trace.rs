@@ -6,9 +6,7 @@ use funicular::LoadPaths;
 use funicular::prelude::Trace;
 use pyo3::prelude::*;
 
-use crate::printable::printable;
 use crate::problem::Problem;
-use crate::raise::{raise, unwritten};
 use crate::work;
 
 /// What `funicular trace --json` prints, the points of the branches or load paths as CSV, whether the checks
@@ -27,7 +25,7 @@ pub fn trace<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(String, String, bool, bool, String, String)> {
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    work::answer(py, threads, progress, move |watch| {
         let mut trace = numbers.into_iter().fold(Trace::new(), Trace::of).branches(branches);
         if linear_buckling {
             trace = trace.linear_buckling();
@@ -35,21 +33,15 @@ pub fn trace<'py>(
         if let Some(points) = max_points {
             trace = trace.max_points(points);
         }
-        for text in vary {
-            trace = trace.vary(&text)?;
-        }
+        let trace = vary.iter().try_fold(trace, |trace, text| trace.vary(text))?;
         let found = trace
             .run_watched(&of, &|_, at| watch.tell("censuses", at.done as u64, at.total as u64))?;
         let mut csv = vec![];
         // A vector takes all that is written.
         let _ = found.write_csv(&mut csv);
-        let agree = (found.checks_agree(), found.checks_decided());
+        let csv = String::from_utf8_lossy(&csv).into_owned();
         let page = found.load_paths().map_or_else(String::new, LoadPaths::page);
-        Ok((serde_json::to_string(&found), csv, agree, found.to_string(), page))
-    })?;
-    let (text, csv, (agree, decided), said, page) =
-        found.map_err(|error: funicular::Error| raise(&error))?;
-    let text = text.map_err(|error| unwritten(&error))?;
-    let csv = String::from_utf8_lossy(&csv).into_owned();
-    Ok((text, csv, agree, decided, printable(&said), page))
+        let (text, said) = work::told(&found);
+        Ok((text, csv, found.checks_agree(), found.checks_decided(), said, page))
+    })
 }

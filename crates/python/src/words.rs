@@ -2,77 +2,56 @@
 
 use funicular::picture::Seen;
 use funicular::prelude::{Equations, Solvers, UseCensus};
-use funicular::{Distribution, Plane, Spread};
-use pyo3::PyErr;
+use funicular::{Distribution, Format, Plane, Spread};
+use pyo3::PyResult;
 
 use crate::raise::bad_word;
 
-/// `both`, `lagrange` or `energy`.
-pub fn solvers(word: &str) -> Result<Solvers, PyErr> {
-    match word {
-        "both" => Ok(Solvers::Both),
-        "lagrange" => Ok(Solvers::Lagrange),
-        "energy" => Ok(Solvers::Energy),
-        _ => Err(bad_word("solver", word, &["both", "lagrange", "energy"])),
-    }
+/// The setting that a word stands for.
+fn one<T: Copy, const N: usize>(
+    setting: &'static str,
+    word: &str,
+    all: [(&'static str, T); N],
+) -> PyResult<T> {
+    let found = all.iter().find(|(known, _)| *known == word);
+    found
+        .map(|(_, value)| *value)
+        .ok_or_else(|| bad_word(setting, word, &all.map(|(known, _)| known)))
 }
 
-/// `condensed` or `full`.
-pub fn equations(word: &str) -> Result<Equations, PyErr> {
-    match word {
-        "condensed" => Ok(Equations::Condensed),
-        "full" => Ok(Equations::Full),
-        _ => Err(bad_word("equations", word, &["condensed", "full"])),
-    }
+pub fn solvers(word: &str) -> PyResult<Solvers> {
+    use Solvers::{Both, Energy, Lagrange};
+    one("solver", word, [("both", Both), ("lagrange", Lagrange), ("energy", Energy)])
 }
 
-/// `auto`, `always` or `never`.
-pub fn census(word: &str) -> Result<UseCensus, PyErr> {
-    match word {
-        "auto" => Ok(UseCensus::Auto),
-        "always" => Ok(UseCensus::Always),
-        "never" => Ok(UseCensus::Never),
-        _ => Err(bad_word("census", word, &["auto", "always", "never"])),
-    }
+pub fn equations(word: &str) -> PyResult<Equations> {
+    one("equations", word, [("condensed", Equations::Condensed), ("full", Equations::Full)])
 }
 
-/// `best`, `front`, `side` or `top`.
-pub fn seen(word: &str) -> Result<Seen, PyErr> {
-    match word {
-        "best" => Ok(Seen::Best),
-        "front" => Ok(Seen::Front),
-        "side" => Ok(Seen::Side),
-        "top" => Ok(Seen::Top),
-        _ => Err(bad_word("view", word, &["best", "front", "side", "top"])),
-    }
+pub fn census(word: &str) -> PyResult<UseCensus> {
+    use UseCensus::{Always, Auto, Never};
+    one("census", word, [("auto", Auto), ("always", Always), ("never", Never)])
 }
 
-/// `uniform`, `sobol` or `grid`.
-pub fn spread(word: &str) -> Result<Spread, PyErr> {
-    match word {
-        "uniform" => Ok(Spread::Uniform),
-        "sobol" => Ok(Spread::Sobol),
-        "grid" => Ok(Spread::Grid),
-        _ => Err(bad_word("spread", word, &["uniform", "sobol", "grid"])),
-    }
+pub fn seen(word: &str) -> PyResult<Seen> {
+    use Seen::{Best, Front, Side, Top};
+    one("view", word, [("best", Best), ("front", Front), ("side", Side), ("top", Top)])
 }
 
-/// `xz`, `yz` or `xy`.
-pub fn plane(word: &str) -> Result<Plane, PyErr> {
-    match word {
-        "xz" => Ok(Plane::Xz),
-        "yz" => Ok(Plane::Yz),
-        "xy" => Ok(Plane::Xy),
-        _ => Err(bad_word("plane", word, &["xz", "yz", "xy"])),
-    }
+pub fn spread(word: &str) -> PyResult<Spread> {
+    use Spread::{Grid, Sobol, Uniform};
+    one("spread", word, [("uniform", Uniform), ("sobol", Sobol), ("grid", Grid)])
 }
 
-/// `uniform`, `normal` or `ends`.
-pub fn distribution(word: &str) -> Result<Distribution, PyErr> {
-    match word {
-        "uniform" => Ok(Distribution::Uniform),
-        "normal" => Ok(Distribution::Normal),
-        "ends" => Ok(Distribution::Ends),
-        _ => Err(bad_word("distribution", word, &["uniform", "normal", "ends"])),
-    }
+pub fn plane(word: &str) -> PyResult<Plane> {
+    one("plane", word, [("xz", Plane::Xz), ("yz", Plane::Yz), ("xy", Plane::Xy)])
+}
+
+pub fn distribution(word: &str) -> PyResult<Distribution> {
+    use Distribution::{Ends, Normal, Uniform};
+    one("distribution", word, [("uniform", Uniform), ("normal", Normal), ("ends", Ends)])
+}
+
+pub fn format(word: &str) -> PyResult<Format> {
+    one("format", word, [("parquet", Format::Parquet), ("csv", Format::Csv)])
 }

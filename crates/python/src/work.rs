@@ -4,6 +4,7 @@
 //! [`LOOK`] it looks for signals, and hands on what the work tells. Once it is cancelled, the work
 //! ends at the next time that it tells something, by unwinding; the caller does not wait for that.
 
+use std::fmt::Display;
 use std::num::NonZeroU64;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process;
@@ -13,10 +14,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use funicular::Error;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use serde::Serialize;
 
-use crate::raise::{internal, too_many_threads};
+use crate::printable::printable;
+use crate::raise::{internal, raise};
 
 /// How often the caller looks for signals: what people take for at once.
 const LOOK: Duration = Duration::from_millis(50);
@@ -68,7 +72,10 @@ fn processors() -> usize {
 }
 
 fn check(threads: usize) -> PyResult<()> {
-    if threads > funicular::MOST_THREADS { Err(too_many_threads(threads)) } else { Ok(()) }
+    if threads > funicular::MOST_THREADS {
+        return Err(raise(&Error::TooManyThreads { threads }));
+    }
+    Ok(())
 }
 
 /// The pool of so many threads, 0 for as many as were set.
@@ -172,6 +179,26 @@ pub fn run<T: Send + 'static>(
         watch.cancelled.store(true, Ordering::Relaxed);
     }
     found
+}
+
+/// The same of work of the library, whose error is raised.
+pub fn answer<T: Send + 'static>(
+    py: Python<'_>,
+    threads: usize,
+    progress: Option<Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> Result<T, Error> + Send + 'static,
+) -> PyResult<T> {
+    run(py, threads, progress.as_ref(), work)?.map_err(|error| raise(&error))
+}
+
+/// What the program prints of an answer, with `--json` and without. A number that JSON has not is a bug.
+pub fn told(found: &(impl Serialize + Display)) -> (String, String) {
+    (json(found), printable(&found.to_string()))
+}
+
+/// As a text of JSON.
+pub fn json(found: &impl Serialize) -> String {
+    serde_json::to_string(found).unwrap_or_else(|error| unreachable!("{error}"))
 }
 
 fn hand_on<T: Send + 'static>(sender: Sender<Message<T>>) -> HandOn {

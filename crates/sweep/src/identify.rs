@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
-use model::{Chain, Problem};
+use model::Problem;
 use serde::{Deserialize, Serialize};
 
 use crate::accuracy::{carried, place_error};
@@ -148,16 +148,11 @@ impl Members {
     }
 }
 
-/// Total weight times total length, J.
-pub(crate) fn energy_unit_j(chain: &Chain) -> f64 {
-    chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m()
-}
-
 impl Lookup {
     pub(crate) fn new(problem: &Problem, list: &[Member]) -> Self {
         let chain = problem.chain();
         let total_m = chain.total_length_m();
-        let unit_j = energy_unit_j(chain);
+        let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * total_m;
         let directions = list.iter().flat_map(directions_of);
         let mut lookup = Self {
             lengths: chain.bars().iter().map(|bar| bar.length_m() / total_m).collect(),

@@ -75,6 +75,7 @@ impl Default for Question {
 
 /// Which solvers are asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Solvers {
     /// Forces first: constraints and multipliers. Alone it gets no comparison.
     Lagrange,
@@ -91,6 +92,7 @@ pub enum Solvers {
 /// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
 /// number of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Equations {
     /// Three equations for the pull on the first anchor, whatever the number of bars.
     #[default]
@@ -102,6 +104,7 @@ pub enum Equations {
 /// Whether answers are looked up in a census: whether they are proved to be equilibria, and with
 /// which others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum UseCensus {
     /// No census.
     Never,

@@ -39,6 +39,7 @@ pub use here::difference;
 pub use linear::linear_buckling;
 
 use nalgebra::DVector;
+use serde::Serialize;
 
 /// A system of equations with a parameter, symmetric in its unknowns, as its model computes them.
 pub trait Equations {
@@ -199,13 +200,17 @@ pub struct Event<S> {
 }
 
 /// Kinds of events.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// The parameter has a maximum or a minimum.
+    /// The parameter turns back where the stiffness vanishes.
+    #[serde(rename = "limit-point")]
     Limit,
     /// Other paths cross.
+    #[serde(rename = "branch-point")]
     Branch,
-    /// A one-sided condition changes sides.
+    /// A one-sided condition changes sides: a cable or strut becomes slack or taut, a joint meets the floor or
+    /// leaves it.
     Kink,
 }
 

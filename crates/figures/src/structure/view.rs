@@ -12,6 +12,7 @@ pub(crate) struct View {
 
 /// From where a structure is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Seen {
     /// A planar one at right angles to its plane, a spatial one from above and from that side on
     /// which it spreads most.

@@ -11,7 +11,8 @@ use serde::{Serialize, Serializer};
 use validate::systems::judge;
 
 use super::summary::{EnergyUnit, Summary};
-use crate::solve::{Lists, Named, SCHEMA_VERSION};
+use crate::object::head;
+use crate::solve::{Lists, Named};
 
 /// All equilibria of a system with their proofs, and what is known of the list.
 #[derive(Debug, Clone)]
@@ -122,8 +123,7 @@ impl CensusAnswer {
 
     /// With this list.
     pub(super) fn object<E>(&self, list: Option<&'static str>, equilibria: E) -> Object<'_, E> {
-        let (system, census) = (crate::modes::Summary::new(&self.system), &self.census);
-        Object { schema_version: SCHEMA_VERSION, system, list, equilibria, census }
+        Object { system: &self.system, list, equilibria, census: &self.census }
     }
 }
 
@@ -136,8 +136,8 @@ impl Serialize for CensusAnswer {
 
 #[derive(Serialize)]
 pub(super) struct Object<'a, E> {
-    schema_version: u32,
-    system: crate::modes::Summary,
+    #[serde(flatten, serialize_with = "head")]
+    system: &'a System,
     #[serde(skip_serializing_if = "Option::is_none")]
     list: Option<&'static str>,
     equilibria: E,

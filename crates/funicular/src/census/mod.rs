@@ -14,7 +14,6 @@ use census::{Progress, Settings};
 use model::system::{Kind, System};
 use validate::UseCensus;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::Solve;
@@ -106,7 +105,7 @@ impl Census {
         problem: &Problem,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<CensusAnswer, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         system.refusal()?;
         if let Some(row) = LoadedRow::of(&system) {
             row.refusal(&self.settings)?;
@@ -143,7 +142,7 @@ impl Census {
         made: usize,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<LargeCensusAnswer, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         let row = LoadedRow::of(&system).ok_or(Error::ChainsOnly { what: "a long list" })?;
         let census = threads::on(self.threads, || row.compact(&self.settings, watch))??;
         Ok(LargeCensusAnswer::new(&system, census, made))

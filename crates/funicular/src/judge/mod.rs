@@ -15,7 +15,6 @@ pub use ::formats::answer::parse;
 pub use validate::foreign::{Finding, ForeignAnswer, GivenError, Judgement, Law, Violation};
 
 pub use self::subject::{Ruling, Subject};
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::picture::Seen;
 use crate::problem::Problem;
@@ -111,7 +110,7 @@ impl Judge {
         watch: &(dyn Fn(&str) + Sync),
     ) -> Result<Judged, Error> {
         threads::on(self.threads, || {
-            let system = system_of(problem);
+            let system = problem.system();
             let judgement = judge_foreign(&system, answer, self.tolerance, watch)?;
             Ok(Judged { system, judgement })
         })?
@@ -159,8 +158,8 @@ impl Judged {
 /// [`GivenError`]: names or counts that do not fit.
 ///
 /// ```
-/// use funicular::{Problem, system_of};
-/// let system = system_of(&Problem::case("three-equal-bars")?);
+/// use funicular::Problem;
+/// let system = Problem::case("three-equal-bars")?.system();
 /// let answer = funicular::judge::parse("joint,x_m,y_m,z_m\n0,0,0,0\n1,0,0,-1\n", "table.csv")?;
 /// let error = funicular::judge::fit(&system, answer[0].clone()).unwrap_err();
 /// assert_eq!(error.to_string(), "the answer has no place for joint \"2\"");

@@ -1,31 +1,24 @@
 //! A judgement as JSON: the keys of [`Judgement`], with names and sentences beside its numbers.
 
 use model::Vector;
-use model::system::Name;
+use model::system::{Name, System};
 use serde::{Serialize, Serializer};
 use validate::foreign::{Judgement, Violation};
 
 use super::Judged;
-use crate::solve::SCHEMA_VERSION;
+use crate::object::head;
 use crate::weakest::Weakest;
 
 #[derive(Serialize)]
 struct Object<'a> {
-    schema_version: u32,
-    system: Summary<'a>,
+    #[serde(flatten, serialize_with = "head")]
+    system: &'a System,
     #[serde(flatten)]
     judgement: Told<'a>,
     joints: Vec<Joint<'a>>,
     bars: Vec<Bar<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     weakest: Option<Weakest>,
-}
-
-#[derive(Serialize)]
-struct Summary<'a> {
-    name: &'a str,
-    joints: usize,
-    bars: usize,
 }
 
 /// The judgement with the violations by name.
@@ -75,12 +68,7 @@ impl Serialize for Judged {
         let answer = &judgement.answer;
         let places = answer.joints_m.iter().zip(&answer.reactions_n).enumerate();
         Object {
-            schema_version: SCHEMA_VERSION,
-            system: Summary {
-                name: system.name(),
-                joints: system.joints().len(),
-                bars: system.members().len(),
-            },
+            system,
             judgement: Told {
                 says: judgement.finding.to_string(),
                 broken: judgement.violations.iter().map(broken).collect(),

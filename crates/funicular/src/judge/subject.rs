@@ -129,7 +129,7 @@ impl From<System> for Subject {
 
 impl From<&Problem> for Subject {
     fn from(problem: &Problem) -> Self {
-        Arc::unwrap_or_clone(crate::system_of(problem)).into()
+        Arc::unwrap_or_clone(problem.system()).into()
     }
 }
 

@@ -10,7 +10,6 @@ use serde_json::Value;
 
 pub use change::Change;
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::moving_page::Data;
 use crate::page::Page;
@@ -140,7 +139,7 @@ impl Ask {
     fn shown(&self, text: &str) -> Result<(Value, String), String> {
         let said = |error: Error| error.to_string();
         let problem = Problem::parse(text, NAME).map_err(said)?;
-        let system = system_of(&problem);
+        let system = problem.system();
         let spans = system.members().iter().map(|member| member.spans().count());
         let (members, most) = (spans.clone().sum::<usize>(), spans.max().unwrap_or(0));
         if members > MOST_MEMBERS || most > MOST_SPANS {

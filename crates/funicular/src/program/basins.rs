@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use funicular::picture::Format;
-use funicular::{Basins, Field};
+use funicular::{Basins, Field, Plane};
 use model::SolverName;
 
 use crate::cost::tell_time;
@@ -56,7 +56,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     pub joint: Option<String>,
     /// The plane in which its start varies
-    #[arg(long, value_enum, default_value_t = Plane::Xz)]
+    #[arg(long, value_enum, default_value_t)]
     pub plane: Plane,
     /// Write the pictures into this folder (made if it is not there)
     #[arg(long, value_name = "DIR")]
@@ -64,24 +64,6 @@ pub struct Arguments {
     /// The form of the pictures
     #[arg(long, value_name = "ENDING", default_value = Format::ENDINGS[0], value_parser = Format::ENDINGS)]
     pub format: String,
-}
-
-/// The plane of a picture.
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-pub enum Plane {
-    Xz,
-    Yz,
-    Xy,
-}
-
-impl From<Plane> for funicular::Plane {
-    fn from(plane: Plane) -> Self {
-        match plane {
-            Plane::Xz => Self::Xz,
-            Plane::Yz => Self::Yz,
-            Plane::Xy => Self::Xy,
-        }
-    }
 }
 
 /// Run the command.
@@ -93,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::bad_input("--bars wants two bars, as in --bars 1,2"));
     };
     let basins = Basins::new().size(arguments.size).bars([i, j]).others_deg(arguments.others);
-    let basins = basins.plane(arguments.plane.into());
+    let basins = basins.plane(arguments.plane);
     let basins = match &arguments.joint {
         Some(name) => basins.joint(name),
         None => basins,

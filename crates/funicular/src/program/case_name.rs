@@ -23,9 +23,7 @@ impl TypedValueParser for CaseName {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let chains = model::cases::all().iter().map(|case| (case.name, case.about));
-        let systems = model::cases::exhibits().map(|exhibit| (exhibit.name, exhibit.about));
         let value = |(name, about)| PossibleValue::new(name).help(about);
-        Some(Box::new(chains.chain(systems).map(value)))
+        Some(Box::new(model::cases::named().map(value)))
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use figures::Escaped;
-use funicular::{Page, Problem, picture, system_of};
+use funicular::{Page, Problem, picture};
 use model::cases;
 use rayon::prelude::*;
 
@@ -42,12 +42,6 @@ pub fn run(arguments: &Cases) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// All cases, chains first, with what they are.
-fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let chains = cases::all().iter().map(|case| (case.name, case.about));
-    chains.chain(cases::exhibits().map(|exhibit| (exhibit.name, exhibit.about)))
-}
-
 /// The registry: chains and systems.
 fn registry() -> String {
     let mut chains = table(["case", "what it is"]);
@@ -67,7 +61,7 @@ fn gallery(folder: &Path) -> Result<Exit, Failure> {
     output::make_folder(folder)?;
     let progress = Progress::start();
     progress.say("all cases of the gallery");
-    let all: Vec<_> = all().collect();
+    let all: Vec<_> = cases::named().collect();
     let shown = all.par_iter().map(|(name, about)| one(folder, name, about));
     let shown = shown.collect::<Result<Vec<_>, Failure>>()?;
     drop(progress);
@@ -95,7 +89,7 @@ fn one(folder: &Path, name: &str, about: &str) -> Result<(String, Exit), Failure
         format!("<article id=\"{name}\">\n<h2><a href=\"{name}.html\">{name}</a></h2>\n");
     if let Some(first) = answer.equilibria().first() {
         let seen = picture::Seen::Best;
-        let drawn = picture::of_system(&system_of(&problem), first, seen)
+        let drawn = picture::of_system(&problem.system(), first, seen)
             .map_err(|error| Failure::undecided(format!("no picture of {name}: {error}")))?;
         write("svg", &drawn)?;
         let _ = writeln!(

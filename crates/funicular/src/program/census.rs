@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use census::network::{LoadedRow, bridle_seconds};
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
+use funicular::picture::Seen;
 use funicular::{CensusAnswer, Error};
 use model::NoCensus;
 
@@ -20,7 +21,6 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads::Threads;
-use crate::view::View;
 
 /// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of
 /// `--svg` says so.
@@ -48,8 +48,8 @@ pub struct Census {
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the shapes are seen; if not given, those of one row of bars are drawn in their own planes
-    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
-    pub view: View,
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t, requires = "svg")]
+    pub view: Seen,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
@@ -81,8 +81,8 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
-    let row = LoadedRow::of(&funicular::system_of(&problem));
-    let side_by_side = row.is_some() && arguments.view == View::Best;
+    let row = LoadedRow::of(&problem.system());
+    let side_by_side = row.is_some() && arguments.view == Seen::Best;
     let most = match &arguments.svg {
         Some(path) if !side_by_side => output::numbered(path, SHAPES),
         _ => vec![],
@@ -112,35 +112,23 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         output::write_stream(path, |file| answer.write_csv(file))?;
     }
     drop(progress);
-    if arguments.printed.is_json() {
-        output::print_json(&answer)?;
-    } else {
-        output::print(&answer.to_string())?;
-    }
-    Ok(exit(&answer))
+    arguments.printed.print(&answer)?;
+    Ok(Exit::of(answer.census.check_failed(), answer.census.is_decided()))
 }
 
 /// The shapes of a row of bars side by side; of another system, and from somewhere, each into a file of its own.
-fn draw(path: &Path, answer: &CensusAnswer, view: View) -> Result<(), Failure> {
+fn draw(path: &Path, answer: &CensusAnswer, view: Seen) -> Result<(), Failure> {
     let system = answer.system();
-    if let Some(row) = answer.row().filter(|_| view == View::Best) {
+    if let Some(row) = answer.row().filter(|_| view == Seen::Best) {
         return output::write_picture(path, &row.census.figure(system.name(), SHAPES));
     }
     let shown = &answer.equilibria[..answer.equilibria.len().min(SHAPES)];
     for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
-        let drawn = funicular::picture::of_system(system, &shape.equilibrium, view.into())
+        let drawn = funicular::picture::of_system(system, &shape.equilibrium, view)
             .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_picture(path, &drawn)?;
     }
     Ok(())
-}
-
-fn exit(answer: &CensusAnswer) -> Exit {
-    match (answer.census.check_failed(), answer.census.is_decided()) {
-        (true, _) => Exit::CheckFailed,
-        (false, true) => Exit::Done,
-        (false, false) => Exit::Undecided,
-    }
 }
 
 fn cost(estimate: census::Estimate) -> String {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use funicular::AnchorStiffness;
 use funicular::text::derivatives::stiffness;
+use funicular::{AnchorStiffness, Summary};
 use model::system::System;
 use serde::Serialize;
 
@@ -52,18 +52,11 @@ pub struct Arguments {
 }
 
 #[derive(Serialize)]
-struct Object<'a, T> {
+struct Object<T> {
     schema_version: u32,
-    system: SystemName<'a>,
+    system: Summary,
     #[serde(flatten)]
     found: T,
-}
-
-#[derive(Serialize)]
-struct SystemName<'a> {
-    name: &'a str,
-    joints: usize,
-    bars: usize,
 }
 
 #[derive(Serialize)]
@@ -95,14 +88,11 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn print(json: bool, system: &System, text: &str, found: &impl Serialize) -> Result<Exit, Failure> {
-    let name = system.name();
     if json {
-        let schema_version = funicular::SCHEMA_VERSION;
-        let (joints, bars) = (system.joints().len(), system.members().len());
-        let system = SystemName { name, joints, bars };
+        let (schema_version, system) = (funicular::SCHEMA_VERSION, Summary::new(system));
         output::print_json(&Object { schema_version, system, found })?;
     } else {
-        output::print(&format!("{}\n{text}", Printable(name)))?;
+        output::print(&format!("{}\n{text}", Printable(system.name())))?;
     }
     Ok(Exit::Done)
 }

@@ -24,6 +24,15 @@ pub enum Exit {
 }
 
 impl Exit {
+    /// Of an answer: a failed check is worse than what is missing or has not converged.
+    pub fn of(failed: bool, is_decided: bool) -> Self {
+        match (failed, is_decided) {
+            (true, _) => Self::CheckFailed,
+            (false, true) => Self::Done,
+            (false, false) => Self::Undecided,
+        }
+    }
+
     /// The exit code; 128 plus the number of SIGINT for an interruption, as shells have it.
     pub fn code(self) -> u8 {
         match self {
@@ -78,9 +87,7 @@ impl Failure {
         match error {
             Error::File(error) => Self::bad_input(Diagnostic::of_file(&error)),
             Error::UnknownCase { suggestion, .. } => {
-                let chains = model::cases::all().iter().map(|case| case.name);
-                let systems = model::cases::exhibits().map(|exhibit| exhibit.name);
-                let names: Vec<_> = chains.chain(systems).collect();
+                let names: Vec<_> = model::cases::named().map(|(name, _)| name).collect();
                 let all = format!("the cases are: {}", names.join(", "));
                 let help = match suggestion {
                     Some(name) => format!("did you mean `{name}`? {all}"),

@@ -10,33 +10,40 @@ use model::open_input;
 use model::system_file::most_file_bytes;
 
 use crate::exit::Failure;
-use crate::input;
+use crate::input::Input;
 use crate::judge::{Format, Judge};
 
 /// The system that the arguments name, and the files that were read for it.
 pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
-    let load_case = arguments.load_case.as_deref();
-    let own = |file| {
-        let input::Input { problem, files } = input::problem(file, arguments.case.as_deref())?;
-        Ok((Subject::from(&input::in_case(problem, load_case)?), files))
+    let own = || {
+        let Input { problem, files } = arguments.input.read()?;
+        Ok((Subject::from(&problem), files))
     };
-    let Some(path) = arguments.file.as_deref() else { return own(None) };
-    let format = match arguments.format {
+    let Some(path) = arguments.input.file.as_deref() else { return own() };
+    let written = match arguments.format {
         Format::Auto => guess(path, arguments.edges.is_some())?,
-        format => format,
+        Format::Funicular => Written::Own,
+        Format::ForceDensity => Written::Net,
+        Format::Dxf => Written::By(Source::Dxf),
+        Format::Obj => Written::By(Source::Obj),
+        Format::Moordyn => Written::By(Source::MoorDyn),
+        Format::Map => Written::By(Source::Map),
+        Format::Opensees => Written::By(Source::OpenSees),
+        Format::Compas => Written::By(Source::Compas),
     };
-    if format != Format::ForceDensity && arguments.edges.is_some() {
+    if written != Written::Net && arguments.edges.is_some() {
         return Err(Failure::bad_input("--edges is for nets of force densities"));
     }
-    if load_case.is_some() && !matches!(format, Format::Auto | Format::Funicular) {
+    if written != Written::Own && arguments.input.load_case.is_some() {
         return Err(Failure::bad_input("--load-case is for system files, which have [[cases]]"));
     }
-    let subject = match format {
-        Format::Compas => {
+    let subject = match written {
+        Written::Own => return own(),
+        Written::By(Source::Compas) => {
             let (text, name) = text(path)?;
             Subject::net(parse_compas(&text, &name).map_err(Error::from)?, &name)
         }
-        Format::ForceDensity => {
+        Written::Net => {
             let Some(edges) = arguments.edges.as_deref() else {
                 return Err(Failure::bad_input(
                     "a net of force densities needs its edges too: --edges FILE",
@@ -46,33 +53,41 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
             let net = parse_net((&nodes.0, &nodes.1), (&edges.0, &edges.1), &nodes.1);
             Subject::net(net.map_err(Error::from)?, &nodes.1)
         }
-        format => match format.source() {
-            Some(source) => {
-                let (text, name) = text(path)?;
-                Subject::from(source.parse(&text, &name).map_err(Error::from)?)
-            }
-            None => return own(Some(path)),
-        },
+        Written::By(source) => {
+            let (text, name) = text(path)?;
+            Subject::from(source.parse(&text, &name).map_err(Error::from)?)
+        }
     };
     let files = [Some(path.to_owned()), arguments.edges.clone()];
     Ok((subject, files.into_iter().flatten().collect()))
 }
 
+/// How a file is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Written {
+    /// As our own.
+    Own,
+    /// As the nodes of a net of force densities.
+    Net,
+    /// By another program.
+    By(Source),
+}
+
 /// Which format a file is in.
-fn guess(path: &Path, with_edges: bool) -> Result<Format, Failure> {
+fn guess(path: &Path, with_edges: bool) -> Result<Written, Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if with_edges || ending.eq_ignore_ascii_case("csv") {
-        return Ok(Format::ForceDensity);
+        return Ok(Written::Net);
     }
     if !Source::may_end(ending) {
-        return Ok(Format::Funicular);
+        return Ok(Written::Own);
     }
-    Ok(Source::guess(ending, &text(path)?.0).map_or(Format::Funicular, Format::of))
+    Ok(Source::guess(ending, &text(path)?.0).map_or(Written::Own, Written::By))
 }
 
 /// Whether a file is of another program.
 pub fn is_foreign(path: &Path) -> Result<bool, Failure> {
-    Ok(guess(path, false)?.source().is_some())
+    Ok(matches!(guess(path, false)?, Written::By(_)))
 }
 
 /// The text of a file (`-` is standard input), and the name that stands for it in errors.

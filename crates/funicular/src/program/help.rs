@@ -1,7 +1,6 @@
 //! The first words: commands in groups, what to type when nothing was, and what a word that is no command may mean.
 
 use std::ffi::OsString;
-use std::fmt::Write as _;
 use std::io::Write as _;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -10,6 +9,7 @@ use clap::{Command, CommandFactory, FromArgMatches};
 use crate::args::Cli;
 use crate::exit::Exit;
 use crate::guide;
+use crate::tables::wrapped;
 
 /// The commands, by what they are for.
 const GROUPS: [(&str, &[&str]); 6] = [
@@ -79,8 +79,8 @@ fn asked() -> Vec<OsString> {
 
 /// The commands with their help in groups.
 fn grouped(command: Command) -> Command {
-    /// Under the first word of what a command is for.
-    const INDENT: &str = "\n               ";
+    /// Where what a command is for begins.
+    const INDENT: usize = 15;
     let about = |name: &str| {
         let found = command.get_subcommands().find(|sub| sub.get_name() == name);
         found.and_then(Command::get_about).map(ToString::to_string).unwrap_or_default()
@@ -89,8 +89,8 @@ fn grouped(command: Command) -> Command {
     for (title, names) in GROUPS {
         text.extend(["\n", title, ":\n"]);
         for name in names {
-            let lines = wrapped(&about(name));
-            let _ = writeln!(text, "  {name:<12} {}", lines.join(INDENT));
+            text += &wrapped(&format!("  {name:<12} {}", about(name)), INDENT);
+            text.push('\n');
         }
     }
     text += "\nOptions:\n{options}{after-help}";
@@ -114,25 +114,6 @@ pub fn with_chapters(mut command: Command) -> Command {
         });
     }
     command
-}
-
-/// A sentence in lines that leave room for the names of commands in 80 columns.
-fn wrapped(sentence: &str) -> Vec<String> {
-    const WIDTH: usize = 64;
-    let mut lines = vec![String::new()];
-    for word in sentence.split_whitespace() {
-        let last = lines.len() - 1;
-        if !lines[last].is_empty() && lines[last].len() + 1 + word.len() > WIDTH {
-            lines.push(word.to_owned());
-        } else {
-            let line = &mut lines[last];
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines
 }
 
 /// Words for people. Where the terminal is gone there is nobody to read them.

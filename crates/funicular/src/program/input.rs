@@ -1,12 +1,10 @@
 //! Systems from files, standard input, and the registry of cases.
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use formats::answer::{Answer, Forces};
 use funicular::{Error, Problem, Reading};
-use model::system_file::most_file_bytes;
 
 use crate::case_name::CaseName;
 use crate::diagnostics::{Diagnostic, tell};
@@ -60,11 +58,7 @@ pub struct Shape {
 impl Drawn {
     /// The system, drawn with the shape that was given, and the files that were read.
     pub fn read(&self) -> Result<Input, Failure> {
-        if self.shape.is_standard_input() && self.source.file.as_deref() == Some(Path::new("-")) {
-            return Err(Failure::bad_input(
-                "the system and its shape cannot both come from standard input",
-            ));
-        }
+        read_once([&self.source.file, &self.shape.near].into_iter().flatten())?;
         let Input { problem, mut files } = self.source.read()?;
         files.extend(self.shape.near.clone());
         let problem = match self.shape.read()? {
@@ -76,14 +70,18 @@ impl Drawn {
 }
 
 impl Shape {
-    pub fn is_standard_input(&self) -> bool {
-        self.near.as_deref() == Some(Path::new("-"))
-    }
-
     /// The shape, if one was given.
     pub fn read(&self) -> Result<Option<Answer>, Failure> {
         self.near.as_deref().map_or(Ok(None), shape)
     }
+}
+
+/// Standard input can be read once.
+pub fn read_once<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+    if files.into_iter().filter(|file| file.as_path() == Path::new("-")).count() > 1 {
+        return Err(Failure::bad_input("two files cannot both come from standard input"));
+    }
+    Ok(())
 }
 
 /// The first shape of a file.
@@ -108,7 +106,7 @@ pub fn next_to(problem: &Problem, shape: &Answer) -> Result<Problem, Error> {
 fn fitted(problem: &Problem, shape: Answer) -> Result<Vec<model::Vector>, Error> {
     // The forces of an answer are no part of the question.
     let shape = Answer { forces: Forces::None, reactions_n: None, ..shape };
-    Ok(funicular::judge::fit(&funicular::system_of(problem), shape)?.joints_m)
+    Ok(funicular::judge::fit(&problem.system(), shape)?.joints_m)
 }
 
 /// A system and where it comes from.
@@ -122,7 +120,10 @@ pub struct Input {
 /// The problem of a system file (`-` is standard input) or of a named case.
 pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
     let (problem, files) = match (file, case) {
-        (Some(file), _) if file == Path::new("-") => (standard_input()?, vec![]),
+        (Some(file), _) if file == Path::new("-") => {
+            let (text, name) = foreign_input::text(file)?;
+            (Problem::parse(&text, &name)?, vec![])
+        }
         (Some(file), _) => {
             meant_as_case(file)?;
             meant_as_table(file)?;
@@ -179,26 +180,4 @@ fn meant_as_case(file: &Path) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
-}
-
-fn standard_input() -> Result<Problem, Failure> {
-    /// Stands for the file in errors.
-    const NAME: &str = "standard input";
-    let unreadable = |error: &dyn std::fmt::Display| {
-        Failure::bad_input(format!("{NAME} cannot be read: {error}"))
-    };
-    let mut text = vec![];
-    // One byte more than is allowed shows that it is too long.
-    let most = most_file_bytes();
-    let limit = most.saturating_add(1);
-    std::io::stdin()
-        .lock()
-        .take(limit)
-        .read_to_end(&mut text)
-        .map_err(|error| unreadable(&error))?;
-    if text.len() as u64 > most {
-        return Err(unreadable(&format_args!("it is longer than {most} bytes")));
-    }
-    let text = String::from_utf8(text).map_err(|error| unreadable(&error))?;
-    Problem::parse(&text, NAME).map_err(|error: Error| error.into())
 }

@@ -1,21 +1,20 @@
 //! `funicular judge`: an answer from elsewhere against a system.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use formats::system::Source;
 use funicular::judge::{Ruling, Subject};
+use funicular::picture::Seen;
 
-use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
+use crate::input::{Source, read_once};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::solve;
 use crate::threads;
-use crate::view::View;
 
 /// The end of the help.
 const EXIT_CODES: &str = "\
@@ -30,13 +29,8 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Judge {
-    /// The system: a system file (TOML or JSON, - for standard input), lines of DXF or OBJ, an input file of
-    /// MoorDyn, MAP++ or OpenSees, COMPAS JSON, or the nodes of a net of force densities as CSV
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// Judge against a named case instead of a file
-    #[arg(long, value_name = "NAME", value_parser = CaseName, hide_possible_values = true, conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub input: Source,
     /// How FILE is written
     #[arg(long, value_enum, default_value_t = Format::Auto)]
     pub format: Format,
@@ -55,9 +49,6 @@ pub struct Judge {
     /// system, forces of the largest one. Forces printed to fewer digits count as such
     #[arg(long, value_name = "RELATIVE", default_value_t = validate::foreign::bounds::TOLERANCE)]
     pub tolerance: f64,
-    /// Judge under the loads of this load case, of the [[cases]] of the system file
-    #[arg(long, value_name = "NAME")]
-    pub load_case: Option<String>,
     /// End with exit code 1 where a bar is weaker than wanted under the forces judged, as `solve --check`
     #[arg(long)]
     pub check: bool,
@@ -69,8 +60,8 @@ pub struct Judge {
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// From where the picture of the page is seen
-    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "html")]
-    pub view: View,
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t, requires = "html")]
+    pub view: Seen,
 }
 
 /// How a system is written.
@@ -97,45 +88,12 @@ pub enum Format {
     ForceDensity,
 }
 
-impl Format {
-    /// The format of another program's file.
-    pub fn of(source: Source) -> Self {
-        match source {
-            Source::Dxf => Self::Dxf,
-            Source::Obj => Self::Obj,
-            Source::MoorDyn => Self::Moordyn,
-            Source::Map => Self::Map,
-            Source::OpenSees => Self::Opensees,
-            Source::Compas => Self::Compas,
-            _ => Self::Funicular,
-        }
-    }
-
-    /// Whose file it is.
-    pub fn source(self) -> Option<Source> {
-        match self {
-            Self::Dxf => Some(Source::Dxf),
-            Self::Obj => Some(Source::Obj),
-            Self::Moordyn => Some(Source::MoorDyn),
-            Self::Map => Some(Source::Map),
-            Self::Opensees => Some(Source::OpenSees),
-            Self::Compas => Some(Source::Compas),
-            Self::Auto | Self::Funicular | Self::ForceDensity => None,
-        }
-    }
-}
-
 /// Run the command.
 pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
-    let readers = [&arguments.file, &arguments.answer, &arguments.members, &arguments.edges];
-    if readers.into_iter().filter(|path| standard(path)).count() > 1 {
-        return Err(Failure::bad_input(
-            "the system and its answer cannot both come from standard input",
-        ));
-    }
+    let Judge { input, answer, members, edges, .. } = arguments;
+    read_once([&input.file, answer, members, edges].into_iter().flatten())?;
     let progress = Progress::start();
     progress.say("reading");
     let (subject, mut files) = foreign_input::system(arguments)?;
@@ -152,7 +110,7 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
         solve::checkable(all.iter().all(|one| one.judged.is_strong().is_some()))?;
     }
     for (page, one) in pages.iter().zip(&all) {
-        output::write_whole(page, &one.html(arguments.view.into()))?;
+        output::write_whole(page, &one.html(arguments.view))?;
     }
     drop(progress);
     if arguments.json {
@@ -172,13 +130,8 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
 /// A refutation, or what is too weak where that is checked, is worse than what is not decided.
 fn exit(all: &[Ruling], check: bool) -> Exit {
     let is_weak = |one: &Ruling| check && one.judged.is_strong() == Some(false);
-    if all.iter().any(|one| one.is_refuted() || is_weak(one)) {
-        Exit::CheckFailed
-    } else if all.iter().all(Ruling::is_confirmed) {
-        Exit::Done
-    } else {
-        Exit::Undecided
-    }
+    let failed = all.iter().any(|one| one.is_refuted() || is_weak(one));
+    Exit::of(failed, all.iter().all(Ruling::is_confirmed))
 }
 
 /// The answers that are to be judged: those of the file, or the places of a net.

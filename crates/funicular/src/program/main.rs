@@ -14,7 +14,6 @@ mod derivatives;
 mod diagnostics;
 mod exit;
 mod foreign_input;
-mod format;
 mod guide;
 mod help;
 mod in_order;
@@ -39,8 +38,6 @@ mod sweep;
 mod threads;
 mod trace;
 mod varied;
-mod view;
-mod which;
 
 use clap::CommandFactory;
 use funicular::text::{printable, tables};
@@ -77,7 +74,7 @@ fn main() -> std::process::ExitCode {
         Command::Modes(arguments) => modes::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
-        Command::Format => format::run(),
+        Command::Format => output::print(model::system_file::FORMAT).map(|()| Exit::Done),
         Command::Guide(arguments) => guide::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),

@@ -10,7 +10,7 @@ use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
-use crate::sweep::{json_object, print_json, seeds_bar, verdict, written};
+use crate::sweep::{json_object, seeds_bar, verdict, written};
 use crate::threads::Threads;
 
 /// How it ends, for its help.
@@ -60,7 +60,7 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
     };
     let manifest = ::sweep::Manifest::read(&arguments.out).map_err(Error::from)?;
     if arguments.json {
-        print_json(&json_object(&manifest, &summary, &arguments.out))?;
+        output::print_json(&json_object(&manifest, &summary, &arguments.out))?;
     } else {
         let proof = format!(
             "{} parts of {} shards: nothing is missing, nothing double, every digest as recorded.\n",

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use funicular::picture::Seen;
 use funicular::{ModesAnswer, Page};
 use model::system::System;
 
@@ -13,7 +14,6 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads::Threads;
-use crate::view::View;
 
 /// What is taken for granted of positions at rest.
 const HELP: &str = "\
@@ -42,8 +42,8 @@ pub struct Modes {
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen
-    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
-    pub view: View,
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t, requires = "svg")]
+    pub view: Seen,
     /// Which equilibrium --svg draws, as it is numbered here: `2`, or `2'`
     #[arg(long, value_name = "LABEL", default_value = "1", requires = "svg")]
     pub equilibrium: String,
@@ -75,16 +75,12 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
         modes = modes.lowest(count);
     }
     let answer = modes.run(&problem)?;
-    write_drawing(arguments, &funicular::system_of(&problem), &answer)?;
+    write_drawing(arguments, &problem.system(), &answer)?;
     if let Some(path) = &arguments.html {
         output::write_whole(path, Page::new().modes(modes).run(&problem)?.html())?;
     }
     drop(progress);
-    if arguments.printed.is_json() {
-        output::print_json(&answer)?;
-    } else {
-        output::print(&answer.to_string())?;
-    }
+    arguments.printed.print(&answer)?;
     Ok(if answer.indices_agree() { Exit::Done } else { Exit::CheckFailed })
 }
 
@@ -100,8 +96,8 @@ fn write_drawing(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Re
                 labels.join(", ")
             )));
         };
-        let svg = funicular::drawn_modes(system, found, arguments.view.into())
-            .map_err(Failure::undecided)?;
+        let svg =
+            funicular::drawn_modes(system, found, arguments.view).map_err(Failure::undecided)?;
         output::write_picture(path, &svg)?;
     }
     Ok(())

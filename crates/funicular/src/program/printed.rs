@@ -1,7 +1,13 @@
 //! How what is printed looks, as arguments.
 
+use std::fmt::Display;
+
 use clap::Args;
 use funicular::text::printed::{Format, Style, Unit, unit};
+use serde::Serialize;
+
+use crate::exit::Failure;
+use crate::output::{print, print_json};
 
 /// Options of every command that prints tables.
 #[derive(Debug, Clone, Default, Args)]
@@ -27,6 +33,11 @@ impl Printed {
     pub fn install(&self) {
         let Self { format, units, ascii, .. } = self.clone();
         Style { format, units, ascii }.install();
+    }
+
+    /// Print an answer: the object, or the text.
+    pub fn print(&self, answer: &(impl Serialize + Display)) -> Result<(), Failure> {
+        if self.is_json() { print_json(answer) } else { print(&answer.to_string()) }
     }
 
     /// Whether one object is asked for.

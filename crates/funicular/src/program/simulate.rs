@@ -195,7 +195,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     }
     let outputs = [&arguments.out, &arguments.html];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
-    let system = funicular::system_of(&problem);
+    let system = problem.system();
     let mut kept = Kept::begin(arguments, &problem, &system)?;
     let stop = interrupt.keep_what_is_done();
     let moved = simulate.run_watched(&problem, &mut |now| {

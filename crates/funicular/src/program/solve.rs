@@ -9,9 +9,9 @@ mod tolerances;
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use formats::answer::Answer;
-use funicular::picture;
+use funicular::picture::{self, Seen};
 use funicular::{Distribution, Error, Lists, Problem, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
@@ -23,8 +23,6 @@ use crate::output;
 use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads::Threads;
-use crate::view::View;
-use crate::which::Which;
 
 /// `funicular solve`.
 #[expect(clippy::struct_excessive_bools, reason = "each is an option")]
@@ -51,18 +49,18 @@ pub struct Solve {
     /// A census takes far longer than a solution. Without this option none is taken with --batch,
     /// and elsewhere auto holds; --census alone is --census=auto.
     #[arg(long, value_name = "WHEN", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
-    pub census: Option<Census>,
+    pub census: Option<UseCensus>,
     #[command(flatten)]
     pub threads: Threads,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
-    #[arg(long, value_enum, default_value_t = Which::Both)]
-    pub solver: Which,
+    #[arg(long, value_enum, default_value_t)]
+    pub solver: Solvers,
     /// Which equations lagrange solves for rigid bars in a row between two anchors; `full` refuses
     /// any other system
-    #[arg(long, alias = "system", value_enum, default_value_t = Of::Condensed)]
-    pub equations: Of,
+    #[arg(long, alias = "system", value_enum, default_value_t)]
+    pub equations: Equations,
     #[command(flatten)]
     pub printed: Printed,
     /// Leave out joints, and in JSON bars and forces of the ground too
@@ -128,41 +126,17 @@ pub struct Solve {
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// From where the picture is seen
-    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
-    pub view: View,
-}
-
-/// Which of the systems of equations `lagrange` solves.
-///
-/// They have the same solutions; a test compares them. The angles of the full one lose digits where
-/// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
-/// number of bars.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Of {
-    /// Three equations for the pull on the first anchor, whatever the number of bars
-    Condensed,
-    /// The paper's: all coordinates and all multipliers at once; for some 30 bars
-    Full,
-}
-
-/// When short chains are looked up in a census.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Census {
-    /// Not at all
-    Never,
-    /// Where it takes milliseconds: up to 8 bars
-    Auto,
-    /// Wherever there can be one: up to 16 bars, in seconds
-    Always,
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t, requires = "svg")]
+    pub view: Seen,
 }
 
 impl Solve {
     /// What is asked, with `census` where the arguments say nothing about it.
     fn question(&self, census: UseCensus) -> funicular::Solve {
         funicular::Solve::new()
-            .solvers(self.solver.into())
-            .equations(self.equations.into())
-            .census(self.census.map_or(census, UseCensus::from))
+            .solvers(self.solver)
+            .equations(self.equations)
+            .census(self.census.unwrap_or(census))
     }
 
     /// How JSON has joints and bars.
@@ -176,13 +150,7 @@ impl Solve {
 
     /// The shape next to which the equilibrium is wanted, if one was given.
     fn shape(&self) -> Result<Option<Answer>, Failure> {
-        let standard = |path: &PathBuf| path.as_path() == Path::new("-");
-        let inputs = self.files.iter().chain(&self.batch);
-        if self.shape.is_standard_input() && inputs.into_iter().any(standard) {
-            return Err(Failure::bad_input(
-                "the system and its shape cannot both come from standard input",
-            ));
-        }
+        input::read_once(self.files.iter().chain(&self.batch).chain(&self.shape.near))?;
         self.shape.read()
     }
 
@@ -303,7 +271,7 @@ fn write_files(
         output::write_stream(path, |file| answer.write_bars_csv(file))?;
     }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
-        let drawn = picture::of_system(answer.system(), first, arguments.view.into());
+        let drawn = picture::of_system(answer.system(), first, arguments.view);
         output::write_picture(path, &drawn.map_err(Failure::undecided)?)?;
     }
     Ok(())
@@ -321,34 +289,5 @@ fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
 
 /// A failed check is worse than an answer that is missing or has not converged.
 pub fn verdict(answer: &SolveAnswer) -> Exit {
-    each::exit(answer.check_failed(), answer.is_decided())
-}
-
-impl From<Of> for Equations {
-    fn from(of: Of) -> Self {
-        match of {
-            Of::Condensed => Self::Condensed,
-            Of::Full => Self::Full,
-        }
-    }
-}
-
-impl From<Census> for UseCensus {
-    fn from(census: Census) -> Self {
-        match census {
-            Census::Never => Self::Never,
-            Census::Auto => Self::Auto,
-            Census::Always => Self::Always,
-        }
-    }
-}
-
-impl From<Which> for Solvers {
-    fn from(which: Which) -> Self {
-        match which {
-            Which::Lagrange => Self::Lagrange,
-            Which::Energy => Self::Energy,
-            Which::Both => Self::Both,
-        }
-    }
+    Exit::of(answer.check_failed(), answer.is_decided())
 }

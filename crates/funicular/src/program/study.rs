@@ -136,16 +136,6 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for (path, file) in figures.iter().enumerate() {
         output::write_picture(file, &found.figure(path + 1))?;
     }
-    if arguments.printed.is_json() {
-        output::print_json(&found)?;
-    } else {
-        output::print(&found.to_string())?;
-    }
-    Ok(if found.check_failed() {
-        Exit::CheckFailed
-    } else if found.is_decided() {
-        Exit::Done
-    } else {
-        Exit::Undecided
-    })
+    arguments.printed.print(&found)?;
+    Ok(Exit::of(found.check_failed(), found.is_decided()))
 }

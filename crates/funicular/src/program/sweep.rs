@@ -1,58 +1,50 @@
 //! `funicular sweep`: millions of starts, and where each of them leads.
 
 mod arguments;
-mod tables;
 
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
-use funicular::{Error, system_of, text};
+use funicular::{Error, Summary, text};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use model::system::System;
 use serde_json::{Value, json};
 
 pub use self::arguments::Sweep;
-pub(crate) use self::arguments::{Format, count};
+pub(crate) use self::arguments::{Rows, count};
 use crate::cost::tell_time;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
-use crate::interrupt::{Interrupt, on_interrupt};
+use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
-use crate::threads;
+use crate::tables::short;
 
 /// How often the progress bar is drawn while nothing is reported.
 const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
-    let threads = arguments.threads.resolve()?;
-    threads::install(threads)?;
-    let interrupt = on_interrupt()?;
+    let rows = &arguments.rows;
+    let begun = rows.begin()?;
     let problem = arguments.input.read()?.problem;
     let progress = Progress::start();
     let sweep = funicular::Sweep::new(arguments.seeds)
-        .number(arguments.seed)
-        .spread(arguments.spread.into())
-        .solvers(arguments.solver.into())
-        .shard(arguments.shard)
+        .number(rows.seed)
+        .spread(arguments.spread)
+        .solvers(arguments.solver)
+        .shard(rows.shard)
         .angles(arguments.angles)
-        .format(arguments.format.into());
+        .format(rows.format);
     tell_time("this sweep", sweep.expected_time_s(&problem)?);
     progress.say("the list of equilibria");
     let sweep = sweep.prepare(&problem)?;
     drop(progress);
-    let folder = Folder {
-        manifest: sweep.manifest(),
-        system: system_of(&problem),
-        out: &arguments.out,
-        threads,
-        resume: arguments.resume,
-        json: arguments.json,
-    };
-    folder.run(interrupt, &|settings| sweep.write(&arguments.out, settings))
+    let (manifest, system, out) = (sweep.manifest(), problem.system(), &arguments.out);
+    let folder = Folder { manifest, system, out, rows };
+    folder.run(begun, &|settings| sweep.write(&arguments.out, settings))
 }
 
 /// A folder of rows to be written.
@@ -60,16 +52,14 @@ pub(crate) struct Folder<'a> {
     pub manifest: &'a Manifest,
     pub system: Arc<System>,
     pub out: &'a Path,
-    pub threads: usize,
-    pub resume: bool,
-    pub json: bool,
+    pub rows: &'a Rows,
 }
 
 impl Folder<'_> {
     /// Write it, with a bar, until it is done or interrupted, and say what it holds.
     pub(crate) fn run(
         &self,
-        interrupt: Interrupt,
+        (threads, interrupt): (usize, Interrupt),
         write: &dyn Fn(&RunSettings<'_>) -> Result<Run, Error>,
     ) -> Result<Exit, Failure> {
         let manifest = self.manifest;
@@ -83,7 +73,7 @@ impl Folder<'_> {
             let text = format!("{} equilibria found, ", manifest.equilibria.len() + equilibria);
             bar.set_message(text);
         };
-        let (threads, resume) = (self.threads, self.resume);
+        let resume = self.rows.resume;
         let settings = RunSettings { threads, resume, stop, done: &done, found: &found };
         let run = write(&settings);
         bar.finish_and_clear();
@@ -100,22 +90,14 @@ impl Folder<'_> {
             ));
             return Ok(Exit::Interrupted);
         };
-        if self.json {
+        if self.rows.json {
             let mut object = json_object(manifest, summary, self.out);
-            let system = &self.system;
-            object["system"] = json!({
-                "name": system.name(),
-                "joints": system.joints().len(),
-                "bars": system.members().len(),
-                "total_length_m": system.total_length_m(),
-                "total_mass_kg": system.total_mass_kg(),
-                "gravity_m_s2": system.gravity_m_s2(),
-            });
+            object["system"] = json!(Summary::new(&self.system));
             object["seeds_before"] = json!(run.seeds_before);
             object["seconds"] = json!(seconds);
-            print_json(&object)?;
+            output::print_json(&object)?;
         } else {
-            let rate = tables::rate(run.seeds - run.seeds_before, run.seeds, seconds);
+            let rate = rate(run.seeds - run.seeds_before, run.seeds, seconds);
             output::print(&(text::sweep::summary(manifest, summary) + &rate + &written(self.out)))?;
         }
         Ok(verdict(manifest, summary))
@@ -159,25 +141,34 @@ fn whole_rate(state: &ProgressState, out: &mut dyn std::fmt::Write) {
 
 /// What `--json` prints of a finished sweep.
 pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Path) -> Value {
-    json!({
+    let mut object = json!({
         "schema_version": SCHEMA_VERSION,
         "folder": out.display().to_string(),
         "seeds": { "count": summary.outcomes.seeds(), "range": manifest.range, "of": manifest.seeds },
         "equilibria": summary.equilibria(manifest).collect::<Vec<_>>(),
         "equilibria_complete": manifest.equilibria_complete,
         "equilibria_below_j": summary.listed_below_j(),
-        "solvers": tables::solvers_json(manifest, summary),
-        "comparisons": tables::comparisons_json(summary),
-        "disagreements": summary.outcomes.named_disagreements().collect::<Vec<_>>(),
         "parts": summary.parts.len(),
-    })
+    });
+    if let (Value::Object(all), Value::Object(found)) =
+        (&mut object, text::sweep::object(manifest, &summary.outcomes))
+    {
+        all.extend(found);
+    }
+    object
 }
 
-pub(crate) fn print_json(object: &Value) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(object).map_err(|error| {
-        Failure::undecided(format!("the summary cannot be written as JSON: {error}"))
-    })?;
-    output::print(&(text + "\n"))
+/// How fast it was; nothing was computed if everything was there, or if there is nothing to
+/// compute.
+fn rate(computed: u64, all: u64, seconds: f64) -> String {
+    if all == 0 {
+        return "This shard is empty: there are more shards than parts.\n".to_owned();
+    }
+    if computed == 0 {
+        return "Everything was there already.\n".to_owned();
+    }
+    let rate = computed as f64 / seconds.max(f64::MIN_POSITIVE);
+    format!("{computed} seeds in {seconds:.1} s: {} a second, written\n", short(rate.round()))
 }
 
 pub(crate) fn written(out: &Path) -> String {

@@ -180,11 +180,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if let (Some(file), Some(paths)) = (&arguments.html, found.load_paths()) {
         output::write_whole(file, &paths.page())?;
     }
-    if arguments.printed.is_json() {
-        output::print_json(&found)?;
-    } else {
-        output::print(&found.to_string())?;
-    }
+    arguments.printed.print(&found)?;
     Ok(exit)
 }
 

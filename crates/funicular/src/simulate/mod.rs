@@ -17,7 +17,6 @@ use model::budget::BYTES_PER_MEMBER;
 use model::system::System;
 use motion::{Order, Settings, Simulation, Snapshot};
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
@@ -183,7 +182,7 @@ impl Simulate {
     ) -> Result<Motion, Error> {
         let (steps, every) = self.steps()?;
         problem.fits(BYTES_PER_MEMBER)?;
-        let system = system_of(problem);
+        let system = problem.system();
         let at = self.start.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
         simulation.push(&self.impulses(&system)?)?;

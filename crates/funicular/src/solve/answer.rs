@@ -83,7 +83,7 @@ impl SolveAnswer {
     /// next bar on the one before, last that of the ground on the last bar.
     #[must_use]
     pub fn multipliers_n(&self, answer: &SystemEquilibrium) -> Option<Vec<Vector>> {
-        Some(self.system.as_row()?.chain_equilibrium(answer)?.multipliers_n)
+        Some(self.system.as_row()?.multipliers_n(answer))
     }
 
     /// Whether both solvers answered and agree, the judge finds both in balance, and no census
@@ -188,7 +188,7 @@ impl SolveAnswer {
                 let (from, end) = (name(member.from), name(member.to));
                 let along = e.axial_force(&self.system, k);
                 let force = [e.axial_n[k], along.from_n, along.to_n, along.largest_n()]
-                    .map(|force| axial.cell(force).to_string())
+                    .map(|force| axial.cell(force))
                     .join(",");
                 let (start_n, end_n) =
                     (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));

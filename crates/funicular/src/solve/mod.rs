@@ -5,7 +5,7 @@ mod object;
 
 pub use self::answer::SolveAnswer;
 pub(crate) use self::object::Named;
-pub use self::object::{Failure, Lists, SCHEMA_VERSION};
+pub use self::object::{Failure, Lists};
 
 use std::num::{NonZeroU64, NonZeroUsize};
 
@@ -14,7 +14,6 @@ use rayon::prelude::*;
 use validate::systems::ask_with;
 use validate::{Equations, Question, Solvers, UseCensus};
 
-use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::threads;
@@ -192,7 +191,7 @@ impl Solve {
         threads: NonZeroUsize,
         watch: &dyn Fn(&str),
     ) -> Result<SolveAnswer, Error> {
-        let system = system_of(problem);
+        let system = problem.system();
         system.refusal()?;
         let Self { solvers, equations, census, max_work, .. } = *self;
         let is_row = || problem.row().is_some() && system.drawing().is_none();

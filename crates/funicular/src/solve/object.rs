@@ -11,11 +11,8 @@ use serde_json::Value;
 use validate::systems::{Near, SystemAgreement, SystemFailure};
 
 use super::SolveAnswer;
-use crate::modes::Summary;
+use crate::object::head;
 use crate::weakest::Weakest;
-
-/// Version of the JSON objects; raised when a key that others rely on changes its meaning.
-pub const SCHEMA_VERSION: u32 = 3;
 
 /// How an answer has its joints and bars in JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,8 +32,7 @@ impl SolveAnswer {
     pub fn json(&self, lists: Lists) -> impl Serialize + '_ {
         let named = |equilibrium| Named { system: self.system(), equilibrium, lists };
         Object {
-            schema_version: SCHEMA_VERSION,
-            system: Summary::new(self.system()),
+            system: self.system(),
             equilibria: self.equilibria().iter().map(named).collect(),
             agreement: self.agreement(),
             failures: self.failures().iter().map(Failure::of).collect(),
@@ -55,8 +51,8 @@ impl Serialize for SolveAnswer {
 
 #[derive(Serialize)]
 struct Object<'a> {
-    schema_version: u32,
-    system: Summary,
+    #[serde(flatten, serialize_with = "head")]
+    system: &'a System,
     equilibria: Vec<Named<'a>>,
     agreement: Option<&'a SystemAgreement>,
     failures: Vec<Failure>,

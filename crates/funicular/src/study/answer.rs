@@ -10,9 +10,8 @@ use serde::Serialize;
 
 use super::figure;
 use super::shape::{NoShape, StudyShape};
-use crate::csv::quoted;
-use crate::modes::Summary;
-use crate::solve::SCHEMA_VERSION;
+use crate::csv::{exact, or_empty, quoted};
+use crate::object::{either, head, names};
 
 /// The columns of every study between its parameters and its supports.
 const COLUMNS: [&str; 12] = [
@@ -40,17 +39,6 @@ pub struct StudyPoint {
     /// The hanging shape, or why there is none.
     #[serde(flatten, serialize_with = "either")]
     pub shape: Result<StudyShape, NoShape>,
-}
-
-/// One of the two, its keys in place.
-fn either<S: serde::Serializer>(
-    shape: &Result<StudyShape, NoShape>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    match shape {
-        Ok(shape) => shape.serialize(serializer),
-        Err(none) => none.serialize(serializer),
-    }
 }
 
 /// The hanging shape at every point.
@@ -171,80 +159,45 @@ impl StudyAnswer {
     ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
-        write!(to, "path")?;
-        for parameter in &self.parameters {
-            write!(to, ",{}", quoted(parameter))?;
-        }
-        let mut columns: Vec<String> = COLUMNS.iter().map(ToString::to_string).collect();
-        if self.spans {
-            columns.insert(0, "span_m".to_owned());
-        }
-        for support in self.supports() {
-            columns.extend(["x", "y", "z"].map(|axis| format!("{support}_{axis}_n")));
-        }
         let bars = self.bars();
+        let mut columns = vec!["path".to_owned()];
+        columns.extend(self.parameters.iter().map(quoted));
+        columns.extend(self.spans.then(|| "span_m".to_owned()));
+        columns.extend(COLUMNS.map(str::to_owned));
+        let forces = |support| ["x", "y", "z"].map(|axis| quoted(format!("{support}_{axis}_n")));
+        columns.extend(self.supports().into_iter().flat_map(forces));
         columns.extend((1..=bars).map(|bar| format!("rise_{bar}_deg")));
-        columns.extend(self.of.iter().map(|(name, _)| name.clone()));
-        for column in &columns {
-            write!(to, ",{}", quoted(column))?;
-        }
-        writeln!(to, ",refused")?;
+        columns.extend(self.of.iter().map(|(name, _)| quoted(name)));
+        writeln!(to, "{},refused", columns.join(","))?;
         for point in &self.points {
-            write!(to, "{}", point.path)?;
-            for value in &point.values {
-                write!(to, ",{value:?}")?;
-            }
-            match &point.shape {
-                Ok(shape) => self.write_shape(shape, bars, &mut to)?,
-                Err(none) => {
-                    write!(to, "{}", ",".repeat(columns.len()))?;
-                    writeln!(to, ",{}", quoted(&none.reason))?;
-                }
-            }
+            let mut cells = vec![point.path.to_string()];
+            cells.extend(point.values.iter().map(exact));
+            let shape = point.shape.as_ref();
+            cells.extend(shape.map_or_else(|_| vec![], |shape| self.cells(shape, bars)));
+            cells.resize(columns.len(), String::new());
+            cells.push(shape.err().map_or_else(String::new, |none| quoted(&none.reason)));
+            writeln!(to, "{}", cells.join(","))?;
         }
         Ok(())
     }
 
     /// The cells of a line after the values of the parameters.
-    fn write_shape(&self, shape: &StudyShape, bars: usize, to: &mut impl Write) -> io::Result<()> {
+    fn cells(&self, shape: &StudyShape, bars: usize) -> Vec<String> {
         let StudyShape { agrees, energy_j, extremes, lowest_joint, .. } = shape;
-        if self.spans {
-            write!(to, ",")?;
-            if let Some(span_m) = shape.span_m {
-                write!(to, "{span_m:?}")?;
-            }
-        }
+        let mut cells = vec![];
+        cells.extend(self.spans.then(|| or_empty(shape.span_m)));
         let rung = shape.rung.map_or_else(String::new, |rung| rung.to_string());
-        write!(to, ",{agrees},{rung},{energy_j:?},")?;
-        if let Some(sag_m) = extremes.sag_m {
-            write!(to, "{sag_m:?}")?;
-        }
-        write!(to, ",{}", quoted(lowest_joint))?;
-        for x in extremes.lowest_m {
-            write!(to, ",{x:?}")?;
-        }
+        cells.extend([agrees.to_string(), rung, exact(energy_j), or_empty(extremes.sag_m)]);
+        cells.push(quoted(lowest_joint));
+        cells.extend(extremes.lowest_m.iter().map(exact));
         for largest in [extremes.tension_n, extremes.compression_n] {
-            match largest {
-                Some((bar, force_n)) => write!(to, ",{force_n:?},{}", bar + 1)?,
-                None => write!(to, ",,")?,
-            }
+            let (bar, force_n) = largest.unzip();
+            cells.extend([or_empty(force_n), or_empty(bar.map(|bar| bar + 1))]);
         }
-        for force in shape.reactions_n.as_flattened() {
-            write!(to, ",{force:?}")?;
-        }
-        for bar in 0..bars {
-            match shape.rises_deg.get(bar) {
-                Some(rise) => write!(to, ",{rise:?}")?,
-                None => write!(to, ",")?,
-            }
-        }
-        for value in &shape.of {
-            match value {
-                Some(value) => write!(to, ",{value:?}")?,
-                None => write!(to, ",")?,
-            }
-        }
-        writeln!(to, ",")
+        cells.extend(shape.reactions_n.as_flattened().iter().map(exact));
+        cells.extend((0..bars).map(|bar| or_empty(shape.rises_deg.get(bar))));
+        cells.extend(shape.of.iter().map(|value| or_empty(*value)));
+        cells
     }
 
     /// Sag, forces and angles over the last parameter as SVG, for one path, from 1.
@@ -266,17 +219,15 @@ impl Serialize for StudyAnswer {
         }
         #[derive(Serialize)]
         struct Object<'a> {
-            schema_version: u32,
-            system: Summary,
+            #[serde(flatten, serialize_with = "head")]
+            system: &'a System,
             parameters: &'a [String],
             units: &'a [&'static str],
-            #[serde(skip_serializing_if = "Vec::is_empty")]
-            of: Vec<&'a str>,
+            #[serde(skip_serializing_if = "<[_]>::is_empty", serialize_with = "names")]
+            of: &'a [(String, &'static str)],
             points: Vec<Point<'a>>,
         }
         let Self { system, parameters, units, of, points, .. } = self;
-        let of = of.iter().map(|(name, _)| name.as_str()).collect();
-        let system = Summary::new(system);
         let supports = self.supports();
         let reactions = |shape: &StudyShape| {
             supports.iter().map(|name| &**name).zip(shape.reactions_n.clone()).collect()
@@ -285,8 +236,6 @@ impl Serialize for StudyAnswer {
             let shape = point.shape.as_ref().ok();
             Point { at: point, reactions_n: shape.map(reactions) }
         });
-        let points = points.collect();
-        Object { schema_version: SCHEMA_VERSION, system, parameters, units, of, points }
-            .serialize(serializer)
+        Object { system, parameters, units, of, points: points.collect() }.serialize(serializer)
     }
 }

@@ -172,11 +172,7 @@ fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
 fn in_a_line(answers: &[(&SolverName, &Evidence)]) -> String {
     let highest = |(_, evidence): &&(&SolverName, &Evidence)| evidence.rung();
     let Some((_, best)) = answers.iter().max_by_key(highest) else { return String::new() };
-    let marks = best.ladder.statements().map(|s| {
-        let mark = if s.reached { '+' } else { '-' };
-        format!("{mark} {}", s.rung)
-    });
-    let marks: Vec<String> = marks.into_iter().collect();
+    let marks = best.ladder.statements().map(|s| format!("{} {}", mark(s.reached), s.rung));
     let mut text = wrapped(&format!("Evidence: {} (--evidence)", marks.join(" ")), 2) + "\n";
     for statement in best.ladder.statements() {
         let checked = matches!(statement.rung, Rung::Converged | Rung::Agreed);
@@ -189,8 +185,13 @@ fn in_a_line(answers: &[(&SolverName, &Evidence)]) -> String {
 }
 
 /// A line of the ladder.
-fn line(mark: char, of: &str, what: &str) -> String {
+pub(super) fn line(mark: char, of: &str, what: &str) -> String {
     wrapped(&format!("  {mark} {of:<10} {what}"), LADDER_INDENT) + "\n"
+}
+
+/// Whether a rung is reached.
+pub(super) fn mark(reached: bool) -> char {
+    if reached { '+' } else { '-' }
 }
 
 /// How far each equilibrium is proved, rung by rung; once where the evidence for all is the same.
@@ -205,9 +206,7 @@ fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
         format!("Evidence for the answer of {}: {}\n", names.join(" and "), rungs.join(" and "));
     let rows = |evidence: &Evidence| {
         let statements = evidence.ladder.statements();
-        let marked = statements
-            .into_iter()
-            .map(|s| (if s.reached { '+' } else { '-' }, s.rung.to_string(), s.how));
+        let marked = statements.into_iter().map(|s| (mark(s.reached), s.rung.to_string(), s.how));
         let notes = notes(evidence).into_iter().map(|(mark, of, what)| (mark, of.to_owned(), what));
         marked.chain(notes).collect::<Vec<_>>()
     };

@@ -54,7 +54,7 @@ fn text(answer: &CensusAnswer) -> String {
     fitted(&text)
 }
 
-pub(super) fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
+pub(crate) fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
     if number == 1 { one } else { many }
 }
 

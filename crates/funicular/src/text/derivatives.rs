@@ -6,6 +6,7 @@ use model::Vector;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, table};
+use crate::csv::Numbers;
 use crate::derivatives::{AnchorStiffness, NumberGradient, ParameterChange};
 
 /// Of a gradient the largest are printed; of more anchors each alone.
@@ -26,9 +27,10 @@ pub fn stiffness(pairs: &[AnchorStiffness]) -> String {
             Printable(&pair.of),
             Printable(&pair.by)
         );
+        let numbers = Numbers::of(pair.stiffness_n_m.as_flattened());
         let mut rows = table(["", "by x", "by y", "by z"]);
         for (axis, row) in ["Fx", "Fy", "Fz"].into_iter().zip(pair.stiffness_n_m) {
-            let cells = row.map(|x| rounded(x, largest(pair)));
+            let cells = row.map(|x| numbers.short(x));
             rows.add_row([axis.to_owned()].into_iter().chain(cells));
         }
         numbers_from(&mut rows, 1);
@@ -38,16 +40,6 @@ pub fn stiffness(pairs: &[AnchorStiffness]) -> String {
         let _ = writeln!(text, "\n({own} anchors; --json has the matrices of all pairs)");
     }
     text
-}
-
-fn largest(pair: &AnchorStiffness) -> f64 {
-    pair.stiffness_n_m.as_flattened().iter().fold(0.0, |most, x| most.max(x.abs()))
-}
-
-/// A number for reading; what is a rounding of zero beside the largest is 0.
-fn rounded(x: f64, largest: f64) -> String {
-    const ROUNDING: f64 = 1e-12;
-    short(if x.abs() <= ROUNDING * largest { 0.0 } else { x })
 }
 
 /// As `funicular derivatives --of` prints it.
@@ -65,7 +57,7 @@ fn gradient(found: &NumberGradient) -> String {
     for one in order.iter().take(PRINTED) {
         // What is a zero depends on the unit.
         let alike = found.derivatives.iter().filter(|other| other.unit == one.unit);
-        let value = rounded(one.value, alike.fold(0.0, |most, other| other.value.abs().max(most)));
+        let value = Numbers::of(alike.map(|other| &other.value)).short(one.value);
         rows.add_row([Printable(&one.parameter).to_string(), value, one.unit.clone()]);
     }
     numbers_from(&mut rows, 1);
@@ -89,9 +81,9 @@ fn change(found: &ParameterChange) -> String {
     vectors(&mut text, ["joint", "x / m", "y / m", "z / m"], &found.joints_m);
     vectors(&mut text, ["support", "Fx / N", "Fy / N", "Fz / N"], &found.reactions_n);
     let mut rows = table(["bar", "axial / N"]);
-    let most = found.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+    let numbers = Numbers::of(&found.axial_n);
     for (k, force) in found.axial_n.iter().enumerate().take(PRINTED) {
-        rows.add_row([(k + 1).to_string(), rounded(*force, most)]);
+        rows.add_row([(k + 1).to_string(), numbers.short(*force)]);
     }
     numbers_from(&mut rows, 1);
     let _ = writeln!(text, "{rows}");
@@ -101,10 +93,9 @@ fn change(found: &ParameterChange) -> String {
 
 fn vectors(text: &mut String, head: [&str; 4], list: &[(String, Vector)]) {
     let mut rows = table(head);
-    let all = list.iter().flat_map(|(_, v)| v);
-    let most = all.fold(0.0, |most: f64, x| most.max(x.abs()));
+    let numbers = Numbers::of(list.iter().flat_map(|(_, v)| v));
     for (name, v) in list.iter().take(PRINTED) {
-        let cells = v.map(|x| rounded(x, most));
+        let cells = v.map(|x| numbers.short(x));
         rows.add_row([Printable(name).to_string()].into_iter().chain(cells));
     }
     numbers_from(&mut rows, 1);

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
+use super::answer::{line, mark};
 use super::printable::Printable;
 use super::tables::{table, wrapped};
 use crate::judge::{Judged, Ruling};
@@ -54,10 +55,8 @@ fn text(judged: &Judged, finding: &str, notes: &[String]) -> String {
     }
     text += "\nEvidence for the answer:\n";
     for statement in judgement.ladder.statements() {
-        let mark = if statement.reached { "+" } else { "-" };
-        let line = format!("  {mark} {:<10} {}", statement.rung.to_string(), statement.how);
-        text += &wrapped(&Printable(&line).to_string(), 15);
-        text.push('\n');
+        let how = Printable(&statement.how).to_string();
+        text += &line(mark(statement.reached), &statement.rung.to_string(), &how);
     }
     for note in notes {
         text += &paragraph(&format!("Note: {}.", Printable(note)));

@@ -6,9 +6,7 @@ use branches::load::MOST_PATHS;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, significant, table, wrapped};
-use crate::trace::load::{
-    BranchesFrom, LoadEnd, LoadEvent, LoadEventKind, LoadPath, LoadPaths, LoadPoint,
-};
+use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
 
 /// Points of a path printed one by one besides its events; of more, as many spread over the path.
@@ -135,9 +133,9 @@ pub(crate) fn happens(event: &LoadEvent) -> String {
         format!("bar{} {}", if names.len() > 1 { "s" } else { "" }, listed(&names))
     };
     match event.kind {
-        LoadEventKind::LimitPoint => "limit point".to_owned(),
-        LoadEventKind::BranchPoint => "branch point".to_owned(),
-        LoadEventKind::Kink => {
+        Kind::Limit => "limit point".to_owned(),
+        Kind::Branch => "branch point".to_owned(),
+        Kind::Kink => {
             let mut all = vec![];
             if !event.slack.is_empty() {
                 all.push(format!("{} slack", bars(&event.slack)));
@@ -171,12 +169,12 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
     };
     let at = valued(&names[last], event.values[last], units[last]);
     let by = match event.kind {
-        LoadEventKind::LimitPoint => "a limit point".to_owned(),
-        LoadEventKind::BranchPoint => match event.index[1] {
+        Kind::Limit => "a limit point".to_owned(),
+        Kind::Branch => match event.index[1] {
             1 => "a branch point".to_owned(),
             modes => format!("a branch point with {modes} modes at once"),
         },
-        LoadEventKind::Kink => happens(event),
+        Kind::Kink => happens(event),
     };
     let mode = mode(found, event);
     // The sentence about the path says so where that comes to this point.
@@ -200,9 +198,7 @@ fn proved(found: &LoadPaths, path: &LoadPath) -> String {
         let [low, high] = outwards(*low, *high).map(|value| with_unit(value, units[last]));
         let name = Printable(&names[last]);
         let does = match first {
-            LoadEventKind::BranchPoint => {
-                "comes to its first branch point, where a symmetry breaks,"
-            }
+            Kind::Branch => "comes to its first branch point, where a symmetry breaks,",
             _ => "reaches its first limit point",
         };
         return format!(
@@ -255,7 +251,7 @@ fn everywhere(count: usize) -> String {
 
 /// What changes the first limit most: the bar, by its length, and the support, by its place.
 fn imperfections(found: &LoadPaths, path: &LoadPath) -> Option<String> {
-    let limit = path.first_loss().filter(|event| event.kind == LoadEventKind::LimitPoint)?;
+    let limit = path.first_loss().filter(|event| event.kind == Kind::Limit)?;
     let largest = |sizes: &[f64]| {
         let most = sizes.iter().map(|size| size.abs()).fold(0.0, f64::max);
         // The first of those that differ by rounding.

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::printable::Printable;
-use super::settled::{cells, severe, used};
+use super::settled::{cells, head, severe, used};
 use super::shape::{PRINTED, percent};
 use super::tables::{counted, numbers_from, short, table, wrapped};
 use crate::load_cases::{BarEnvelope, Governing, LoadCasesAnswer};
@@ -15,10 +15,7 @@ impl fmt::Display for LoadCasesAnswer {
         let strong = system.has_strengths();
         let counted = counted(cases.len(), "load case");
         writeln!(f, "{}", wrapped(&format!("{}: {counted}", Printable(system.name())), 0))?;
-        let mut head = vec!["case", "moves / m", "tension / N", "bar"];
-        head.extend(strong.then_some(["used", "bar"]).into_iter().flatten());
-        head.push("evidence");
-        let mut rows = table(head);
+        let mut rows = table(head(&["case"], strong));
         for case in cases {
             let mut row = vec![Printable(&case.name).to_string()];
             row.extend(cells(&case.settled, strong));
@@ -84,7 +81,7 @@ impl LoadCasesAnswer {
 }
 
 /// All, or of many those with the largest numbers.
-fn most<T>(all: &[T], number: impl Fn(&T) -> f64) -> Vec<&T> {
+pub(super) fn most<T>(all: &[T], number: impl Fn(&T) -> f64) -> Vec<&T> {
     let mut shown: Vec<&T> = all.iter().collect();
     if all.len() > PRINTED {
         shown.sort_by(|a, b| number(b).total_cmp(&number(a)));

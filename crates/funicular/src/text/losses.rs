@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::load_cases::most;
 use super::printable::Printable;
-use super::settled::{cells, severe, used};
+use super::settled::{cells, head, severe, used};
 use super::shape::PRINTED;
 use super::tables::{Table, counted, numbers_from, table, wrapped};
 use crate::losses::{Loss, LossesAnswer};
@@ -16,11 +17,7 @@ impl fmt::Display for LossesAnswer {
         let members = counted(all.len(), "member");
         let title = format!("{}: the loss of each of {members} in turn", Printable(system.name()));
         // Of many the worst.
-        let mut shown: Vec<&Loss> = all.iter().collect();
-        if all.len() > PRINTED {
-            shown.sort_by(|a, b| severity(b).total_cmp(&severity(a)));
-            shown.truncate(PRINTED);
-        }
+        let shown = most(all, severity);
         writeln!(f, "{}\n{}", wrapped(&title, 0), self.rows(&shown))?;
         if all.len() > PRINTED {
             writeln!(f, "(the worst {PRINTED} of {}; --json has all)", all.len())?;
@@ -68,10 +65,7 @@ impl LossesAnswer {
 
     fn rows(&self, shown: &[&Loss]) -> Table {
         let strong = self.system().has_strengths();
-        let mut head = vec!["lost", "from", "to", "moves / m", "tension / N", "bar"];
-        head.extend(strong.then_some(["used", "bar"]).into_iter().flatten());
-        head.push("evidence");
-        let mut rows = table(head);
+        let mut rows = table(head(&["lost", "from", "to"], strong));
         for loss in shown {
             let [from, to] = self.ends(loss.bar);
             let mut row = vec![(loss.bar + 1).to_string(), from, to];

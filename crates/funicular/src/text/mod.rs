@@ -4,7 +4,7 @@
 mod answer;
 #[cfg(feature = "sweep")]
 mod basins;
-mod census;
+pub(crate) mod census;
 mod census_chain;
 #[cfg(feature = "branches")]
 pub mod derivatives;

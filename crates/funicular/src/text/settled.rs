@@ -5,6 +5,12 @@ use super::tables::short;
 use crate::settled::{Outcome, Settled, Unsettled};
 use crate::weakest::Weakest;
 
+/// The head of a table of changed systems: these columns, and those of [`cells`].
+pub fn head(names: &[&'static str], strong: bool) -> Vec<&'static str> {
+    let used: &[_] = if strong { &["used", "bar"] } else { &[] };
+    [names, &["moves / m", "tension / N", "bar"], used, &["evidence"]].concat()
+}
+
 /// The cells `moves / m`, `tension / N`, `bar`, where members have strengths `used` and `bar`, and
 /// `evidence`.
 pub fn cells(found: &Result<Settled, Unsettled>, strong: bool) -> Vec<String> {

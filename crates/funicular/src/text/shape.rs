@@ -6,6 +6,7 @@ use model::{AxialForce, ForceRange, Vector};
 
 use super::printed::{numbers, quantity};
 use super::tables::{Table, numbers_from, short, table, wrapped};
+use crate::csv::Numbers;
 use crate::extremes::Extremes;
 use crate::sag::Sag;
 use crate::weakest::Weakest;
@@ -18,12 +19,8 @@ pub const PRINTED: usize = 40;
 /// long system.
 const EXTREMES: usize = 5;
 
-/// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
-/// to less.
-const ROUNDING: f64 = 1e-12;
-
 /// What balance and signs leave open of a force.
-fn open(range: ForceRange, rounded: &Rounded) -> String {
+fn open(range: ForceRange, rounded: Numbers) -> String {
     let number = |n: f64| rounded.short(n);
     match range {
         ForceRange::Unique => "only this".to_owned(),
@@ -83,7 +80,7 @@ impl Shape<'_> {
 
     fn joints(&self) -> String {
         let mut table = table(["joint", "x / m", "y / m", "z / m"]);
-        let places = Rounded::of(self.joints_m.as_flattened());
+        let places = Numbers::of(self.joints_m.as_flattened());
         for (k, at_m) in self.joints_m.iter().enumerate() {
             let mut row = vec![(self.name)(k)];
             row.extend(at_m.map(|x| places.short(x)));
@@ -131,7 +128,7 @@ impl Shape<'_> {
             row.extend(self.weakest.map(|_| (self.used)(bar).map_or_else(String::new, percent)));
             let straight = rises && via.is_empty();
             row.extend(rises.then(|| if straight { self.rise([from, to]) } else { String::new() }));
-            row.extend(self.ranges.map(|ranges| open(ranges[bar], &axial)));
+            row.extend(self.ranges.map(|ranges| open(ranges[bar], axial)));
             table.add_row(row);
         }
         numbers_from(&mut table, 3);
@@ -183,9 +180,8 @@ impl Shape<'_> {
         let mut table = table(["joint", "Fx / N", "Fy / N", "Fz / N", "size / N"]);
         let all: Vec<Vector> = self.reactions_n.iter().map(|(_, force)| *force).collect();
         // A support that bears nothing has the rounding of the bars' forces.
-        let forces = Rounded {
-            rounding: self.rounded().rounding.max(Rounded::of(all.as_flattened()).rounding),
-        };
+        let axial: Vec<f64> = self.axial.iter().map(AxialForce::largest_n).collect();
+        let forces = Numbers::of(all.as_flattened().iter().chain(&axial));
         let mut shown: Vec<_> = self.reactions_n.iter().collect();
         let hidden = shown.len() > PRINTED;
         if hidden {
@@ -204,15 +200,15 @@ impl Shape<'_> {
     }
 
     /// What counts as zero beside the axial forces.
-    fn rounded(&self) -> Rounded {
+    fn rounded(&self) -> Numbers {
         let forces: Vec<f64> = self.axial.iter().map(AxialForce::largest_n).collect();
-        Rounded::of(&forces)
+        Numbers::of(&forces)
     }
 
     /// Sag, lowest joint, largest forces and where.
     pub fn summary(&self) -> String {
         let Some(extremes) = &self.extremes else { return String::new() };
-        let places = Rounded::of(self.joints_m.as_flattened());
+        let places = Numbers::of(self.joints_m.as_flattened());
         let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", short);
         let mut text = format!("Lowest joint: {}, at {at}.\n", (self.name)(extremes.lowest_joint));
         // Writing to a String cannot fail.
@@ -280,24 +276,4 @@ fn titled(title: &str, table: &Table) -> String {
 
 fn size(force: Vector) -> f64 {
     force[0].hypot(force[1]).hypot(force[2])
-}
-
-/// Numbers of one kind, the rounding of their zeros left out.
-pub struct Rounded {
-    rounding: f64,
-}
-
-impl Rounded {
-    pub fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
-        let largest = numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        Self { rounding: ROUNDING * largest }
-    }
-
-    pub fn number(&self, x: f64) -> f64 {
-        if x.abs() <= self.rounding { 0.0 } else { x }
-    }
-
-    pub fn short(&self, x: f64) -> String {
-        short(self.number(x))
-    }
 }

@@ -3,12 +3,13 @@
 use std::fmt::{self, Write as _};
 
 use ::sweep::{
-    Comparison, Discovered, Failure, Manifest, Member, SCHEMA_VERSION, SolverTally, StoreSummary,
-    rate_interval,
+    Comparison, Discovered, Failure, Manifest, Member, OutcomeTally, SCHEMA_VERSION, SolverTally,
+    StoreSummary, Summary, rate_interval,
 };
+use serde_json::{Value, json};
 
 use super::printable::Printable;
-use super::tables::{Table, numbers_from, short, significant, table, wrapped};
+use super::tables::{Table, numbers_from, short, significant, table, word, wrapped};
 use crate::sweep::SweepAnswer;
 
 /// As `funicular sweep` prints it.
@@ -148,6 +149,34 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
         || format!("equilibrium {}", i32::from(code) + 1),
         |(_, words)| (*words).to_owned(),
     )
+}
+
+/// Outcomes by solver, with rates and intervals; seeds by comparison, if both solvers were asked; and contradictions.
+#[must_use]
+pub fn object(manifest: &Manifest, summary: &Summary) -> Value {
+    let all = summary.seeds();
+    let row = |(code, row): (&i16, &OutcomeTally)| {
+        let (low, high) = rate_interval(row.count, all);
+        json!({
+            "outcome": code,
+            "meaning": outcome(manifest, *code),
+            "count": row.count,
+            "rate": row.count as f64 / all.max(1) as f64,
+            "rate_95": [low, high],
+            "iterations": { "median": row.median_iterations(), "max": row.max_iterations() },
+        })
+    };
+    let tally = summary.tally();
+    let solvers = tally.solvers.iter().map(|(name, solver)| {
+        (name.clone(), Value::from(solver.0.iter().map(row).collect::<Vec<_>>()))
+    });
+    let comparisons = summary.comparisons().filter(|_| tally.both.is_some());
+    let comparisons = comparisons.map(|(comparison, count)| (word(&comparison), count.into()));
+    json!({
+        "solvers": Value::Object(solvers.collect()),
+        "comparisons": Value::Object(comparisons.collect()),
+        "disagreements": summary.named_disagreements().collect::<Vec<_>>(),
+    })
 }
 
 fn percent(count: u64, all: u64) -> f64 {

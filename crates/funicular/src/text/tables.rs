@@ -7,6 +7,7 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle
 use model::{Evidence, Vector};
 
 use super::printed::{self, Format, head, scaled};
+use crate::csv::quoted;
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
@@ -86,7 +87,7 @@ impl fmt::Display for Table {
             Format::Text | Format::Json => return self.inner.fmt(f),
             Format::Markdown => markdown(&self.rows()),
             Format::Latex => latex(&self.rows()),
-            Format::Csv => self.rows().iter().map(|row| joined(row, ",", quoted)).collect(),
+            Format::Csv => self.rows().iter().map(|row| joined(row, ",", cell)).collect(),
         };
         let lines: Vec<String> = lines.iter().map(|line| format!("{PASTED}{line}")).collect();
         f.write_str(&lines.join("\n"))
@@ -145,10 +146,8 @@ fn escaped(text: &str) -> String {
 }
 
 /// A cell of CSV; one that a spreadsheet would compute is kept from that.
-fn quoted(text: &str) -> String {
-    let formula = text.starts_with(['=', '+', '@', '-']) && text.parse::<f64>().is_err();
-    let text = if formula { format!("'{text}") } else { text.to_owned() };
-    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+fn cell(text: &str) -> String {
+    if text.parse::<f64>().is_ok() { text.to_owned() } else { quoted(text) }
 }
 
 /// What is printed, ready for the format that is asked for: where tables are pasted as LaTeX or CSV the lines between
@@ -259,7 +258,7 @@ pub(super) fn fitted(text: &str) -> String {
 }
 
 /// A number of things, in words: `1 member`, `2 members`.
-pub(super) fn counted(number: usize, thing: &str) -> String {
+pub(crate) fn counted(number: usize, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 

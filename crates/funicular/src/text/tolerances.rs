@@ -5,8 +5,9 @@ use std::fmt;
 use census::network::{Range, ToleranceRanges};
 
 use super::printable::Printable;
-use super::shape::{PRINTED, Rounded, percent};
+use super::shape::{PRINTED, percent};
 use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
+use crate::csv::Numbers;
 use crate::draws::{Distribution, Draws};
 use crate::tolerances::TolerancesAnswer;
 
@@ -58,7 +59,7 @@ impl TolerancesAnswer {
             writeln!(f, "\n{}", wrapped(&line, 0))?;
         }
         // What is held where it is known to be has the rounding of its place.
-        let rounded = Rounded::of(ranges.joints_m.iter().flatten().flat_map(|at| &at.guaranteed));
+        let rounded = Numbers::of(ranges.joints_m.iter().flatten().flat_map(|at| &at.guaranteed));
         let is_open = |range: &Range| rounded.number(width(range)) > 0.0;
         let places = ranges.joints_m.iter().enumerate();
         let places = places.filter(|(_, at)| at.iter().any(is_open));
@@ -132,7 +133,7 @@ impl TolerancesAnswer {
         let all: Vec<_> = all.collect();
         let widths: Vec<f64> =
             all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();
-        let rounded = Rounded::of(all.iter().flat_map(|(_, of)| *of).flat_map(|r| &r.guaranteed));
+        let rounded = Numbers::of(all.iter().flat_map(|(_, of)| *of).flat_map(|r| &r.guaranteed));
         for k in widest(&widths) {
             let (joint, of) = all[k];
             let name = Printable(&self.answer().system().joints()[joint].name).to_string();

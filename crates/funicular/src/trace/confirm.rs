@@ -8,7 +8,7 @@ use serde::Serialize;
 use validate::Tolerances;
 use validate::systems::judge;
 
-use super::load::{LoadEvent, LoadEventKind};
+use super::load::{Kind, LoadEvent};
 
 /// Stable points that are minimised from, spread over the path.
 const MINIMISED: usize = 8;
@@ -21,7 +21,7 @@ const SAME: f64 = 1e-7;
 const FLAT: f64 = 1e-6;
 
 /// Points that were looked at, and those of them that `energy` and the judge confirm.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Confirmed {
     /// Points at which the gradient of the energy was taken: all, events too.
     pub points: usize,
@@ -74,16 +74,7 @@ pub(super) fn confirm(
     points: &[Point<'_>],
     events: &[LoadEvent],
 ) -> Confirmed {
-    let mut found = Confirmed {
-        points: 0,
-        critical: 0,
-        same_index: 0,
-        minimised: 0,
-        minima: 0,
-        singular: 0,
-        flat: 0,
-        statics: 0.0,
-    };
+    let mut found = Confirmed::default();
     let minimised = minimised(variation.base(), points);
     let look = |(point, minimised): (&Point<'_>, &bool)| {
         let (values, equilibrium, ..) = point;
@@ -111,7 +102,7 @@ pub(super) fn confirm(
         // Where a curvature is none its sign is rounding.
         let flat = critical.curvature.is_some_and(|curvature| curvature.abs() <= FLAT);
         found.same_index += usize::from(*event || flat || critical.index == *index);
-        let smooth = |event: &&LoadEvent| event.kind != LoadEventKind::Kink;
+        let smooth = |event: &&LoadEvent| event.kind != Kind::Kink;
         let singular = events.iter().filter(smooth).any(|event| event.point == number);
         if singular && critical.curvature.is_some() {
             found.singular += 1;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::confirm::confirm;
 use super::enclosed::{PathProved, enclosed, proved};
 use super::equations::{Family, Kept};
-use super::load::{LoadEnd, LoadError, LoadEvent, LoadEventKind, LoadPath, LoadPoint};
+use super::load::{LoadEnd, LoadError, LoadEvent, LoadPath, LoadPoint};
 use crate::observable::Observable;
 
 /// Most joints and bars together of a system of which all limit and branch points are proved, each in some
@@ -86,7 +86,7 @@ pub(super) fn described(
     );
     for ((event, of), enclosed) in events.iter_mut().zip(&found.events).zip(enclosed) {
         event.enclosed = enclosed;
-        if event.kind == LoadEventKind::LimitPoint {
+        if event.kind == Kind::Limit {
             let record = &found.points[event.point].record;
             (event.by_length, event.by_place) = family.imperfections(record, of)?;
         }
@@ -124,7 +124,7 @@ fn what_is_proved(
     let proved = proved(variation, ends, found.points.first().map(|point| &point.record));
     let small = system.joints().len() + system.members().len() <= PROVED_ALL;
     let loss = events.iter().position(LoadEvent::is_loss);
-    let first = events.iter().position(|event| event.kind != LoadEventKind::Kink);
+    let first = events.iter().position(|event| event.kind != Kind::Kink);
     let between = |(number, event): (usize, &LoadEvent)| match proved.between {
         // What the proof of the path says of its first point is not proved again.
         Some(between) if first == Some(number) && proved.is_of(event) => Some(between),
@@ -156,11 +156,7 @@ fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) ->
     };
     let places = event.mode.get(..3 * system.joints().len()).unwrap_or_default();
     LoadEvent {
-        kind: match event.kind {
-            Kind::Limit => LoadEventKind::LimitPoint,
-            Kind::Branch => LoadEventKind::BranchPoint,
-            Kind::Kink => LoadEventKind::Kink,
-        },
+        kind: event.kind,
         values: family.values(event.t),
         point: event.point,
         index: event.index,

@@ -8,19 +8,19 @@ use model::system::{Joint, Member, System};
 use serde::Serialize;
 
 use super::equations::Kept;
-use super::load::{LoadEvent, LoadEventKind};
+use super::load::{Kind, LoadEvent};
 
 /// What is proved of a load path from its start on. The path is the one through the shape at the start, as
 /// far as its parameter grows (or falls) all along; of other equilibria nothing is said but that they do not
 /// meet it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct PathProved {
     /// Up to this value of the last parameter the path is regular: no other equilibrium meets it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
     /// What ends it: a limit point, or a branch point of a mode that breaks a symmetry.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub first: Option<LoadEventKind>,
+    pub first: Option<Kind>,
     /// Values of the last parameter between which that point lies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between: Option<[f64; 2]>,
@@ -46,7 +46,7 @@ impl PathProved {
     }
 
     fn nothing(because: impl Into<String>) -> Self {
-        Self { to: None, first: None, between: None, boxes: 0, because: Some(because.into()) }
+        Self { because: Some(because.into()), ..Self::default() }
     }
 }
 
@@ -76,8 +76,8 @@ pub(super) fn proved(
         Ok(PathProof { to, first, tubes, stopped }) => PathProved {
             to: Some(to),
             first: first.map(|(kind, _)| match kind {
-                SingularKind::Limit => LoadEventKind::LimitPoint,
-                SingularKind::Branch => LoadEventKind::BranchPoint,
+                SingularKind::Limit => Kind::Limit,
+                SingularKind::Branch => Kind::Branch,
             }),
             between: first.map(|(_, value)| [value.lo(), value.hi()]),
             boxes: tubes,
@@ -92,12 +92,12 @@ pub(super) fn enclosed(
     variation: &Variation,
     [from, to]: [&[f64]; 2],
     at: &Kept,
-    kind: LoadEventKind,
+    kind: Kind,
 ) -> Option<[f64; 2]> {
     let kind = match kind {
-        LoadEventKind::LimitPoint => SingularKind::Limit,
-        LoadEventKind::BranchPoint => SingularKind::Branch,
-        LoadEventKind::Kink => return None,
+        Kind::Limit => SingularKind::Limit,
+        Kind::Branch => SingularKind::Branch,
+        Kind::Kink => return None,
     };
     let system = |values: &[f64]| variation.unloaded(values).ok();
     let (first, last, here) = (system(from)?, system(to)?, system(&at.values)?);

@@ -2,7 +2,7 @@
 
 use figures::{Anchor, Axes, Axis, BLUE, Look, Svg, Unit, VERMILION};
 
-use super::load::{BranchesFrom, LoadEventKind, LoadPath, LoadPaths, LoadPoint};
+use super::load::{BranchesFrom, Kind, LoadPath, LoadPaths, LoadPoint};
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 560.0;
@@ -77,9 +77,9 @@ fn marks(svg: &mut Svg, path: &LoadPath, place: &dyn Fn(&LoadPoint) -> Option<[f
         let Some(here) = path.points.get(event.point).and_then(place) else { continue };
         let look = Look::fill(VERMILION);
         match event.kind {
-            LoadEventKind::LimitPoint => svg.circle(look, here, DOT),
-            LoadEventKind::BranchPoint => svg.diamond(look, here, DOT),
-            LoadEventKind::Kink => svg.cross(Look::stroke(VERMILION, STROKE), here, DOT),
+            Kind::Limit => svg.circle(look, here, DOT),
+            Kind::Branch => svg.diamond(look, here, DOT),
+            Kind::Kink => svg.cross(Look::stroke(VERMILION, STROKE), here, DOT),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+pub(crate) use branches::load::Kind;
 use branches::load::{End, LoadPath as FollowedPath, Parent, Settings, follow};
 use branches::{Number, PointError, Variation};
 use model::Vector;
@@ -14,11 +15,10 @@ use super::enclosed::PathProved;
 use super::equations::{Family, Line, line};
 use super::everywhere::everywhere;
 use super::{figure, page};
-use crate::csv::quoted;
+use crate::csv::{exact, or_empty, quoted};
 use crate::error::Error;
-use crate::modes::Summary;
+use crate::object::{head, names};
 use crate::observable::Observable;
-use crate::solve::SCHEMA_VERSION;
 
 /// Steps over the whole range, at least.
 const STEPS: f64 = 24.0;
@@ -81,18 +81,6 @@ pub enum LoadEnd {
     Numbers,
 }
 
-/// What happens on a load path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LoadEventKind {
-    /// The parameter turns back where the stiffness vanishes.
-    LimitPoint,
-    /// Other paths cross.
-    BranchPoint,
-    /// A cable or strut becomes slack or taut, a joint meets the floor or leaves it.
-    Kink,
-}
-
 /// A point of a load path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadPoint {
@@ -118,7 +106,7 @@ pub struct LoadPoint {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadEvent {
     /// What it is.
-    pub kind: LoadEventKind,
+    pub kind: Kind,
     /// Values of the parameters.
     pub values: Vec<f64>,
     /// Its point, by its number from 0.
@@ -207,7 +195,7 @@ impl LoadPath {
     /// Whether the first limit or branch point that is proved is the first that was met: a path may turn back
     /// and forth within one step.
     pub(crate) fn meets_proof(&self) -> bool {
-        let first = self.events.iter().find(|event| event.kind != LoadEventKind::Kink);
+        let first = self.events.iter().find(|event| event.kind != Kind::Kink);
         match first {
             _ if self.proved.between.is_none() => true,
             Some(event) => self.proved.is_of(event),
@@ -223,12 +211,15 @@ impl LoadPath {
 }
 
 /// Load paths, as [`Trace`](crate::Trace) follows them for any system.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoadPaths {
+    #[serde(flatten, serialize_with = "head")]
     pub(super) system: System,
     pub(super) parameters: Vec<String>,
     pub(super) units: Vec<&'static str>,
+    #[serde(serialize_with = "names")]
     pub(super) of: Vec<(String, &'static str)>,
+    #[serde(rename = "load_paths")]
     pub(super) paths: Vec<LoadPath>,
 }
 
@@ -362,66 +353,27 @@ impl LoadPaths {
     }
 
     pub(super) fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
-        write!(to, "path,point")?;
-        for parameter in &self.parameters {
-            write!(to, ",{}", quoted(parameter))?;
-        }
-        write!(to, ",index,event,energy_j")?;
-        for (name, _) in &self.of {
-            write!(to, ",{}", quoted(name))?;
-        }
+        let mut columns = vec!["path".to_owned(), "point".to_owned()];
+        columns.extend(self.parameters.iter().map(quoted));
+        columns.extend(["index", "event", "energy_j"].map(str::to_owned));
+        columns.extend(self.of.iter().map(|(name, _)| quoted(name)));
         for joint in self.system.joints() {
-            for axis in ["x", "y", "z"] {
-                write!(to, ",{}", quoted(format!("{}_{axis}_m", joint.name)))?;
-            }
+            let place = |axis| quoted(format!("{}_{axis}_m", joint.name));
+            columns.extend(["x", "y", "z"].map(place));
         }
-        for bar in 1..=self.system.members().len() {
-            write!(to, ",axial_{bar}_n")?;
-        }
-        writeln!(to)?;
+        columns.extend((1..=self.system.members().len()).map(|bar| format!("axial_{bar}_n")));
+        writeln!(to, "{}", columns.join(","))?;
         for (path, found) in self.paths.iter().enumerate() {
             for (number, point) in found.points.iter().enumerate() {
-                write!(to, "{},{number}", path + 1)?;
-                for value in &point.values {
-                    write!(to, ",{value:?}")?;
-                }
-                let event = point.event.map_or(String::new(), |event| event.to_string());
-                write!(to, ",{},{event},{:?}", point.index, point.energy_j)?;
-                for value in &point.of {
-                    match value {
-                        Some(value) => write!(to, ",{value:?}")?,
-                        None => write!(to, ",")?,
-                    }
-                }
-                for number in point.joints_m.as_flattened().iter().chain(&point.axial_n) {
-                    write!(to, ",{number:?}")?;
-                }
-                writeln!(to)?;
+                let mut cells = vec![(path + 1).to_string(), number.to_string()];
+                cells.extend(point.values.iter().map(exact));
+                cells.extend([exact(&point.index), or_empty(point.event), exact(&point.energy_j)]);
+                cells.extend(point.of.iter().map(|value| or_empty(*value)));
+                let numbers = point.joints_m.as_flattened().iter().chain(&point.axial_n);
+                cells.extend(numbers.map(exact));
+                writeln!(to, "{}", cells.join(","))?;
             }
         }
         Ok(())
-    }
-}
-
-impl Serialize for LoadPaths {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Object<'a> {
-            schema_version: u32,
-            system: Summary,
-            parameters: &'a [String],
-            units: &'a [&'static str],
-            of: Vec<&'a str>,
-            load_paths: &'a [LoadPath],
-        }
-        Object {
-            schema_version: SCHEMA_VERSION,
-            system: Summary::new(&self.system),
-            parameters: &self.parameters,
-            units: &self.units,
-            of: self.of.iter().map(|(name, _)| name.as_str()).collect(),
-            load_paths: &self.paths,
-        }
-        .serialize(serializer)
     }
 }

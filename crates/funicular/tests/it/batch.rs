@@ -4,10 +4,9 @@
 
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader, Write as _};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
-use assert_cmd::cargo::cargo_bin;
+use crate::run::{Running, folder, good, program, ran};
 use serde_json::Value;
 
 /// A mass of 2 kg on two massless cables: by the triangle 3, 4, 5 each pulls with 5/4 of 10 N.
@@ -18,23 +17,6 @@ fn chain(span_m: f64) -> String {
     format!(
         r#"{{"anchors": {{"start_m": [0, 0, 0], "end_m": [{span_m}, 0, 0]}}, "bars": [{{"length_m": 0.5, "mass_kg": 1, "count": 6}}]}}"#
     )
-}
-
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("batch").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(cargo_bin("funicular"));
-    command.env("NO_COLOR", "1").current_dir(folder).args(arguments);
-    command
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().unwrap()
 }
 
 fn objects(output: &Output) -> Vec<Value> {
@@ -57,7 +39,7 @@ fn every_line_is_answered_in_its_place_and_errors_end_nothing() {
     let far = chain(3.5);
     let lines = [&chain(1.0), LAMP, "", &unknown, "[joints]", &far, &chain(2.0)];
     std::fs::write(folder.join("all.jsonl"), lines.join("\n")).unwrap();
-    let output = run(&folder, &["solve", "--batch", "all.jsonl"]);
+    let output = ran(&folder, &["solve", "--batch", "all.jsonl"]);
     assert_eq!(output.status.code(), Some(2));
     let answers = objects(&output);
     let numbers: Vec<_> = answers.iter().map(|answer| answer["line"].as_u64().unwrap()).collect();
@@ -82,7 +64,7 @@ fn every_line_is_answered_in_its_place_and_errors_end_nothing() {
     assert!(said.contains("6 systems: 3 done, 3 that cannot be used"), "{said}");
     // The bars at rest are those of a file of their own; a batch takes no census.
     std::fs::write(folder.join("one.json"), chain(1.0)).unwrap();
-    let alone = run(&folder, &["solve", "one.json", "--json", "--census=never"]);
+    let alone = ran(&folder, &["solve", "one.json", "--json", "--census=never"]);
     let mut alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
     alone["line"] = 1.into();
     assert_eq!(without_times(alone), without_times(answers[0].clone()));
@@ -97,7 +79,7 @@ fn a_batch_from_standard_input_is_the_same_on_any_number_of_threads() {
         writeln!(text, "{line}").unwrap();
     }
     let by = |threads: &str| {
-        let mut child = command(&folder, &["solve", "--batch", "-", "--threads", threads])
+        let mut child = program(&folder, &["solve", "--batch", "-", "--threads", threads])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -122,7 +104,7 @@ fn a_census_is_taken_where_it_is_asked_for() {
     let folder = folder("census");
     std::fs::write(folder.join("a.jsonl"), chain(1.0)).unwrap();
     let looked_up = |option: &[&str]| {
-        let output = run(&folder, &[&["solve", "--batch", "a.jsonl"], option].concat());
+        let output = ran(&folder, &[&["solve", "--batch", "a.jsonl"], option].concat());
         let ladder = &objects(&output)[0]["equilibria"][0]["evidence"]["ladder"];
         let rungs = ladder.as_array().unwrap();
         rungs.iter().any(|rung| rung["rung"] == "verified" && rung["reached"] == true)
@@ -135,14 +117,14 @@ fn a_census_is_taken_where_it_is_asked_for() {
 fn an_empty_batch_is_done_and_a_missing_one_is_bad_input() {
     let folder = folder("empty");
     std::fs::write(folder.join("none.jsonl"), "\n\n").unwrap();
-    let output = run(&folder, &["solve", "--batch", "none.jsonl"]);
+    let output = ran(&folder, &["solve", "--batch", "none.jsonl"]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0));
     for arguments in [
         &["--batch", "nowhere"][..],
         &["--batch", "."],
         &["--batch", "none.jsonl", "--csv", "a.csv"],
     ] {
-        assert_eq!(run(&folder, &[&["solve"], arguments].concat()).status.code(), Some(2));
+        assert_eq!(ran(&folder, &[&["solve"], arguments].concat()).status.code(), Some(2));
     }
 }
 
@@ -151,26 +133,21 @@ fn an_empty_batch_is_done_and_a_missing_one_is_bad_input() {
 #[test]
 fn an_interrupted_batch_leaves_whole_lines() {
     let folder = folder("interrupt");
-    let mut child = command(&folder, &["solve", "--batch", "-", "--summary"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut to = child.stdin.take().unwrap();
+    let mut command = program(&folder, &["solve", "--batch", "-", "--summary"]);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut running = Running(command.spawn().unwrap());
+    let mut to = running.0.stdin.take().unwrap();
     // More than are answered while `kill` begins on a loaded machine, and few enough to be held where nothing is interrupted.
     let feed = std::thread::spawn(move || {
         (0..1_000_000).take_while(|_| writeln!(to, "{}", chain(1.0)).is_ok()).count()
     });
-    let mut from = BufReader::new(child.stdout.take().unwrap());
+    let mut from = BufReader::new(running.0.stdout.take().unwrap());
     let mut first = String::new();
     from.read_line(&mut first).unwrap();
-    assert!(
-        Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success()
-    );
+    running.signal("INT");
     let mut rest = String::new();
     std::io::Read::read_to_string(&mut from, &mut rest).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(running.code(), Some(130));
     feed.join().unwrap();
     assert!(rest.is_empty() || rest.ends_with('\n'));
     for line in rest.lines() {
@@ -185,21 +162,19 @@ fn several_files_are_answered_in_their_order_with_the_worst_exit_code() {
     write("a.json", &chain(1.0));
     write("lamp.json", LAMP);
     write("bad.json", "{\"anchors\": 1}");
-    let output = run(&folder, &["solve", "a.json", "lamp.json"]);
-    assert_eq!(output.status.code(), Some(0));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = good(&folder, &["solve", "a.json", "lamp.json"]);
     let [a, lamp] = ["=== a.json ===", "=== lamp.json ==="].map(|head| text.find(head).unwrap());
     assert!(a < lamp && text[a..lamp].contains("Agreement: agreed"), "{text}");
     assert!(text[lamp..].contains("Largest tension: 12.5 N"), "{text}");
 
-    let output = run(&folder, &["solve", "bad.json", "a.json", "gone.json"]);
+    let output = ran(&folder, &["solve", "bad.json", "a.json", "gone.json"]);
     assert_eq!(output.status.code(), Some(2));
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("=== gone.json ===") && text.contains("Agreement: agreed"), "{text}");
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("bad.json:1:") && said.contains("gone.json"), "{said}");
 
-    let output = run(&folder, &["solve", "bad.json", "a.json", "--json", "--summary"]);
+    let output = ran(&folder, &["solve", "bad.json", "a.json", "--json", "--summary"]);
     let mut answers = serde_json::Deserializer::from_slice(&output.stdout).into_iter::<Value>();
     let [bad, a] = [answers.next().unwrap().unwrap(), answers.next().unwrap().unwrap()];
     assert!(answers.next().is_none());
@@ -207,7 +182,7 @@ fn several_files_are_answered_in_their_order_with_the_worst_exit_code() {
     assert!(a["file"] == "a.json" && a["agreement"]["verdict"] == "agreed");
     assert!(a["equilibria"][0].get("joints").is_none());
 
-    let output = run(&folder, &["solve", "a.json", "lamp.json", "--svg", "p.svg"]);
+    let output = ran(&folder, &["solve", "a.json", "lamp.json", "--svg", "p.svg"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("--svg"));
 }
@@ -226,7 +201,7 @@ fn a_line_ends_with_its_work() {
     std::fs::write(folder.join("all.jsonl"), lines.repeat(10)).unwrap();
     for (work, agree) in [("1", [false, false]), ("50", [false, true]), ("200", [true, true])] {
         let arguments = ["solve", "--batch", "all.jsonl", "--summary", "--max-work", work];
-        let bounded = run(&folder, &arguments);
+        let bounded = ran(&folder, &arguments);
         assert_eq!(bounded.status.code(), Some(if agree[0] { 0 } else { 3 }), "{work}");
         let answers = objects(&bounded);
         assert_eq!(answers.len(), 20);

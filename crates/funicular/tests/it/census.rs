@@ -3,10 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 use std::process::Output;
 
-use assert_cmd::Command;
+use crate::run::{Running, assert_no_null, folder, refused, says, stdout, words};
 use serde_json::Value;
 
 /// Energy of E2 with the paper's zero, mgl (external: 40-digit root finding, and a Gröbner basis with real-root
@@ -20,29 +19,7 @@ const MGL: f64 = 9.80665;
 pub const ROUNDING: f64 = 1e-13;
 
 pub fn funicular(arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.env("NO_COLOR", "1").arg("census").args(arguments).output().unwrap()
-}
-
-pub fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-/// Standard error as one line, without the frame of the report.
-pub fn stderr(output: &Output) -> String {
-    let text = String::from_utf8(output.stderr.clone()).unwrap();
-    text.split(|c: char| c.is_whitespace() || c == '│').filter(|word| !word.is_empty()).fold(
-        String::new(),
-        |line, word| if line.is_empty() { word.to_owned() } else { line + " " + word },
-    )
-}
-
-/// A folder of this test alone.
-pub fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("census").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
+    crate::run::funicular(&[&["census"], arguments].concat())
 }
 
 /// A system file with these bars as (length, mass).
@@ -65,7 +42,7 @@ fn of_chain(value: &Value) -> &Value {
 /// The JSON of a census that ends with this exit code.
 pub fn json(arguments: &[&str], code: i32) -> Value {
     let output = funicular(&[arguments, &["--json"]].concat());
-    assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(code), "{}", words(&output));
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(value["schema_version"], 3);
     let census = &value["census"];
@@ -103,19 +80,6 @@ pub fn json(arguments: &[&str], code: i32) -> Value {
         }
     }
     value
-}
-
-fn assert_no_null(value: &Value, allowed: &[&str]) {
-    match value {
-        Value::Array(items) => items.iter().for_each(|item| assert_no_null(item, allowed)),
-        Value::Object(map) => {
-            for (key, item) in map {
-                assert!(!item.is_null() || allowed.contains(&key.as_str()), "{key} is null");
-                assert_no_null(item, allowed);
-            }
-        }
-        _ => {}
-    }
 }
 
 fn number(value: &Value) -> f64 {
@@ -172,7 +136,7 @@ fn the_figure_holds_four_shapes_and_the_csv_all_joints() {
         "--threads",
         "1",
     ]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let text = std::fs::read_to_string(&svg).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     let root = document.root_element();
@@ -197,7 +161,6 @@ fn the_figure_holds_four_shapes_and_the_csv_all_joints() {
     let table = std::fs::read_to_string(&csv).unwrap();
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 4 * 4);
-    assert!(rows.iter().all(|row| row.len() == rows[0].len()));
     assert_eq!((rows[1][0], rows[5][0], rows[16][0]), ("1", "1'", "2'"));
     let energy: f64 = rows[9][1].parse().unwrap();
     assert!((energy / MGL - (E2_MGL - 6.0)).abs() < ROUNDING);
@@ -280,11 +243,10 @@ fn a_nearly_straight_closure_is_undecided_and_says_so() {
     let output = funicular(&[&file]);
     assert_eq!(output.status.code(), Some(3));
     let text = stdout(&output);
-    for wanted in
-        ["NOT proved to be all", "Undecided:", "unbounded", "complete  0 of", "straight position"]
-    {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
-    }
+    says(
+        &text,
+        &["NOT proved to be all", "Undecided:", "unbounded", "complete  0 of", "straight position"],
+    );
     // The figure says so too.
     let svg = folder("straight-figure").join("figure.svg");
     let output = funicular(&[&file, "--svg", svg.to_str().unwrap()]);
@@ -343,27 +305,18 @@ fn of_many_equilibria_the_first_are_printed_bar_by_bar() {
 }
 
 #[test]
-fn the_help_says_how_many_shapes_are_drawn() {
-    // Wherever the lines of the help are broken.
-    let text = stdout(&funicular(&["--help"]));
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("all up to 70, of more the first 70 by energy"), "{text}");
-}
-
-#[test]
 fn chains_out_of_reach_are_refused_with_their_cost() {
     let output = funicular(&["--case", "thirty-bars"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
-    let text = stderr(&output);
-    for wanted in
-        ["30 bars", "patterns", "about", "no census goes beyond 24 bars", "funicular solve"]
-    {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
-    }
+    let text = words(&output);
+    says(
+        &text,
+        &["30 bars", "patterns", "about", "no census goes beyond 24 bars", "funicular solve"],
+    );
     let output = funicular(&["--case", "five-in-space", "--max-bars", "4"]);
     assert_eq!(output.status.code(), Some(2));
-    let text = stderr(&output);
+    let text = words(&output);
     assert!(
         text.contains("the limit is 4 bars") && text.contains("--max-bars 5 takes it"),
         "{text}"
@@ -380,25 +333,21 @@ fn bad_input_is_refused_with_its_reason() {
     let weightless = chain("weightless", [1.0, 0.0, 0.0], &[(1.0, 0.0); 3]);
     let nowhere = folder("nowhere").join("missing").join("figure.svg");
     let directory = folder("directory");
-    for (arguments, wanted) in [
-        (vec![single.as_str()], "cannot move"),
-        (vec![short.as_str()], "m are missing"),
-        (vec![weightless.as_str()], "no bar has mass"),
-        (vec!["no-such-file.toml"], "no-such-file.toml"),
-        (vec!["--case", "no-such-case"], "no case named"),
-        (vec![], "required"),
-        (vec!["--case", "two-bars", "--max-bars", "0"], "max_bars must be from 1 to 24"),
-        (vec!["--case", "two-bars", "--max-bars", "25"], "max_bars must be from 1 to 24"),
-        (vec!["--case", "two-bars", "--max-bars", "many"], "invalid value"),
-        (vec!["--case", "two-bars", "--threads", "1025"], "up to 1024 is wanted"),
-        (vec!["--case", "two-bars", "--svg", nowhere.to_str().unwrap()], "there is no folder"),
-        (vec!["--case", "two-bars", "--csv", directory.to_str().unwrap()], "it is a folder"),
-    ] {
-        let output = funicular(&arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(output.stdout.is_empty());
-        assert!(stderr(&output).contains(wanted), "{arguments:?}: {}", stderr(&output));
-    }
+    let table = [
+        (&[single.as_str()][..], "cannot move"),
+        (&[short.as_str()], "m are missing"),
+        (&[weightless.as_str()], "no bar has mass"),
+        (&["no-such-file.toml"], "no-such-file.toml"),
+        (&["--case", "no-such-case"], "no case named"),
+        (&[], "required"),
+        (&["--case", "two-bars", "--max-bars", "0"], "max_bars must be from 1 to 24"),
+        (&["--case", "two-bars", "--max-bars", "25"], "max_bars must be from 1 to 24"),
+        (&["--case", "two-bars", "--max-bars", "many"], "invalid value"),
+        (&["--case", "two-bars", "--threads", "1025"], "up to 1024 is wanted"),
+        (&["--case", "two-bars", "--svg", nowhere.to_str().unwrap()], "there is no folder"),
+        (&["--case", "two-bars", "--csv", directory.to_str().unwrap()], "it is a folder"),
+    ];
+    refused(".", &["census"], &table);
 }
 
 #[test]
@@ -425,22 +374,16 @@ fn an_interruption_leaves_nothing_half_written() {
     let file = chain("long", [4.0, 0.0, 1.0], &bars);
     let out = folder("interrupted");
     let svg = out.join("figure.svg");
-    let mut child = std::process::Command::new("env")
-        // A script may have had signals ignored, and its children inherit that.
-        .arg("--default-signal")
-        .arg(assert_cmd::cargo::cargo_bin("funicular"))
-        .args(["census", &file, "--max-bars", "20", "--json", "--svg", svg.to_str().unwrap()])
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let arguments = ["census", &file, "--max-bars", "20", "--json", "--svg"];
+    // A script may have had signals ignored, and its children inherit that.
+    let mut child = std::process::Command::new("env");
+    child.arg("--default-signal").arg(assert_cmd::cargo::cargo_bin("funicular"));
+    child.args(arguments).arg(svg).stdout(std::process::Stdio::null());
+    let mut running = Running(child.spawn().unwrap());
     std::thread::sleep(std::time::Duration::from_millis(300));
-    assert!(child.try_wait().unwrap().is_none(), "still at work");
-    let interrupt = std::process::Command::new("kill")
-        .args(["-TERM", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupt.success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(running.0.try_wait().unwrap().is_none(), "still at work");
+    running.signal("TERM");
+    assert_eq!(running.code(), Some(130));
     assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
 }
 

@@ -2,14 +2,16 @@
 
 use serde_json::Value;
 
-use crate::census::{chain, funicular, stderr, stdout, thirteen_bars};
+use crate::census::{chain, funicular, thirteen_bars};
+use crate::run::peak;
+use crate::run::{stdout, words};
 
 /// What is written one by one is what is written from one list.
 #[test]
 fn a_long_list_is_that_of_the_library() {
     let path = thirteen_bars("long-list", 13.0);
     let output = funicular(&[&path, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let mut written: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let problem = funicular::Problem::read(&path).unwrap();
     let answer = funicular::Census::new().run(&problem).unwrap();
@@ -44,14 +46,14 @@ fn a_list_is_as_large_as_is_allowed() {
 
     let output = funicular(&[&path, "--list", "full", "--json", "--max-output", "10kB"]);
     assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""));
-    let told = stderr(&output);
+    let told = words(&output);
     assert!(
         told.contains("the limit is 10 kB") && told.contains("takes it all the same"),
         "{told}"
     );
     // What is not listed takes no room.
     let output = funicular(&[&path, "--list", "full", "--max-output", "10kB"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     assert!(stdout(&output).contains("Evidence of the first"), "{}", stdout(&output));
 }
 
@@ -60,23 +62,9 @@ fn a_list_is_as_large_as_is_allowed() {
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_list() {
-    use std::io::Read as _;
-
     let path = chain("memory", [0.3, 0.0, -4.0], &[(1.0, 1.0); 13]);
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_funicular"))
-        .args(["census", &path, "--list", "full", "--json", "--threads", "1"])
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let arguments = ["census", &path, "--list", "full", "--json", "--threads", "1"];
     // It waits for its reader in the middle of the list.
-    let mut out = child.stdout.take().unwrap();
-    let read = std::io::copy(&mut out.by_ref().take(100_000_000), &mut std::io::sink()).unwrap();
-    assert_eq!(read, 100_000_000);
-    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
-    drop(out);
-    child.wait().unwrap();
-    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
-    let most_kb: u64 = most.trim().trim_end_matches(" kB").parse().unwrap();
+    let most_kb = peak(".", &arguments, 100_000_000) / 1024;
     assert!(most_kb < 50_000, "{most_kb} kB");
 }

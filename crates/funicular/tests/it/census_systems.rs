@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::census::{ROUNDING, folder, funicular, json, stderr, stdout};
+use crate::census::{ROUNDING, funicular, json};
+use crate::run::{folder, says, stdout, words};
 
 /// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N
 /// on a bar of 1 m below: by name, both stable and not.
@@ -118,7 +119,7 @@ fn a_bridle_with_a_long_strand_has_its_list() {
     // What is too long is told with its time.
     let output = funicular(&[path, "--max-bars", "5"]);
     assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
+    let told = words(&output);
     assert!(told.contains("--max-bars 6") && told.contains("of a processor"), "{told}");
 }
 
@@ -134,7 +135,7 @@ fn systems_without_a_census_are_told_why() {
     std::fs::write(&path, text).unwrap();
     let output = funicular(&[path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
+    let told = words(&output);
     assert!(told.contains("3 closures") && told.contains("independent ways"), "{told}");
 }
 
@@ -144,7 +145,7 @@ fn positions_of_a_system_are_drawn_and_written() {
     let [svg, csv] = ["shapes.svg", "shapes.csv"].map(|name| out.join(name));
     let [svg_path, csv_path] = [&svg, &csv].map(|path| path.to_str().unwrap());
     let output = funicular(&["--case", "tripod", "--svg", svg_path, "--csv", csv_path]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     // Legs of 3 m on a circle of 1.8 m: the load is 2.4 m below or above it.
     let table = std::fs::read_to_string(&csv).unwrap();
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
@@ -196,12 +197,12 @@ fn of_cables_and_ropes_one_equilibrium_is_all() {
     let strut = tackle.replace(slack, "length_m = 1.5, mass_kg = 0, kind = 'strut'");
     std::fs::write(&path, strut).unwrap();
     let plane = funicular(&[path.to_str().unwrap()]);
-    assert_eq!(plane.status.code(), Some(3), "{}", stderr(&plane));
+    assert_eq!(plane.status.code(), Some(3), "{}", words(&plane));
     let text = stdout(&plane);
-    for said in ["NOT proved to be all", "no others were looked for", "With member 2 slack the net"]
-    {
-        assert!(text.contains(said), "{text}");
-    }
+    says(
+        &text,
+        &["NOT proved to be all", "no others were looked for", "With member 2 slack the net"],
+    );
 }
 
 /// A bar of 3 m and 20 N, whose end a counterweight of 12 N draws to a pulley, as `a_bar_over_a_pulley_with_its_counterweight_is_scanned` has it.
@@ -226,6 +227,6 @@ fn a_bar_over_a_pulley_has_its_list() {
     // Short ropes draw the counterweight up to the pulley, which is told.
     std::fs::write(path, bar.replace("LENGTH", "5")).unwrap();
     let open = funicular(&[path]);
-    assert_eq!(open.status.code(), Some(3), "{}", stderr(&open));
+    assert_eq!(open.status.code(), Some(3), "{}", words(&open));
     assert!(stdout(&open).contains("to the end of a span"), "{}", stdout(&open));
 }

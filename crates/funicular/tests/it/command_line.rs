@@ -2,18 +2,12 @@
 
 use std::path::PathBuf;
 
-use assert_cmd::Command;
-
-use crate::program::{funicular, stderr, stdout};
+use crate::run::{command, funicular, good, refused, says, stderr, stdout};
 
 #[test]
 fn help_version_and_completions() {
-    let output = funicular(&["--help"]);
-    assert_eq!(output.status.code(), Some(0));
-    let text = stdout(&output);
-    for wanted in ["reproduce", "solve", "cases", "completions", "Exit codes:", "Examples:"] {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
-    }
+    let text = good(".", &["--help"]);
+    says(&text, &["reproduce", "solve", "cases", "completions", "Exit codes:", "Examples:"]);
     let version = format!("funicular {}\n", env!("CARGO_PKG_VERSION"));
     assert_eq!(stdout(&funicular(&["--version"])), version);
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
@@ -82,27 +76,22 @@ fn the_nearest_case_is_named() {
 
 #[test]
 fn threads_are_capped_wherever_they_are_asked_for() {
-    let mut many = Command::cargo_bin("funicular").unwrap();
-    let many = many.env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "5000");
-    let output = many.args(["solve", "--case", "two-bars"]).output().unwrap();
+    let mut many = command(".", &["solve", "--case", "two-bars"]);
+    let output = many.env("RAYON_NUM_THREADS", "5000").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);
     assert!(said.contains("RAYON_NUM_THREADS") && said.contains("1024"), "{said}");
     for command in ["census", "sweep", "merge"] {
-        let output = funicular(&[command, "--threads", "1025"]);
-        assert_eq!(output.status.code(), Some(2), "{command}");
-        assert!(stderr(&output).contains("up to 1024 is wanted"), "{command}");
+        refused(".", &[command], &[(&["--threads", "1025"], "up to 1024 is wanted")]);
     }
-    let none = funicular(&["census", "--case", "two-bars", "--threads", "0"]);
-    assert_eq!(none.status.code(), Some(0), "{}", stderr(&none));
+    good(".", &["census", "--case", "two-bars", "--threads", "0"]);
 }
 
 #[test]
 fn every_command_has_a_manual_page() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");
     let _ = std::fs::remove_dir_all(&folder);
-    let output = funicular(&["man", "--out", folder.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(0));
+    good(".", &["man", "--out", folder.to_str().unwrap()]);
     let page = |name: &str| std::fs::read_to_string(folder.join(format!("{name}.1"))).unwrap();
     let whole = page("funicular");
     let help = stdout(&funicular(&["--help"]));
@@ -120,4 +109,26 @@ fn every_command_has_a_manual_page() {
     assert!(pages >= 14, "{help}");
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), pages + 1);
     assert!(page("funicular-solve").contains("\\-\\-batch"));
+}
+
+/// What the help of a command has to say, wherever its lines are broken.
+#[test]
+fn the_help_says_what_there_is_to_know() {
+    let gone = "130 interrupted; nothing is kept to go on from";
+    for (command, says) in [
+        ("solve", &[gone][..]),
+        ("census", &[gone, "all up to 70, of more the first 70 by energy"]),
+        ("reproduce", &[gone]),
+        ("trace", &[gone]),
+        ("basins", &[gone]),
+        ("sweep", &["130 interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on"]),
+        // It has no --resume.
+        ("merge", &["130 interrupted (Ctrl-C or SIGTERM): the same command goes on"]),
+        ("judge", &["0 confirmed:", "1 refuted:", "3 undecided:"]),
+    ] {
+        let help = stdout(&funicular(&[command, "--help"]));
+        assert_eq!(help.matches("Exit codes:").count(), 1, "{help}");
+        let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(says.iter().all(|says| help.contains(says)), "{command}: {says:?}: {help}");
+    }
 }

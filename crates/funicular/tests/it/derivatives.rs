@@ -2,11 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use assert_cmd::Command;
 use funicular::prelude::*;
 use serde_json::Value;
 
 use crate::edited;
+
+use crate::run::refused;
 
 fn bridle() -> Problem {
     edited::problem(&edited::bridle())
@@ -100,40 +101,11 @@ fn stiffness_of_anchors_is_symmetric_and_that_of_a_closed_form() {
 }
 
 fn derivatives(arguments: &[&str]) -> std::process::Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.env("NO_COLOR", "1").arg("derivatives").args(arguments).output().unwrap()
+    crate::run::funicular(&[&["derivatives"], arguments].concat())
 }
 
 #[test]
 fn the_program_prints_tables_json_and_csv() {
-    let folder = tempfile::tempdir().unwrap();
-    let csv = folder.path().join("gradient.csv");
-    let csv = csv.to_str().unwrap();
-    // Two cables of 3 and 4 m at a right angle with the weight W: in 3/5 and 4/5 of it.
-    let output = derivatives(&["--case", "lamp", "--of", "bars.1.axial_n", "--csv", csv, "--json"]);
-    assert_eq!(output.status.code(), Some(0));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!((&json["schema_version"], &json["system"]["name"]), (&3.into(), &"lamp".into()));
-    assert!((json["value"].as_f64().unwrap() - 0.8 * 2.0 * 9.80665).abs() < 1e-9);
-    let list = json["derivatives"].as_array().unwrap();
-    let by = |name: &str| list.iter().find(|one| one["parameter"] == name).unwrap();
-    let mass = by("joints.lamp.mass_kg");
-    assert!((mass["value"].as_f64().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
-    assert_eq!(mass["unit"], "N/kg");
-    let written = std::fs::read_to_string(csv).unwrap();
-    assert_eq!(written.lines().count(), 1 + list.len());
-    let line = written.lines().find(|line| line.starts_with("joints.lamp.mass_kg,")).unwrap();
-    let cells: Vec<_> = line.split(',').collect();
-    assert!((cells[1].parse::<f64>().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
-    assert_eq!((written.lines().next(), cells[2]), (Some("parameter,derivative,unit"), "N/kg"));
-
-    let change = derivatives(&["--case", "lamp", "--by", "joints.lamp.mass_kg", "--json"]);
-    let json: Value = serde_json::from_slice(&change.stdout).unwrap();
-    assert!((json["axial_n"][0].as_f64().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
-    assert!((json["reactions_n"]["A"][2].as_f64().unwrap() - 0.64 * 9.80665).abs() < 1e-9);
-    assert!(json["joints_m"]["lamp"][2].as_f64().unwrap().abs() < 1e-12);
-    assert_eq!((&json["by"], &json["unit"]), (&"joints.lamp.mass_kg".into(), &"kg".into()));
-
     let chain = derivatives(&["--case", "two-bars", "--json"]);
     let json: Value = serde_json::from_slice(&chain.stdout).unwrap();
     let anchors = json["anchors"].as_array().unwrap();
@@ -175,17 +147,13 @@ fn what_has_no_derivative_is_refused() {
         assert!(said.contains("1 independent motions meet no stiffness"), "{said}");
     }
 
-    for (arguments, wanted) in [
-        (["--case", "lamp", "--of", "joints.A.at_m.x"], "no number of the equilibrium"),
-        (["--case", "lamp", "--of", "bars.9.axial_n"], "no number of the equilibrium"),
-        (["--case", "lamp", "--by", "gravity_m_s2"], "no derivatives by `gravity_m_s2`"),
-        (["--case", "lamp", "--by", "bars.*.mass_kg"], "no derivatives by `bars.*.mass_kg`"),
-        (["--case", "lamp", "--by", "joints.lamps.mass_kg"], "did you mean `lamp`"),
-        (["--case", "lamp", "--by", "bars.3.mass_kg"], "there is no bar 3"),
-    ] {
-        let output = derivatives(&arguments);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains(wanted), "{said}");
-    }
+    let table: [(&[&str], _); 6] = [
+        (&["--of", "joints.A.at_m.x"], "no number of the equilibrium"),
+        (&["--of", "bars.9.axial_n"], "no number of the equilibrium"),
+        (&["--by", "gravity_m_s2"], "no derivatives by `gravity_m_s2`"),
+        (&["--by", "bars.*.mass_kg"], "no derivatives by `bars.*.mass_kg`"),
+        (&["--by", "joints.lamps.mass_kg"], "did you mean `lamp`"),
+        (&["--by", "bars.3.mass_kg"], "there is no bar 3"),
+    ];
+    refused(".", &["derivatives", "--case", "lamp"], &table);
 }

@@ -4,11 +4,11 @@
 
 use std::fmt::Display;
 
-use assert_cmd::Command;
 use funicular::judge::{fit, parse};
 use funicular::prelude::*;
 
-use crate::program::{REPRODUCED, stdout};
+use crate::program::REPRODUCED;
+use crate::run::{funicular, stdout};
 
 /// Without lines that say how long something took.
 fn timeless(text: &str) -> String {
@@ -18,9 +18,7 @@ fn timeless(text: &str) -> String {
 
 /// The program says the same, with words of its own before or behind it at most.
 fn assert_said(arguments: &[&str], answer: &impl Display) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.args(arguments).output().unwrap();
-    let printed = timeless(&String::from_utf8(output.stdout).unwrap());
+    let printed = timeless(&stdout(&funicular(arguments)));
     let text = timeless(&answer.to_string());
     assert!(text.lines().count() > 1, "{text}");
     assert!(printed.contains(&text), "{printed}\n--- the library:\n{text}");
@@ -62,7 +60,7 @@ fn judgements() {
     let problem = Problem::case("three-equal-bars").unwrap();
     let name = file.to_str().unwrap();
     let answer = parse(table, name).unwrap().remove(0);
-    let answer = fit(&funicular::system_of(&problem), answer).unwrap();
+    let answer = fit(&problem.system(), answer).unwrap();
     let judged = Judge::new().run(&problem, &answer).unwrap();
     assert_said(&["judge", "--case", "three-equal-bars", "--answer", name], &judged);
 }

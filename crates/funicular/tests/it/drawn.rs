@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use assert_cmd::Command;
+use crate::run::{column, command, stdout, words};
 use funicular::prelude::*;
 use serde_json::Value;
 
@@ -38,12 +38,9 @@ fn height_m(load_n: f64) -> f64 {
 
 /// What the program says, with the words of its errors in one line.
 fn run(folder: &Path, arguments: &[&str], input: &str) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let command = command.current_dir(folder).env("NO_COLOR", "1").args(arguments);
-    let output = command.write_stdin(input).output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap().replace('\u{2502}', " ");
-    let error = error.split_whitespace().collect::<Vec<_>>().join(" ");
-    (output.status.code(), String::from_utf8(output.stdout).unwrap(), error)
+    let output = command(folder, arguments).write_stdin(input).output().unwrap();
+    let error = words(&output).replace(" \u{2502}", "");
+    (output.status.code(), stdout(&output), error)
 }
 
 #[track_caller]
@@ -207,10 +204,7 @@ fn modes_derivatives_and_motions_are_those_of_the_shape() {
     let (code, out, error) = run(at, &[&["simulate"], &near[..], &motion[..]].concat(), "");
     assert_eq!(code, Some(0), "{out}{error}");
     let rest = std::fs::read_to_string(at.join("rest.csv")).unwrap();
-    let mut lines = rest.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let head = lines.next().unwrap();
-    let column = head.iter().position(|name| *name == "joint_P_z_m").unwrap();
-    let heights: Vec<f64> = lines.map(|line| line[column].parse().unwrap()).collect();
+    let heights = column(&rest, "joint_P_z_m");
     assert!(heights.len() > 100 && heights.iter().all(|z| (z - height).abs() < 1e-9));
 }
 

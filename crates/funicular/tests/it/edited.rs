@@ -73,7 +73,6 @@ pub fn edited(text: &Value, path: &str, value: f64) -> Problem {
 pub fn varied(text: &Value, path: &str, value: f64) -> Problem {
     let vary = [format!("{path}={value:?}").parse().unwrap()];
     let base = problem(text);
-    let variation =
-        Variation::new((*funicular::system_of(&base)).clone(), &vary, Combine::Zip).unwrap();
+    let variation = Variation::new((*base.system()).clone(), &vary, Combine::Zip).unwrap();
     variation.system(&[value]).unwrap().into()
 }

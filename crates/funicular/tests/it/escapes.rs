@@ -3,25 +3,12 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::PathBuf;
 use std::process::Output;
 
-use assert_cmd::Command;
+use crate::run::{folder, ran};
 
 /// A name that would set the title, clear the screen, and pass for a verdict.
 const NAME: &str = r#"name = "\u001b]0;X\u0007\u001b[2J\nAgreement: agreed by nobody""#;
-
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn run(folder: &PathBuf, arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap()
-}
 
 /// Neither stream has a control character but ends of lines, nor a line that the name wrote.
 fn assert_plain(output: &Output) {
@@ -50,7 +37,7 @@ fn names_of_systems_do_not_steer_the_terminal() {
         &["census", "chain.toml"],
         &["sweep", "chain.toml", "--seeds", "100", "--out", "s"],
     ] {
-        let output = run(&folder, arguments);
+        let output = ran(&folder, arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}");
         assert_plain(&output);
     }
@@ -60,7 +47,7 @@ fn names_of_systems_do_not_steer_the_terminal() {
 fn keys_in_errors_do_not_steer_the_terminal() {
     let folder = folder("escapes-keys");
     std::fs::write(folder.join("chain.toml"), "\"\\u001b[2J\\u0007\" = 1\n").unwrap();
-    let output = run(&folder, &["solve", "chain.toml"]);
+    let output = ran(&folder, &["solve", "chain.toml"]);
     assert_eq!(output.status.code(), Some(2));
     assert_plain(&output);
 }
@@ -73,7 +60,7 @@ fn names_in_folders_do_not_steer_the_terminal() {
         let shard = format!("{number}/2");
         let sweep =
             ["sweep", "--case", "two-bars", "--seeds", "3000", "--shard", &shard, "--out", out];
-        assert_eq!(run(&folder, &sweep).status.code(), Some(0));
+        assert_eq!(ran(&folder, &sweep).status.code(), Some(0));
     }
     let path = folder.join("two").join("manifest.json");
     let text = std::fs::read_to_string(&path).unwrap();
@@ -81,13 +68,13 @@ fn names_in_folders_do_not_steer_the_terminal() {
     let changed = text.replacen("\"name\": \"two bars\"", name, 1);
     assert_ne!(changed, text);
     std::fs::write(&path, changed).unwrap();
-    let output = run(&folder, &["merge", "one", "two", "--out", "all"]);
+    let output = ran(&folder, &["merge", "one", "two", "--out", "all"]);
     assert_eq!(output.status.code(), Some(2));
     assert_plain(&output);
 
     std::fs::create_dir(folder.join("stray")).unwrap();
     std::fs::write(folder.join("stray").join("\u{1b}[2J\u{7}"), "").unwrap();
-    let output = run(&folder, &["sweep", "--case", "two-bars", "--seeds", "10", "--out", "stray"]);
+    let output = ran(&folder, &["sweep", "--case", "two-bars", "--seeds", "10", "--out", "stray"]);
     assert_eq!(output.status.code(), Some(2));
     assert_plain(&output);
 }

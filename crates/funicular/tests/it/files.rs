@@ -7,45 +7,13 @@
 use std::fs;
 use std::os::unix::fs::{FileTypeExt as _, symlink};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Stdio};
 
+use crate::run::{LONG, Running, files, folder, limited, ran, wait_until, words};
 use assert_cmd::cargo::cargo_bin;
 
 const SYSTEM: &str = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\
                       [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
-
-/// Patience of a loaded machine.
-const LONG: Duration = Duration::from_secs(60);
-
-/// A folder of this test alone.
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files").join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
-/// The program in a folder, so that short names do.
-fn funicular(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(cargo_bin("funicular"));
-    command.env("NO_COLOR", "1").current_dir(folder).args(arguments).output().unwrap()
-}
-
-/// Standard error as one line, without the frame of the report.
-fn stderr(output: &Output) -> String {
-    let text = String::from_utf8(output.stderr.clone()).unwrap();
-    let words = text.split(|c: char| c.is_whitespace() || c == '│' || c == '×');
-    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
 
 fn pipe(path: &Path) {
     assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
@@ -65,8 +33,8 @@ fn pipes_are_written_into_and_links_are_followed() {
         pipe(&folder.join("pipe"));
         let csv = |name: &str| {
             let output =
-                funicular(&folder, &[&[command, "chain.toml", "--csv", name][..], more].concat());
-            assert_eq!(output.status.code(), Some(0), "{command} {name}: {}", stderr(&output));
+                ran(&folder, &[&[command, "chain.toml", "--csv", name][..], more].concat());
+            assert_eq!(output.status.code(), Some(0), "{command} {name}: {}", words(&output));
         };
         csv("link.csv");
         assert!(fs::symlink_metadata(folder.join("link.csv")).unwrap().is_symlink());
@@ -80,7 +48,10 @@ fn pipes_are_written_into_and_links_are_followed() {
         csv("pipe");
         assert!(fs::metadata(folder.join("pipe")).unwrap().file_type().is_fifo());
         assert_eq!(said.recv_timeout(LONG).unwrap(), wanted, "{command}");
-        assert_eq!(names(&folder), ["chain.toml", "link.csv", "pipe", "target.csv"]);
+        assert_eq!(
+            files(&folder).into_keys().collect::<Vec<_>>(),
+            ["chain.toml", "link.csv", "pipe", "target.csv"]
+        );
     }
 }
 
@@ -123,9 +94,9 @@ fn what_is_read_is_not_overwritten() {
                 ("columns.toml", "bars.csv"),
             ] {
                 let arguments = [&[command, file, option, out][..], more].concat();
-                let output = funicular(&folder, &arguments);
+                let output = ran(&folder, &arguments);
                 assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-                let text = stderr(&output);
+                let text = words(&output);
                 assert!(
                     text.contains(&format!("cannot write {out}: it is"))
                         && text.contains("which is read"),
@@ -134,9 +105,9 @@ fn what_is_read_is_not_overwritten() {
             }
         }
     }
-    let output = funicular(&folder, &["census", "chain.toml", "--csv", "new", "--svg", "./new"]);
+    let output = ran(&folder, &["census", "chain.toml", "--csv", "new", "--svg", "./new"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("is written to the same file"), "{}", stderr(&output));
+    assert!(words(&output).contains("is written to the same file"), "{}", words(&output));
 
     // Pictures have names of their own choice.
     for (name, command) in [
@@ -159,16 +130,19 @@ fn what_is_read_is_not_overwritten() {
         if name == "chain-2.svg" {
             arguments.extend(["--vary", "bars.2.mass_kg=1,2"]);
         }
-        let output = funicular(&folder, &arguments);
+        let output = ran(&folder, &arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains("which is read"), "{}", stderr(&output));
+        assert!(words(&output).contains("which is read"), "{}", words(&output));
         assert_eq!(fs::read_to_string(&path).unwrap(), SYSTEM);
         fs::remove_file(path).unwrap();
     }
     assert_eq!(fs::read_to_string(folder.join("chain.toml")).unwrap(), SYSTEM);
     assert_eq!(fs::read_to_string(folder.join("bars.csv")).unwrap(), bars);
-    assert_eq!(names(&folder), ["bars.csv", "chain.toml", "columns.toml", "deep", "link"]);
-    assert!(names(&folder.join("deep")).is_empty());
+    assert_eq!(
+        files(&folder).into_keys().collect::<Vec<_>>(),
+        ["bars.csv", "chain.toml", "columns.toml", "deep", "link"]
+    );
+    assert!(files(&folder.join("deep")).is_empty());
 }
 
 /// None of these commands would end within a test.
@@ -196,16 +170,17 @@ fn what_cannot_be_written_is_said_before_the_work() {
             [&["trace", "chain.toml", "--csv", out][..], &vary].concat(),
             [&["trace", "chain.toml", "--svg", out][..], &vary].concat(),
         ] {
-            let output = funicular(&folder, &command);
+            let output = ran(&folder, &command);
             assert_eq!(output.status.code(), Some(2), "{command:?}");
             let wanted = format!("cannot write {out}: {why}");
-            assert!(stderr(&output).contains(&wanted), "{command:?}: {}", stderr(&output));
+            assert!(words(&output).contains(&wanted), "{command:?}: {}", words(&output));
         }
     }
     fs::create_dir_all(folder.join("out/report.md")).unwrap();
-    let output = funicular(&folder, &["reproduce", "--out", "out"]);
+    let output = ran(&folder, &["reproduce", "--out", "out"]);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(names(&folder.join("out")), ["report.md"], "{}", stderr(&output));
+    let left: Vec<_> = fs::read_dir(folder.join("out")).unwrap().collect();
+    assert_eq!(left.len(), 1, "{}", words(&output));
 }
 
 /// The first bytes of standard input are not lost by a look at them.
@@ -218,42 +193,13 @@ fn bars_come_from_standard_input() {
     let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
     command.current_dir(&folder).write_stdin("length_m,mass_kg\n1,1\n1,2\n1,1\n");
     let output = command.args(["solve", "chain.toml"]).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
-/// A process that ends with the test, however that ends.
-struct Ended(Child);
-
-impl Ended {
-    /// The exit code, within some patience.
-    fn code(&mut self) -> Option<i32> {
-        let start = Instant::now();
-        while start.elapsed() < LONG {
-            if let Some(status) = self.0.try_wait().unwrap() {
-                return status.code();
-            }
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        panic!("it does not end");
-    }
-
-    fn signal(&self, name: &str) {
-        let id = self.0.id().to_string();
-        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
-    }
-}
-
-impl Drop for Ended {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
 }
 
 /// The program, started by an `env` of GNU: a script may have had signals ignored, and its children
 /// inherit that.
 #[cfg(target_os = "linux")]
-fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Ended {
+fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Running {
     let child = Command::new("env")
         .args(["--default-signal", signals])
         .arg(cargo_bin("funicular"))
@@ -261,7 +207,7 @@ fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Ended {
         .current_dir(folder)
         .stdout(Stdio::null())
         .spawn();
-    Ended(child.unwrap())
+    Running(child.unwrap())
 }
 
 /// Until the file is being written; before the work there is a moment when one stands there empty.
@@ -271,11 +217,9 @@ fn wait_for_bytes(folder: &Path) {
         path.extension().is_some_and(|extension| extension == "part")
             && fs::metadata(path).is_ok_and(|about| about.len() > 0)
     };
-    let start = Instant::now();
-    while !fs::read_dir(folder).unwrap().any(|entry| growing(entry.unwrap().path())) {
-        assert!(start.elapsed() < LONG, "nothing is written");
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let any =
+        |folder: &Path| fs::read_dir(folder).unwrap().any(|entry| growing(entry.unwrap().path()));
+    wait_until("nothing is written", || any(folder));
 }
 
 #[cfg(target_os = "linux")]
@@ -291,7 +235,7 @@ fn an_interruption_leaves_no_part_behind() {
         wait_for_bytes(&folder);
         running.signal(signal);
         assert_eq!(running.code(), Some(130), "{signal}");
-        assert_eq!(names(&folder), ["chain.toml"], "{signal}");
+        assert_eq!(files(&folder).into_keys().collect::<Vec<_>>(), ["chain.toml"], "{signal}");
     }
 }
 
@@ -307,26 +251,7 @@ fn a_hangup_that_is_ignored_is_ignored() {
     wait_for_bytes(&folder);
     running.signal("HUP");
     assert_eq!(running.code(), Some(0));
-    assert_eq!(names(&folder), ["chain.toml", "out.csv"]);
-}
-
-#[test]
-fn the_help_says_what_an_interruption_leaves() {
-    let help = |command: &str| {
-        let output = funicular(Path::new("."), &[command, "--help"]);
-        stderr(&output) + &String::from_utf8(output.stdout).unwrap()
-    };
-    for command in ["solve", "census", "reproduce", "trace", "basins"] {
-        let help = help(command);
-        assert!(help.contains("130  interrupted; nothing is kept to go on from"), "{help}");
-    }
-    // `merge` has no --resume.
-    for (command, goes_on) in [
-        ("sweep", "130  interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on"),
-        ("merge", "130  interrupted (Ctrl-C or SIGTERM): the same command goes on"),
-    ] {
-        assert!(help(command).contains(goes_on), "{command}");
-    }
+    assert_eq!(files(&folder).into_keys().collect::<Vec<_>>(), ["chain.toml", "out.csv"]);
 }
 
 /// What a limit of memory lets through keeps to it, and what it does not is refused before it is
@@ -350,11 +275,11 @@ fn a_limit_of_memory_is_kept() {
     let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
     fs::write(folder.join("chain.toml"), chain(200_000)).unwrap();
     let output = limited("92MB", PROGRAM + 92_000, "chain.toml");
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     fs::write(folder.join("longer.toml"), chain(200_001)).unwrap();
     let output = limited("92MB", PROGRAM, "longer.toml");
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("200000"), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", words(&output));
+    assert!(words(&output).contains("200000"), "{}", words(&output));
     fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();
     assert_eq!(limited("1GB", PROGRAM, "most.toml").status.code(), Some(2));
     // Lines of nothing, empty arrays, comments.
@@ -364,12 +289,12 @@ fn a_limit_of_memory_is_kept() {
         let long = if name == "arrays" { format!("a = [{long}]") } else { long };
         fs::write(folder.join(&file), &long).unwrap();
         let output = limited("200MB", PROGRAM + 200_000, &file);
-        assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
-        assert!(!stderr(&output).contains("longer than"), "{name}: {}", stderr(&output));
+        assert_eq!(output.status.code(), Some(2), "{name}: {}", words(&output));
+        assert!(!words(&output).contains("longer than"), "{name}: {}", words(&output));
         fs::write(folder.join(&file), long.repeat(2)).unwrap();
         let output = limited("200MB", PROGRAM, &file);
-        assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
-        assert!(stderr(&output).contains("2500000"), "{name}: {}", stderr(&output));
+        assert_eq!(output.status.code(), Some(2), "{name}: {}", words(&output));
+        assert!(words(&output).contains("2500000"), "{name}: {}", words(&output));
     }
 }
 
@@ -378,13 +303,13 @@ fn a_limit_of_memory_is_kept() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_undecided() {
     let out = folder("full");
-    let output = funicular(&out, &["solve", "--case", "two-bars", "--csv", "/dev/full"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-    assert!(stderr(&output).contains("cannot write /dev/full"), "{}", stderr(&output));
+    let output = ran(&out, &["solve", "--case", "two-bars", "--csv", "/dev/full"]);
+    assert_eq!(output.status.code(), Some(3), "{}", words(&output));
+    assert!(words(&output).contains("cannot write /dev/full"), "{}", words(&output));
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let mut command = Command::new(cargo_bin("funicular"));
     let output = command.args(["solve", "--case", "two-bars"]).stdout(full).output().unwrap();
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", words(&output));
 }
 
 /// The same of the commands that write most: files may be no longer than one block, which stands
@@ -405,12 +330,9 @@ fn a_disk_that_is_full_in_the_end_is_undecided() {
         ][..],
         &["reproduce", "--out", "r"],
     ] {
-        let script = "ulimit -f 1; trap '' XFSZ; exec \"$@\"";
-        let mut command = Command::new("sh");
-        command.args(["-c", script, "sh"]).arg(cargo_bin("funicular")).args(arguments);
-        let output = command.current_dir(&out).output().unwrap();
-        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", stderr(&output));
-        assert!(stderr(&output).contains("cannot write"), "{arguments:?}: {}", stderr(&output));
+        let output = limited(&out, "ulimit -f 1; trap '' XFSZ", arguments);
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", words(&output));
+        assert!(words(&output).contains("cannot write"), "{arguments:?}: {}", words(&output));
     }
     // Nothing is left that looks like a result.
     assert!(!out.join("t.csv").exists() && !out.join("r").join("results.json").exists());
@@ -429,8 +351,8 @@ fn links_in_the_place_of_temporary_files_are_left_alone() {
     command.args(["-c", script, "sh"]).arg(cargo_bin("funicular"));
     command.args(["solve", "--case", "two-bars", "--csv", "out.csv"]);
     let output = command.current_dir(&folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     assert_eq!(fs::read_to_string(folder.join("precious")).unwrap(), "precious");
     assert!(fs::symlink_metadata(folder.join("out.csv")).unwrap().is_file());
-    assert_eq!(names(&folder).len(), 8);
+    assert_eq!(files(&folder).into_keys().collect::<Vec<_>>().len(), 8);
 }

@@ -2,10 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::{Path, PathBuf};
-use std::process::Output;
-
-use assert_cmd::Command;
+use crate::run::{folder, ran};
 use model::system_file::FORMAT;
 
 /// What a terminal has room for: wider lines are broken where they are copied.
@@ -17,23 +14,11 @@ fn blocks() -> Vec<(&'static str, &'static str)> {
     parts.iter().skip(1).step_by(2).map(|block| block.split_once('\n').unwrap()).collect()
 }
 
-fn folder() -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("format-page");
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn solve(folder: &Path, file: &str) -> Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).args(["solve", file]).output().unwrap()
-}
-
 /// Exit code 0, or 2 where the block says that it is refused. Files of bars and joints stand behind the system that
 /// names them.
 #[test]
 fn every_block_is_solved_or_refused_as_it_says() {
-    let folder = folder();
+    let folder = folder("all");
     let all = blocks();
     let (mut solved, mut refused) = (0, 0);
     for (k, (language, text)) in all.iter().enumerate().filter(|(_, (l, _))| !l.starts_with("csv"))
@@ -45,7 +30,7 @@ fn every_block_is_solved_or_refused_as_it_says() {
         }
         let file = format!("block-{k}.{language}");
         std::fs::write(folder.join(&file), text).unwrap();
-        let output = solve(&folder, &file);
+        let output = ran(&folder, &["solve", &file]);
         let said = String::from_utf8_lossy(&output.stderr);
         let wanted = if text.contains("# refused: ") { 2 } else { 0 };
         assert_eq!(output.status.code(), Some(wanted), "block {k}:\n{text}\n{said}");

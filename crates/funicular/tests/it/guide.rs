@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::keys::output::run;
+use crate::run::run;
 
 /// The pictures with the commands that draw them, whose last argument is the file.
 const PICTURES: [&[&str]; 10] = [
@@ -66,13 +66,13 @@ fn its_first_structures_are_solved() {
         (&["solve", "--case", "lattice-tower"], &["1884.22", "2954.56"]),
         (&["solve", "--case", "star-dome"], &["joint N1 is 1.843e-3 m", "a lower one exists"]),
     ] {
-        let (code, text) = run(folder.path(), arguments);
+        let (code, text, _) = run(folder.path(), arguments);
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(code, Some(0));
         assert!(said.iter().all(|words| text.contains(words.trim())), "{said:?}\n{text}");
     }
     let vary = "joints.N1.force_n.z=-40..-720:18";
-    let (code, text) = run(folder.path(), &["study", "--case", "star-dome", "--vary", vary]);
+    let (code, text, _) = run(folder.path(), &["study", "--case", "star-dome", "--vary", vary]);
     assert_eq!(code, Some(3));
     assert!(text.contains("both solvers agree on 16"), "{text}");
 }
@@ -86,7 +86,7 @@ fn its_load_path_is_followed() {
     let command = page.split('`').find_map(|code| code.strip_prefix("funicular trace gable.toml"));
     let arguments = command.unwrap().split_whitespace();
     let arguments: Vec<&str> = ["trace", "gable.toml"].into_iter().chain(arguments).collect();
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(0));
     let said = page.split_once("```text\n").unwrap().1.split_once("```").unwrap().0;
     let trimmed =

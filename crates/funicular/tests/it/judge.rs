@@ -2,12 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::{Path, PathBuf};
-use std::process::Output;
-
-use assert_cmd::Command;
 use formats::system::parse_moordyn;
 use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+use crate::run::{command, refused, run, says};
 
 /// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
 /// it hangs 4 m deep, and each cable pulls with 5/4 of 10 N.
@@ -18,25 +17,14 @@ const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n[joints]\nA = { at_m = [
 const RIGHT: &str = "joint,x_m,y_m,z_m\nP,0,0,-4\nA,-3,0,0\nB,3,0,0\n";
 
 fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
+    let path = crate::run::folder(name);
     std::fs::write(path.join("lamp.toml"), LAMP).unwrap();
     std::fs::write(path.join("right.csv"), RIGHT).unwrap();
     path
 }
 
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("NO_COLOR", "1").args(arguments);
-    command
-}
-
 fn judge(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let all: Vec<_> = std::iter::once("judge").chain(arguments.iter().copied()).collect();
-    let Output { status, stdout, stderr } = command(folder, &all).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code(), text(stdout), text(stderr))
+    run(folder, &[&["judge"], arguments].concat())
 }
 
 fn write(folder: &Path, name: &str, text: &str) {
@@ -168,15 +156,6 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
     );
 }
 
-#[test]
-fn the_help_has_the_exit_codes_of_a_judge() {
-    let (code, out, _) = judge(&folder("judge-help"), &["--help"]);
-    assert_eq!((code, out.matches("Exit codes:").count()), (Some(0), 1), "{out}");
-    for says in ["0  confirmed:", "1  refuted:", "3  undecided:"] {
-        assert!(out.contains(says), "{says}: {out}");
-    }
-}
-
 /// With oblique sliders, as in the issue: its own answer in 8 digits, 5e-8 m off.
 #[test]
 fn an_answer_with_oblique_sliders_is_confirmed() {
@@ -202,31 +181,24 @@ fn bad_input_is_told_and_ends_with_two() {
     ];
     for (name, text, says) in files {
         write(&folder, name, text);
-        let (code, out, err) = judge(&folder, &["lamp.toml", "--answer", name]);
-        let err = err.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
-        assert_eq!((code, out.as_str()), (Some(2), ""), "{name}: {err}");
-        assert!(err.contains(says), "{name}: {err}");
+        refused(&folder, &["judge", "lamp.toml", "--answer"], &[(&[name], says)]);
     }
     std::fs::write(folder.join("latin.csv"), b"joint,x_m,y_m,z_m\n\xe9,0,0,0\n").unwrap();
     let large = std::fs::File::create(folder.join("large.csv")).unwrap();
     large.set_len(model::system_file::MAX_FILE_BYTES + 1).unwrap();
-    for (arguments, says) in [
-        (vec!["lamp.toml"], "an answer is needed"),
-        (vec!["lamp.toml", "--answer", "none.csv"], "cannot be read"),
-        (vec!["lamp.toml", "--answer", "."], "it is a folder"),
-        (vec!["lamp.toml", "--answer", "latin.csv"], "cannot be read"),
-        (vec!["lamp.toml", "--answer", "large.csv"], "it is longer than"),
-        (vec!["-", "--answer", "-"], "cannot both come from standard input"),
-        (vec!["right.csv"], "needs its edges too"),
-        (vec!["lamp.toml", "--edges", "right.csv", "--format", "funicular"], "--edges is for nets"),
-        (vec!["lamp.toml", "--answer", "right.csv", "--tolerance", "2"], "must lie between"),
-        (vec!["lamp.toml", "--answer", "right.csv", "--tolerance", "nan"], "must lie between"),
-    ] {
-        let (code, _, err) = judge(&folder, &arguments);
-        let err = err.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
-        assert_eq!(code, Some(2), "{arguments:?}: {err}");
-        assert!(err.contains(says), "{arguments:?}: {err}");
-    }
+    let table = [
+        (&["lamp.toml"][..], "an answer is needed"),
+        (&["lamp.toml", "--answer", "none.csv"], "cannot be read"),
+        (&["lamp.toml", "--answer", "."], "it is a folder"),
+        (&["lamp.toml", "--answer", "latin.csv"], "cannot be read"),
+        (&["lamp.toml", "--answer", "large.csv"], "it is longer than"),
+        (&["-", "--answer", "-"], "cannot both come from standard input"),
+        (&["right.csv"], "needs its edges too"),
+        (&["lamp.toml", "--edges", "right.csv", "--format", "funicular"], "--edges is for nets"),
+        (&["lamp.toml", "--answer", "right.csv", "--tolerance", "2"], "must lie between"),
+        (&["lamp.toml", "--answer", "right.csv", "--tolerance", "nan"], "must lie between"),
+    ];
+    refused(&folder, &["judge"], &table);
 }
 
 #[test]
@@ -292,11 +264,10 @@ fn a_deck_of_a_plane_says_what_it_wants_and_leaves_out() {
     let (code, out, err) = judge(&folder, &["plane.tcl", "--answer", "answer.csv"]);
     assert_eq!(code, Some(0), "{out}{err}");
     let said = out.split_whitespace().collect::<Vec<_>>().join(" ");
-    for says in
-        ["(x, y) is (x, 0, y), of answers too", "loads on held nodes (2), in sum (7, 0, -150) N"]
-    {
-        assert!(said.contains(says), "{out}");
-    }
+    says(
+        &said,
+        &["(x, y) is (x, 0, y), of answers too", "loads on held nodes (2), in sum (7, 0, -150) N"],
+    );
 }
 
 #[test]

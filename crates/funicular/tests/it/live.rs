@@ -5,7 +5,7 @@
 use funicular::live::{Ask, Live};
 use serde_json::{Value, json};
 
-use crate::run::run;
+use crate::run::refused;
 
 fn asked(question: &Value) -> Live {
     serde_json::from_value::<Ask>(question.clone()).unwrap().run()
@@ -156,16 +156,10 @@ fn the_page_begins_with_the_file() {
 #[test]
 fn bad_input_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
-    for (arguments, wanted) in [
-        (&["serve", "absent.toml"][..], "absent.toml"),
-        (&["serve", "--port", "70000"][..], "--port"),
-    ] {
-        let (code, _, said) = run(folder.path(), arguments);
-        assert_eq!(code, Some(2), "{said}");
-        assert!(said.contains(wanted), "{said}");
-    }
+    let table: [(&[&str], _); 2] =
+        [(&["absent.toml"], "absent.toml"), (&["--port", "70000"], "--port")];
+    refused(folder.path(), &["serve"], &table);
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
-    let (code, _, said) = run(folder.path(), &["serve", "--port", &port]);
-    assert!(code == Some(2) && said.contains(&port), "{code:?} {said}");
+    refused(folder.path(), &["serve"], &[(&["--port", &port], &port)]);
 }

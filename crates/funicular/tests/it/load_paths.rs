@@ -72,7 +72,7 @@ fn a_shallow_gable_snaps_through_and_back() {
     let path = path(&gable(0.5, "z", ""), "loads=0,1,-1");
     let l0 = 1.25_f64.sqrt();
     let limit_n = load_n(l0, l0.cbrt());
-    let kind = LoadEventKind::LimitPoint;
+    let kind = LoadEventKind::Limit;
     assert_eq!(told(&path.events), [(kind, [0, 1]), (kind, [1, 0])]);
     near(path.events[0].values[0], limit_n);
     near(path.events[1].values[0], -limit_n);
@@ -102,7 +102,7 @@ fn a_steep_gable_sways_before_its_limit() {
     let l0 = 10_f64.sqrt();
     let sways = |l: f64| l.powi(3) - l0 * (l * l - 1.0);
     let [first, second] = [root(sways, [2.2, l0]), root(sways, [1.01, 2.2])];
-    let (limit, branch) = (LoadEventKind::LimitPoint, LoadEventKind::BranchPoint);
+    let (limit, branch) = (LoadEventKind::Limit, LoadEventKind::Branch);
     let wanted = [(branch, [0, 1]), (limit, [1, 2]), (branch, [2, 1])];
     assert_eq!(told(&path.events), wanted);
     for (event, l) in path.events.iter().zip([first, l0.cbrt(), second]) {
@@ -151,7 +151,7 @@ fn an_imperfect_steep_gable_bears_less_by_the_power_two_thirds() {
         let file = gable(3.0, "xz", "").replace("near_m = [0,", &format!("near_m = [{off},"));
         let path = path(&file, "loads=0..2");
         let first = path.first_loss().unwrap();
-        assert_eq!(first.kind, LoadEventKind::LimitPoint);
+        assert_eq!(first.kind, LoadEventKind::Limit);
         perfect - first.values[0]
     };
     let [small, large] = [loss(1e-5), loss(8e-5)];
@@ -165,7 +165,7 @@ fn an_imperfect_steep_gable_bears_less_by_the_power_two_thirds() {
 fn what_imperfections_change_a_limit_by() {
     let limit = |file: &str| {
         let path = path(file, "loads=0..2");
-        path.events.iter().find(|event| event.kind == LoadEventKind::LimitPoint).unwrap().clone()
+        path.events.iter().find(|event| event.kind == LoadEventKind::Limit).unwrap().clone()
     };
     let l0 = 1.25_f64.sqrt();
     let w = (l0.cbrt().powi(2) - 1.0).sqrt();
@@ -227,7 +227,7 @@ fn a_path_that_goes_round_ends_where_it_began() {
     let ends: Vec<f64> = round.events.iter().map(|event| event.values[0]).collect();
     // Where it turns the load is known to the square of how well the place is.
     assert!((ends[0] + critical).abs().max((ends[1] - critical).abs()) < 1e-8, "{ends:?}");
-    assert!(round.events.iter().all(|e| e.kind == LoadEventKind::BranchPoint && e.turns));
+    assert!(round.events.iter().all(|e| e.kind == LoadEventKind::Branch && e.turns));
     assert!(round.points.iter().any(|point| point.joints_m[3][0] > 0.99));
     assert!(round.points.iter().any(|point| point.joints_m[3][0] < -0.99));
 }
@@ -409,7 +409,7 @@ fn a_chain_as_a_system_has_its_fold() {
     let found = Trace::new().vary("anchors.end_m.x=1.2..1.3").unwrap().run(&drawn).unwrap();
     assert!(found.checks_agree(), "{found}");
     let path = &found.load_paths().unwrap().paths()[0];
-    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::LimitPoint);
+    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::Limit);
     near(limit.unwrap().values[0], 1.5_f64.sqrt());
 }
 
@@ -535,7 +535,7 @@ fn a_rope_over_a_gable_moves_its_limit() {
     near(path.events[0].values[0], limit_n);
     let [low, high] = path.events[0].enclosed.unwrap();
     assert!(low - 1e-15 <= limit_n && limit_n <= high + 1e-15 && high - low < 1e-13);
-    is_proved(&path, LoadEventKind::LimitPoint, limit_n);
+    is_proved(&path, LoadEventKind::Limit, limit_n);
     for point in path.points.iter().take(3) {
         let l = point.joints_m[2][2].hypot(1.0);
         near(point.axial_n[2], soft * (2.0 * l / rope_m - 1.0));

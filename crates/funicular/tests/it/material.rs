@@ -87,7 +87,7 @@ fn a_count_asks_for_no_new_masses() {
         let text = text.replace("count = 8", &format!("count = {count}"));
         let text = text.replace("LENGTH", &(8.0 / count as f64).to_string());
         let problem = Problem::parse(&text, "rope.toml").unwrap();
-        problem.as_chain().unwrap().chain().total_mass_kg()
+        problem.system().total_mass_kg()
     };
     for count in [8, 16, 32] {
         assert!((mass_kg(count) - 6.0).abs() < 1e-12);

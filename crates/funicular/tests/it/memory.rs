@@ -5,39 +5,17 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 
+use crate::run::folder;
 use model::budget::{BYTES_PER_MEMBER, BYTES_PER_MEMBER_IN_ROW};
 use model::system_file::{BYTES_PER_BAR, BYTES_PER_BAR_OF_FILE};
 
 /// What is said is at most so many tenths of what is measured.
 const TENTHS: u64 = 14;
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("memory").join(name);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// The most memory that the program has held when it begins to print its answer, bytes. It waits for its reader
-/// there: an answer is longer than what a pipe holds.
 fn peak(folder: &Path, file: &str) -> u64 {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_funicular"))
-        .args(["solve", file, "--json", "--threads", "2"])
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut out = child.stdout.take().unwrap();
-    out.read_exact(&mut [0; 1000]).unwrap();
-    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
-    drop(out);
-    child.wait().unwrap();
-    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
-    most.trim().trim_end_matches(" kB").parse::<u64>().unwrap() * 1024
+    crate::run::peak(folder, &["solve", file, "--json", "--threads", "2"], 1000)
 }
 
 /// What each of so many members takes, beside the program itself, against what is said: not less, and no more

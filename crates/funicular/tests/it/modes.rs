@@ -2,22 +2,22 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use std::io::Read as _;
 use std::path::Path;
+use std::process::Stdio;
 
-use assert_cmd::Command;
 use serde_json::Value;
+
+use crate::run::{Running, column, command, files, program, wait_until};
 
 /// The outcome of the program in a folder, on so many threads of the pool.
 fn run(folder: &Path, threads: usize, arguments: &[&str]) -> std::process::Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("RAYON_NUM_THREADS", threads.to_string());
-    command.args(arguments).output().unwrap()
+    let mut command = command(folder, arguments);
+    command.env("RAYON_NUM_THREADS", threads.to_string()).output().unwrap()
 }
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let output = run(folder, 2, arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    crate::run::json(&run(folder, 2, arguments))
 }
 
 /// The ends of the enclosure of each mode.
@@ -284,15 +284,11 @@ fn of_two_stable_rests_each_release_is_given_its_own() {
     // Each end has the energy of the rest that it is given: m g z and the three bars'.
     let energy = |z: f64| 9.806_65 * z + 1.5 * 400.0 / 0.7 * (z.hypot(0.5) - 0.7).powi(2);
     let rows = read("one/part-000000.csv");
-    let mut lines = rows.lines();
-    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
     let mut counts = [0, 0];
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let outcome: usize = cells[column("motion_outcome")].parse().unwrap();
-        let found: f64 = cells[column("motion_energy_j")].parse().unwrap();
-        assert!((found - energy(heights[outcome])).abs() < 1e-6, "{line}");
+    let outcomes = column(&rows, "motion_outcome");
+    for (outcome, found) in outcomes.into_iter().zip(column(&rows, "motion_energy_j")) {
+        let outcome = outcome as usize;
+        assert!((found - energy(heights[outcome])).abs() < 1e-6, "{outcome}: {found}");
         counts[outcome] += 1;
     }
     assert!(counts[0] + counts[1] == 400 && counts[0] > 100 && counts[1] > 40, "{counts:?}");
@@ -309,16 +305,12 @@ fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {
     let whole = [&release[..], &more[..], &["whole"]].concat();
     assert_eq!(run(folder.path(), 2, &whole).status.code(), Some(0));
     let part = [&release[..], &more[..], &["part", "--threads", "1"]].concat();
-    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"));
-    let mut child = command.current_dir(folder.path()).args(&part).spawn().unwrap();
+    let mut running = Running(program(folder.path(), &part).spawn().unwrap());
     // The first of four parts is there.
     let first = folder.path().join("part/part-000000.parquet");
-    while !first.exists() && child.try_wait().unwrap().is_none() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    let id = child.id().to_string();
-    assert!(std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    wait_until("no part appears", || first.exists());
+    running.signal("TERM");
+    assert_eq!(running.code(), Some(130));
     assert!(first.exists() && !folder.path().join("part/summary.json").exists());
     let go_on = [&part[..], &["--resume"]].concat();
     assert_eq!(run(folder.path(), 2, &go_on).status.code(), Some(0));
@@ -333,23 +325,18 @@ fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {
 #[test]
 fn an_interrupted_motion_keeps_what_is_done() {
     let folder = tempfile::tempdir().unwrap();
-    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"));
     // Hours of motion, stored each hundredth of a second.
     let arguments = ["simulate", "--case", "two-bars", "--from", "seed:1", "--time", "1e5"];
-    command.args(arguments).args(["--store", "0.01", "--out", "m.csv"]);
-    command.stdout(std::process::Stdio::piped()).current_dir(folder.path());
-    let mut child = command.spawn().unwrap();
+    let arguments = [&arguments[..], &["--store", "0.01", "--out", "m.csv"]].concat();
+    let mut command = program(folder.path(), &arguments);
+    let mut running = Running(command.stdout(Stdio::piped()).spawn().unwrap());
     // The file is begun when the interruption is caught already.
-    while std::fs::read_dir(folder.path()).unwrap().next().is_none() {
-        assert!(child.try_wait().unwrap().is_none());
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
+    wait_until("nothing is written", || !files(folder.path()).is_empty());
     std::thread::sleep(std::time::Duration::from_millis(200));
-    let id = child.id().to_string();
-    assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let text = String::from_utf8(output.stdout).unwrap();
+    running.signal("INT");
+    assert_eq!(running.code(), Some(130));
+    let mut text = String::new();
+    running.0.stdout.take().unwrap().read_to_string(&mut text).unwrap();
     assert!(text.contains("s, interrupted,"), "{text}");
     let csv = std::fs::read_to_string(folder.path().join("m.csv")).unwrap();
     let rows: Vec<&str> = csv.lines().collect();

@@ -4,18 +4,8 @@
 
 use std::path::Path;
 
-use assert_cmd::Command;
+use crate::run::{column, funicular, good, ran, refused, words};
 use serde_json::Value;
-
-fn funicular(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("funicular").unwrap().args(arguments).output().unwrap()
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = funicular(arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
 
 fn file(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);
@@ -23,25 +13,8 @@ fn file(folder: &Path, name: &str, text: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-#[test]
-fn modes_of_the_paper_have_the_keys_that_others_rely_on() {
-    let found = json(&["modes", "--case", "three-equal-bars", "--json"]);
-    assert_eq!(found["schema_version"], 3);
-    assert_eq!(found["complete"], true);
-    let equilibria = found["equilibria"].as_array().unwrap();
-    assert_eq!(equilibria.len(), 4);
-    for equilibrium in equilibria {
-        let modes = equilibrium["modes"].as_array().unwrap();
-        assert_eq!(modes.len(), 3);
-        let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
-        assert!(omega2.windows(2).all(|pair| pair[0] <= pair[1]), "{omega2:?}");
-        let negative = omega2.iter().filter(|o| **o < 0.0).count();
-        assert_eq!(equilibrium["index_in_space"], negative);
-        for mode in modes {
-            assert_eq!(mode["shape"].as_array().unwrap().len(), 4);
-            assert!(mode["what"].is_string());
-        }
-    }
+fn json(arguments: &[&str]) -> Value {
+    crate::run::json(&funicular(arguments))
 }
 
 /// A double pendulum of point masses on massless links, by name.
@@ -87,22 +60,24 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     let folder = tempfile::tempdir().unwrap();
     let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
     let run = |csv: &str, html: &str| {
-        let output = funicular(&[
-            "simulate",
-            "--case",
-            "three-equal-bars",
-            "--from",
-            "angles=0,60,-60",
-            "--time",
-            "2",
-            "--push",
-            "1=0.1,0,0",
-            "--out",
-            csv,
-            "--html",
-            html,
-        ]);
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        good(
+            ".",
+            &[
+                "simulate",
+                "--case",
+                "three-equal-bars",
+                "--from",
+                "angles=0,60,-60",
+                "--time",
+                "2",
+                "--push",
+                "1=0.1,0,0",
+                "--out",
+                csv,
+                "--html",
+                html,
+            ],
+        );
     };
     run(&name("a.csv"), &name("a.html"));
     run(&name("b.csv"), &name("b.html"));
@@ -176,14 +151,13 @@ fn a_motion_for_paraview_is_that_of_the_columns() {
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(run("motion.csv").status.code(), Some(0));
     let text = std::fs::read_to_string(name("motion.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
+    let columns = text;
     let number = |text: &str| -> f64 { text.parse().unwrap() };
     let text = std::fs::read_to_string(name("motion.pvd")).unwrap();
     let times = attributes(&text, "DataSet", "timestep");
     let files = attributes(&text, "DataSet", "file");
-    assert_eq!((times.len(), rows.len()), (6, 7));
-    for ((time, file), row) in times.iter().zip(&files).zip(&rows[1..]) {
+    assert_eq!((times.len(), columns.lines().count()), (6, 7));
+    for (row, (time, file)) in times.iter().zip(&files).enumerate() {
         let text = std::fs::read_to_string(name(file)).unwrap();
         let tree = roxmltree::Document::parse(&text).unwrap();
         let array = |name: &str| -> Vec<f64> {
@@ -192,7 +166,7 @@ fn a_motion_for_paraview_is_that_of_the_columns() {
             node.text().unwrap().split_whitespace().map(number).collect()
         };
         let is = |found: f64, column_name: &str| {
-            let told = number(row[column(column_name)]);
+            let told = column(&columns, column_name)[row];
             assert!((found - told).abs() <= 1e-12 * told.abs(), "{column_name}: {found} {told}");
         };
         is(number(time), "time_s");
@@ -253,7 +227,7 @@ fn simulate_refuses_what_it_cannot_do_and_says_why() {
         let mut all = vec!["simulate", "--case", "three-equal-bars"];
         all.extend(arguments);
         let output = funicular(&all);
-        let said = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
+        let said = words(&output);
         assert!(matches!(output.status.code(), Some(2 | 3)), "{all:?} {said}");
         assert!(said.contains(told), "{all:?}: {said}");
     }
@@ -308,8 +282,7 @@ fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_
         funicular(&arguments)
     };
     let one = run(&at("one"), &["--threads", "1", "--json"]);
-    assert_eq!(one.status.code(), Some(0), "{}", String::from_utf8_lossy(&one.stderr));
-    let told: Value = serde_json::from_slice(&one.stdout).unwrap();
+    let told = crate::run::json(&one);
     let rows = told["solvers"]["motion"].as_array().unwrap();
     let count = |outcome: i64| {
         let row = rows.iter().find(|row| row["outcome"] == outcome);
@@ -325,9 +298,7 @@ fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_
     let present = run(&at("second"), &["--shard", "2/2"]);
     assert_eq!(present.status.code(), Some(2), "{}", String::from_utf8_lossy(&present.stderr));
     assert_eq!(run(&at("second"), &["--shard", "2/2", "--resume"]).status.code(), Some(0));
-    let merged = funicular(&["merge", &at("first"), &at("second"), "--out", &at("both")]);
-    assert_eq!(merged.status.code(), Some(0), "{}", String::from_utf8_lossy(&merged.stderr));
-    let text = String::from_utf8(merged.stdout).unwrap();
+    let text = good(".", &["merge", &at("first"), &at("second"), "--out", &at("both")]);
     assert!(text.contains("released seeds") && text.contains("time / s"), "{text}");
     let [one, both] = ["one", "both"].map(|name| folder_bytes(&folder.path().join(name)));
     assert_eq!(one, both);
@@ -348,20 +319,16 @@ fn forces_of_a_table_drive_a_weight() {
     std::fs::write(path("slider.toml"), slider).unwrap();
     std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n2,A,6,0,0\n").unwrap();
     let run = |more: &[&str]| {
-        let mut command = Command::cargo_bin("funicular").unwrap();
-        command.current_dir(folder.path()).args(["simulate", "slider.toml", "--forces", "f.csv"]);
-        command.args(["--time", "3", "--store", "1", "--order", "4", "--out", "m.csv"]);
-        command.args(more).output().unwrap()
+        let simulate = ["simulate", "slider.toml", "--forces", "f.csv", "--out", "m.csv"];
+        let times = ["--time", "3", "--store", "1", "--order", "4"];
+        ran(folder.path(), &[&simulate[..], &times, more].concat())
     };
     let output = run(&[]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let csv = std::fs::read_to_string(path("m.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
-    let number = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
-    for (row, place, speed) in [(2, 0.5, 1.5), (3, 4.0, 6.0), (4, 10.0, 6.0)] {
-        assert!((number(row, "joint_A_x_m") - place).abs() < 1e-2, "{:?}", rows[row]);
-        assert!((number(row, "joint_A_vx_m_s") - speed).abs() < 1e-2, "{:?}", rows[row]);
+    for (row, place, speed) in [(1, 0.5, 1.5), (2, 4.0, 6.0), (3, 10.0, 6.0)] {
+        assert!((column(&csv, "joint_A_x_m")[row] - place).abs() < 1e-2, "{csv}");
+        assert!((column(&csv, "joint_A_vx_m_s")[row] - speed).abs() < 1e-2, "{csv}");
     }
     std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n0,A,6,0,0\n").unwrap();
     let output = run(&[]);
@@ -389,13 +356,8 @@ fn a_lamp_on_cables_is_thrown_up_and_caught() {
     assert!(html.exists());
     let text = String::from_utf8(output.stdout).unwrap();
     let csv = std::fs::read_to_string(&path).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
-    let of = |name: &str| {
-        let at = column(name);
-        rows[1..].iter().map(|row| row[at].parse::<f64>().unwrap()).collect::<Vec<f64>>()
-    };
-    let (lost, kinetic, energy) = (of("lost_j"), of("kinetic_j"), of("energy_j"));
+    let [lost, kinetic, energy] =
+        ["lost_j", "kinetic_j", "energy_j"].map(|name| column(&csv, name));
     // All that it was given is lost when it is caught.
     let last = lost.len() - 1;
     assert!(
@@ -415,8 +377,7 @@ fn a_lamp_on_cables_let_go_anywhere_comes_to_hang_as_the_solvers_say() {
         ["simulate", "--case", "lamp", "--seeds", "100", "--damping", "2", "--time", "30"];
     let more = ["--step", "5e-3", "--json", "--out", out.to_str().unwrap()];
     let output = funicular(&[&release[..], &more[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let told = crate::run::json(&output);
     let rows = told["solvers"]["motion"].as_array().unwrap();
     assert_eq!((rows.len(), &rows[0]["outcome"], &rows[0]["count"]), (1, &0.into(), &100.into()));
 }
@@ -427,22 +388,12 @@ fn what_cannot_be_moved_is_refused_before_it_is_released() {
     let out = folder.path().join("ends");
     // Joints of threads without mass.
     let release = ["simulate", "--case", "mobile", "--seeds", "10", "--damping", "1", "--out"];
-    let output = funicular(&[&release[..], &[out.to_str().unwrap()]].concat());
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(!out.exists(), "{said}");
-    let said = said.replace("\n  ", " ");
-    assert!(said.contains("give it a mass_kg, or a mass to a member that ends there"), "{said}");
+    let says = "give it a mass_kg, or a mass to a member that ends there";
+    refused(".", &release, &[(&[out.to_str().unwrap()], says)]);
+    assert!(!out.exists());
 }
 
 /// The numbers of a column of a CSV file without quotes.
-fn column(path: &Path, name: &str) -> Vec<f64> {
-    let csv = std::fs::read_to_string(path).unwrap();
-    let mut lines = csv.lines().map(|line| line.split(','));
-    let at = lines.next().unwrap().position(|column| column == name).expect(name);
-    lines.map(|mut line| line.nth(at).unwrap().parse().unwrap()).collect()
-}
-
 const PENDULUM: &str = "name = \"pendulum\"\njoints = { O = { at_m = [0, 0, 0] }, P = {} }\n\
                         bars = [{ from = \"O\", to = \"P\", length_m = 1.5, mass_kg = 2 }]\n";
 
@@ -454,9 +405,8 @@ fn a_pendulum_is_let_go_at_an_angle_and_comes_to_rest() {
     let path = file(folder.path(), "pendulum.toml", PENDULUM);
     let from =
         ["simulate", &path, "--from", "angles=90", "--out", &at("p.csv"), "--html", &at("p.html")];
-    let output = funicular(&[&from[..], &["--time", "40", "--damping", "1"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let csv = folder.path().join("p.csv");
+    good(".", &[&from[..], &["--time", "40", "--damping", "1"]].concat());
+    let csv = std::fs::read_to_string(at("p.csv")).unwrap();
     let (y, z) = (column(&csv, "joint_P_y_m"), column(&csv, "joint_P_z_m"));
     assert!((y[0] - 1.5).abs() < 1e-12 && z[0].abs() < 1e-12, "{} {}", y[0], z[0]);
     // The anchor carries a quarter of the weight at first, and all of it at the end.
@@ -468,8 +418,7 @@ fn a_pendulum_is_let_go_at_an_angle_and_comes_to_rest() {
     assert!(page.contains("\"names\":[\"O\",\"P\"]") && page.contains("\"axial\":[["));
     // The colours of the pictures.
     assert!(page.contains("#0072b2") && page.contains("#d55e00") && !page.contains("@BLUE@"));
-    let soon = funicular(&[&from[..], &["--time", "0.5"]].concat());
-    assert_eq!(soon.status.code(), Some(0));
+    good(".", &[&from[..], &["--time", "0.5"]].concat());
     let page = std::fs::read_to_string(at("p.html")).unwrap();
     assert!(page.contains("At the end, after 0.5 s, it still moves, "), "{page}");
 }
@@ -497,7 +446,8 @@ fn a_motion_begins_at_the_places_of_a_file() {
     };
     let output = run("-1.06");
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let (x, z) = (column(&out, "joint_P_x_m")[0], column(&out, "joint_P_z_m")[0]);
+    let csv = std::fs::read_to_string(&out).unwrap();
+    let (x, z) = (column(&csv, "joint_P_x_m")[0], column(&csv, "joint_P_z_m")[0]);
     let level = 1.5 / 2.0_f64.sqrt();
     assert!((x - level).abs() < 1e-12 && (z + level).abs() < 1e-12, "{x} {z}");
     let output = run("-0.5");
@@ -536,7 +486,7 @@ fn steps_too_long_for_stiff_members_are_taken_in_parts_or_refused_with_one_that_
     let (code, text, said, out) = run("5e6", "1e-3");
     assert_eq!(code, Some(0), "{said}");
     assert!(text.contains("each step in 31 parts for the elastic members"), "{text}");
-    let energy = column(&out, "energy_j");
+    let energy = column(&std::fs::read_to_string(out).unwrap(), "energy_j");
     // The push gives p²/2m = 0.01 J.
     assert!(energy.iter().all(|e| (e - energy[0]).abs() < 0.005), "{text}");
     let (code, _, said, _) = run("5e16", "1e-3");

@@ -2,17 +2,16 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use assert_cmd::Command;
+use crate::run::{command, funicular, ran, says, stderr, stdout};
 
 /// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
 const WEIGHT_N: f64 = 2.0 * 9.80665;
 
 fn solve_in(locale: &str, arguments: &[&str]) -> String {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let command = command.env("LC_ALL", locale).args(["solve", "--case", "lamp"]).args(arguments);
-    let output = command.output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    let mut command = command(".", &[&["solve", "--case", "lamp"], arguments].concat());
+    let output = command.env("LC_ALL", locale).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    stdout(&output)
 }
 
 fn solve(arguments: &[&str]) -> String {
@@ -64,9 +63,7 @@ fn the_evidence_in_full_says_once_what_both_solvers_say() {
     for words in ["stress matrix", "Krawczyk", "independent lengths", "the statics judge"] {
         assert_eq!(text.matches(words).count(), 1, "{words}\n{text}");
     }
-    for words in ["+ converged  lagrange:", "+ converged  energy:"] {
-        assert!(text.contains(words), "{text}");
-    }
+    says(&text, &["+ converged  lagrange:", "+ converged  energy:"]);
 }
 
 #[test]
@@ -104,22 +101,17 @@ fn tables_are_pasted_where_they_are_wanted() {
 #[test]
 fn units_are_those_that_are_asked_for() {
     let text = solve(&["--units", "kN,mm"]);
-    for head in ["z / mm", "at from / kN", "Fz / kN"] {
-        assert!(text.contains(head), "{head}\n{text}");
-    }
+    says(&text, &["z / mm", "at from / kN", "Fz / kN"]);
     close(numbers(&text, "lamp")[2], -2400.0);
     close(numbers(&text, "1 A lamp")[1], 0.8e-3 * WEIGHT_N);
-    for words in ["Sag: 2400 mm", "7000 mm long", "Largest tension: 0.0156906 kN"] {
-        assert!(text.contains(words), "{text}");
-    }
+    says(&text, &["Sag: 2400 mm", "7000 mm long", "Largest tension: 0.0156906 kN"]);
     // A pound-force is that of 0.45359237 kg.
     let text = solve(&["--units", "lbf,ft"]);
     close(numbers(&text, "1 A lamp")[1], 0.8 * 2.0 / 0.453_592_37);
     close(numbers(&text, "lamp")[2], -2.4 / 0.3048);
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.args(["solve", "--case", "lamp", "--units", "kp"]).output().unwrap();
+    let output = funicular(&["solve", "--case", "lamp", "--units", "kp"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("kgf"));
+    assert!(stderr(&output).contains("kgf"));
 }
 
 #[test]
@@ -141,9 +133,7 @@ fn both_solvers_count_lengths_alike_on_a_floor() {
     let line = "floor_m = -30\n[joints]\nanchor = { at_m = [0, 0, -30] }\nship = { at_m = [60, 0, 0] }\n\
                 [[bars]]\nfrom = 'anchor'\nto = 'ship'\nlength_m = 3.5\nmass_kg = 70\ncount = 20\n";
     std::fs::write(folder.path().join("line.toml"), line).unwrap();
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let command = command.current_dir(&folder).args(["solve", "line.toml", "--evidence"]);
-    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let text = stdout(&ran(&folder, &["solve", "line.toml", "--evidence"]));
     assert_eq!(text.matches("independent lengths").count(), 1, "{text}");
     assert!(text.contains("20 independent lengths, 35 mechanisms, 0 self-stresses"), "{text}");
 }
@@ -151,9 +141,8 @@ fn both_solvers_count_lengths_alike_on_a_floor() {
 /// `1'` is one word, also where a table is wider than the terminal; and what stands above it is not.
 #[test]
 fn names_of_mirror_images_are_not_broken_over_lines() {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let command = command.env("LC_ALL", "C.UTF-8").args(["census", "--case", "three-equal-bars"]);
-    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let mut command = command(".", &["census", "--case", "three-equal-bars"]);
+    let text = stdout(&command.env("LC_ALL", "C.UTF-8").output().unwrap());
     for label in ["1'", "2'"] {
         let begins = |line: &&str| line.split_whitespace().next() == Some(label);
         // Its energy stands in the same line.
@@ -172,10 +161,8 @@ fn names_of_mirror_images_are_not_broken_over_lines() {
 fn all_that_is_printed_fits_80_columns() {
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| {
-        let mut command = Command::cargo_bin("funicular").unwrap();
-        let command = command.env("LC_ALL", "C.UTF-8").current_dir(folder.path()).args(arguments);
-        let output = command.output().unwrap();
-        String::from_utf8(output.stdout).unwrap()
+        let mut command = command(folder.path(), arguments);
+        stdout(&command.env("LC_ALL", "C.UTF-8").output().unwrap())
     };
     run(&["new", "--net", "5x5", "net.toml"]);
     let trace = ["--case", "three-equal-bars", "--vary", "anchors.end_m.z=-2.9..-0.5:4"];
@@ -209,10 +196,7 @@ fn all_that_is_printed_fits_80_columns() {
 
 #[test]
 fn counts_begin_at_one() {
-    let run = |arguments: &[&str]| {
-        let output = Command::cargo_bin("funicular").unwrap().args(arguments).output().unwrap();
-        String::from_utf8(output.stdout).unwrap()
-    };
+    let run = |arguments: &[&str]| stdout(&funicular(arguments));
     let vary = "anchors.end_m.z=-2.9..-0.5:4";
     let text = run(&["trace", "--case", "three-equal-bars", "--vary", vary]);
     assert!(text.contains(" 1, 2 ") && !text.contains(" 0, 1 "), "{text}");

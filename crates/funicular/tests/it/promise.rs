@@ -10,18 +10,18 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::keys::output::run;
+use crate::run::{good, run};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/promise");
 
 /// What a command prints of a file of the folder, and its exit code.
 fn said(arguments: &[&str]) -> (Option<i32>, String) {
-    run(Path::new(FOLDER), arguments)
+    let (code, text, _) = run(Path::new(FOLDER), arguments);
+    (code, text)
 }
 
 fn solved(file: &str) -> Value {
-    let (code, text) = said(&["solve", file, "--json"]);
-    assert_eq!(code, Some(0), "{file}");
+    let text = good(FOLDER, &["solve", file, "--json"]);
     let answer: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(answer["agreement"]["verdict"], "agreed", "{file}");
     answer
@@ -118,7 +118,7 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
         std::fs::write(path("places.csv"), places).unwrap();
         std::fs::write(path("forces.csv"), forces).unwrap();
         let files = ["--answer", "places.csv", "--members", "forces.csv", "--json"];
-        let (code, text) = run(folder.path(), &[&["judge", "frames.json"][..], &files].concat());
+        let (code, text, _) = run(folder.path(), &[&["judge", "frames.json"][..], &files].concat());
         let answer: Value = serde_json::from_str(&text).unwrap();
         (code, answer["finding"].as_str().unwrap().to_owned())
     };
@@ -143,7 +143,7 @@ fn lengths_that_cannot_be_assembled_are_refused() {
     let longer = text.replace("6.708203932499369", "6.708213932499369");
     assert_ne!(text, longer);
     std::fs::write(folder.path().join("longer.json"), &longer).unwrap();
-    let (code, text) = run(folder.path(), &["solve", "longer.json", "--json"]);
+    let (code, text, _) = run(folder.path(), &["solve", "longer.json", "--json"]);
     assert_eq!(code, Some(2), "{text}");
     let answer: Value = serde_json::from_str(&text).unwrap();
     for failure in answer["failures"].as_array().unwrap() {

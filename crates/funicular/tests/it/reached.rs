@@ -3,7 +3,6 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -11,6 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use funicular::{Format, PreparedSweep, Problem, Sweep};
 use model::{Anchors, Bar, Chain};
 use sweep::{Run, RunSettings, Shard};
+use crate::run::files;
 
 /// Four parts, the last of one seed.
 const SEEDS: u64 = 3 * 1024 + 1;
@@ -30,14 +30,6 @@ fn prepared(problem: &Problem, format: Format, shard: Shard) -> PreparedSweep {
 
 fn settings(threads: usize) -> RunSettings<'static> {
     RunSettings { threads, resume: false, stop: &NEVER, done: &|_| (), found: &|_| () }
-}
-
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let file = |entry: std::io::Result<fs::DirEntry>| {
-        let entry = entry.unwrap();
-        (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
-    };
-    fs::read_dir(folder).unwrap().map(file).collect()
 }
 
 /// Stop as Ctrl-C does, when so many seeds are computed.

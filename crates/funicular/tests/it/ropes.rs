@@ -2,7 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use assert_cmd::Command;
 use funicular::prelude::*;
 use funicular::{DerivativesError, Outcome};
 use model::{STANDARD_GRAVITY_M_S2 as G, SolverName};
@@ -102,10 +101,8 @@ const RING: &str = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 1] 
 fn run(arguments: &[&str]) -> (Option<i32>, Value, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("ring.toml"), RING).unwrap();
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder.path()).args(arguments).output().unwrap();
-    let json = serde_json::from_slice(&output.stdout).unwrap_or_default();
-    (output.status.code(), json, String::from_utf8(output.stderr).unwrap())
+    let (code, text, error) = crate::run::run(folder.path(), arguments);
+    (code, serde_json::from_str(&text).unwrap_or_default(), error)
 }
 
 /// `g κ` along the ellipse, and about the line of the anchors 4/3 m above.

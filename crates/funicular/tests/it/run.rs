@@ -1,15 +1,202 @@
-//! The program, as tests start it.
+//! The program, as tests start it, and what they look at.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::panic::Location;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Output, Stdio};
+use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
+use assert_cmd::cargo::cargo_bin;
+use serde_json::Value;
+
+/// Patience of a loaded machine.
+pub const LONG: Duration = Duration::from_secs(300);
+
+/// The program in a folder, to be started.
+pub fn program(folder: impl AsRef<Path>, arguments: &[&str]) -> std::process::Command {
+    let mut program = std::process::Command::new(cargo_bin("funicular"));
+    program.current_dir(folder).env("NO_COLOR", "1").args(arguments);
+    program
+}
+
+/// The same, to be waited for.
+pub fn command(folder: impl AsRef<Path>, arguments: &[&str]) -> Command {
+    Command::from_std(program(folder, arguments))
+}
+
+/// What it leaves behind under a limit that a shell sets.
+pub fn limited(folder: &Path, limit: &str, arguments: &[&str]) -> Output {
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", &format!("{limit}; exec \"$@\""), "sh"]).arg(cargo_bin("funicular"));
+    shell.args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// A process that ends with the test, however that ends.
+pub struct Running(pub Child);
+
+impl Running {
+    /// The exit code, within some patience.
+    pub fn code(&mut self) -> Option<i32> {
+        let mut status = None;
+        wait_until("it does not end", || {
+            status = self.0.try_wait().unwrap();
+            status.is_some()
+        });
+        status.unwrap().code()
+    }
+
+    pub fn signal(&self, name: &str) {
+        let id = self.0.id().to_string();
+        let kill = std::process::Command::new("kill").args(["-s", name, &id]).status();
+        assert!(kill.unwrap().success());
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// The first line that the program says while it begins.
+pub fn first_line(folder: &Path, arguments: &[&str]) -> String {
+    let mut program = program(folder, arguments);
+    let piped = program.stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut running = Running(piped.spawn().unwrap());
+    let mut line = String::new();
+    let mut said = std::io::BufReader::new(running.0.stderr.take().unwrap());
+    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
+    line
+}
+
+/// The most memory that the program has held, bytes, when it has printed so much. It waits for its
+/// reader there: an answer is longer than what a pipe holds.
+#[cfg(target_os = "linux")]
+pub fn peak(folder: impl AsRef<Path>, arguments: &[&str], printed: u64) -> u64 {
+    let mut program = program(folder, arguments);
+    let piped = program.stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut running = Running(piped.spawn().unwrap());
+    let mut out = std::io::Read::take(running.0.stdout.take().unwrap(), printed);
+    assert_eq!(std::io::copy(&mut out, &mut std::io::sink()).unwrap(), printed);
+    let status = std::fs::read_to_string(format!("/proc/{}/status", running.0.id())).unwrap();
+    let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
+    most.trim().trim_end_matches(" kB").parse::<u64>().unwrap() * 1024
+}
+
+/// Wait until something is so.
+pub fn wait_until(otherwise: &str, mut is_so: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !is_so() {
+        assert!(start.elapsed() < LONG, "{otherwise}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// What it leaves behind.
+pub fn ran(folder: impl AsRef<Path>, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+/// The same where no file is named.
+pub fn funicular(arguments: &[&str]) -> Output {
+    ran(".", arguments)
+}
 
 /// Exit code, standard output and standard error of the program in a folder.
 pub fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
+    let output = ran(folder, arguments);
+    (output.status.code(), stdout(&output), stderr(&output))
+}
+
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// What is told, in one line: long messages are wrapped, in a frame.
+pub fn words(output: &Output) -> String {
+    let said = stderr(output);
+    let words = said.split(|c: char| c.is_whitespace() || c == '│');
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// What a command has to refuse as bad input, each with words that it has to say.
+#[track_caller]
+pub fn refused(folder: impl AsRef<Path>, command: &[&str], table: &[(&[&str], &str)]) {
+    for (arguments, wanted) in table {
+        let output = ran(&folder, &[command, *arguments].concat());
+        let said = words(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments:?}: {}", stdout(&output));
+        assert!(said.contains(wanted), "{arguments:?}: {said}");
+    }
+}
+
+/// A text says all of these.
+#[track_caller]
+pub fn says(text: &str, wanted: &[&str]) {
+    for wanted in wanted {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+}
+
+/// What is printed where all is well.
+#[track_caller]
+pub fn good(folder: impl AsRef<Path>, arguments: &[&str]) -> String {
+    let output = ran(folder, arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+/// The object that is printed where all is well.
+pub fn json(output: &Output) -> Value {
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// An empty folder of this name for a file of tests.
+#[track_caller]
+pub fn folder(name: &str) -> PathBuf {
+    let tests = Path::new(Location::caller().file()).file_stem().unwrap();
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(tests).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// The numbers in a column of a table.
+pub fn column(text: &str, name: &str) -> Vec<f64> {
+    let mut lines = text.lines().map(|line| line.split(','));
+    let at = lines.next().unwrap().position(|column| column == name).expect(name);
+    lines.map(|mut line| line.nth(at).unwrap().parse().unwrap()).collect()
+}
+
+/// The files of a folder by their names.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let file = |entry: std::io::Result<std::fs::DirEntry>| {
+        let entry = entry.unwrap();
+        (entry.file_name().into_string().unwrap(), std::fs::read(entry.path()).unwrap())
+    };
+    std::fs::read_dir(folder).unwrap().map(file).collect()
+}
+
+/// No number of a JSON value is missing: NaN and infinity would come out as null.
+pub fn assert_no_null(value: &Value, allowed: &[&str]) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| assert_no_null(item, allowed)),
+        Value::Object(map) => {
+            for (key, item) in map {
+                assert!(!item.is_null() || allowed.contains(&key.as_str()), "{key} is null");
+                assert_no_null(item, allowed);
+            }
+        }
+        _ => {}
+    }
 }

@@ -4,12 +4,11 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::collections::BTreeMap;
+use crate::run::{Running, files, funicular, stderr, wait_until};
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Stdio};
 
 /// Refuses a dependency on what is not done, runs every job of the array, prints its number.
 const SBATCH: &str = r#"#!/usr/bin/env bash
@@ -37,8 +36,7 @@ echo "$job"
 const SCONTROL: &str = "#!/usr/bin/env bash\necho \"$@\" >> \"$JOBS\"\n";
 
 fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("slurm").join(name);
-    let _ = fs::remove_dir_all(&path);
+    let path = crate::run::folder(name);
     fs::create_dir_all(path.join("bin")).unwrap();
     for (tool, text) in [("sbatch", SBATCH), ("scontrol", SCONTROL)] {
         let file = path.join("bin").join(tool);
@@ -64,20 +62,7 @@ fn script(folder: &Path, name: &str) -> Command {
 }
 
 fn alone(arguments: &[&str]) {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("funicular"));
-    assert!(command.args(arguments).output().unwrap().status.success());
-}
-
-fn text(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap())
-        .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
-        .collect()
+    assert_eq!(funicular(arguments).status.code(), Some(0));
 }
 
 #[test]
@@ -92,7 +77,7 @@ fn an_array_of_jobs_writes_what_one_machine_writes() {
     ] {
         let mut submit = script(&folder, "submit");
         let output = submit.args([name, "6", "3"]).args(command).output().unwrap();
-        assert!(output.status.success(), "{}", text(&output));
+        assert!(output.status.success(), "{}", stderr(&output));
         let whole = folder.join(name).join("whole");
         let single = folder.join(format!("{name}-alone"));
         alone(&[command, &["--out", single.to_str().unwrap()]].concat());
@@ -109,7 +94,7 @@ fn shards_that_make_no_groups_are_refused() {
     let folder = folder("uneven");
     for arguments in [&["out", "7", "2", "sweep"][..], &["out", "6", "0", "sweep"], &["out"]] {
         let output = script(&folder, "submit").args(arguments).output().unwrap();
-        assert_eq!(output.status.code(), Some(2), "{}", text(&output));
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     }
     assert!(!folder.join("out").exists() && !folder.join("jobs").exists());
 }
@@ -127,15 +112,10 @@ fn a_job_at_the_end_of_its_time_is_started_again() {
         shard
     };
     fs::create_dir(folder.join("out")).unwrap();
-    let mut running = shard().spawn().unwrap();
-    let start = Instant::now();
-    while !folder.join("out/shard-2/.digests").exists() {
-        assert!(start.elapsed() < Duration::from_secs(300), "it does not begin");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let id = running.id().to_string();
-    assert!(Command::new("kill").args(["-s", "TERM", &id]).status().unwrap().success());
-    assert_eq!(running.wait().unwrap().code(), Some(130));
+    let mut running = Running(shard().spawn().unwrap());
+    wait_until("it does not begin", || folder.join("out/shard-2/.digests").exists());
+    running.signal("TERM");
+    assert_eq!(running.code(), Some(130));
     assert_eq!(fs::read_to_string(folder.join("jobs")).unwrap(), "requeue 77_2\n");
     assert!(!folder.join("out/shard-2/summary.json").exists());
     assert!(shard().status().unwrap().success());

@@ -5,39 +5,23 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Output;
 use std::time::Duration;
 
-use assert_cmd::Command;
+use crate::run::{command, folder, words};
 
 /// Patience of a loaded machine; what is refused here took minutes, or memory without end.
 const PATIENCE: Duration = Duration::from_secs(100);
 
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("small-files").join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder).env("NO_COLOR", "1").timeout(PATIENCE);
-    command.args(arguments).output().unwrap()
-}
-
-/// Standard error as one line, without the frame of the report.
-fn stderr(output: &Output) -> String {
-    let text = String::from_utf8(output.stderr.clone()).unwrap();
-    let words = text.split(|c: char| c.is_whitespace() || c == '│' || c == '×');
-    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    command(folder, arguments).timeout(PATIENCE).output().unwrap()
 }
 
 #[track_caller]
 fn refused(output: &Output, because: &str) {
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
-    assert!(stderr(output).contains(because), "{}", stderr(output));
+    assert_eq!(output.status.code(), Some(2), "{}", words(output));
+    assert!(words(output).contains(because), "{}", words(output));
 }
 
 /// A million joints whose names have 13,000 letters each: 13 GB in 26 kB.
@@ -127,7 +111,7 @@ fn more_than_an_equilibrium_needs_more_memory() {
         refused(&output, &format!("{needed}000 bytes of memory are needed; of 4000000"));
     }
     let output = run(&folder, &[&modes[..], &["--max-memory", "7500kB"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
 }
 
 /// A tree of JSON takes many times its text.
@@ -174,11 +158,11 @@ fn every_command_that_solves_ends_with_its_work() {
         &["study", "--case", "bridle", "--vary", "gravity_m_s2=9,10", "--json"],
     ] {
         let output = run(&folder, &[arguments, &["--max-work", "1"]].concat());
-        let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+        let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), words(&output));
         assert_eq!(output.status.code(), Some(3), "{arguments:?}: {all}");
         assert!(all.contains(bound) || all.contains("\"max_work\": 1"), "{arguments:?}: {all}");
         let free = run(&folder, arguments);
-        assert_eq!(free.status.code(), Some(0), "{arguments:?}: {}", stderr(&free));
+        assert_eq!(free.status.code(), Some(0), "{arguments:?}: {}", words(&free));
     }
 }
 
@@ -224,12 +208,12 @@ fn errors_show_nothing_of_a_file_that_is_no_table() {
             fs::write(folder.join("secret"), secret).unwrap();
             let output = run(&folder, &["solve", name]);
             refused(&output, "names no column");
-            assert!(!stderr(&output).contains("$6$"), "{name}: {}", stderr(&output));
+            assert!(!words(&output).contains("$6$"), "{name}: {}", words(&output));
         }
         fs::write(folder.join("secret"), b"$6$\xff\n").unwrap();
         let output = run(&folder, &["solve", name]);
         refused(&output, "names no column");
-        assert!(!stderr(&output).contains("$6$"), "{name}: {}", stderr(&output));
+        assert!(!words(&output).contains("$6$"), "{name}: {}", words(&output));
     }
 }
 
@@ -248,7 +232,7 @@ fn errors_show_nothing_of_a_file_that_is_something_else() {
             &["simulate", "--case", "lamp", "--forces", "secret"],
         ] {
             let output = run(&folder, arguments);
-            let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+            let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), words(&output));
             assert!(!output.status.success() && !all.contains("$6$"), "{arguments:?}: {all}");
         }
     }
@@ -277,7 +261,7 @@ fn names_stay_names_in_tables_pictures_and_pages() {
         "lamp.svg",
     ];
     let output = run(&folder, &solve);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     for file in ["joints.csv", "bars.csv"] {
         let text = fs::read_to_string(folder.join(file)).unwrap();
         let cells = text.lines().flat_map(|line| line.split(','));
@@ -300,9 +284,9 @@ fn names_stay_names_in_tables_pictures_and_pages() {
         "lamp.html",
     ];
     let output = run(&folder, &judge);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let output = run(&folder, &["modes", "lamp.toml", "--html", "modes.html"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     for file in ["lamp.svg", "lamp-1.html", "modes.html"] {
         let text = fs::read_to_string(folder.join(file)).unwrap();
         let bad = text.chars().find(|c| model::steers(*c) && !matches!(c, '\n' | '\t'));
@@ -315,8 +299,8 @@ fn names_stay_names_in_tables_pictures_and_pages() {
 fn a_parameter_is_not_echoed_raw() {
     let folder = folder("vary");
     let study = ["study", "--case", "lamp", "--vary", "joints.lamp.mass_kg=1\u{1b}[31m,2"];
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(&folder).env("FORCE_COLOR", "1").args(study).output().unwrap();
+    let mut command = command(&folder, &study);
+    let output = command.env_remove("NO_COLOR").env("FORCE_COLOR", "1").output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(text.contains("1?[31m") && !text.contains("1\u{1b}[31m"), "{text:?}");
 }

@@ -4,7 +4,7 @@
 
 use funicular::{Loss, Outcome, Weakest, prelude::*};
 
-use crate::run::run;
+use crate::run::{good, run};
 
 /// What the program prints and says, and how it ends.
 /// 300 N hang on two threads of 5 m between anchors 8 m apart, 3 m below them: each pulls with 250 N.
@@ -201,8 +201,7 @@ fn the_program_loses_each_bar_in_turn() {
     let folder = folder.path();
     let file = |name: &str, text: String| std::fs::write(folder.join(name), text).unwrap();
     file("weak.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 500"));
-    let (code, text, _) = run(folder, &["solve", "weak.toml", "--without", "each"]);
-    assert_eq!(code, Some(0));
+    let text = good(folder, &["solve", "weak.toml", "--without", "each"]);
     let said = "A part falls after 0 of 2 losses, a member is too weak after 1.\n\
                 Worst: without A to P the member from B to P is at 60 % of its strength.\n";
     assert!(text.ends_with(said), "{text}");
@@ -226,8 +225,7 @@ fn the_program_says_which_bar_is_weakest() {
     file("weak.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 300"));
     file("strong.toml", bridle("safety = 2", "strength_n = 1000", "strength_n = 600"));
     file("bare.toml", bridle("", "", ""));
-    let (code, text, _) = run(folder, &["solve", "weak.toml"]);
-    assert_eq!(code, Some(0));
+    let text = good(folder, &["solve", "weak.toml"]);
     let line = "Weakest: member from B to P, at 83.3 % of its strength: safety 1.2, below 2.\n";
     assert!(text.contains(line), "{text}");
     assert_eq!(run(folder, &["solve", "weak.toml", "--check"]).0, Some(1));
@@ -244,8 +242,7 @@ fn the_program_says_which_bar_is_weakest() {
         let labels = ["250 N, 25 %", "250 N, 83.33 %"].map(|label| drawn.contains(label));
         assert_eq!(labels, [name != "bare", marked], "{name}");
     }
-    let (code, text, _) = run(folder, &["solve", "strong.toml", "--check"]);
-    assert_eq!(code, Some(0));
+    let text = good(folder, &["solve", "strong.toml", "--check"]);
     assert!(text.contains("at 41.7 % of its strength: safety 2.4, 2 wanted.\n"), "{text}");
     assert_eq!(run(folder, &["solve", "strong.toml", "weak.toml", "--check"]).0, Some(1));
     for files in [&["bare.toml"][..], &["strong.toml", "bare.toml"]] {
@@ -256,8 +253,7 @@ fn the_program_says_which_bar_is_weakest() {
     // 30, 36 and 40 kg: 250, 300 and 333 N.
     let study =
         ["study", "weak.toml", "--vary", "joints.P.mass_kg=30,36,40", "--of", "utilisation"];
-    let (code, text, _) = run(folder, &[&study[..], &["--csv", "/dev/stdout"]].concat());
-    assert_eq!(code, Some(0));
+    let text = good(folder, &[&study[..], &["--csv", "/dev/stdout"]].concat());
     let used: Vec<f64> = text
         .lines()
         .filter_map(|line| line.split(',').rev().find_map(|x| x.parse().ok()))

@@ -5,33 +5,20 @@
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use assert_cmd::Command;
 use funicular::prelude::*;
 use model::system_file::write_network;
 use serde_json::Value;
 
 use crate::edited;
+use crate::run::{json, ran, refused, says, stderr, stdout};
 
 pub fn study(folder: &Path, arguments: &[&str]) -> Output {
-    Command::cargo_bin("funicular")
-        .unwrap()
-        .env("NO_COLOR", "1")
-        .current_dir(folder)
-        .arg("study")
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-pub fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+    ran(folder, &[&["study"], arguments].concat())
 }
 
 /// A folder of this test alone, with two bars of 1 m and 2 kg between level anchors.
 pub fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("study").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
+    let path = crate::run::folder(name);
     let two = "name = \"two\"\ngravity_m_s2 = 10\n\
                anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
                bars = [{ length_m = 1, mass_kg = 2, count = 2 }]\n";
@@ -40,106 +27,18 @@ pub fn folder(name: &str) -> PathBuf {
 }
 
 #[test]
-fn every_column_and_key_of_two_bars_is_that_of_a_v() {
-    let folder = folder("closed");
-    let arguments =
-        ["two.toml", "--vary", "anchors.end_m.x=0.4..2.2:10", "--csv", "two.csv", "--json"];
-    let output = study(&folder, &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(json["schema_version"], 3);
-    assert_eq!(json["parameters"][0], "anchors.end_m.x");
-    assert_eq!(json["units"][0], "m");
-    let points = json["points"].as_array().unwrap();
-    assert_eq!(points.len(), 10);
-    let csv = std::fs::read_to_string(folder.join("two.csv")).unwrap();
-    let columns = csv.lines().next().unwrap().split(',').count();
-    // The last cell is a sentence, with commas of its own.
-    let mut lines = csv.lines().map(|line| line.splitn(columns, ',').collect::<Vec<_>>());
-    let head = lines.next().unwrap();
-    let mut shapes = 0;
-    for (k, (point, line)) in points.iter().zip(lines).enumerate() {
-        assert_eq!(line.len(), head.len());
-        let cell = |name: &str| line[head.iter().position(|column| *column == name).unwrap()];
-        let number = |name: &str| cell(name).parse::<f64>().unwrap();
-        let key = |name: &str| point[name].as_f64().unwrap();
-        let distance = 0.4 + 0.2 * k as f64;
-        assert!((point["values"][0].as_f64().unwrap() - distance).abs() < 1e-14);
-        assert!((number("anchors.end_m.x") - distance).abs() < 1e-14);
-        assert_eq!((cell("path"), point["path"].as_u64()), ("1", Some(1)));
-        // At 2 m the chain is straight, beyond out of reach.
-        if k >= 8 {
-            assert_eq!(point["refused"], true);
-            assert!(!point["reason"].as_str().unwrap().is_empty() && !cell("refused").is_empty());
-            continue;
-        }
-        shapes += 1;
-        // Each bar's weight of 20 N hangs half at the middle joint, half at an anchor.
-        let sag = (1.0 - 0.25 * distance * distance).sqrt();
-        let level = 10.0 / sag * 0.5 * distance;
-        // At the anchor, where the bar bears its whole weight.
-        let tension = level * 0.5 * distance + 20.0 * sag;
-        let close = |x: f64, wanted: f64, what: &str| {
-            assert!((x - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{what}: {x} {wanted}");
-        };
-        for (name, wanted) in [
-            ("span_m", distance),
-            ("sag_m", sag),
-            ("energy_j", -40.0 * 0.5 * sag),
-            ("lowest_x_m", 0.5 * distance),
-            ("lowest_y_m", 0.0),
-            ("lowest_z_m", -sag),
-            ("tension_n", tension),
-            ("0_x_n", -level),
-            ("0_y_n", 0.0),
-            ("0_z_n", 20.0),
-            ("2_x_n", level),
-            ("2_y_n", 0.0),
-            ("2_z_n", 20.0),
-            ("rise_1_deg", -sag.asin().to_degrees()),
-            ("rise_2_deg", sag.asin().to_degrees()),
-        ] {
-            close(number(name), wanted, name);
-        }
-        for (name, wanted) in [("span_m", distance), ("sag_m", sag), ("energy_j", -20.0 * sag)] {
-            close(key(name), wanted, name);
-        }
-        let list = |key: &str| -> Vec<f64> {
-            point[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
-        };
-        close(list("lowest_m")[2], -sag, "lowest_m");
-        close(list("tension_n")[1], tension, "tension_n");
-        close(list("rises_deg")[1], sag.asin().to_degrees(), "rises_deg");
-        close(point["reactions_n"]["2"][0].as_f64().unwrap(), level, "reactions_n");
-        assert_eq!((cell("lowest_joint"), point["lowest_joint"].as_str()), ("1", Some("1")));
-        // The first of two equal ones, up to rounding either.
-        assert!(["1", "2"].contains(&cell("tension_bar")));
-        assert_eq!((cell("compression_n"), cell("compression_bar")), ("", ""));
-        assert!(point["compression_n"].is_null());
-        assert_eq!((cell("agrees"), point["agrees"].as_bool()), ("true", Some(true)));
-        assert_eq!((cell("evidence"), point["rung"].as_str()), ("optimal", Some("optimal")));
-        assert_eq!(point["check_failed"], false);
-        assert!(key("joints_differ_m") < 1e-9 && key("forces_differ_n") < 1e-6);
-        assert_eq!(cell("refused"), "");
-    }
-    assert_eq!(shapes, 8);
-}
-
-#[test]
 fn tables_fit_80_columns_and_figures_have_their_axes() {
     let folder = folder("figure");
     let vary = ["--vary", "bars.2.mass_kg=1,5", "--vary", "anchors.end_m.x=0.2..2.4:60"];
     let output = study(&folder, &[&["two.toml", "--svg", "sag.svg"], &vary[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output);
     assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
     assert!(said.contains("bars.2.mass_kg = 5"), "{said}");
     assert!(said.contains("24 of 60 points"), "{said}");
     for file in ["sag-1.svg", "sag-2.svg"] {
         let drawn = std::fs::read_to_string(folder.join(file)).unwrap();
-        for word in ["sag / m", "force / N", "anchors.end_m.x / m", "largest tension"] {
-            assert!(drawn.contains(word), "{file}: {word}");
-        }
+        says(&drawn, &["sag / m", "force / N", "anchors.end_m.x / m", "largest tension"]);
         roxmltree::Document::parse(&drawn).unwrap();
     }
 }
@@ -149,7 +48,7 @@ fn what_is_refused_everywhere_leaves_files_alone() {
     let folder = folder("refused");
     std::fs::write(folder.join("kept.csv"), "mine").unwrap();
     let far = ["two.toml", "--vary", "anchors.end_m.x=3,4", "--csv", "kept.csv"];
-    for (arguments, wanted) in [
+    let table = [
         (&far[..], "no value of the parameters"),
         (&["two.toml", "--vary", "bars.3.mass_kg=1"], "bars.3"),
         (&["two.toml", "--vary", "anchors.end_m.x=1", "--csv", "two.toml"], "two.toml"),
@@ -160,11 +59,8 @@ fn what_is_refused_everywhere_leaves_files_alone() {
         (&["--case", "lamp", "--vary", "joints.B.at_m.x=8,9"], "no value of the parameters"),
         (&["--case", "bridle", "--vary", "anchors.end_m.x=1"], "no chain between two anchors"),
         (&["two.toml", "--vary", "joints.3.mass_kg=1"], "joints: 0, 1, 2"),
-    ] {
-        let output = study(&folder, arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(text(&output.stderr).contains(wanted), "{}", text(&output.stderr));
-    }
+    ];
+    refused(&folder, &["study"], &table);
     assert_eq!(std::fs::read_to_string(folder.join("kept.csv")).unwrap(), "mine");
 }
 
@@ -183,8 +79,8 @@ fn systems_by_name_vary_in_loads_supports_and_stiffness() {
     // weight.
     let vary = ["--case", "lamp", "--vary", "joints.lamp.mass_kg=1..3:3", "--csv", "lamp.csv"];
     let output = study(&folder, &vary);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output);
     assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
     let rows = columns(&folder.join("lamp.csv"));
     assert_eq!(rows.len(), 3);
@@ -228,7 +124,7 @@ fn systems_by_name_vary_in_loads_supports_and_stiffness() {
     std::fs::write(folder.join("loaded.toml"), lamp).unwrap();
     let vary = ["loaded.toml", "--vary", "anchors.end_m.x=1.2,1.6", "--csv", "loaded.csv"];
     let output = study(&folder, &vary);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let rows = columns(&folder.join("loaded.csv"));
     for (row, wanted) in rows.iter().zip([20.0 / 0.8, 20.0 / 0.6]) {
         assert!((row["tension_n"].parse::<f64>().unwrap() - wanted).abs() < 1e-9, "{row:?}");
@@ -237,7 +133,7 @@ fn systems_by_name_vary_in_loads_supports_and_stiffness() {
     let twice = ["loaded.toml", "--vary", "anchors.end_m.x=1.2,1.6", "--vary", "joints.2.at_m.x=1"];
     let output = study(&folder, &twice);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("set one number"), "{}", text(&output.stderr));
+    assert!(stderr(&output).contains("set one number"), "{}", stderr(&output));
 }
 
 /// The keys of the format's page that hold numbers, as `joints.NAME.at_m`.
@@ -334,7 +230,7 @@ fn every_parameter_means_the_number_of_the_file() {
         for value in own.into_iter().chain([*value]) {
             let (wanted, found) =
                 (edited::edited(text, path, value), edited::varied(text, path, value));
-            let [same, system] = [&found, &wanted].map(funicular::system_of);
+            let [same, system] = [&found, &wanted].map(Problem::system);
             assert_eq!(same, system, "{path} = {value}");
             assert_eq!(write_network(&same), write_network(&system), "{path} = {value}");
             let solved = Solve::new().run(&wanted).unwrap();
@@ -382,8 +278,7 @@ fn a_prestressed_string_is_that_of_the_file_at_its_own_numbers() {
     assert!((force_n(low) - 101.29).abs() < 0.005);
     for vary in ["bars.1.length_m=1", "bars.1.stiffness_n=1000", "bars.*.prestress_n=100"] {
         let output = study(&folder, &["string.json", "--vary", vary, "--json"]);
-        assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
-        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let json = json(&output);
         let tension = json["points"][0]["tension_n"][1].as_f64().unwrap();
         assert!((tension - force_n(low)).abs() < 1e-9, "{vary}: {tension}");
     }
@@ -392,10 +287,6 @@ fn a_prestressed_string_is_that_of_the_file_at_its_own_numbers() {
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("bar 2: a prestress must be greater than -EA"), "{said}");
-}
-
-pub fn text_of(output: &Output) -> String {
-    text(&output.stderr)
 }
 
 /// Bars of 4 and 3 m between anchors 5 m apart, one of them 3 m lower: the joint is 12/5 m across the line
@@ -421,9 +312,7 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
         (&["rider.json"], "Sag: 0.75 m, of joint rider below the line from A to B."),
         (&["--case", "footbridge"], "Sag: 3 m, of joint l3 below the line from l0 to l6."),
     ] {
-        let mut solve = Command::cargo_bin("funicular").unwrap();
-        let solve = solve.current_dir(&folder).arg("solve").args(arguments);
-        let said = text(&solve.output().unwrap().stdout);
+        let said = stdout(&ran(&folder, &[&["solve"], arguments].concat()));
         assert!(said.contains(wanted), "{said}");
     }
     let vary = ["rider.json", "--vary", "joints.rider.mass_kg=1,2", "--csv", "of.csv"];
@@ -431,8 +320,8 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
         ["joints.rider.z", "joints.rider.at_m.x", "sag.A-B", "height=-2", "bars.1.axial_max_n"];
     let of: Vec<&str> = of.into_iter().flat_map(|of| ["--of", of]).collect();
     let output = study(&folder, &[&vary[..], &of].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
-    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output);
     assert!(
         said.contains("axial_max_n") && said.lines().all(|l| l.chars().count() <= 80),
         "{said}"
@@ -460,7 +349,7 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
     ] {
         let output = study(&folder, &["rider.json", "--vary", "gravity_m_s2=1,2", "--of", of]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
     }
 }
 
@@ -477,7 +366,7 @@ fn a_rider_moves_along_a_rope() {
         ["--vary", "bars.A-rider.*.length_m=2..8:7", "--vary", "bars.rider-B.*.length_m=8..2:7"];
     let more = ["--zip", "--of", "joints.rider.x", "--of", "joints.rider.z", "--csv", "of.csv"];
     let output = study(&folder, &[&["rope.json"], &vary[..], &more[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let rows = columns(&folder.join("of.csv"));
     assert_eq!(rows.len(), 7);
     for (row, a) in rows.iter().zip([2.0_f64, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]) {
@@ -499,7 +388,7 @@ fn equal_curves_are_told_apart() {
     let folder = folder("equal");
     let vary = ["--case", "lamp", "--vary", "joints.lamp.mass_kg=1..5:5", "--svg", "lamp.svg"];
     let output = study(&folder, &vary);
-    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let svg = std::fs::read_to_string(folder.join("lamp.svg")).unwrap();
     let of = |colour: &str, tag: &str| -> Vec<bool> {
         let lines = svg.lines().filter(|line| line.starts_with(tag) && line.contains(colour));
@@ -519,11 +408,10 @@ fn equal_curves_are_told_apart() {
 fn a_study_ends_as_a_solve_of_its_points() {
     let folder = folder("unsolved");
     std::fs::write(folder.join("ratio.json"), UNSOLVED).unwrap();
-    let mut solve = Command::cargo_bin("funicular").unwrap();
-    let solved = solve.current_dir(&folder).args(["solve", "ratio.json"]).output().unwrap();
+    let solved = ran(&folder, &["solve", "ratio.json"]);
     let vary = "joints.P0.mass_kg=3068.785648936557";
     let output = study(&folder, &["ratio.json", "--vary", vary]);
-    assert_eq!(output.status.code(), solved.status.code(), "{}", text_of(&output));
+    assert_eq!(output.status.code(), solved.status.code(), "{}", stderr(&output));
 }
 
 const UNSOLVED: &str = r#"{"name": "massratio", "joints": {"A0": {"at_m": [0.4902952839009975, 1.1253156410192462, -0.980447477305213]}, "A1": {"at_m": [1.7663690018371359, 1.38110327822361, -2.0297835730796505]}, "A2": {"at_m": [-0.4598953411863964, 0.5760439067181196, -0.7263283552826616]}, "A3": {"at_m": [-1.7780262955701973, -1.6512380791977443, -2.4321746791644854]}, "P0": {"mass_kg": 3068.785648936557, "force_n": [20.2804741358134, -0.9297093444819353, -15.918682976782307]}}, "bars": [{"from": "A0", "to": "P0", "length_m": 3.36289057685878, "mass_kg": 1.8292499237296465}, {"from": "A1", "to": "P0", "length_m": 3.085722843633816, "mass_kg": 0.27341179720248365, "kind": "strut"}, {"from": "A2", "to": "P0", "length_m": 3.432953446212165, "mass_kg": 0.0}, {"from": "A3", "to": "P0", "length_m": 2.7674472835540063, "mass_kg": 2.927671778030699}]}"#;

@@ -3,7 +3,8 @@
 use funicular::prelude::*;
 use serde_json::Value;
 
-use crate::study::{folder, study, text, text_of};
+use crate::run::{stderr, stdout};
+use crate::study::{folder, study};
 
 /// A rope of four bars to a weight, and one bar on.
 fn rope(mass_kg: f64) -> String {
@@ -34,11 +35,11 @@ fn rows_and_ranges_of_bars_are_those_of_the_file() {
     ] {
         let output = study(&folder, &["rope.json", "--vary", vary]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
     }
     let twice = ["--vary", "bars.A-P.*.mass_kg=1", "--vary", "bars.4.mass_kg=2"];
     let output = study(&folder, &[&["rope.json"], &twice[..]].concat());
-    assert!(text_of(&output).contains("set one number"), "{}", text_of(&output));
+    assert!(stderr(&output).contains("set one number"), "{}", stderr(&output));
 }
 
 /// A rope of 2.5 m in five bars from A to P, another of 2.5 m from P to B, 3 m apart.
@@ -96,11 +97,11 @@ fn a_count_is_that_of_the_file() {
     ] {
         let output = study(&folder, &["counted.toml", "--vary", vary]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
     }
     let arguments = ["--vary", "bars.1.mass_kg=1", "--vary", "bars.1.count=2"];
     let output = study(&folder, &[&["counted.toml"], &arguments[..]].concat());
-    assert!(text_of(&output).contains("a row with a count has equal bars"), "{}", text_of(&output));
+    assert!(stderr(&output).contains("a row with a count has equal bars"), "{}", stderr(&output));
 }
 
 /// A rope of 10 m and a tenth of a kilogram a metre, whose rider is at another place of it.
@@ -139,7 +140,7 @@ fn a_rider_moves_along_its_rope() {
     ] {
         let output = study(&folder, &["rider.toml", "--vary", vary]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
     }
 }
 
@@ -149,7 +150,7 @@ fn parameters_in_step_have_a_column_each() {
     std::fs::write(folder.join("rope.json"), rope(0.1)).unwrap();
     let vary = ["--zip", "--vary", "joints.P.mass_kg=11,12", "--vary", "bars.5.mass_kg=21,22"];
     let output = study(&folder, &[&["rope.json"], &vary[..]].concat());
-    let said = text(&output.stdout);
+    let said = stdout(&output);
     assert!(
         said.contains("joints.P.mass_kg") && said.lines().all(|l| l.chars().count() <= 80),
         "{said}"

@@ -4,24 +4,17 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::path::Path;
+use std::process::{Output, Stdio};
 
+use crate::run::{
+    Running, files, first_line, folder, funicular, good, limited, program, refused, says,
+    wait_until, words,
+};
 use serde_json::{Value, json};
 
 /// Starts of most tests: four parts of 1024, in about a second.
 const SEEDS: &str = "4e3";
-
-fn program() -> Command {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("funicular"));
-    command.env("NO_COLOR", "1");
-    command
-}
-
-fn funicular(arguments: &[&str]) -> Output {
-    program().args(arguments).output().unwrap()
-}
 
 fn sweep(out: &Path, more: &[&str]) -> Output {
     let out = out.to_str().unwrap();
@@ -30,51 +23,18 @@ fn sweep(out: &Path, more: &[&str]) -> Output {
     )
 }
 
-fn stderr(output: &Output) -> String {
-    // Long messages are wrapped.
-    let text = String::from_utf8_lossy(&output.stderr).replace('│', " ");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("sweep").join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| {
-            let entry = entry.unwrap();
-            (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
-        })
-        .collect()
-}
-
-/// A process that is gone when the test is.
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
 /// Start a longer sweep on one thread, and wait until some of its parts are there.
 fn started(out: &Path) -> Running {
-    let mut command = program();
-    command.args(LONG).arg("--threads=1").arg("--out").arg(out);
+    let arguments = long(out, &["--threads=1"]);
+    let mut command = program(".", &arguments);
     let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let running = Running(child);
-    let start = Instant::now();
-    while !out.join("part-000001.parquet").exists() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no part appears");
-        std::thread::sleep(Duration::from_millis(2));
-    }
+    wait_until("no part appears", || out.join("part-000001.parquet").exists());
     running
+}
+
+fn long<'a>(out: &'a Path, more: &[&'a str]) -> Vec<&'a str> {
+    [&LONG[..], more, &["--out", out.to_str().unwrap()]].concat()
 }
 
 const LONG: [&str; 8] = [
@@ -92,28 +52,10 @@ const LONG: [&str; 8] = [
 fn the_tables_and_the_object_say_the_same() {
     let out = folder("tables");
     let output = sweep(&out.join("a"), &[]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    for wanted in ["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"] {
-        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
-    }
-    let output = sweep(&out.join("b"), &["--json"]);
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(object["schema_version"], 2);
-    assert_eq!(object["seeds"]["count"], 4000);
-    assert_eq!(object["system"]["bars"], 3);
-    assert_eq!(object["equilibria_complete"], true);
-    // Known from the sextic of the closure: the planar chain of the paper has four equilibria.
-    assert_eq!(object["equilibria"].as_array().unwrap().len(), 4);
-    for solver in ["lagrange", "energy"] {
-        let rows = object["solvers"][solver].as_array().unwrap();
-        let count = |row: &Value| row["count"].as_u64().unwrap();
-        assert_eq!(rows.iter().map(count).sum::<u64>(), 4000, "{solver}");
-        for row in rows {
-            let (rate, interval) = (row["rate"].as_f64().unwrap(), &row["rate_95"]);
-            assert!(interval[0].as_f64().unwrap() < rate && rate < interval[1].as_f64().unwrap());
-        }
-    }
+    says(&text, &["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"]);
+    assert_eq!(sweep(&out.join("b"), &["--json"]).status.code(), Some(0));
     assert_eq!(files(&out.join("a")), files(&out.join("b")));
 }
 
@@ -129,22 +71,22 @@ fn threads_shards_and_forms_do_not_show() {
             let part = out.join(format).join(k.to_string());
             let shard = format!("--shard={k}/7");
             let output = sweep(&part, &[&of, &shard, "--threads", "2", "--angles"]);
-            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            assert_eq!(output.status.code(), Some(0), "{}", words(&output));
             merge.push(part.to_str().unwrap().to_owned());
         }
         let merged = out.join(format).join("merged");
         merge.extend(["--out".to_owned(), merged.to_str().unwrap().to_owned()]);
-        let output = program().args(&merge).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let output = funicular(&merge.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(0), "{}", words(&output));
         assert!(String::from_utf8_lossy(&output.stdout).contains("nothing is missing"));
         assert_eq!(files(&merged), files(&whole), "{format}");
         // And without one of them.
         merge.remove(3);
         let other = out.join(format).join("other");
         *merge.last_mut().unwrap() = other.to_str().unwrap().to_owned();
-        let output = program().args(&merge).output().unwrap();
+        let output = funicular(&merge.iter().map(String::as_str).collect::<Vec<_>>());
         assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("of 7 shards these are missing: 3"));
+        assert!(words(&output).contains("of 7 shards these are missing: 3"));
         assert!(!other.exists());
     }
 }
@@ -161,8 +103,7 @@ fn a_degenerate_point_is_listed_once() {
         format!("anchors = {{ start_m = [0, 0, 0], end_m = [6, 0, -1] }}\nbars = [{bars}]\n");
     let file = out.join("file.toml");
     fs::write(&file, text).unwrap();
-    let solved = funicular(&["solve", file.to_str().unwrap()]);
-    assert_eq!(solved.status.code(), Some(0), "{}", stderr(&solved));
+    good(".", &["solve", file.to_str().unwrap()]);
     let swept = out.join("swept");
     let arguments =
         ["sweep", file.to_str().unwrap(), "--seeds=500", "--out", swept.to_str().unwrap()];
@@ -185,9 +126,7 @@ fn a_degenerate_point_is_listed_once() {
 fn a_list_that_ends_is_no_check_that_failed() {
     let out = folder("gaps").join("out");
     let name = out.to_str().unwrap();
-    let output = funicular(&["sweep", "--case", "thirty-bars", "--seeds=2000", "--out", name]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = good(".", &["sweep", "--case", "thirty-bars", "--seeds=2000", "--out", name]);
     let wanted = ["equilibria in the list, the lowest of those reached: none from "];
     for wanted in wanted.iter().chain(&["unknown: the list ends below", "in no list"]) {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
@@ -259,21 +198,10 @@ fn solvers_that_contradict_each_other_are_a_check_that_failed() {
         let merged = out.join(format!("{name}-merged"));
         let output =
             funicular(&["merge", shard.to_str().unwrap(), "--out", merged.to_str().unwrap()]);
-        assert_eq!(output.status.code(), Some(code), "{name}: {}", stderr(&output));
+        assert_eq!(output.status.code(), Some(code), "{name}: {}", words(&output));
         let text = String::from_utf8(output.stdout).unwrap();
         assert_eq!(text.contains("seed 1234: "), code == 1, "{name}: {text}");
     }
-}
-
-/// The first line that a command says.
-fn first_line(arguments: &[&str], folder: &Path) -> String {
-    let mut running = program();
-    running.args(arguments).current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut running = Running(running.spawn().unwrap());
-    let mut line = String::new();
-    let mut said = std::io::BufReader::new(running.0.stderr.take().unwrap());
-    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
-    line
 }
 
 /// Thousands of bars take their time for every start.
@@ -283,24 +211,20 @@ fn sweeps_and_basins_of_long_chains_say_so_before_they_begin() {
     let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1800, 0, 0]\n\n[[bars]]\nlength_m = 1\n\
                 mass_kg = 1\ncount = 4_000\n";
     fs::write(out.join("long.toml"), text).unwrap();
-    let line = first_line(&["sweep", "long.toml", "--seeds", "5_000", "--out", "s"], &out);
+    let line = first_line(&out, &["sweep", "long.toml", "--seeds", "5_000", "--out", "s"]);
     assert!(line.contains("this sweep: about ") && line.contains(" of one processor"), "{line}");
-    let line = first_line(&["basins", "long.toml", "--size", "40", "--out", "b"], &out);
+    let line = first_line(&out, &["basins", "long.toml", "--size", "40", "--out", "b"]);
     assert!(line.contains("these pictures: about "), "{line}");
     // A trillion: files and bytes, too.
     let many = ["sweep", "--case", "two-bars", "--seeds", "1e12", "--out", "m"];
-    let line = first_line(&many, &out);
+    let line = first_line(&out, &many);
     assert!(line.contains("this sweep: about ") && line.contains("days"), "{line}");
     let one =
         ["sweep", "--case", "two-bars", "--seeds", "1e12", "--shard", "7/100000", "--out", "o"];
-    let mut running = program();
-    running.args(one).current_dir(&out).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut running = program(&out, &one);
+    running.stdout(Stdio::null()).stderr(Stdio::null());
     let running = Running(running.spawn().unwrap());
-    let start = Instant::now();
-    while !out.join("o/manifest.json").exists() {
-        assert!(start.elapsed() < Duration::from_secs(300), "it does not begin");
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    wait_until("it does not begin", || out.join("o/manifest.json").exists());
     drop(running);
     let manifest: Value =
         serde_json::from_slice(&fs::read(out.join("o/manifest.json")).unwrap()).unwrap();
@@ -318,7 +242,7 @@ fn an_empty_shard_says_that_it_is() {
     };
     for k in [1, 3] {
         let output = shard(k);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(output.status.code(), Some(0), "{}", words(&output));
         let text = String::from_utf8(output.stdout).unwrap();
         assert_eq!(text.contains("This shard is empty"), k == 1, "{text}");
         assert!(!text.contains("there already"), "{text}");
@@ -329,24 +253,21 @@ fn an_empty_shard_says_that_it_is() {
 fn a_killed_sweep_goes_on_to_the_same_bytes() {
     let out = folder("killed");
     let whole = out.join("whole");
-    assert!(program().args(LONG).arg("--out").arg(&whole).status().unwrap().success());
+    assert_eq!(funicular(&long(&whole, &[])).status.code(), Some(0));
     let cut = out.join("cut");
     let mut running = started(&cut);
     // SIGKILL: nothing can be tidied up.
     running.0.kill().unwrap();
     running.0.wait().unwrap();
     assert!(!cut.join("summary.json").exists(), "it had finished: too few seeds for this machine");
-    let refused = program().args(LONG).arg("--out").arg(&cut).output().unwrap();
+    let refused = funicular(&long(&cut, &[]));
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("holds a sweep already"), "{}", stderr(&refused));
-    let other = program().args(LONG).args(["--resume", "--seed=2", "--out"]).arg(&cut).output();
-    let other = other.unwrap();
+    assert!(words(&refused).contains("holds a sweep already"), "{}", words(&refused));
+    let other = funicular(&long(&cut, &["--resume", "--seed=2"]));
     assert_eq!(other.status.code(), Some(2));
-    assert!(stderr(&other).contains("`seed_number` is 1, not 2"), "{}", stderr(&other));
-    let output = program().args(LONG).args(["--resume", "--json", "--out"]).arg(&cut).output();
-    let output = output.unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(words(&other).contains("`seed_number` is 1, not 2"), "{}", words(&other));
+    let output = funicular(&long(&cut, &["--resume", "--json"]));
+    let object = crate::run::json(&output);
     assert!(object["seeds_before"].as_u64().unwrap() > 0);
     assert_eq!(files(&cut), files(&whole));
 }
@@ -358,16 +279,14 @@ fn an_interrupted_sweep_says_how_to_go_on() {
     for signal in ["INT", "TERM"] {
         let cut = out.join(signal);
         let mut running = started(&cut);
-        let id = running.0.id().to_string();
-        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        running.signal(signal);
         let mut text = String::new();
         let mut pipe = running.0.stderr.take().unwrap();
         std::io::Read::read_to_string(&mut pipe, &mut text).unwrap();
-        assert_eq!(running.0.wait().unwrap().code(), Some(130), "{text}");
+        assert_eq!(running.code(), Some(130), "{text}");
         assert!(text.contains("--resume") && text.contains(" of 500000 seeds"), "{text}");
         assert!(files(&cut).keys().all(|name| !name.starts_with(".part")));
-        let output = program().args(LONG).args(["--resume", "--out"]).arg(&cut).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        good(".", &long(&cut, &["--resume"]));
     }
     assert_eq!(files(&out.join("INT")), files(&out.join("TERM")));
 }
@@ -376,10 +295,15 @@ fn an_interrupted_sweep_says_how_to_go_on() {
 fn bad_usage_is_refused_with_a_reason() {
     let out = folder("usage");
     let new = out.join("new");
-    for (arguments, wanted) in [
-        (&["--seeds", "0"][..], "a whole number from 1"),
+    let case = ["sweep", "--out", new.to_str().unwrap(), "--case", "three-equal-bars"];
+    let table: [(&[&str], _); 4] = [
+        (&["--seeds", "0"], "a whole number from 1"),
         (&["--seeds", "-5"], "a whole number from 1"),
         (&["--seeds", "1e20"], "a whole number from 1"),
+        (&["--seeds", SEEDS, "--spread", "grid"], "15^3 and 4096 = 16^3"),
+    ];
+    refused(".", &case, &table);
+    let table: [(&[&str], _); 7] = [
         (&["--shard", "0/3"], "there is no shard 0 of 3"),
         (&["--shard", "4/3"], "there is no shard 4 of 3"),
         (&["--shard", "1"], "a shard is K/N"),
@@ -387,22 +311,11 @@ fn bad_usage_is_refused_with_a_reason() {
         (&["--threads", "9999999"], "a whole number up to"),
         (&["--spread", "random"], "possible values: uniform, sobol, grid"),
         (&["--format", "xml"], "possible values: parquet, csv"),
-        (&["--spread", "grid"], "15^3 and 4096 = 16^3"),
-        (&["--case", "nonsense"], "there is no case named `nonsense`"),
-    ] {
-        let mut all = vec!["sweep", "--out", new.to_str().unwrap()];
-        if !arguments.contains(&"--seeds") {
-            all.extend(["--seeds", SEEDS]);
-        }
-        if !arguments.contains(&"--case") {
-            all.extend(["--case", "three-equal-bars"]);
-        }
-        all.extend(arguments);
-        let output = funicular(&all);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(stderr(&output).contains(wanted), "{arguments:?}: {}", stderr(&output));
-        assert!(output.stdout.is_empty() && !new.exists(), "{arguments:?}");
-    }
+    ];
+    refused(".", &[&case[..], &["--seeds", SEEDS]].concat(), &table);
+    let nonsense = ["--seeds", SEEDS, "--case", "nonsense"];
+    refused(".", &case[..3], &[(&nonsense, "there is no case named `nonsense`")]);
+    assert!(!new.exists());
     let output = funicular(&["sweep", "--seeds", "10", "--out", new.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
 
@@ -410,12 +323,12 @@ fn bad_usage_is_refused_with_a_reason() {
     for resume in [&[][..], &["--resume"]] {
         let output = sweep(&out, resume);
         assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("is not empty and holds no sweep: there is `mine`"));
+        assert!(words(&output).contains("is not empty and holds no sweep: there is `mine`"));
     }
     let output = sweep(&out.join("mine"), &[]);
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", words(&output));
     let output = funicular(&["merge", out.to_str().unwrap(), "--out", new.to_str().unwrap()]);
-    assert!(stderr(&output).contains("holds no sweep: there is no manifest.json"));
+    assert!(words(&output).contains("holds no sweep: there is no manifest.json"));
 }
 
 /// A disk that takes nothing: the limit of file sizes stands for a full one.
@@ -424,53 +337,16 @@ fn bad_usage_is_refused_with_a_reason() {
 fn a_disk_that_fails_is_no_bad_input() {
     let out = folder("full").join("out");
     // Blocks of 512 bytes in `sh`: enough for the manifest, too little for a part.
-    let script = "ulimit -f 16; trap '' XFSZ; exec \"$@\"";
-    let limited = |out: &Path| {
-        let mut command = Command::new("sh");
-        command.args(["-c", script, "sh"]).arg(assert_cmd::cargo::cargo_bin!("funicular"));
-        command.args([
-            "sweep",
-            "--case",
-            "three-equal-bars",
-            "--seeds",
-            SEEDS,
-            "--resume",
-            "--out",
-        ]);
-        command.arg(out).output().unwrap()
-    };
-    let output = limited(&out);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-    assert!(stderr(&output).contains("--resume"), "{}", stderr(&output));
+    let seeds = ["sweep", "--case", "three-equal-bars", "--seeds", SEEDS, "--resume", "--out"];
+    let arguments = [&seeds[..], &[out.to_str().unwrap()]].concat();
+    let output = limited(Path::new("."), "ulimit -f 16; trap '' XFSZ", &arguments);
+    assert_eq!(output.status.code(), Some(3), "{}", words(&output));
+    assert!(words(&output).contains("--resume"), "{}", words(&output));
     let output = sweep(&out, &["--resume"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let whole = folder("full-whole").join("out");
     sweep(&whole, &[]);
     assert_eq!(files(&out), files(&whole));
-}
-
-#[test]
-fn a_regular_grid_is_swept() {
-    let out = folder("grid").join("out");
-    let arguments = ["--spread", "grid", "--solver", "energy", "--json"];
-    let output = funicular(
-        &[
-            &[
-                "sweep",
-                "--case",
-                "three-equal-bars",
-                "--seeds",
-                "1000",
-                "--out",
-                out.to_str().unwrap(),
-            ],
-            &arguments[..],
-        ]
-        .concat(),
-    );
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(object["solvers"]["lagrange"].is_null() && object["solvers"]["energy"].is_array());
 }
 
 /// Sweeps of systems that are no chain: what is counted of the seeds, by solver and energy.
@@ -478,8 +354,7 @@ fn counts(case: &str, seeds: &str) -> (Value, BTreeMap<String, Vec<(f64, u64)>>)
     let out = folder(&format!("system-{case}"));
     let path = out.to_str().unwrap();
     let output = funicular(&["sweep", "--case", case, "--seeds", seeds, "--out", path, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let object = crate::run::json(&output);
     let list = object["equilibria"].as_array().unwrap();
     let of = |row: &Value| {
         let place = usize::try_from(row["outcome"].as_i64().unwrap()).ok()?;
@@ -538,11 +413,7 @@ fn what_is_for_angles_is_refused_for_places() {
         let arguments = ["sweep", "--case", "lamp", "--seeds", "10", "--out"];
         let output = funicular(&[&arguments[..], &[out.to_str().unwrap()], more].concat());
         assert_eq!(output.status.code(), Some(2));
-        assert!(
-            stderr(&output).contains("is for chains between two anchors"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(words(&output).contains("is for chains between two anchors"), "{}", words(&output));
     }
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
@@ -551,15 +422,13 @@ fn what_is_for_angles_is_refused_for_places() {
 fn basins_of_a_system_are_over_the_place_of_a_joint() {
     let out = folder("system-basins");
     let path = out.to_str().unwrap();
-    let drawn = funicular(&["basins", "--case", "tripod", "--size", "12", "--out", path]);
-    assert_eq!(drawn.status.code(), Some(0), "{}", stderr(&drawn));
+    good(".", &["basins", "--case", "tripod", "--size", "12", "--out", path]);
     let svg = fs::read_to_string(out.join("energy.svg")).unwrap();
-    for words in
-        ["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"]
-    {
-        assert!(svg.contains(words), "{words}");
-    }
+    says(
+        &svg,
+        &["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"],
+    );
     let refused = funicular(&["basins", "--case", "tripod", "--joint", "A", "--out", path]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("no joint that can move"), "{}", stderr(&refused));
+    assert!(words(&refused).contains("no joint that can move"), "{}", words(&refused));
 }

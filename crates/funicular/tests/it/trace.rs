@@ -2,26 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::PathBuf;
-use std::process::Output;
-
-use assert_cmd::Command;
+use crate::run::{first_line, folder, funicular, good, json, refused, says, words};
 use serde_json::Value;
-
-fn funicular(arguments: &[&str]) -> Output {
-    Command::cargo_bin("funicular").unwrap().env("NO_COLOR", "1").args(arguments).output().unwrap()
-}
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// A folder of this test alone.
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("trace").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
 }
 
 const LEVEL: [&str; 7] = [
@@ -37,12 +22,11 @@ const LEVEL: [&str; 7] = [
 #[test]
 fn the_level_chain_has_its_folds_and_branch_points() {
     let out = folder("level");
-    let [csv, svg] = ["level.csv", "level.svg"].map(|name| out.join(name));
+    let svg = out.join("level.svg");
     let mut arguments = LEVEL.to_vec();
-    arguments.extend(["--json", "--csv", csv.to_str().unwrap(), "--svg", svg.to_str().unwrap()]);
+    arguments.extend(["--json", "--svg", svg.to_str().unwrap()]);
     let output = funicular(&arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let json = json(&output);
     assert_eq!(json["schema_version"], 3);
     let trace = &json["traces"][0];
     let events = trace["events"].as_array().unwrap();
@@ -59,46 +43,22 @@ fn the_level_chain_has_its_folds_and_branch_points() {
         assert!(found.iter().all(|place| (place - wanted).abs() <= 1e-10), "{kind}: {found:?}");
     }
     assert!(!text(&output.stdout).contains("null"));
-    let csv = std::fs::read_to_string(csv).unwrap();
-    let head = csv.lines().next().unwrap();
-    assert!(head.starts_with("path,branch,position,anchors.end_m.z,anchors.end_m.x,span_m,"));
-    // The anchors are level, the first one in the origin: the span is the parameter itself.
-    for line in csv.lines().skip(1) {
-        let cells: Vec<f64> = line.split(',').take(6).map(|cell| cell.parse().unwrap()).collect();
-        assert!((cells[5] - cells[4]).abs() <= 1e-15 && cells[3].abs() <= 0.0, "{line}");
-    }
-    let points: usize = trace["branches"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|branch| branch["points"].as_array().unwrap().len())
-        .sum();
-    assert_eq!(csv.lines().count(), points + 1);
-    assert!(csv.lines().all(|line| line.matches(',').count() == head.matches(',').count()));
     let svg = std::fs::read_to_string(svg).unwrap();
-    for wanted in ["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"] {
-        assert!(svg.contains(wanted), "{wanted} is not in the picture");
-    }
+    says(&svg, &["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"]);
     assert!(roxmltree::Document::parse(&svg).is_ok());
 }
 
 #[test]
 fn people_get_a_table() {
-    let output = funicular(&LEVEL);
-    assert_eq!(output.status.code(), Some(0));
-    let said = text(&output.stdout);
-    for wanted in ["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"] {
-        assert!(said.contains(wanted), "{wanted} is not in\n{said}");
-    }
+    let said = good(".", &LEVEL);
+    says(&said, &["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"]);
 }
 
 /// Digits shown are digits known: where two curves touch, each has a fold, known to half of the digits.
 #[test]
 fn of_curves_that_touch_the_digits_that_are_known_are_told() {
     let vary = ["--vary", "anchors.end_m.x=1", "--vary", "anchors.end_m.z=-2.5..-1.4:12"];
-    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    let said = good(".", &[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
     let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("fold: two branches") && words.contains("degenerate at"), "{said}");
     assert!(!said.contains("-2.000000000") && !said.contains("1.999999999"), "{said}");
@@ -108,9 +68,7 @@ fn of_curves_that_touch_the_digits_that_are_known_are_told() {
 #[test]
 fn a_path_to_no_mass_prints_no_number_that_is_none() {
     let vary = ["trace", "--case", "three-equal-bars", "--vary", "bars.*.mass_kg=0..1:3"];
-    let output = funicular(&vary);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    let said = good(".", &vary);
     assert!(!said.contains("NaN") && !said.contains("index in space"), "{said}");
 }
 
@@ -118,38 +76,15 @@ fn a_path_to_no_mass_prints_no_number_that_is_none() {
 fn a_product_has_a_path_for_each_combination() {
     let out = folder("product");
     let svg = out.join("masses.svg");
-    let output = funicular(&[
-        "trace",
-        "--case",
-        "three-equal-bars",
-        "--vary",
-        "bars.2.mass_kg=0.5,2",
-        "--vary",
-        "anchors.end_m.z=-2.5..-1.5:3",
-        "--json",
-        "--svg",
-        svg.to_str().unwrap(),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(json["traces"].as_array().unwrap().len(), 2);
-    assert_eq!(json["traces"][1]["points"][0]["values"][0], 2.0);
+    let masses = ["--vary", "bars.2.mass_kg=0.5,2", "--vary", "anchors.end_m.z=-2.5..-1.5:3"];
+    let product = [&["trace", "--case", "three-equal-bars"], &masses[..]].concat();
+    let files = ["--json", "--svg", svg.to_str().unwrap()];
+    let found = json(&funicular(&[&product[..], &files].concat()));
+    assert_eq!(found["traces"].as_array().unwrap().len(), 2);
+    assert_eq!(found["traces"][1]["points"][0]["values"][0], 2.0);
     assert!(out.join("masses-1.svg").exists() && out.join("masses-2.svg").exists());
-}
-
-#[test]
-fn each_path_says_for_which_values_it_is() {
-    let output = funicular(&[
-        "trace",
-        "--case",
-        "three-equal-bars",
-        "--vary",
-        "bars.2.mass_kg=0.5,2",
-        "--vary",
-        "anchors.end_m.z=-2.5..-1.5:3",
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    // Each says for which values it is.
+    let said = text(&funicular(&product).stdout);
     for mass in ["0.5", "2"] {
         let head =
             format!("bars.2.mass_kg, anchors.end_m.z (bars.2.mass_kg = {mass} kg): 3 points");
@@ -175,8 +110,7 @@ fn where_nothing_is_decided_nothing_is_claimed() {
 fn the_columns_are_in_the_help() {
     let csv = folder("columns").join("two.csv");
     let vary = ["--vary", "anchors.end_m.z=-1.5,-1.4", "--csv", csv.to_str().unwrap()];
-    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    good(".", &[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
     let help = text(&funicular(&["trace", "--help"]).stdout);
     let written = std::fs::read_to_string(csv).unwrap();
     for column in written.lines().next().unwrap().split(',') {
@@ -188,19 +122,15 @@ fn the_columns_are_in_the_help() {
 
 #[test]
 fn errors_point_at_what_is_wrong() {
-    for (vary, wanted) in [
-        ("bars.2.mas_kg=1,2", "did you mean `mass_kg`?"),
-        ("bars.9.mass_kg=1,2", "there is no bar 9"),
-        ("bars[2.mass_kg=1,2", "this bracket is not closed"),
-        ("bars.2]mass_kg=1,2", "this bracket is not opened"),
-        ("anchors.end_m.z=-9,-8", "no value of the parameters describes a chain"),
-    ] {
-        let output = funicular(&["trace", "--case", "three-equal-bars", "--vary", vary]);
-        assert_eq!(output.status.code(), Some(2), "{vary}");
-        assert!(output.stdout.is_empty());
-        let said = text(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains(wanted), "{vary}: {said}");
-    }
+    let vary = ["trace", "--case", "three-equal-bars", "--vary"];
+    let table: [(&[&str], _); 5] = [
+        (&["bars.2.mas_kg=1,2"], "did you mean `mass_kg`?"),
+        (&["bars.9.mass_kg=1,2"], "there is no bar 9"),
+        (&["bars[2.mass_kg=1,2"], "this bracket is not closed"),
+        (&["bars.2]mass_kg=1,2"], "this bracket is not opened"),
+        (&["anchors.end_m.z=-9,-8"], "no value of the parameters describes a chain"),
+    ];
+    refused(".", &vary, &table);
     let output = funicular(&["trace", "--case", "three-equal-bars"]);
     assert_eq!(output.status.code(), Some(2));
     let output = funicular(&["trace", "--case", "thirty-bars", "--vary", "gravity_m_s2=1,2"]);
@@ -236,10 +166,7 @@ fn more_points_than_memory_are_refused_beforehand() {
     let vary = ["trace", "--case", "two-bars", "--vary", "gravity_m_s2=1..2:1000000"];
     let output = funicular(&vary);
     assert_eq!(output.status.code(), Some(2));
-    let error = text(&output.stderr);
-    // Without the frame and the breaks of the lines.
-    let words = error.split(|c: char| c.is_whitespace() || c == '│');
-    let error = words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+    let error = words(&output);
     assert!(error.contains("100000 allowed") && error.contains("--max-points"), "{error}");
     assert!(start.elapsed().as_secs() < 20);
 }
@@ -251,18 +178,7 @@ fn a_long_trace_says_so_before_it_begins() {
     let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\n[[bars]]\nlength_m = 1\n\
                 mass_kg = 1\ncount = 12\n";
     std::fs::write(out.join("twelve.toml"), text).unwrap();
-    let mut running = std::process::Command::new(assert_cmd::cargo::cargo_bin!("funicular"))
-        .args(["trace", "twelve.toml", "--vary", "anchors.end_m.x=1..5:1000"])
-        .current_dir(&out)
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut line = String::new();
-    let mut said = std::io::BufReader::new(running.stderr.take().unwrap());
-    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
-    running.kill().unwrap();
-    running.wait().unwrap();
+    let line = first_line(&out, &["trace", "twelve.toml", "--vary", "anchors.end_m.x=1..5:1000"]);
     // 0.3 s for ten bars, 2.1 times as long for each bar more: 1323 s for a thousand points.
     assert!(line.contains("this trace: about 22 minutes of one processor"), "{line}");
 }
@@ -270,16 +186,10 @@ fn a_long_trace_says_so_before_it_begins() {
 #[test]
 fn basins_are_drawn_for_both_solvers() {
     let out = folder("basins");
-    let output = funicular(&[
-        "basins",
-        "--case",
-        "three-equal-bars",
-        "--size",
-        "24",
-        "--out",
-        out.to_str().unwrap(),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    good(
+        ".",
+        &["basins", "--case", "three-equal-bars", "--size", "24", "--out", out.to_str().unwrap()],
+    );
     for solver in ["lagrange", "energy"] {
         for suffix in ["", "-iterations"] {
             let picture =

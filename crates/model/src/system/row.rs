@@ -250,20 +250,16 @@ impl Row {
     pub fn chain_equilibrium(&self, found: &SystemEquilibrium) -> Option<Equilibrium> {
         let axial_n = self.chain_axial_n(found)?;
         let [first, last] = self.anchors();
-        let reactions_n =
-            Reactions { start: found.reactions_n[first], end: found.reactions_n[last] };
-        let passed_on = self.members().zip(1..).map(|((member, turned), joint)| {
-            let forces = if turned { &found.start_forces_n } else { &found.end_forces_n };
-            let [x, y, z] = forces[member];
-            [x, y, z + self.weight_n(joint)]
-        });
         let index = found.stability.index_in_plane.unwrap_or_default();
         Some(Equilibrium {
             solver: found.solver.clone(),
             energy_j: found.energy_j,
             joints_m: self.joints().map(|joint| found.joints_m[joint]).collect(),
-            multipliers_n: std::iter::once(reactions_n.start).chain(passed_on).collect(),
-            reactions_n,
+            multipliers_n: self.multipliers_n(found),
+            reactions_n: Reactions {
+                start: found.reactions_n[first],
+                end: found.reactions_n[last],
+            },
             axial_n,
             stability: Stability {
                 in_plane: if index == 0 { InPlane::Minimum } else { InPlane::Saddle },
@@ -273,6 +269,18 @@ impl Row {
             },
             evidence: found.evidence.clone(),
         })
+    }
+
+    /// The paper's multipliers of an answer for the system, N: first the force of the ground on the first
+    /// bar, then at each joint the force of the next bar, or of the ground, on the one before.
+    #[must_use]
+    pub fn multipliers_n(&self, found: &SystemEquilibrium) -> Vec<Vector> {
+        let passed_on = self.members().zip(1..).map(|((member, turned), joint)| {
+            let forces = if turned { &found.start_forces_n } else { &found.end_forces_n };
+            let [x, y, z] = forces[member];
+            [x, y, z + self.weight_n(joint)]
+        });
+        std::iter::once(found.reactions_n[self.anchors()[0]]).chain(passed_on).collect()
     }
 
     /// An answer for the chain as one for the system.

@@ -102,7 +102,7 @@ mod tolerance;
 mod write;
 mod write_network;
 
-pub use described::Described;
+pub use described::{Described, write};
 pub use error::SystemFileError;
 pub use kind::{NOT_MODELLED, SCOPE, SystemFileErrorKind};
 pub use limits::{

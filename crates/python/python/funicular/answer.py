@@ -94,12 +94,24 @@ class Equilibrium(Result):
 
     def __init__(self, system: System, data: dict[str, Any], arrays: dict[str, Any]) -> None:
         self.system = system
-        self.data = data
+        self._data = data
+        self._take(arrays)
+
+    def _take(self, arrays: dict[str, Any]) -> None:
         for name in ARRAYS + EXTREMES:
             setattr(self, name, arrays[name])
         weakest = arrays["weakest"]
         self.weakest = None if weakest is None else Record(weakest)
         self.is_strong = arrays["is_strong"]
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Its object of JSON: ``solver``, ``energy_j``, ``stability``, ``evidence``, ..."""
+        return self._data
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        return self.data
 
     def _content(self) -> dict[str, Any]:
         found = {name: getattr(self, name) for name in (*ARRAYS, *EXTREMES, "weakest")}
@@ -108,17 +120,17 @@ class Equilibrium(Result):
     @property
     def solver(self) -> str:
         """Who found it."""
-        return str(self.data["solver"])
+        return str(self._own["solver"])
 
     @property
     def energy_j(self) -> float:
         """Potential energy, J, above the height of the first anchor."""
-        return float(self.data["energy_j"])
+        return float(self._own["energy_j"])
 
     @cached_property
     def stability(self) -> Record:
         """``in_space`` (``stable`` or ``unstable``), ``index_in_space``, ``index_in_plane``, ``neutral``."""
-        return Record(self.data["stability"])
+        return Record(self._own["stability"])
 
     @property
     def is_stable(self) -> bool:
@@ -128,7 +140,7 @@ class Equilibrium(Result):
     @cached_property
     def evidence(self) -> Evidence:
         """Residual, iterations, condition, and the ladder."""
-        return Evidence(self.data["evidence"])
+        return Evidence(self._own["evidence"])
 
     @property
     def proofs(self) -> Proofs:
@@ -255,7 +267,7 @@ class Equilibrium(Result):
         return page(self)
 
 
-class Answer(Result):
+class Answer(Equilibrium):
     """What the solvers found, compared, judged and proved as far as it goes.
 
     ``equilibria`` has one :class:`Equilibrium` for each solver that has an answer, ``lagrange`` first. All that an
@@ -270,6 +282,12 @@ class Answer(Result):
         self._asked = asked
         self._text = text
         self._arrays = arrays
+        self._take(arrays[0])
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        first: dict[str, Any] = self.data["equilibria"][0]
+        return first
 
     def _content(self) -> dict[str, Any]:
         return {**self.data, "equilibria": self.equilibria}
@@ -326,156 +344,13 @@ class Answer(Result):
         """Whether both solvers answered and agree, and the judge finds both in balance."""
         return len(self.equilibria) > 1 and all(e.proofs.agreed.reached for e in self.equilibria)
 
-    @property
-    def joints_m(self) -> Array:
-        """(joints, 3) places of the joints, m."""
-        return self.equilibria[0].joints_m
-
-    @property
-    def axial_from_n(self) -> Array:
-        """(members,) Axial forces at the joints where the members begin, N."""
-        return self.equilibria[0].axial_from_n
-
-    @property
-    def axial_to_n(self) -> Array:
-        """(members,) Axial forces at the joints where the members end, N."""
-        return self.equilibria[0].axial_to_n
-
-    @property
-    def axial_max_n(self) -> Array:
-        """(members,) Axial forces where they are largest, N."""
-        return self.equilibria[0].axial_max_n
-
-    @property
-    def axial_n(self) -> Array:
-        """(members,) axial forces, tension positive, N."""
-        return self.equilibria[0].axial_n
-
-    @property
-    def start_forces_n(self) -> Array:
-        """(members, 3) forces on the members where they begin, N."""
-        return self.equilibria[0].start_forces_n
-
-    @property
-    def end_forces_n(self) -> Array:
-        """(members, 3) forces on the members where they end, N."""
-        return self.equilibria[0].end_forces_n
-
-    @property
-    def reactions_n(self) -> Array:
-        """(joints, 3) forces of the ground, N."""
-        return self.equilibria[0].reactions_n
-
-    @property
-    def multipliers_n(self) -> Array | None:
-        """(n + 1, 3) the multipliers of a chain, N."""
-        return self.equilibria[0].multipliers_n
-
-    @property
-    def energy_j(self) -> float:
-        """Potential energy above the first anchor, J."""
-        return self.equilibria[0].energy_j
-
-    @property
-    def stability(self) -> Record:
-        """Second-order behaviour."""
-        return self.equilibria[0].stability
-
-    @property
-    def is_stable(self) -> bool:
-        """Whether the energy falls in no direction of space."""
-        return self.equilibria[0].is_stable
-
-    @property
-    def evidence(self) -> Evidence:
-        """Residual, iterations, condition, and the ladder of the first answer."""
-        return self.equilibria[0].evidence
-
-    @property
-    def proofs(self) -> Proofs:
-        """The evidence ladder, rung by rung."""
-        return self.equilibria[0].proofs
-
-    @property
-    def rung(self) -> str | None:
-        """The highest rung reached."""
-        return self.equilibria[0].rung
-
-    @property
-    def joints(self) -> Table:
-        """A row for each joint."""
-        return self.equilibria[0].joints
-
-    @property
-    def bars(self) -> Table:
-        """A row for each member."""
-        return self.equilibria[0].bars
-
-    def reaction(self, joint: str | int) -> Array:
-        """(3,) Force of the ground on a joint, by its name or number, N."""
-        return self.equilibria[0].reaction(joint)
-
-    def joint(self, joint: str | int) -> Array:
-        """(3,) Place of a joint, by its name or number, m."""
-        return self.equilibria[0].joint(joint)
-
-    def member(self, first: str | int, second: str | int) -> Record:
-        """The member between two joints: see :meth:`Equilibrium.member`."""
-        return self.equilibria[0].member(first, second)
-
-    @property
-    def sag_m(self) -> float | None:
-        """The largest depth of a joint below the line that its row of members spans, m."""
-        return self.equilibria[0].sag_m
-
-    @property
-    def largest_tension_n(self) -> float | None:
-        """The largest tension anywhere along a member, N."""
-        return self.equilibria[0].largest_tension_n
-
-    @property
-    def largest_compression_n(self) -> float | None:
-        """The largest compression anywhere along a member, N."""
-        return self.equilibria[0].largest_compression_n
-
-    @property
-    def utilisation(self) -> Array | None:
-        """(members,) The part of its strength that each member uses; see :class:`Equilibrium`."""
-        return self.equilibria[0].utilisation
-
-    @property
-    def weakest(self) -> Record | None:
-        """The member that is nearest to breaking; see :class:`Equilibrium`."""
-        return self.equilibria[0].weakest
-
-    @property
-    def is_strong(self) -> bool | None:
-        """Whether all members are as strong as wanted; see :class:`Equilibrium`."""
-        return self.equilibria[0].is_strong
-
-    def svg(self, view: str = "best") -> Picture:
-        """The picture to scale; see :meth:`Equilibrium.svg`."""
-        return self.equilibria[0].svg(view)
-
-    def save(self, path: File, view: str = "best") -> None:
-        """Write a picture or a file for another program; see :meth:`Equilibrium.save`."""
-        self.equilibria[0].save(path, view)
-
-    def export(self, ending: str) -> str:
-        """The text of a file for another program; see :meth:`Equilibrium.export`."""
-        return self.equilibria[0].export(ending)
-
-    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True, view: str = "best") -> Any:
-        """Draw into axes of matplotlib, which must be installed."""
-        return self.equilibria[0].plot(ax, space=space, forces=forces, view=view)
-
     def __repr__(self) -> str:
         agreed = "agreed" if self.agrees else ", ".join(e.solver for e in self.equilibria)
         return f"<Answer of {printable(self.system.name)!r}: {self.energy_j:.6g} J, {self.rung} ({agreed})>"
 
     def _repr_html_(self) -> str:
         rest = "".join(f"<h4>{e.solver}</h4>{ladder(e)}" for e in self.equilibria[1:])
-        return page(self.equilibria[0]) + rest
+        return page(self) + rest
 
 
 def solve(

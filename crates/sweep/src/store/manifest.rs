@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use crate::identify::{Member, energy_unit_j};
+use crate::identify::Member;
 use crate::reached::Reached;
 use crate::store::description::{MANIFEST, read_json};
 use crate::store::shard::{Shard, part_seeds};
@@ -92,23 +92,9 @@ pub struct SystemText {
     pub unit_j: f64,
 }
 
-impl SystemText {
-    /// The text of a chain.
-    #[must_use]
-    pub fn of(chain: &model::Chain) -> Self {
-        let text = model::system_file::write_system(chain);
-        Self {
-            name: chain.name().to_owned(),
-            sha256: digest(text.as_bytes()),
-            text,
-            unit_j: energy_unit_j(chain),
-        }
-    }
-}
-
 impl From<&model::system::System> for SystemText {
     fn from(system: &model::system::System) -> Self {
-        let text = model::system_file::write_network(system);
+        let text = model::system_file::write(system);
         let weight_n = system.total_mass_kg() * system.gravity_m_s2();
         Self {
             name: system.name().to_owned(),

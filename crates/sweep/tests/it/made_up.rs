@@ -32,7 +32,7 @@ pub fn manifest() -> Manifest {
     Manifest {
         schema_version: SCHEMA_VERSION,
         program: "funicular 0".to_owned(),
-        system: SystemText::of(model::cases::paper().chain()),
+        system: SystemText::from(&(&model::cases::paper()).into()),
         seeds: SEEDS,
         seed_number: 7,
         source: "uniform".to_owned(),

@@ -225,7 +225,7 @@ fn other_parameters_are_refused_by_name() {
     let out = folder.path().join("out");
     stop_after(&out, &manifest(), 1);
     let before = files(&out);
-    let other = SystemText::of(model::cases::get("ten-equal-bars").unwrap().problem().chain());
+    let other = SystemText::from(&(&model::cases::get("ten-equal-bars").unwrap().problem()).into());
     let m = manifest;
     let cases = [
         ("seed_number", Manifest { seed_number: 8, ..m() }),

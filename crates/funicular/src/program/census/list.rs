@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use funicular::LargeCensusAnswer;
 use funicular::census::List;
 
-use crate::census::{Census, SHAPES, exit, how_far, refuse as refuse_census};
+use crate::census::{Census, SHAPES, how_far, refuse as refuse_census};
 use crate::diagnostics::{Diagnostic, tell};
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -110,7 +110,8 @@ pub fn of_many(
     } else {
         output::print(&answer.to_string())?;
     }
-    Ok(exit(&answer.first))
+    let census = &answer.first.census;
+    Ok(Exit::of(census.check_failed(), census.is_decided()))
 }
 
 /// What is listed: what is asked for, else everything that is not too large.

@@ -1,16 +1,13 @@
 //! `funicular simulate --seeds`: many positions released, and where each comes to rest.
 
-use ::sweep::Shard;
 use clap::Args;
 use funicular::Ensemble;
 
 use super::{Simulate, simulate};
 use crate::exit::{Exit, Failure};
 use crate::input::Input;
-use crate::interrupt::on_interrupt;
 use crate::progress::Progress;
-use crate::sweep::{Folder, Format, count};
-use crate::threads;
+use crate::sweep::{Folder, Rows, count};
 
 /// The columns, for the help.
 pub const HELP: &str = "\
@@ -38,33 +35,14 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true,
           requires = "out", conflicts_with_all = ["from", "store", "push", "forces", "html"])]
     pub seeds: Option<u64>,
-    /// The number that all positions come from; another one gives others
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "seeds")]
-    pub seed: u64,
-    /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse,
-          allow_negative_numbers = true, requires = "seeds")]
-    pub threads: usize,
-    /// Only the K-th of N parts, to be joined by `funicular merge`
-    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE, requires = "seeds")]
-    pub shard: Shard,
-    /// Go on with what is in the folder, if there is something
-    #[arg(long, requires = "seeds")]
-    pub resume: bool,
-    /// The form of the rows
-    #[arg(long, value_enum, default_value_t = Format::Parquet, requires = "seeds")]
-    pub format: Format,
-    /// Print one JSON object (schema_version 2) instead of tables
-    #[arg(long, requires = "seeds")]
-    pub json: bool,
+    #[command(flatten)]
+    pub rows: Rows,
 }
 
 /// Release so many positions.
 pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
-    let own = &arguments.ensemble;
-    let threads = threads::resolve(own.threads)?;
-    threads::install(threads)?;
-    let interrupt = on_interrupt()?;
+    let rows = &arguments.ensemble.rows;
+    let begun = rows.begin()?;
     let Some(out) = &arguments.out else {
         return Err(Failure::bad_input("--seeds writes a folder: --out is missing"));
     };
@@ -72,18 +50,11 @@ pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("the equilibria");
     let prepared = Ensemble::new(simulate(arguments), seeds)
-        .number(own.seed)
-        .shard(own.shard)
-        .format(own.format.into())
+        .number(rows.seed)
+        .shard(rows.shard)
+        .format(rows.format)
         .prepare(&problem)?;
     drop(progress);
-    let folder = Folder {
-        manifest: prepared.manifest(),
-        system: funicular::system_of(&problem),
-        out,
-        threads,
-        resume: own.resume,
-        json: own.json,
-    };
-    folder.run(interrupt, &|settings| prepared.write(out, settings))
+    let folder = Folder { manifest: prepared.manifest(), system: problem.system(), out, rows };
+    folder.run(begun, &|settings| prepared.write(out, settings))
 }

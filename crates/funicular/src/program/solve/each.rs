@@ -1,14 +1,11 @@
 //! `funicular solve --without each` and `--load-case each`: the loss of each member in turn, and all load cases.
 
-use std::fmt::Display;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use funicular::Problem;
-use serde::Serialize;
 use validate::UseCensus;
 
 use crate::exit::{Exit, Failure};
-use crate::output;
 use crate::progress::Progress;
 
 /// Lose each member of a system in turn.
@@ -17,15 +14,15 @@ pub fn loss(
     problem: &Problem,
     progress: Progress,
 ) -> Result<Exit, Failure> {
-    let members = funicular::system_of(problem).members().len();
+    let members = problem.system().members().len();
     let solve = arguments.question(UseCensus::Never);
     let watch = counter(&progress, members, "losses");
     let found = solve.without_each_watched(problem, &watch)?;
     drop(watch);
     drop(progress);
-    print(arguments, &found)?;
+    arguments.printed.print(&found)?;
     let failed = found.check_failed() || (arguments.check && !found.survives());
-    Ok(exit(failed, found.is_decided()))
+    Ok(Exit::of(failed, found.is_decided()))
 }
 
 /// Take each load case.
@@ -39,9 +36,9 @@ pub fn load_case(
     let found = solve.load_cases_watched(problem, &watch)?;
     drop(watch);
     drop(progress);
-    print(arguments, &found)?;
+    arguments.printed.print(&found)?;
     let failed = found.check_failed() || (arguments.check && found.is_strong() == Some(false));
-    Ok(exit(failed, found.is_decided()))
+    Ok(Exit::of(failed, found.is_decided()))
 }
 
 /// Says how many of all are done.
@@ -50,22 +47,5 @@ fn counter(progress: &Progress, all: usize, what: &'static str) -> impl Fn() + S
     move || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.say(&format!("{done} of {all} {what}"));
-    }
-}
-
-fn print(arguments: &super::Solve, found: &(impl Serialize + Display)) -> Result<(), Failure> {
-    if arguments.printed.is_json() {
-        output::print_json(found)
-    } else {
-        output::print(&found.to_string())
-    }
-}
-
-/// A failed check is worse than an answer that is missing or has not converged.
-pub fn exit(failed: bool, is_decided: bool) -> Exit {
-    match (failed, is_decided) {
-        (true, _) => Exit::CheckFailed,
-        (false, true) => Exit::Done,
-        (false, false) => Exit::Undecided,
     }
 }

@@ -13,7 +13,7 @@ pub fn run(
     problem: &Problem,
     progress: Progress,
 ) -> Result<Exit, Failure> {
-    if funicular::system_of(problem).uncertain().is_empty() {
+    if problem.system().uncertain().is_empty() {
         return Err(Failure::bad_input(
             "--tolerances: no number of this system has a tolerance, such as length_tolerance_m",
         ));
@@ -30,20 +30,10 @@ pub fn run(
         output::write_stream(path, |file| found.write_bars_csv(file))?;
     }
     drop(progress);
-    if arguments.printed.is_json() {
-        output::print_json(&found)?;
-    } else {
-        output::print(&found.to_string())?;
-    }
+    arguments.printed.print(&found)?;
     let most = |k: usize| found.utilisation(k).map_or(0.0, |[_, most]| most);
     let members = found.answer().system().members().iter().enumerate();
     let mut strengths = members.filter_map(|(k, member)| Some((k, member.strength.as_deref()?)));
     let is_weak = arguments.check && strengths.any(|(k, strength)| !strength.suffices(most(k)));
-    Ok(if found.check_failed() || is_weak {
-        Exit::CheckFailed
-    } else if found.is_decided() {
-        Exit::Done
-    } else {
-        Exit::Undecided
-    })
+    Ok(Exit::of(found.check_failed() || is_weak, found.is_decided()))
 }

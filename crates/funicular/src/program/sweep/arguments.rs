@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use ::sweep::{MOST_SEEDS, Shard};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use funicular::{Format, Spread};
+use validate::Solvers;
 
+use crate::exit::Failure;
 use crate::input::Source;
-use crate::threads::Threads;
-use crate::which::Which;
+use crate::interrupt::{Interrupt, on_interrupt};
+use crate::threads;
 
 /// How `sweep` ends, for its help.
 const EXIT_CODES: &str = "\
@@ -47,74 +50,53 @@ pub struct Sweep {
     /// How many starts: 1000000, 1_000_000 or 1e6
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub seeds: u64,
-    /// The number that all starts come from; another one gives others
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
     /// How the starts are spread: over the angles of a chain's bars; of any other system its joints start
     /// at random in space (uniform)
-    #[arg(long, alias = "source", value_enum, default_value_t = Spread::Uniform)]
+    #[arg(long, alias = "source", value_enum, default_value_t)]
     pub spread: Spread,
     /// Which solver
-    #[arg(long, value_enum, default_value_t = Which::Both)]
-    pub solver: Which,
+    #[arg(long, value_enum, default_value_t)]
+    pub solver: Solvers,
     #[command(flatten)]
-    pub threads: Threads,
-    /// Only the K-th of N parts, to be joined by `funicular merge`
-    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
-    pub shard: Shard,
-    /// Go on with what is in the folder, if there is something
-    #[arg(long)]
-    pub resume: bool,
-    /// The form of the rows
-    #[arg(long, value_enum, default_value_t = Format::Parquet)]
-    pub format: Format,
+    pub rows: Rows,
     /// Write the angles of the starts, too
     #[arg(long)]
     pub angles: bool,
-    /// Print one JSON object (schema_version 2) instead of tables
-    #[arg(long)]
-    pub json: bool,
     /// The folder to write: new or empty, or with --resume one that holds this sweep
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 }
 
-/// How starts are spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Spread {
-    /// At random, every angle by itself
-    Uniform,
-    /// Sobol's sequence: evenly, with a random shift
-    Sobol,
-    /// A regular grid; --seeds must be a power with the number of bars
-    Grid,
+/// What a command asks for that writes a folder of rows.
+#[derive(Debug, Args)]
+pub struct Rows {
+    /// The number that all starts come from; another one gives others
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "seeds")]
+    pub seed: u64,
+    /// How many threads; 0 means one per processor. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse,
+          allow_negative_numbers = true, requires = "seeds")]
+    pub threads: usize,
+    /// Only the K-th of N parts, to be joined by `funicular merge`
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE, requires = "seeds")]
+    pub shard: Shard,
+    /// Go on with what is in the folder, if there is something
+    #[arg(long, requires = "seeds")]
+    pub resume: bool,
+    /// The form of the rows
+    #[arg(long, value_enum, default_value_t, requires = "seeds")]
+    pub format: Format,
+    /// Print one JSON object (schema_version 2) instead of tables
+    #[arg(long, requires = "seeds")]
+    pub json: bool,
 }
 
-impl From<Spread> for funicular::Spread {
-    fn from(spread: Spread) -> Self {
-        match spread {
-            Spread::Uniform => Self::Uniform,
-            Spread::Sobol => Self::Sobol,
-            Spread::Grid => Self::Grid,
-        }
-    }
-}
-
-/// The form of the rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Apache Parquet: small, with units
-    Parquet,
-    /// Comma-separated values
-    Csv,
-}
-
-impl From<Format> for funicular::Format {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Parquet => Self::Parquet,
-            Format::Csv => Self::Csv,
-        }
+impl Rows {
+    /// Start the threads, of which this is the number, and watch for Ctrl-C.
+    pub(crate) fn begin(&self) -> Result<(usize, Interrupt), Failure> {
+        let threads = threads::resolve(self.threads)?;
+        threads::install(threads)?;
+        Ok((threads, on_interrupt()?))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Descriptions of a sweep that somebody changed: no folder is joined that is not the one that was
 //! written.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -9,6 +8,7 @@ use sweep::{Chunk, Manifest, Outcomes, RunSettings};
 
 use super::fuzz;
 use super::mutate::mutated;
+use crate::run::files;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
 
@@ -32,16 +32,6 @@ fn finished(folder: &Path) -> Manifest {
     let settings = RunSettings { threads: 1, resume: false, stop: &NEVER, done, found };
     sweep::run(folder, prepared.manifest(), &compute, &settings).unwrap();
     prepared.manifest().clone()
-}
-
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap())
-        .map(|entry| {
-            (entry.file_name().into_string().unwrap(), std::fs::read(entry.path()).unwrap())
-        })
-        .collect()
 }
 
 #[test]

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 28] = [
+const NOT_PRINTED: [(&str, &str); 29] = [
+    ("funicular::Found", "either is printed by its keys alone"),
     ("census::Census", "`census --json` prints its own `Summary`"),
     ("census::ChainCensus", "printed as `Chain` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),

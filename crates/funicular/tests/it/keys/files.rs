@@ -3,8 +3,10 @@
 
 use serde_json::{Value, json};
 
-use super::output::{Output, good};
+use super::output::Output;
 use super::solve::{LAMP, LEVEL_V, refusals_of_a_fall, system_of_level_v};
+
+use crate::run::good;
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::output::{Output, run};
+use super::output::Output;
+
+use crate::run::run;
 
 /// Commands that take a case, with the kinds of their outputs for chains and for systems.
 const COMMANDS: [(&[&str], [&str; 2]); 5] = [
@@ -29,7 +31,7 @@ fn no_case_has_a_key_that_is_not_listed() {
             if (name, arguments[0]) == SLOW {
                 continue;
             }
-            let (code, text) = run(folder.path(), &[arguments, &["--case", name]].concat());
+            let (code, text, _) = run(folder.path(), &[arguments, &["--case", name]].concat());
             // A case that a command does not take is refused without an object.
             if code != Some(2) && !text.is_empty() {
                 let output = Output::json(kinds[form], "", &text);

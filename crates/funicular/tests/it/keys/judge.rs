@@ -3,8 +3,10 @@
 use serde_json::json;
 
 use super::evidence::{self, NOTHING};
-use super::output::{Output, run};
+use super::output::Output;
 use super::solve::LAMP;
+
+use crate::run::run;
 
 /// Lengths of the bars with the lamp at 2.5 m, m.
 fn stretched() -> [f64; 2] {
@@ -19,13 +21,11 @@ fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output 
     let forces = "from,to,axial_n\nA,P,16\nP,B,12\n";
     std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
     let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
-    let (found, text) = run(folder.path(), &[&arguments[..], more].concat());
+    let (found, text, _) = run(folder.path(), &[&arguments[..], more].concat());
     assert_eq!(found, Some(code), "{text}");
     let mut output = Output::json("judge", test, &text);
     output.is("schema_version", 3);
-    output.is("system.name", "lamp");
-    output.is("system.joints", 3);
-    output.is("system.bars", 2);
+    output.system("lamp", [3, 2], [7.0, 2.0, 10.0]);
     output.is("source", "places.csv");
     // A millionth of 5 m and of 20 N.
     output.is("bounds.tolerance", 1e-6);
@@ -205,7 +205,7 @@ fn two_strengths() {
     let places = "joint,x_m,y_m,z_m\nP,1.8,0,-2.4\n";
     std::fs::write(folder.path().join("places.csv"), places).unwrap();
     let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(0), "{text}");
     let mut output = Output::json("judge", "two_strengths", &text);
     output.is("bars[].utilisation", json!([0.8, 0.3]));
@@ -214,6 +214,6 @@ fn two_strengths() {
     output.is("weakest.safety", 10.0 / 3.0);
     output.is("weakest.safety_wanted", 4.0);
     output.done();
-    let (code, _) = run(folder.path(), &[&arguments[..], &["--check"]].concat());
+    let (code, _, _) = run(folder.path(), &[&arguments[..], &["--check"]].concat());
     assert_eq!(code, Some(1));
 }

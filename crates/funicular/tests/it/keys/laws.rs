@@ -4,7 +4,9 @@
 use serde_json::json;
 
 use super::evidence::NOTHING;
-use super::output::{Output, run};
+use super::output::Output;
+
+use crate::run::run;
 
 /// Four weights, each below an anchor of its own, on an elastic bar, a cable, and two bars.
 const HANGERS: &str = r#"
@@ -73,7 +75,7 @@ fn every_law_broken() {
     }
     let arguments =
         ["judge", "hangers.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(1), "{text}");
     let mut output = Output::json("judge", "every_law_broken", &text);
     output.is("finding", "refuted");
@@ -170,7 +172,7 @@ fn flat_lamp(test: &'static str, down: &str, forces: Option<&str>) -> Output {
         std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
         arguments.extend(["--members", "forces.csv"]);
     }
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(3), "{text}");
     Output::json("judge", test, &text)
 }
@@ -231,7 +233,7 @@ fn loads_hidden() {
     std::fs::write(folder.path().join("frame.toml"), frame).unwrap();
     std::fs::write(folder.path().join("places.csv"), "joint,x_m,y_m,z_m\nP,0,0,0\n").unwrap();
     std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
-    let (code, text) = run(
+    let (code, text, _) = run(
         folder.path(),
         &["judge", "frame.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"],
     );
@@ -281,7 +283,7 @@ fn two_tensions() {
     std::fs::write(folder.path().join("forces.csv"), "from,to,axial_n\nA,P,9\nP,B,11\n").unwrap();
     let arguments =
         ["judge", "ring.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(1), "{text}");
     let mut output = Output::json("judge", "two_tensions", &text);
     for list in ["broken", "violations"] {

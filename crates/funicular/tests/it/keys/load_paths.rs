@@ -3,8 +3,10 @@
 
 use serde_json::{Value, json};
 
-use super::output::{Output, good};
+use super::output::Output;
 use crate::load_paths::RING;
+
+use crate::run::good;
 
 /// EA = 1 N, feet 2 m apart, the apex 0.5 m above them on a line, 1 N down.
 const GABLE: &str = "name = \"gable\"\n[joints]\nA = { at_m = [-1, 0, 0] }\nB = { at_m = [1, 0, 0] }\n\

@@ -2,9 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
-use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
 use super::table;
@@ -233,20 +231,4 @@ fn leaves(value: &Value) -> Vec<Value> {
         Value::Array(items) => items.iter().flat_map(leaves).collect(),
         leaf => vec![leaf.clone()],
     }
-}
-
-/// What the program prints, run in a folder, with its exit code.
-pub fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let mut command = Command::cargo_bin("funicular").unwrap();
-    let output = command.current_dir(folder).args(arguments).output().unwrap();
-    let code = output.status.code();
-    print!("{}", String::from_utf8_lossy(&output.stderr));
-    (code, String::from_utf8(output.stdout).unwrap())
-}
-
-/// What the program prints where it ends well.
-pub fn good(folder: &Path, arguments: &[&str]) -> String {
-    let (code, text) = run(folder, arguments);
-    assert_eq!(code, Some(0), "{arguments:?}\n{text}");
-    text
 }

@@ -2,11 +2,13 @@
 
 use serde_json::json;
 
-use super::output::{Output, good, run};
+use super::output::Output;
+
+use crate::run::{good, run};
 
 fn case(kind: &'static str, test: &'static str, arguments: &[&str]) -> Output {
     let folder = tempfile::tempdir().unwrap();
-    let (code, text) = run(folder.path(), arguments);
+    let (code, text, _) = run(folder.path(), arguments);
     assert!(code == Some(0) || code == Some(3), "{code:?}");
     Output::json(kind, test, &text)
 }

@@ -3,7 +3,9 @@
 use serde_json::json;
 
 use super::evidence::{self, NOTHING};
-use super::output::{Output, good, run};
+use super::output::Output;
+
+use crate::run::{good, run};
 
 /// Two bars of 1 m and 10 N over a span of 1 m: each stands at 60 degrees.
 pub const LEVEL_V: &str = r#"
@@ -457,7 +459,7 @@ fn refusals() {
                  joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
                  bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n";
     std::fs::write(folder.path().join("falls.toml"), falls).unwrap();
-    let (code, text) = run(folder.path(), &["solve", "falls.toml", "--json"]);
+    let (code, text, _) = run(folder.path(), &["solve", "falls.toml", "--json"]);
     assert_eq!(code, Some(3));
     let mut output = Output::json("solve", "refusals", &text);
     output.is("equilibria[]", json!([]));
@@ -487,7 +489,7 @@ fn a_drawn_rod() {
         mass_kg = 0\n";
     std::fs::write(folder.path().join("rod.toml"), rod).unwrap();
     // `energy` finds minima alone, and there is none: undecided.
-    let (code, text) = run(folder.path(), &["solve", "rod.toml", "--json"]);
+    let (code, text, _) = run(folder.path(), &["solve", "rod.toml", "--json"]);
     assert_eq!(code, Some(3));
     let mut output = Output::json("solve", "a_drawn_rod", &text);
     output.near("near.moved", 1e-12, 0.1);

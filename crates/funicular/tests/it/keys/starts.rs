@@ -5,21 +5,16 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::output::{Output, good};
+use super::output::Output;
 use super::solve::{LEVEL_V, system_of_level_v};
+
+use crate::run::{column, good};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
 
 /// Seeds of the grid: 8 angles of each bar.
 const SEEDS: usize = 64;
-
-/// The cells of a column.
-fn column(text: &str, name: &str) -> Vec<f64> {
-    let head = text.lines().next().unwrap();
-    let at = head.split(',').position(|column| column == name).unwrap();
-    text.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
-}
 
 /// The sum of a file's bytes as the system's own program has it.
 fn sha256(path: &Path) -> String {

@@ -2,8 +2,10 @@
 
 use serde_json::json;
 
-use super::output::{Output, good, run};
+use super::output::Output;
 use super::solve::{DEPTH, H, LEVEL_V};
+
+use crate::run::{good, run};
 
 /// Bars that bear 20 and 10 N in tension, twice as much as they are to.
 #[test]
@@ -83,7 +85,7 @@ fn load_cases_of_two_ropes() {
     let nothing = "[[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
     std::fs::write(folder.path().join("ropes.toml"), format!("{text}{nothing}")).unwrap();
     let arguments = ["solve", "ropes.toml", "--load-case", "each", "--json"];
-    let (code, text) = run(folder.path(), &arguments);
+    let (code, text, _) = run(folder.path(), &arguments);
     assert_eq!(code, Some(3));
     let mut output = Output::json("load cases", "load_cases_of_two_ropes", &text);
     output.is("schema_version", 3);

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::output::{Output, good, run};
+use super::output::Output;
+
+use crate::run::{good, run};
 
 /// 2 kg and half a kilogram more or less on a bar of 3 m, straight below an anchor that is known to 0.1 m: the
 /// force is that of the weight, 20 N and 5, and P moves with the anchor. Uniform draws deviate by the
@@ -148,7 +150,8 @@ fn tolerances_without_a_proof() {
     };
     for (within_m, third_m) in [(0.01, 1.001), (4.5, 9.0)] {
         std::fs::write(folder.path().join("ropes.toml"), text(within_m, third_m)).unwrap();
-        let (code, said) = run(folder.path(), &["solve", "ropes.toml", "--tolerances", "--json"]);
+        let (code, said, _) =
+            run(folder.path(), &["solve", "ropes.toml", "--tolerances", "--json"]);
         assert_eq!(code, Some(3), "{said}");
         let mut output = Output::json("solve", "tolerances_without_a_proof", &said);
         output.is("tolerances.is_proved", false);

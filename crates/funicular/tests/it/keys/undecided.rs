@@ -3,7 +3,9 @@
 use serde_json::json;
 
 use super::evidence::NOTHING;
-use super::output::{Output, good, run};
+use super::output::Output;
+
+use crate::run::{good, run};
 
 /// A census that does not decide everything.
 fn census(test: &'static str, end: &str, bars: &str) -> Output {
@@ -12,7 +14,7 @@ fn census(test: &'static str, end: &str, bars: &str) -> Output {
         "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\nbars = [{bars}]\n"
     );
     std::fs::write(folder.path().join("file.toml"), text).unwrap();
-    let (code, text) = run(folder.path(), &["census", "file.toml", "--json"]);
+    let (code, text, _) = run(folder.path(), &["census", "file.toml", "--json"]);
     assert_eq!(code, Some(3), "{text}");
     let mut output = Output::json("census", test, &text);
     output.is("census.complete", false);

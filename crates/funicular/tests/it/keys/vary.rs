@@ -4,8 +4,10 @@
 use serde_json::{Value, json};
 
 use super::evidence::NOTHING;
-use super::output::{Output, good};
+use super::output::Output;
 use super::solve::{LAMP, LEVEL_V, system_of_lamp, system_of_level_v};
+
+use crate::run::good;
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -179,9 +181,7 @@ fn study_of_a_system() {
 /// What every kind of derivatives says of the lamp.
 fn about_lamp(output: &mut Output) {
     output.is("schema_version", 3);
-    output.is("system.name", "lamp");
-    output.is("system.joints", 3);
-    output.is("system.bars", 2);
+    output.system("lamp", [3, 2], [7.0, 2.0, 10.0]);
 }
 
 /// Each bar alone gives under its force F across itself with l/F; both stand at a right angle.

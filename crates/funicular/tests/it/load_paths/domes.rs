@@ -13,7 +13,7 @@ use super::{is_proved, load_n, near, path, paths, told};
 fn a_symmetric_dome_leaves_its_symmetry_before_its_limit() {
     let trace = Trace::new().vary("loads=0..5").unwrap().branches(1).max_points(300);
     let paths = paths(&dome(1, true), &trace);
-    let (limit, branch) = (LoadEventKind::LimitPoint, LoadEventKind::BranchPoint);
+    let (limit, branch) = (LoadEventKind::Limit, LoadEventKind::Branch);
     let first: Vec<_> = told(&paths[0].events).into_iter().take(4).collect();
     let wanted = [(branch, [0, 1]), (branch, [1, 3]), (branch, [3, 5]), (limit, [5, 6])];
     assert_eq!(first, wanted);
@@ -33,7 +33,7 @@ fn the_limit_of_a_larger_dome_is_proved() {
     let path = path(&dome(4, false), "loads=0..0.15");
     let limit = path.first_loss().unwrap();
     let [low, high] = limit.enclosed.unwrap();
-    assert!(limit.kind == LoadEventKind::LimitPoint && high - low < 1e-9, "{low} {high}");
+    assert!(limit.kind == LoadEventKind::Limit && high - low < 1e-9, "{low} {high}");
     near(limit.values[0], 0.5 * (low + high));
     // The path itself is too large, and says so.
     let because = path.proved.because.as_deref().unwrap();
@@ -57,9 +57,9 @@ fn a_steep_pyramid_sways_in_two_directions_at_once() {
     let across = |l: f64| 0.5 / l + (l - l0) * (1.0 - 0.5 / (l * l));
     let l = samples::root(across, [2.0, l0]);
     let first = &path.events[0];
-    assert_eq!((first.kind, first.index), (LoadEventKind::BranchPoint, [0, 2]));
+    assert_eq!((first.kind, first.index), (LoadEventKind::Branch, [0, 2]));
     near(first.values[0], 2.0 * load_n(l0, l));
-    is_proved(&path, LoadEventKind::BranchPoint, 2.0 * load_n(l0, l));
+    is_proved(&path, LoadEventKind::Branch, 2.0 * load_n(l0, l));
 }
 
 /// Hrinda's truss of sixteen bars (AIAA 2010-2611): unloaded, turned over, it is itself, so under upward
@@ -90,7 +90,7 @@ fn the_path_of_a_symmetric_truss_is_symmetric() {
         }
     }
     let path = path(&file, "loads=0,4,-4");
-    let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::LimitPoint);
+    let limits = path.events.iter().filter(|event| event.kind == LoadEventKind::Limit);
     let limits: Vec<f64> = limits.map(|event| event.values[0]).collect();
     assert_eq!((limits.len(), path.end), (8, LoadEnd::Range));
     // All limit points are proved, and all branch points: their modes break mirrors.
@@ -102,7 +102,7 @@ fn the_path_of_a_symmetric_truss_is_symmetric() {
     for (one, other) in limits.iter().zip(limits.iter().rev()) {
         near(*one, -other);
     }
-    let branches = path.events.iter().filter(|event| event.kind == LoadEventKind::BranchPoint);
+    let branches = path.events.iter().filter(|event| event.kind == LoadEventKind::Branch);
     let branches: Vec<_> = branches.map(|event| (event.values[0], event.index)).collect();
     assert_eq!(branches.len(), 4);
     for ((one, [a, b]), (other, [c, d])) in branches.iter().zip(branches.iter().rev()) {
@@ -123,7 +123,7 @@ fn the_star_dome_reaches_its_published_limit() {
     let [low, high] = path.first_loss().unwrap().enclosed.unwrap();
     // The file says between 0.66 and 0.675 P, by a Newton's method of others.
     assert!(0.3 * low > 0.66 && 0.3 * high < 0.675 && high - low < 1e-9, "{low} {high}");
-    is_proved(path, LoadEventKind::LimitPoint, 0.5 * (low + high));
+    is_proved(path, LoadEventKind::Limit, 0.5 * (low + high));
     let text = found.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     let claim = "reaches its first limit point at loads between 2.21926806 and 2.21926807, and no other equilibrium \
                  meets it before";
