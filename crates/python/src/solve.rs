@@ -41,7 +41,7 @@ impl Arrays {
     /// Of a system; a row of rigid bars between two anchors alone has multipliers.
     pub fn new(system: &System, found: SystemEquilibrium) -> Self {
         Self {
-            multipliers_n: system.as_row().map(|row| row.multipliers_n(&found)),
+            multipliers_n: system.as_row().and_then(|row| row.multipliers_n(&found)),
             along: found.axial_forces(system),
             extremes: Extremes::of(system, &found),
             utilisation: found

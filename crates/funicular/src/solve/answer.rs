@@ -83,7 +83,7 @@ impl SolveAnswer {
     /// next bar on the one before, last that of the ground on the last bar.
     #[must_use]
     pub fn multipliers_n(&self, answer: &SystemEquilibrium) -> Option<Vec<Vector>> {
-        Some(self.system.as_row()?.multipliers_n(answer))
+        self.system.as_row()?.multipliers_n(answer)
     }
 
     /// Whether both solvers answered and agree, the judge finds both in balance, and no census

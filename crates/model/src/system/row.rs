@@ -237,11 +237,14 @@ impl Row {
     /// The axial forces of an answer in the order of the chain, N; without value where it is not one of this system.
     #[must_use]
     pub fn chain_axial_n(&self, found: &SystemEquilibrium) -> Option<Vec<f64>> {
+        self.fits(found).then(|| self.members().map(|(member, _)| found.axial_n[member]).collect())
+    }
+
+    fn fits(&self, found: &SystemEquilibrium) -> bool {
         let bars = self.members.len();
-        let fits = [found.joints_m.len(), found.reactions_n.len()] == [bars + 1; 2]
+        [found.joints_m.len(), found.reactions_n.len()] == [bars + 1; 2]
             && [found.axial_n.len(), found.start_forces_n.len(), found.end_forces_n.len()]
-                == [bars; 3];
-        fits.then(|| self.members().map(|(member, _)| found.axial_n[member]).collect())
+                == [bars; 3]
     }
 
     /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
@@ -255,7 +258,7 @@ impl Row {
             solver: found.solver.clone(),
             energy_j: found.energy_j,
             joints_m: self.joints().map(|joint| found.joints_m[joint]).collect(),
-            multipliers_n: self.multipliers_n(found),
+            multipliers_n: self.multipliers_n(found)?,
             reactions_n: Reactions {
                 start: found.reactions_n[first],
                 end: found.reactions_n[last],
@@ -272,15 +275,20 @@ impl Row {
     }
 
     /// The paper's multipliers of an answer for the system, N: first the force of the ground on the first
-    /// bar, then at each joint the force of the next bar, or of the ground, on the one before.
+    /// bar, then at each joint the force of the next bar, or of the ground, on the one before; without value where
+    /// it is not one of this system.
     #[must_use]
-    pub fn multipliers_n(&self, found: &SystemEquilibrium) -> Vec<Vector> {
+    pub fn multipliers_n(&self, found: &SystemEquilibrium) -> Option<Vec<Vector>> {
+        if !self.fits(found) {
+            return None;
+        }
         let passed_on = self.members().zip(1..).map(|((member, turned), joint)| {
             let forces = if turned { &found.start_forces_n } else { &found.end_forces_n };
             let [x, y, z] = forces[member];
             [x, y, z + self.weight_n(joint)]
         });
-        std::iter::once(found.reactions_n[self.anchors()[0]]).chain(passed_on).collect()
+        let first = found.reactions_n[self.anchors()[0]];
+        Some(std::iter::once(first).chain(passed_on).collect())
     }
 
     /// An answer for the chain as one for the system.
