@@ -75,7 +75,25 @@ impl<'a> Assembly<'a> {
         }
         assembly.vertical_exchanges();
         assembly.unite();
+        assembly.beside_folds();
         assembly
+    }
+
+    /// An event within the error of a fold's position is known no better than the fold.
+    fn beside_folds(&mut self) {
+        let folds = self.events.iter().filter(|event| event.kind == EventKind::Fold);
+        let folds: Vec<_> = folds
+            .map(|fold| (fold.position, fold.position_error, fold.values_error.clone()))
+            .collect();
+        for event in self.events.iter_mut().filter(|event| event.kind != EventKind::Fold) {
+            for (position, error, values) in &folds {
+                let beside = (event.position - position).abs() <= *error;
+                if beside && *error > event.position_error {
+                    event.position_error = *error;
+                    event.values_error.clone_from(values);
+                }
+            }
+        }
     }
 
     /// Nodes that nothing leads to begin their branches here.

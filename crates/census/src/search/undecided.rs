@@ -1,5 +1,7 @@
 //! What could not be decided, listed with its cell.
 
+use std::collections::BTreeMap;
+
 use numerics::Interval;
 use serde::{Deserialize, Serialize};
 
@@ -78,19 +80,35 @@ impl std::fmt::Display for Reason {
     }
 }
 
-/// More cells than this on a face are not told apart: merging them takes the square of their number.
-const MOST: usize = 2_048;
+/// More cells than this are first gathered on a grid: merging them takes the square of their
+/// number.
+const DIRECT: usize = 2_048;
+
+/// Squares of that grid along the edge of a face, whose length is 2.
+const GRID: f64 = 32.0;
 
 /// Touching cells become one; the order is that of faces and coordinates.
-pub(crate) fn gather(tasks: Vec<Task>) -> Vec<Task> {
+pub(crate) fn gather(mut tasks: Vec<Task>) -> Vec<Task> {
+    if tasks.len() > DIRECT {
+        let mut squares: BTreeMap<(Face, [i64; 2]), Task> = BTreeMap::new();
+        for task in tasks {
+            #[expect(clippy::cast_possible_truncation, reason = "coordinates lie in [-2, 2]")]
+            let square = task.cell.middle().map(|x| (x * GRID / 2.0).floor() as i64);
+            match squares.entry((task.cell.face, square)) {
+                std::collections::btree_map::Entry::Vacant(entry) => {
+                    entry.insert(task);
+                }
+                std::collections::btree_map::Entry::Occupied(mut entry) => {
+                    unite(entry.get_mut(), &task);
+                }
+            }
+        }
+        tasks = squares.into_values().collect();
+    }
     let mut gathered: Vec<Task> = vec![];
     for mut task in tasks {
-        let many = gathered.len() >= MOST;
-        let joins = |other: &Task, task: &Task| {
-            other.cell.face == task.cell.face && (many || !other.cell.disjoint(&task.cell))
-        };
         // What the growing cell touches joins it, until nothing does.
-        while let Some(k) = gathered.iter().position(|other| joins(other, &task)) {
+        while let Some(k) = gathered.iter().position(|other| touch(other, &task)) {
             unite(&mut task, &gathered.swap_remove(k));
         }
         gathered.push(task);
@@ -101,6 +119,10 @@ pub(crate) fn gather(tasks: Vec<Task>) -> Vec<Task> {
         face.cmp(&other).then(x.total_cmp(&p)).then(y.total_cmp(&q))
     });
     gathered
+}
+
+fn touch(a: &Task, b: &Task) -> bool {
+    a.cell.face == b.cell.face && !a.cell.disjoint(&b.cell)
 }
 
 fn unite(all: &mut Task, more: &Task) {
@@ -157,14 +179,21 @@ mod tests {
         assert_eq!(found[1].cell, Cell { face: Face::Near, at: [whole; 2] });
     }
 
-    /// As many as are told apart stay apart where they do not touch; with one more those of its face are one.
+    /// As many as are merged one by one stay apart where they do not touch; one more, and those of
+    /// each of 32 by 32 squares are one.
     #[test]
-    fn too_many_to_compare_are_one() {
-        let all = |count: usize| -> Vec<Task> {
-            let place = |k: usize| [k % 64, k / 64].map(|n| n as f64 / 32.0 - 1.0);
-            (0..count).map(|k| task(Face::Near, place(k), 1)).collect()
-        };
-        assert_eq!(gather(all(MOST)).len(), MOST);
-        assert_eq!(gather(all(MOST + 1)).len(), 1);
+    fn too_many_to_compare_are_gathered_on_a_grid() {
+        let side = 64;
+        let all: Vec<Task> = (0..side * side)
+            .map(|k| {
+                let [i, j] = [k % side, k / side].map(|n| f64::from(n) / 32.0 - 1.0);
+                task(Face::Near, [i, j], 1)
+            })
+            .collect();
+        assert_eq!(gather(all[..DIRECT].to_vec()).len(), DIRECT);
+        // 33 rows of 64 are cut into 32 by 17 squares.
+        let rows = gather(all[..33 * 64].to_vec());
+        assert_eq!(rows.len(), 32 * 17);
+        assert_eq!(gather(all).len(), 32 * 32);
     }
 }

@@ -159,9 +159,9 @@ fn four_merge() {
     output.is(&event("bar"), json!([2, 2]));
     const HALF: f64 = 1e-6;
     output.within(&event("values[]"), -2.0 - HALF..=-2.0 + HALF);
-    output.within(&event("values_error[]"), 0.0..=HALF);
+    output.within(&event("values_error[]"), 0.0..=20.0 * HALF);
     output.within(&event("position"), 0.5 - HALF..=0.5 + HALF);
-    output.within(&event("position_error"), 0.0..=HALF);
+    output.within(&event("position_error"), 0.0..=20.0 * HALF);
     let span_m = 5.0_f64.sqrt();
     output.within(&event("span_m"), span_m - HALF..=span_m + HALF);
     let angles = output.numbers(&event("angles_rad[]"));
