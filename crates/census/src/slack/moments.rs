@@ -111,6 +111,12 @@ impl ExactMoments {
         }
         None
     }
+
+    /// Whether the signed variance of the weights, $M_0 M_2 - M_1^2$, vanishes.
+    pub(crate) fn is_without_variance(&self, pattern: Pattern) -> Option<bool> {
+        let [m0, m1, m2] = [0, 1, 2].map(|order| self.moment(pattern, order));
+        Some(m0?.checked_mul(m2?)? == m1?.checked_mul(m1?)?)
+    }
 }
 
 #[cfg(test)]
@@ -130,7 +136,8 @@ mod tests {
         ExactMoments::new(&chain, JointLoads::NONE, &sides).unwrap()
     }
 
-    /// By hand, signs from the first bar on: the moments, and the first that is not zero.
+    /// By hand, signs from the first bar on: the moments, the first that is not zero, and whether
+    /// the signed variance is.
     #[test]
     fn moments_of_signed_lengths() {
         let moments = moments();
@@ -147,7 +154,12 @@ mod tests {
             let found = [0, 1, 2].map(|order| moments.moment(pattern, order));
             assert_eq!(found, expected.map(Some), "{pattern:?}");
             assert_eq!(moments.first(pattern), first);
+            assert_eq!(moments.is_without_variance(pattern), Some(false));
         }
+        // 1 − 3 + 3, −3 + 6, −3 + 12: 1 · 9 = 3².
+        let flat = ExactMoments { lengths: vec![1, 3, 3], weights: vec![0, 1, 2] };
+        assert_eq!(flat.is_without_variance(Pattern(0b010)), Some(true));
+        assert_eq!(flat.is_without_variance(Pattern(0b000)), Some(false));
         // 1 − 2 + 1, −2 + 2, −2 + 4: all but the second vanish.
         let even = ExactMoments { lengths: vec![1, 2, 1], weights: vec![0, 1, 2] };
         assert_eq!(even.first(Pattern(0b010)), Some(2));

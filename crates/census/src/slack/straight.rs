@@ -23,7 +23,12 @@
 //! If the second sum is proved not to vanish over a rectangle about the point, then no equilibrium
 //! has its pull there: the straight position is isolated from all equilibria. (For w = 0 the first
 //! equation asks for α = 0.) In the limit its sign is that of $\sum s_i l_i (c_i - \bar c)^2$ with
-//! the mean $\bar c$ of the weights. Where this signed variance vanishes, exactly, nothing is proved.
+//! the mean $\bar c$ of the weights.
+//!
+//! Where this signed variance vanishes, exactly, as of bars of 1, 3 and 3 m with equal weights over 1 m, the two
+//! sums have a common zero at w = 0. If their derivative by (ψ, w), or by (ψ, w²) between level anchors, is proved
+//! to be regular over a rectangle of such, the pair takes no value twice there, and this zero, the straight
+//! position itself, is the only one.
 //!
 //! The straight position itself is then no equilibrium: no force along the line holds a weight
 //! across it. It is a singular point of the configurations: with small angles $\theta_i$ they are the
@@ -115,12 +120,15 @@ impl Straight {
         let fits = sides.fits();
         let bars = system.bars();
         let all = (1_u32 << bars) - 1;
-        let mut settled = vec![];
+        let (mut settled, moments) = (vec![], exact.moments.as_ref());
         if !system.vertical {
             // Along the line, and against it with all signs turned.
             for (way, turned) in [(1, 0), (-1, all)] {
                 let patterns = fits.iter().map(|pattern| Pattern(pattern.0 ^ turned));
-                let cells = patterns.filter_map(|p| Some((p, isolated(system, p, way)?)));
+                let cells = patterns.filter_map(|p| {
+                    let none = moments.and_then(|m| m.is_without_variance(p)) == Some(true);
+                    Some((p, isolated(system, p, way, none)?))
+                });
                 settled.extend(Settled::new(cells.collect()));
             }
         }
@@ -130,7 +138,7 @@ impl Straight {
         });
         let mut first = HashMap::new();
         if is_one_point(system)
-            && let Some(moments) = &exact.moments
+            && let Some(moments) = moments
         {
             first = fits.iter().filter_map(|p| Some((*p, moments.first(*p)?))).collect();
         }
@@ -182,8 +190,9 @@ fn is_one_point(system: &System) -> bool {
     system.vertical && system.span[1] == Interval::ZERO
 }
 
-/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern.
-fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
+/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern,
+/// whose signed variance of the weights may be known to vanish.
+fn isolated(system: &System, pattern: Pattern, way: i8, no_variance: bool) -> Option<Cell> {
     let f = system.span.map(|part| signed(way, part));
     // The chart on which the pull is largest.
     let along = usize::from(f[1].mid().abs() > f[0].mid().abs());
@@ -198,7 +207,7 @@ fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     for _ in 0..RECTANGLES {
         let at = [Interval::around(centre, size), Interval::new(-size, size)];
         let cell = Cell { face, at };
-        if is_isolated(system, &cell, f, pattern) == Some(true) {
+        if is_isolated(system, &cell, f, pattern, no_variance) == Some(true) {
             return Some(cell);
         }
         size *= NEXT;
@@ -206,8 +215,14 @@ fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     None
 }
 
-/// Whether the blown-up closure has no zero over a rectangle.
-fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern) -> Option<bool> {
+/// Whether the blown-up closure has no zero over a rectangle but the straight position.
+fn is_isolated(
+    system: &System,
+    cell: &Cell,
+    f: [Interval; 2],
+    pattern: Pattern,
+    no_variance: bool,
+) -> Option<bool> {
     let size = |[x, z]: [Interval; 2]| (x.square() + z.square()).sqrt();
     let along = |[x, z]: [Interval; 2]| f[0] * x + f[1] * z;
     let whole = size(f);
@@ -231,8 +246,58 @@ fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern)
         return None;
     }
     let psi = -(nu * lean / turn);
+    if no_variance {
+        // The weights in the unit in which the pull is as long as f.
+        let [h, v, w] = cell.homogeneous();
+        let most = w / along([h, v]) * whole.square();
+        let over = [psi, Interval::ZERO.hull(Interval::point(most.hi()))];
+        let [[a, b], [c, d]] = derivative(system, pattern, f, over)?;
+        return Some(!(a * d - b * c).contains(0.0));
+    }
     let second: Interval = terms.into_iter().map(|(part, c)| part * (psi + c).square()).sum();
     Some(!second.contains(0.0))
+}
+
+/// The derivative of the blown-up closure by (ψ, w), or by (ψ, w²) between level anchors: with
+/// $a = w (\psi + f_x c)$, $b = |f|^2 + w f_z c$ and $r^2 = a^2 + b^2$ for each bar, of the sums of
+/// $s l (\psi + f_x c)/r$ and of $s l (\psi + f_x c)^2/(r (r + b))$. The pull is $f + w \psi g/|f|^2$.
+fn derivative(
+    system: &System,
+    pattern: Pattern,
+    f: [Interval; 2],
+    [psi, w]: [Interval; 2],
+) -> Option<[[Interval; 2]; 2]> {
+    let level = f[1] == Interval::ZERO;
+    let two = Interval::point(2.0);
+    let mut sums = [[Interval::ZERO; 2]; 2];
+    let bars = pattern.signs(system.bars()).zip(&system.length).zip(&system.weight);
+    for ((sign, length), weight) in bars {
+        let (lean, down) = (psi + f[0] * *weight, f[1] * *weight);
+        let b = f[0].square() + f[1].square() + if level { Interval::ZERO } else { w * down };
+        if b.lo() <= 0.0 {
+            return None;
+        }
+        let r = (w.square() * lean.square() + b.square()).sqrt();
+        let of_a = if level { lean.square() } else { two * w * lean.square() };
+        let of_b = if level { Interval::ZERO } else { down };
+        // By the coordinates, of r and of r (r + b).
+        let of_r = [w.square() * lean / r, (of_a + two * b * of_b) / (two * r)];
+        let whole = r * (r + b);
+        let of_whole = [0, 1].map(|k| {
+            let twice = of_r[k] * (two * r + b);
+            if k == 0 { twice } else { twice + r * of_b }
+        });
+        let length = signed(sign, *length);
+        let own = [Interval::ONE / r, two * lean / whole];
+        for k in 0..2 {
+            let first = -(lean * of_r[k] / r.square());
+            let second = -(lean.square() * of_whole[k] / whole.square());
+            let [of_first, of_second] = if k == 0 { own } else { [Interval::ZERO; 2] };
+            sums[0][k] = sums[0][k] + length * (of_first + first);
+            sums[1][k] = sums[1][k] + length * (of_second + second);
+        }
+    }
+    Some(sums)
 }
 
 #[cfg(test)]
@@ -264,7 +329,7 @@ mod tests {
         let level = system(3, [1.0, 0.0, 0.0]);
         for pattern in [0b001, 0b010, 0b100] {
             for (way, turned) in [(1, 0), (-1, 0b111)] {
-                let cell = isolated(&level, Pattern(pattern ^ turned), way);
+                let cell = isolated(&level, Pattern(pattern ^ turned), way, false);
                 let face = if way > 0 { Face::Right } else { Face::Left };
                 let Cell { face: found, at } = cell.unwrap();
                 assert_eq!(found, face, "{pattern:03b}");
@@ -272,7 +337,7 @@ mod tests {
             }
         }
         let even = system(4, [1.0, 0.0, 0.0]);
-        assert!(isolated(&even, Pattern(0b0110), 1).is_none());
+        assert!(isolated(&even, Pattern(0b0110), 1, false).is_none());
     }
 
     /// Three bars over 1 m, each with its weight at its end.
@@ -289,7 +354,7 @@ mod tests {
     fn straight_positions_without_variance_are_not_isolated() {
         let system = with_weights_at_ends([1.0, 3.0, 3.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
-            assert!(isolated(&system, Pattern(pattern), way).is_none());
+            assert!(isolated(&system, Pattern(pattern), way, false).is_none());
         }
     }
 
@@ -299,7 +364,7 @@ mod tests {
     fn the_variance_is_about_the_mean_of_the_weights() {
         let system = with_weights_at_ends([1.0, 4.0, 4.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
-            assert!(isolated(&system, Pattern(pattern), way).is_some());
+            assert!(isolated(&system, Pattern(pattern), way, false).is_some());
         }
     }
 
@@ -314,8 +379,56 @@ mod tests {
             System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
         };
         for (way, pattern) in [(1, 0b100), (-1, 0b011)] {
-            assert!(isolated(&system(3.0), Pattern(pattern), way).is_none());
-            assert!(isolated(&system(2.5), Pattern(pattern), way).is_some());
+            assert!(isolated(&system(3.0), Pattern(pattern), way, false).is_none());
+            assert!(isolated(&system(2.5), Pattern(pattern), way, false).is_some());
+        }
+    }
+
+    /// Against differences of the formulas.
+    #[test]
+    fn the_blown_up_closure_has_its_derivative() {
+        let problem = model::cases::get("five-in-space").unwrap().problem();
+        let system = System::new(problem.chain(), JointLoads::NONE);
+        let pattern = Pattern(0b01001);
+        for f in [[0.75, 0.5], [-0.75, 0.5], [0.75, -0.25], [0.75, 0.0], [-0.5, 0.0]] {
+            let level = f64::abs(f[1]) <= 0.0;
+            let by_formula = |psi: f64, w: f64| {
+                let mut sums = [0.0; 2];
+                let bars = pattern.signs(system.bars()).zip(&system.length).zip(&system.weight);
+                for ((sign, length), weight) in bars {
+                    let (length, c) = (f64::from(sign) * length.mid(), weight.mid());
+                    let lean = psi + f[0] * c;
+                    let b = f[0] * f[0] + f[1] * f[1] + w * f[1] * c;
+                    let r = (w * lean).hypot(b);
+                    sums[0] += length * lean / r;
+                    sums[1] += length * lean * lean / (r * (r + b));
+                }
+                sums
+            };
+            let (psi, w, step) = (0.375, 0.25, 1e-5);
+            let at = [psi, w].map(Interval::point);
+            let found = derivative(&system, pattern, f.map(Interval::point), at).unwrap();
+            let by_psi = [by_formula(psi + step, w), by_formula(psi - step, w)];
+            let by_w = [by_formula(psi, w + step), by_formula(psi, w - step)];
+            // Between level anchors the second coordinate is w².
+            let unit = if level { 2.0 * w } else { 1.0 };
+            for k in 0..2 {
+                let close = |found: Interval, wanted: f64| {
+                    assert!((found.mid() - wanted).abs() < 1e-7, "{f:?} {k}: {found:?} {wanted}");
+                };
+                close(found[k][0], (by_psi[0][k] - by_psi[1][k]) / (2.0 * step));
+                close(found[k][1], (by_w[0][k] - by_w[1][k]) / (2.0 * step * unit));
+            }
+        }
+    }
+
+    /// With its weight at the end of each, the straight position of bars of 1, 3 and 3 m over 1 m, whose signed
+    /// variance vanishes, is the only zero.
+    #[test]
+    fn straight_positions_without_variance_are_isolated_where_that_is_known() {
+        let system = with_weights_at_ends([1.0, 3.0, 3.0]);
+        for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
+            assert!(isolated(&system, Pattern(pattern), way, true).is_some(), "{way}");
         }
     }
 }
