@@ -157,13 +157,13 @@ fn four_merge() {
     let count = |kind: &str| kinds.iter().filter(|found| **found == kind).count();
     assert_eq!([kinds.len(), count("fold"), count("unloaded")], [4, 2, 2]);
     output.is(&event("bar"), json!([2, 2]));
-    const HALF: f64 = 1e-6;
-    output.within(&event("values[]"), -2.0 - HALF..=-2.0 + HALF);
-    output.within(&event("values_error[]"), 0.0..=20.0 * HALF);
-    output.within(&event("position"), 0.5 - HALF..=0.5 + HALF);
-    output.within(&event("position_error"), 0.0..=20.0 * HALF);
+    let half = 1e-6;
+    output.within(&event("values[]"), -2.0 - half..=-2.0 + half);
+    output.within(&event("values_error[]"), 0.0..=20.0 * half);
+    output.within(&event("position"), 0.5 - half..=0.5 + half);
+    output.within(&event("position_error"), 0.0..=20.0 * half);
     let span_m = 5.0_f64.sqrt();
-    output.within(&event("span_m"), span_m - HALF..=span_m + HALF);
+    output.within(&event("span_m"), span_m - half..=span_m + half);
     let angles = output.numbers(&event("angles_rad[]"));
     for (found, wanted) in angles.iter().zip([0.0, std::f64::consts::FRAC_PI_2, 0.0].iter().cycle())
     {
