@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::arc::{Arc, ArcEnd, ArcPoint, Arcs, left};
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::census_point::{CensusPoint, Node};
-use crate::equations::{RESIDUAL, fold_error};
+use crate::equations::fold_error;
 use crate::event::{Event, EventKind};
 use crate::observables::Observables;
 use crate::path::Path;
@@ -169,7 +169,6 @@ impl<'a> Assembly<'a> {
                     continue;
                 }
                 Some(ArcEnd::Turn(k)) => event = turns.get(k).copied(),
-                Some(_) if left(self.path, &point.y) > RESIDUAL => continue,
                 _ => {}
             }
             if let Some(kind) = point.happens {

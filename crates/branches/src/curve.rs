@@ -306,13 +306,10 @@ fn land(
     let gap = |y: &DVector<f64>, _: &DVector<f64>| Some(y[last] - border.position);
     let mut y = on_chord(path, a, b, gap).unwrap_or_else(|| b.clone());
     y[last] = border.position;
-    if border.gate == Gate::Closed
-        && residual(&path.plane(border.position), &y).amax() > RESIDUAL
-        && let Some(short) = short_of(path, a, &y)
-    {
-        points.push(CurvePoint { y: short, turn: None });
-    }
-    points.push(CurvePoint { y, turn: None });
+    let singular =
+        border.gate == Gate::Closed && residual(&path.plane(border.position), &y).amax() > RESIDUAL;
+    let y = if singular { short_of(path, a, &y) } else { Some(y) };
+    points.extend(y.map(|y| CurvePoint { y, turn: None }));
 }
 
 /// The point of the curve just short of a border at which the equations are singular: `at` is next

@@ -483,3 +483,15 @@ fn paths_beside_meet_the_stops_anew() {
         }
     }
 }
+
+/// The upright path that ends where it meets the stop has no kink; cut after so many points it ends there.
+#[test]
+fn paths_end_at_the_range_or_after_so_many_points() {
+    let mut upright = Potential::new(|[x, z], t| [2.0 * x, z - t], |_, _| [[2.0, 0.0], [0.0, 1.0]]);
+    upright.stop = (1.5, 3.0, false);
+    let path = upright.follow([0.0, 0.0], [0.0, 1.5], 0).unwrap().remove(0);
+    assert_eq!((path.end, path.events.len()), (End::Range, 0));
+    let settings = Settings { range: [0.0, 1.5], longest: 0.05, max_points: 7, branches: 0 };
+    let path = follow(&mut upright, &DVector::zeros(2), settings, &|_, _| {}).unwrap().remove(0);
+    assert_eq!((path.end, path.points.len()), (End::MaxPoints, 7));
+}
