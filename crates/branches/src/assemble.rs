@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::arc::{Arc, ArcEnd, ArcPoint, Arcs, left};
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::census_point::{CensusPoint, Node};
-use crate::equations::{RESIDUAL, fold_error};
+use crate::equations::fold_error;
 use crate::event::{Event, EventKind};
 use crate::observables::Observables;
 use crate::path::Path;
@@ -168,32 +168,26 @@ impl<'a> Assembly<'a> {
             self.branches.push(Branch { id, points: vec![], start, end: BranchEnd::Path });
             id
         });
-        let turn = |end: ArcEnd| match end {
-            ArcEnd::Turn(k) => turns.get(k).copied(),
-            _ => None,
-        };
         let last = arc.points.len() - 1;
         for (k, point) in arc.points.iter().enumerate() {
+            let end = match k {
+                0 => Some(arc.ends[0]),
+                _ if k == last => Some(arc.ends[1]),
+                _ => None,
+            };
             let mut event = None;
-            if k == 0 {
-                event = turn(arc.ends[0]);
+            match end {
                 // The node is there already.
-                if event.is_none() && !self.is_equilibrium(arc.ends[0], point) {
+                Some(ArcEnd::Low(_)) => continue,
+                Some(ArcEnd::High(node)) => {
+                    if let Some(nodes) = &self.census_points[high].nodes {
+                        let shown = self.node_point(high, &nodes[node]);
+                        self.branches[branch].points.push(shown);
+                    }
                     continue;
                 }
-            } else if k == last {
-                match arc.ends[1] {
-                    ArcEnd::High(node) => {
-                        if let Some(nodes) = &self.census_points[high].nodes {
-                            let shown = self.node_point(high, &nodes[node]);
-                            self.branches[branch].points.push(shown);
-                        }
-                        continue;
-                    }
-                    ArcEnd::Turn(_) => event = turn(arc.ends[1]),
-                    end if self.is_equilibrium(end, point) => {}
-                    _ => continue,
-                }
+                Some(ArcEnd::Turn(k)) => event = turns.get(k).copied(),
+                _ => {}
             }
             if let Some(kind) = point.happens {
                 let id = self.event(kind, &point.y, &point.seen);
@@ -207,11 +201,6 @@ impl<'a> Assembly<'a> {
             ArcEnd::High(node) => self.open[high][node] = Some(branch),
             end => self.branches[branch].end = self.end(end, turns, branch),
         }
-    }
-
-    /// Whether the last point of a curve at a border is an equilibrium too.
-    fn is_equilibrium(&self, end: ArcEnd, point: &ArcPoint) -> bool {
-        end == ArcEnd::Border && left(self.path, &point.y) <= RESIDUAL
     }
 
     fn end(&mut self, end: ArcEnd, turns: &[usize], branch: usize) -> BranchEnd {

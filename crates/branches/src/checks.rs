@@ -105,3 +105,39 @@ pub(crate) fn agrees(branches: &[Branch], census_point: &CensusPoint) -> Option<
     }
     Some(census_indices(census_point)? == branch_indices(branches, census_point.position))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two branches that end in a crossing are half of it, and one that passes is the other half.
+    #[test]
+    fn a_crossing_has_four_arms() {
+        let event = |branches: &[usize], kind| Event {
+            id: 0,
+            kind,
+            position: 0.25,
+            position_error: 0.0,
+            values: vec![],
+            values_error: vec![],
+            span_m: 1.0,
+            branches: branches.to_vec(),
+            angles_rad: vec![],
+            energy_j: 0.0,
+            residual: 0.0,
+            singular: 0.0,
+        };
+        let branch = |id, start, end| Branch { id, points: vec![], start, end };
+        let here = BranchEnd::Event(0);
+        let branches = [
+            branch(0, BranchEnd::Path, BranchEnd::Path),
+            branch(1, here, BranchEnd::Path),
+            branch(2, BranchEnd::Border, here),
+        ];
+        let lacks = |meet: &[usize], kind| incomplete(&branches, &[event(meet, kind)]);
+        assert!(lacks(&[0, 1, 2], EventKind::BranchPoint).is_empty());
+        assert_eq!(lacks(&[0, 1], EventKind::BranchPoint), [0.25]);
+        assert_eq!(lacks(&[0], EventKind::BranchPoint), [0.25]);
+        assert!(lacks(&[1, 2], EventKind::Fold).is_empty());
+    }
+}

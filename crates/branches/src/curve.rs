@@ -213,10 +213,7 @@ fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -
         // Hanging straight down a chain can carry any force: there the curve crosses that of these
         // forces.
         let straight = (straightens || crosses) && is_straight(&y);
-        if (straightens && !straight)
-            || dips(a, &y, [slopes[0], 0.0])
-            || dips(&y, &b, [0.0, slopes[1]])
-        {
+        if straightens && !straight {
             return None;
         }
         let turn = match (straight, crosses) {
@@ -235,8 +232,7 @@ fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -
 }
 
 /// Whether the position may turn twice, back and forth, between two points with these slopes of the
-/// same sign, of which one may be 0: the parabola through the slopes that has their mean changes
-/// its sign, or nearly.
+/// same sign: the parabola through the slopes that has their mean changes its sign, or nearly.
 fn dips(a: &DVector<f64>, b: &DVector<f64>, [first, second]: [f64; 2]) -> bool {
     let last = a.len() - 1;
     let length = (b - a).norm();
@@ -310,25 +306,17 @@ fn land(
     let gap = |y: &DVector<f64>, _: &DVector<f64>| Some(y[last] - border.position);
     let mut y = on_chord(path, a, b, gap).unwrap_or_else(|| b.clone());
     y[last] = border.position;
-    if border.gate == Gate::Closed
-        && residual(&path.plane(border.position), &y).amax() > RESIDUAL
-        && let Some(short) = short_of(path, a, &y)
-    {
-        points.push(CurvePoint { y: short, turn: None });
-    }
-    points.push(CurvePoint { y, turn: None });
+    let singular =
+        border.gate == Gate::Closed && residual(&path.plane(border.position), &y).amax() > RESIDUAL;
+    let y = if singular { short_of(path, a, &y) } else { Some(y) };
+    points.extend(y.map(|y| CurvePoint { y, turn: None }));
 }
 
 /// The point of the curve just short of a border at which the equations are singular: `at` is next
 /// to the border and need not solve them.
 fn short_of(path: &Path<'_>, from: &DVector<f64>, at: &DVector<f64>) -> Option<DVector<f64>> {
-    let last = at.len() - 1;
-    let way = from[last] - at[last];
-    SHORT_OF.iter().find_map(|part| {
-        let mut y = at + *part * (from - at);
-        y[last] = at[last] + part * way;
-        correct(path, y, &position_axis(last - 3))
-    })
+    let row = position_axis(at.len() - 4);
+    SHORT_OF.iter().find_map(|part| correct(path, at + *part * (from - at), &row))
 }
 
 #[cfg(test)]
@@ -346,7 +334,7 @@ mod tests {
             });
             dips(&a, &b, slopes)
         };
-        assert!(may(0.3, [1.0, 1.0]) && !may(0.9, [1.0, 1.0]));
+        assert!(may(0.45, [1.0, 1.0]) && !may(0.5, [1.0, 1.0]));
         // Falling is as rising, and a slope that is not known is no reason for another sign.
         assert!(may(-0.3, [-1.0, -1.0]) && may(0.3, [-1.0, -1.0]));
         assert!(may(0.0, [-1.0, 0.0]) && may(0.0, [0.0, 1.0]));

@@ -83,7 +83,7 @@ impl PlanarChain {
     }
 }
 
-/// Steps of the values that differ by less than this part are equal: roundings of a range.
+/// Steps that differ by less than this part of the values are equal: roundings of a range.
 const BEND: f64 = 1e-9;
 
 impl<'a> Path<'a> {
@@ -122,8 +122,8 @@ impl<'a> Path<'a> {
         let rows = [point - 1, point, point + 1].map(|k| &self.values[k]);
         (0..rows[0].len()).any(|k| {
             let [before, here, after] = rows.map(|row| row[k]);
-            let size = (here - before).abs().max((after - here).abs());
-            (after - 2.0 * here + before).abs() > BEND * size + 4.0 * f64::EPSILON * here.abs()
+            let size = before.abs().max(here.abs()).max(after.abs());
+            (after - 2.0 * here + before).abs() > BEND * size
         })
     }
 
@@ -142,8 +142,7 @@ impl<'a> Path<'a> {
 
     /// Position of a point on the path.
     pub(crate) fn position(&self, point: usize) -> f64 {
-        let last = self.values.len() - 1;
-        if point == last && last > 0 { 1.0 } else { point as f64 / last.max(1) as f64 }
+        point as f64 / (self.values.len() - 1).max(1) as f64
     }
 
     /// The interval that holds a position, and how far into it.

@@ -132,11 +132,9 @@ fn slack(chain: &Chain, run: &Range<usize>, rises: &[bool]) -> f64 {
     for part in gap {
         add_square(&mut difference, -1.0, part);
     }
-    let across = gap.map(|part| part.value());
-    let (reach, size) = (reach.value(), norm(across));
+    let (reach, size) = (reach.value(), norm(gap.map(|part| part.value())));
     let slack = difference.value() / (reach * (reach + size));
-    let terms = (chain.total_length_m() + norm(anchors.start_m) + norm(anchors.end_m)) / reach;
-    if slack.abs() <= TWICE_THE_DIGITS * terms * terms { 0.0 } else { slack }
+    if slack.abs() <= TWICE_THE_DIGITS { 0.0 } else { slack }
 }
 
 /// Add the square of a sum, or take it off, to twice the digits.

@@ -36,17 +36,12 @@ use crate::minimise::{Minimum, descend};
 use crate::plane::Turn;
 use crate::settings::Settings;
 use crate::slope::Slope;
-use crate::solver::force_uncertainty;
 use crate::strands::off_the_line;
 use crate::vector::{Sum, along, dot, norm, scaled, tangent};
 
 /// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
 /// solvers are asked to agree to, since a long bar turns its joint by as much of the whole length.
 const WORTH_REFINING: f64 = 2.5e-11;
-
-/// Uncertainty of the forces, as a part of the largest, above which the minimiser's digits are not
-/// enough: a quarter of what two solvers are asked to agree to, since it is an estimate.
-const UNCERTAIN: f64 = 2.5e-10;
 
 /// Newton steps at most: quadratic convergence takes five, and where a bar without force makes the
 /// minimum degenerate each step halves the error.
@@ -96,11 +91,8 @@ pub(crate) fn refine(
     if let Some(exact) = of_triangle(problem, units, minimum) {
         return Refinement::Refined(Box::new(exact), 0.0);
     }
-    let Minimum { links, shape, slope, unsettled, .. } = minimum;
-    let parallel = match slope.line {
-        Some(e) => off_the_line(links, e).is_some(),
-        None => force_uncertainty(links, shape, slope) > UNCERTAIN,
-    };
+    let Minimum { links, slope, unsettled, .. } = minimum;
+    let parallel = slope.line.is_some_and(|e| off_the_line(links, e).is_some());
     // Bars without any load have no direction of their own.
     let light = slope.across / slope.softest > WORTH_REFINING;
     if !(parallel || light || unsettled.is_some()) {

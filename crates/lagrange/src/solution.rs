@@ -143,3 +143,23 @@ pub(crate) fn first_offset(reduced: &Reduced) -> Vector3<f64> {
     let first = reduced.here.bars[0].u * reduced.mechanism.lengths[0];
     Vector3::new(first.x, first.y, 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of three bars of 1, 2 and 6 kg at 10 m/s² the mean weight is 30 N; the largest force, (60, 80, 240) N, is 260 N.
+    #[test]
+    fn tolerances_go_with_the_largest_force() {
+        let bars = [1.0, 2.0, 6.0].map(|kg| model::Bar::homogeneous(1.0, kg).unwrap()).to_vec();
+        let anchors = model::Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+        let chain = model::Chain::new("three", 10.0, anchors, bars).unwrap();
+        let unit = |z: f64| {
+            let forces = [1.0, 0.0, 2.0, 60.0, 80.0, z, 3.0, 0.0, 5.0, 0.0, 7.0, 1.0];
+            tolerance_unit(&chain, &DVector::from_row_slice(&forces))
+        };
+        assert!((unit(240.0) - 26.0 / 3.0).abs() < 1e-14);
+        // 100 N are 10/3, and no less than the number of bars.
+        assert!((unit(0.0) - 10.0 / 3.0).abs() < 1e-14);
+    }
+}

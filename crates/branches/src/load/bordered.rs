@@ -78,11 +78,11 @@ impl<'a> Bordered<'a> {
             left = f - equations.apply(&next) - self.column * next_t;
             left_g = g - self.row.dot(&next, next_t);
             let size = left.norm().max(left_g.abs());
-            if size.is_nan() || size >= last {
-                break;
+            let helps = size < last;
+            if helps {
+                (y, t, last) = (next, next_t, size);
             }
-            (y, t, last) = (next, next_t, size);
-            if size <= ROUNDING * scale {
+            if !helps || size <= ROUNDING * scale {
                 break;
             }
         }

@@ -230,3 +230,17 @@ pub(super) fn joins<E, S>(
     known.known.push(towards(metric, at, before));
     Some(End::Joins(known.of))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A twelfth of a turn from each other: of sums of products 6 on the diagonal, 0 beside it.
+    #[test]
+    fn directions_lie_evenly_around() {
+        let basis = [DVector::from_row_slice(&[1.0, 0.0]), DVector::from_row_slice(&[0.0, 1.0])];
+        let all = nalgebra::DMatrix::from_columns(&directions(&basis));
+        let products = &all * all.transpose() - nalgebra::DMatrix::identity(2, 2) * 6.0;
+        assert!(all.ncols() == AROUND && products.amax() < 1e-14, "{all}");
+    }
+}

@@ -25,7 +25,8 @@ pub(super) fn kink<Q: Equations>(
     if !wrong.contains(&true) {
         return Ok(None);
     }
-    loop {
+    // Each round finds where one of them is at zero to rounding.
+    for _ in 0..begin.len() {
         // The one that is estimated to change first; others that change before it come next.
         let part = |k: &usize| begin[*k].1 / (begin[*k].1 - at_end[*k].1);
         let violated = (0..begin.len()).filter(|k| wrong[*k] && at_end[*k].1 < -WRONG);
@@ -40,12 +41,7 @@ pub(super) fn kink<Q: Equations>(
         });
         let Some(at) = found else { break };
         at_end = equations.sides(&at.y, at.t)?;
-        // At zero to rounding.
-        let done = at_end[first].1.abs() > WRONG;
         end = at;
-        if done {
-            break;
-        }
     }
     let sides = at_end.iter().zip(&wrong);
     let sides = sides.filter(|((_, value), wrong)| **wrong && *value <= WRONG);

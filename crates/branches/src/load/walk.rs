@@ -14,10 +14,6 @@ use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settin
 
 /// The first step, as a part of the range.
 const FIRST: f64 = 1.0 / 64.0;
-/// In a first step the tangent turns by as much, in radians: about what a later step may.
-const BEND: f64 = 0.2;
-/// A step in which the tangent is seen to turn.
-const PROBE: f64 = 1e-7;
 /// A corrector that moves a point by less leaves what it leaves of the equations.
 const ROUNDING: f64 = 1e-9;
 /// Cosine of the largest turn of the tangent in one step, about 14 degrees, and of one after which
@@ -34,8 +30,6 @@ const GROWTH: f64 = 1.6;
 const SHORTER: f64 = 0.25;
 /// The shortest step, as a part of the first.
 const SHORTEST: f64 = 1e-10;
-/// Conditions that change sides one after another without a step between, before the path is lost.
-const KINKS: usize = 64;
 /// A start at which the range, to first order, or a unit of force moves places by so many units of
 /// length is singular.
 const SINGULAR: f64 = 1e6;
@@ -68,7 +62,7 @@ pub(super) struct Walk<'a, Q: Equations> {
     pub(super) metric: Metric,
     points: Vec<Point<Q::Record>>,
     events: Vec<Event<Q::Side>>,
-    /// Conditions that are on other sides than at the start of the first path.
+    /// Conditions that have changed sides since the start of the first path, as often as they did.
     switched: Vec<Q::Side>,
     /// Branch points of all paths so far.
     pub(super) crossings: Vec<Crossing<Q::Side>>,
@@ -134,31 +128,22 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         LoadPath { points, events, end, parent }
     }
 
-    /// With these conditions on other sides than at the start of the first path.
+    /// As at the start of the first path, but for these changes of sides.
     pub(super) fn set(&mut self, switched: &[Q::Side]) -> Result<(), Q::Error> {
-        for side in self.switched.clone() {
-            if !switched.contains(&side) {
-                self.switch(side)?;
-            }
+        for side in take(&mut self.switched).iter().chain(switched) {
+            self.equations.switch(*side)?;
         }
-        for side in switched {
-            if !self.switched.contains(side) {
-                self.switch(*side)?;
-            }
-        }
+        self.switched = switched.to_vec();
         Ok(())
     }
 
     fn switch(&mut self, side: Q::Side) -> Result<bool, Q::Error> {
-        match self.switched.iter().position(|known| *known == side) {
-            Some(known) => drop(self.switched.swap_remove(known)),
-            None => self.switched.push(side),
-        }
+        self.switched.push(side);
         self.equations.switch(side)
     }
 
     fn run(&mut self, mut here: Here, watch: &dyn Fn(usize)) -> Result<End<Q::Error>, Q::Error> {
-        let (mut length, mut kinks) = (self.first(&here)?, 0);
+        let mut length = FIRST;
         while self.points.len() < self.settings.max_points {
             watch(self.points.len());
             let slope = here.tangent.t.abs();
@@ -183,15 +168,12 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 Passed::Gap => return Ok(End::Lost),
             }
             if let Some((at, sides)) = kink {
-                // Without a step between.
-                kinks = if at.t.to_bits() == here.t.to_bits() { kinks + 1 } else { 0 };
-                let Some(after) = self.through(&at, sides)?.filter(|_| kinks < KINKS) else {
+                let Some(after) = self.through(&at, sides)? else {
                     return Ok(End::Lost);
                 };
                 (here, length) = (after, FIRST.min(long));
                 continue;
             }
-            kinks = 0;
             self.keep(&next, None)?;
             if lands {
                 return Ok(End::Range);
@@ -200,18 +182,6 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             length = if turn >= STRAIGHT { GROWTH * long } else { long };
         }
         Ok(End::MaxPoints)
-    }
-
-    /// The length of a first step: that in which the tangent would turn by a fifth, as it begins to, or
-    /// shorter. A longer one could pass a limit point at the very start unseen.
-    fn first(&mut self, here: &Here) -> Result<f64, Q::Error> {
-        let guess = (&here.y + &here.tangent.y * PROBE, here.t + here.tangent.t * PROBE);
-        let next = self.corrected(here, (&guess.0, guess.1), Across::Tangent, PROBE)?;
-        let Some(next) = next else { return Ok(PROBE) };
-        let turned =
-            Row { y: next.tangent.y - &here.tangent.y, t: next.tangent.t - here.tangent.t };
-        let turn = self.metric.norm(&turned.y, turned.t) / PROBE;
-        Ok(FIRST.min(BEND / turn.max(f64::MIN_POSITIVE)).max(PROBE))
     }
 
     /// Cosine of the angle between two tangents.
@@ -230,15 +200,8 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             return Ok(end.map(|end| (end, true)));
         }
         let next = self.corrected(here, (&guess.0, guess.1), Across::Tangent, long)?;
-        let Some(next) = next else { return Ok(None) };
-        let inside = next.t.clamp(self.settings.range[0], self.settings.range[1]);
-        if inside.to_bits() == next.t.to_bits() {
-            return Ok(Some((next, false)));
-        }
-        let part = (inside - here.t) / (next.t - here.t);
-        let guess = &here.y + (&next.y - &here.y) * part;
-        let end = self.corrected(here, (&guess, inside), Across::Parameter, long * part)?;
-        Ok(end.map(|end| (end, true)))
+        let inside = self.settings.range[0]..=self.settings.range[1];
+        Ok(next.filter(|next| inside.contains(&next.t)).map(|next| (next, false)))
     }
 
     /// A guess corrected, with what is there; nothing where it is moved too far.

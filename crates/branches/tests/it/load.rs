@@ -391,12 +391,12 @@ fn work_of_paths() {
         [paths.len(), points, events, potential.asked[0], potential.asked[1]]
     });
     let expected = [
-        [1, 61, 2, 766, 278],
-        [1, 61, 2, 748, 260],
-        [1, 61, 2, 864, 322],
-        [3, 127, 4, 1655, 577],
-        [1, 74, 1, 930, 329],
-        [3, 62, 1, 703, 219],
+        [1, 61, 2, 759, 277],
+        [1, 61, 2, 741, 259],
+        [1, 61, 2, 856, 320],
+        [3, 127, 4, 1634, 574],
+        [1, 74, 1, 923, 328],
+        [3, 62, 1, 682, 216],
     ];
     samples::assert_frozen(&found, &expected);
 }
@@ -482,4 +482,16 @@ fn paths_beside_meet_the_stops_anew() {
             assert!((x * x - square).abs() < 1e-8, "{number}: {x} at {t}");
         }
     }
+}
+
+/// The upright path that ends where it meets the stop has no kink; cut after so many points it ends there.
+#[test]
+fn paths_end_at_the_range_or_after_so_many_points() {
+    let mut upright = Potential::new(|[x, z], t| [2.0 * x, z - t], |_, _| [[2.0, 0.0], [0.0, 1.0]]);
+    upright.stop = (1.5, 3.0, false);
+    let path = upright.follow([0.0, 0.0], [0.0, 1.5], 0).unwrap().remove(0);
+    assert_eq!((path.end, path.events.len()), (End::Range, 0));
+    let settings = Settings { range: [0.0, 1.5], longest: 0.05, max_points: 7, branches: 0 };
+    let path = follow(&mut upright, &DVector::zeros(2), settings, &|_, _| {}).unwrap().remove(0);
+    assert_eq!((path.end, path.points.len()), (End::MaxPoints, 7));
 }

@@ -214,4 +214,27 @@ mod tests {
         assert!(joint == "P" && (unbalance - 0.5).abs() < 1e-12, "{joint} {unbalance}");
         assert!(frame.absurd(&shape).is_none());
     }
+
+    /// Of a rope of 4 m a strand of 5 cm is more than a hundredth, however long what hangs on it.
+    #[test]
+    fn strands_are_short_beside_their_ropes() {
+        let line = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [3.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(1.0),
+            Joint::free("Q").with_mass(1.0),
+        ];
+        let members =
+            vec![Member::cable(0, 1, line(4.0)).over(vec![2]), Member::bar(2, 3, line(9.0))];
+        let frame = Frame::new(&System::new("rope", 10.0, joints, members).unwrap()).unwrap();
+        for (strand_m, jams) in [(0.05, false), (0.03, true)] {
+            let x = [[0.0; 3], [3.0, 0.0, 0.0], [strand_m, 0.0, 0.0], [strand_m, 0.0, -9.0]];
+            let away =
+                |at: [f64; 3]| [0, 1, 2].map(|k| (at[k] - frame.origin_m[k]) / frame.length_m);
+            let shape = Shape { x: x.map(away).to_vec(), force: vec![1.0; frame.rods.len()] };
+            let found = frame.jam(&shape);
+            assert_eq!(matches!(found, Some(Error::Jammed { member: 1, span: 1 })), jams);
+        }
+    }
 }

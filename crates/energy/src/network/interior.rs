@@ -40,9 +40,6 @@ const CABLE_GAP: f64 = 1e-12;
 /// Part of the way to the boundary that a step may go.
 const INSIDE: f64 = 0.99;
 
-/// Smallest step worth making.
-const STUCK: f64 = 1e-6;
-
 /// Diagonal added, over the size of the matrix: supports may leave a motion free.
 const SHIFT: f64 = 1e-12;
 
@@ -135,7 +132,7 @@ impl Interior {
 
     /// Predictor: straight to the boundary. Corrector: towards the centre, with the second order of
     /// the predictor.
-    fn mehrotra(&mut self, shape: &Shape) -> Option<(Shape, f64)> {
+    fn mehrotra(&mut self, shape: &Shape) -> Option<Shape> {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let sizes = frame.sizes(|e| shape.force[e]);
@@ -173,7 +170,7 @@ impl Interior {
             *slack += part_x * change;
         }
         let x = frame.moved(&shape.x, part_x, &corrector.coordinates);
-        Some((Shape { x, force: force.collect() }, part_x.min(part_f)))
+        Some(Shape { x, force: force.collect() })
     }
 
     /// The shape with the forces of slack cables taken for zero. Bars keep theirs: small or not,
@@ -213,13 +210,13 @@ impl Solver<Potential, Iterate> for Interior {
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
         self.frame.meter.check()?;
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
-        let Some((next, part)) = self.mehrotra(&shape) else {
+        let Some(next) = self.mehrotra(&shape) else {
             self.ended = true;
             return Ok((state.param(shape), None));
         };
         let next = Arc::new(next);
         let slope = problem.gradient(&next)?;
-        self.ended = part < STUCK || self.centred(&next.force, slope.unbalance);
+        self.ended = self.centred(&next.force, slope.unbalance);
         Ok((state.param(next).gradient(slope), None))
     }
 

@@ -18,10 +18,6 @@ use crate::vector::{along, dot, norm, scaled, unit};
 /// Rounding of a force over the largest that acts.
 const ROUNDING: f64 = 1e-9;
 
-/// A pull may exceed its tension by this part of that: a ring that weighs little beside a taut rope is pulled out of
-/// its corner by a part of the tension that is the square of its own.
-const ABOVE: f64 = 1e-11;
-
 /// A direction that rises less than this is level.
 const LEVEL: f64 = 1e-9;
 
@@ -215,7 +211,7 @@ fn shared(
     }
     let jam = |(k, (member, span, joints)): (usize, &(usize, usize, [usize; 2]))| {
         let pull_n = std::array::from_fn(|axis| root(k) * parts[(3 * k + axis, 0)]);
-        let holds = norm(pull_n) <= axial_n[*member] * (1.0 + ABOVE);
+        let holds = norm(pull_n) <= axial_n[*member];
         holds.then_some((Jam { member: *member, span: *span, pull_n }, *joints))
     };
     spans.iter().enumerate().map(jam).collect()

@@ -79,7 +79,7 @@ fn bars_that_bear_a_force_bridge_no_gap() {
     let (links, units) = Links::new(&problem, crate::settings::Motion::Plane);
     let links = Links {
         length: vec![1.0, 0.5, 0.5, 1.0],
-        carried: vec![0.25, 0.0, 0.0, -0.25],
+        carried: vec![0.35, 0.1, 0.1, -0.15],
         span: [[1.0, 0.0, 0.0], [0.0; 3]],
         up: [0.0, 0.0, 1.0],
         ..links
@@ -89,7 +89,7 @@ fn bars_that_bear_a_force_bridge_no_gap() {
         [(0.0, true), (0.9e-6, true), (1.1e-6, false), (1e-3, false), (0.6, false), (-0.1, false)]
     {
         let shape = Shape { moments: links.measure(&u), u: u.clone() };
-        let multiplier = [pull, 0.0, 0.0];
+        let multiplier = [pull, 0.0, -0.1];
         let mut point = Point { links: links.clone(), units, shape, multiplier };
         let found = point.straightened(problem.chain());
         assert_eq!(found.is_some(), bridges, "{pull}");
@@ -97,6 +97,7 @@ fn bars_that_bear_a_force_bridge_no_gap() {
         assert!(found.is_none_or(|unknown| unknown.abs() <= 0.0));
         let left = if bridges { 0.0 } else { pull };
         assert!((point.multiplier[0] - left).abs() <= 0.0);
+        assert!((point.multiplier[2] + 0.1).abs() <= 0.0);
     }
 }
 

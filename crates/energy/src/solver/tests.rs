@@ -36,3 +36,19 @@ fn a_place_that_is_no_rest_is_not_taken_for_one() {
     open.shape = Arc::new(shape);
     assert!(!solver.at_rounding(&open));
 }
+
+/// Bars of 1/4 and 3/4 at an angle a: two eigenvalues with the sum 1 and the product 3/16 sin² a.
+#[test]
+fn bars_spread_as_they_lie_apart() {
+    for a in [0.3_f64, 1e-3] {
+        let links = Links { length: vec![0.25, 0.75], ..(*hanging().links).clone() };
+        let u = [0.4, 0.4 + a].map(|angle: f64| [angle.cos(), 0.0, angle.sin()]).to_vec();
+        let shape = Shape { moments: links.measure(&u), u };
+        let found = smallest_spread(&shape);
+        let product = 0.1875 * a.sin().powi(2);
+        let wanted = product / (0.5 + (0.25 - product).sqrt());
+        assert!((found / wanted - 1.0).abs() < 1e-8, "{a}: {found} {wanted}");
+        let floor = 16.0 * f64::EPSILON / wanted.sqrt();
+        assert!((rounding_floor(&shape) / floor - 1.0).abs() < 1e-8, "{a}");
+    }
+}

@@ -158,4 +158,13 @@ mod tests {
             assert_eq!(found.nullity, 0);
         }
     }
+
+    /// Nor is a large one, and one that vanishes is.
+    #[test]
+    fn a_pivot_of_zero_is_degenerate() {
+        let (chain, _) = chain(1e-3);
+        let mut pull = chain.pull(&Settings::default()).unwrap();
+        pull.pivots[1] = 0.0;
+        assert_eq!(second_order(&chain, &pull).stability.in_plane, InPlane::Degenerate);
+    }
 }

@@ -193,6 +193,18 @@ mod tests {
     /// Worst measured: 3e-10 of the largest entry.
     const DIFFERENCES: f64 = 1e-8;
 
+    /// The inverse of (2, -1; -1, 5) is (5, 1; 1, 2)/9: of residuals of 0.3 and 0.2 the force is off by (1.7, 0.7)/9.
+    #[test]
+    fn forces_are_off_by_the_inverse_of_the_residual() {
+        for (jacobian, residual, floor) in [
+            ([2.0, -1.0, 5.0], [-0.3, 0.1], [0.05, 0.2]),
+            ([5.0, -1.0, 2.0], [0.0, 0.3], [0.2, 0.1]),
+        ] {
+            let found = Closure { residual, jacobian, floor }.force_error();
+            assert!((9.0 * found - 1.7_f64.hypot(0.7)).abs() < 1e-14, "{found}");
+        }
+    }
+
     /// Between half of the ratio of the eigenvalues 9 and 1 and twice that.
     #[test]
     fn condition_is_that_of_the_eigenvalues() {

@@ -242,4 +242,29 @@ mod tests {
             assert!((found / wanted - 1.0).abs() < 1e-12, "{within:?}: {found}");
         }
     }
+
+    /// Rods above and below a joint between anchors; the cable to it is slack, and the rod from it ends free.
+    #[test]
+    fn members_of_a_self_stress_are_taut() {
+        let bar = |from, to, length| Member::bar(from, to, Bar::homogeneous(length, 0.0).unwrap());
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P").with_mass(1.0),
+            Joint::free("Q").with_mass(1.0),
+            Joint::anchor("B", [0.0, 0.0, -1.7]),
+            Joint::anchor("C", [0.5, 0.0, 0.0]),
+        ];
+        let cable = bar(4, 1, 1.5).of_kind(model::system::Kind::Cable);
+        let members = vec![bar(0, 1, 1.0), cable, bar(1, 2, 0.4), bar(1, 3, 0.7)];
+        let system = System::new("", 10.0, joints, members).unwrap();
+        let framework = Framework::new(&system);
+        let place = |[x_m, z_m]: [f64; 2]| {
+            (Vector3::new(x_m, 0.0, z_m) - framework.units.origin_m) / framework.units.length_m
+        };
+        let places =
+            [[0.0, 0.0], [0.0, -1.0], [0.4, -1.0], [0.0, -1.7], [0.5, 0.0]].map(place).to_vec();
+        let state = State::new(places, vec![0.0; 4], vec![true, false, true, true]);
+        let mut decided = Decided::new(&framework, &state, SHARP).unwrap();
+        assert_eq!(decided.members(&framework), [0, 3]);
+    }
 }

@@ -412,10 +412,9 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
     if oblique {
         return None;
     }
-    let within = free - normal * normal.transpose() * rate;
     let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
     let [first, second] = across(normal);
-    let candidates = [within * first, within * second];
+    let candidates = [free * first, free * second];
     for candidate in candidates {
         let rest = candidate - axes * axes.tr_mul(&candidate);
         if rest.norm() > PLANE.sqrt() {

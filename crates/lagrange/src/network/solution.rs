@@ -295,7 +295,7 @@ impl Answer<'_> {
     pub fn equilibrium(self, stability: SystemStability, evidence: Evidence) -> SystemEquilibrium {
         let Self { system, framework, mut state, directions, left } = self;
         let units = framework.units;
-        let energy_j = energy(framework, &state) * units.force_n * units.length_m;
+        let energy_j = state.energy(framework) * units.force_n * units.length_m;
         let members = system.members();
         let (mut start_forces_n, mut end_forces_n) =
             (Vec::with_capacity(members.len()), Vec::with_capacity(members.len()));
@@ -335,15 +335,6 @@ fn stability(second_order: &SecondOrder) -> SystemStability {
         index_in_plane: second_order.index_in_plane,
         neutral: second_order.neutral,
     }
-}
-
-/// Potential energy from the origin: loads, and $c N^2/2$ of elastic members.
-pub(super) fn energy(framework: &Framework, state: &State) -> f64 {
-    let loads =
-        framework.nodes.iter().zip(&state.places).map(|(node, place)| -node.load.dot(place));
-    let links = framework.links[..framework.members()].iter().zip(&state.axial);
-    let stored = links.map(|(link, axial)| 0.5 * link.compliance * axial * axial);
-    model::sum(loads.chain(stored))
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl State {
             .collect()
     }
 
-    /// Energy of the loads and of the elastic members at their forces.
+    /// Potential energy from the origin: loads, and $c N^2/2$ of elastic members.
     pub fn energy(&self, framework: &Framework) -> f64 {
         let loads = framework.nodes.iter().zip(&self.places).map(|(n, at)| -n.load.dot(at));
         let stored = framework.links[..framework.members()]

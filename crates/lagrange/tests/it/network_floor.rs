@@ -116,6 +116,17 @@ fn a_v_that_just_touches_the_floor_shares_with_it() {
             bounds(range(&system, &found, member), [least, Some(6.25)]);
         }
     }
+    // Pulled aside by 50 N from 5 m and 8.5 m the least forces would pull at the floor: it bears nothing then.
+    let anchor = |name: &str, x| Joint::anchor(name, [x, 0.0, 4.0]);
+    let pulled = weight("P").with_force([50.0, 0.0, 0.0]);
+    let members = vec![light(Kind::Bar, 0, 2, 5.0), light(Kind::Bar, 1, 2, 8.5)];
+    let (_, found) = solved(vec![anchor("A", -3.0), anchor("B", 7.5), pulled], members, 0.0);
+    assert_eq!(found.forces, Forces::LeastNorm);
+    // 0.6 N1 - 15/17 N2 = 50 N, 0.8 N1 + 8/17 N2 = 10 N.
+    let first = 68.75 / 2.1;
+    close(found.equilibrium.axial_n[0], first);
+    close(found.equilibrium.axial_n[1], (10.0 - 0.8 * first) * 17.0 / 8.0);
+    close(push_n(&found, 2), 0.0);
 }
 
 /// At the force aside at which the floor bears nothing any more (3, 4, 5) nothing is open: the bar

@@ -119,3 +119,20 @@ fn five_cables_in_a_plane() {
         bounded(*range, Some(0.0), Some(2.0 / (2.0 + x.abs()) * x.hypot(1.0)));
     }
 }
+
+/// Upright between A and B, 3 m above it: a cable of 1 m, a bar of 0.5 m and a prop of 1.5 m, which just fit, with 10 N and 20 N
+/// between them. The bar bears from -10 N, where the cable is about to be slack, to 20 N, where the prop is.
+#[test]
+fn a_bar_between_a_cable_and_a_prop() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P").with_mass(10.0),
+        Joint::free("Q").with_mass(20.0),
+        Joint::anchor("B", [0.0, 0.0, -3.0]),
+    ];
+    let prop = bar(2, 3, 1.5, 0.0).of_kind(Kind::Strut);
+    let found = ranges(&system(joints, vec![cable(0, 1, 1.0, 0.0), bar(1, 2, 0.5, 0.0), prop]));
+    bounded(found[0], Some(0.0), Some(30.0));
+    bounded(found[1], Some(-10.0), Some(20.0));
+    bounded(found[2], Some(-30.0), Some(0.0));
+}

@@ -273,3 +273,23 @@ fn self_stresses_stiffen_what_the_least_forces_let_fall() {
         close(answer.axial_n[2 * k + 1], -weight * above / (above + below));
     }
 }
+
+/// Two bars of 1 m that hang by an angle of 1e-5 below the line between their anchors, which their tolerances do not
+/// tell from a straight one: only as they are do they bear the weight.
+#[test]
+fn a_line_that_is_nearly_taut_bears_its_weight_as_it_is() {
+    let half: f64 = 1.0 - 5e-11;
+    let joints = vec![
+        Joint::anchor("A", [-half, 0.0, 0.0]),
+        Joint::anchor("B", [half, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0),
+    ];
+    let found = solve(
+        &system(joints, vec![bar(0, 2, 1.0, 0.0), bar(2, 1, 1.0, 0.0)]),
+        &Settings::default(),
+    );
+    let answer = found.unwrap().equilibrium;
+    let sine = ((1.0 - half) * (1.0 + half)).sqrt();
+    assert!((answer.axial_n[0] * 2.0 * sine - 1.0).abs() < 1e-5, "{answer:?}");
+    assert!((answer.joints_m[2][2] + sine).abs() < 1e-10, "{answer:?}");
+}

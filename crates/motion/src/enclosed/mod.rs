@@ -158,7 +158,8 @@ pub fn enclose_modes(system: &System, at: &EquilibriumBox<'_>) -> Result<Enclosu
     let norm = norm(&less_unit(inertia));
     let wanted = 3 * joints - pencil.rows.len();
     // Independent rows leave so many dimensions; columns with a definite B are independent.
-    if kept.ncols() != wanted || norm.is_nan() || norm >= 1.0 {
+    let is_basis = kept.ncols() == wanted && norm < 1.0;
+    if !is_basis {
         return Err(NotEnclosed::NoBasis { found: kept.ncols(), wanted, norm });
     }
     let beyond = Interval::new(-norm, norm) + Interval::ONE;

@@ -227,7 +227,6 @@ impl Pencil {
         for member in &self.members {
             let ends: Vec<_> = (0..count).map(|c| (at(member.a, c), at(member.b, c))).collect();
             let by: Vec<_> = ends.iter().map(|(a, b)| minus(*b, *a)).collect();
-            let moves = member.a < self.moving && member.b < self.moving;
             for j in 0..count {
                 for i in 0..=j {
                     let mut k = member.density * dot(by[i], by[j]);
@@ -235,10 +234,8 @@ impl Pencil {
                         k = k + slope * (dot(u, by[i]) * dot(u, by[j]));
                     }
                     stiffness[(i, j)] = stiffness[(i, j)] + k;
-                    if moves {
-                        let crossed = dot(ends[i].0, ends[j].1) + dot(ends[i].1, ends[j].0);
-                        inertia[(i, j)] = inertia[(i, j)] + member.between * crossed;
-                    }
+                    let crossed = dot(ends[i].0, ends[j].1) + dot(ends[i].1, ends[j].0);
+                    inertia[(i, j)] = inertia[(i, j)] + member.between * crossed;
                 }
             }
         }
@@ -316,4 +313,20 @@ fn inertia(bar: &Bar) -> [Interval; 3] {
 
 fn moments(bar: &Bar) -> [Interval; 3] {
     bar.inertia_kg_m2().map(|moment| Interval::around(moment, MOMENT_ROUNDING * moment))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of 2 kg with the centre at 2/7 of 0.7 m: 2 (5/7)², 2 (5/7)(2/7) and 2 (2/7)², and the moment over 0.49 m².
+    #[test]
+    fn inertia_is_that_of_both_ends() {
+        let bar = Bar::given(0.7, 2.0, Some(0.2), Some([0.0, 0.05, 0.05])).unwrap();
+        let turns = 0.05 / 0.49;
+        let wanted = [50.0 / 49.0 + turns, 20.0 / 49.0 - turns, 8.0 / 49.0 + turns];
+        for (found, wanted) in inertia(&bar).into_iter().zip(wanted) {
+            assert!((found.mid() - wanted).abs() < 1e-15 && found.width() < 1e-14, "{found:?}");
+        }
+    }
 }

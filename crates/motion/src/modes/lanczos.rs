@@ -120,3 +120,36 @@ pub(super) fn divide(w: &mut [f64], by: f64) {
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Diagonal(Vec<f64>);
+
+    impl Operator for Diagonal {
+        fn size(&self) -> usize {
+            self.0.len()
+        }
+
+        fn apply(&self, w: &[f64]) -> Vec<f64> {
+            w.iter().zip(&self.0).map(|(w, d)| w * d).collect()
+        }
+    }
+
+    /// Whatever their unit, the largest are found, with their axes.
+    #[test]
+    fn eigenvalues_of_any_size() {
+        for unit in [1e-20, 1.0, 1e20] {
+            let operator = Diagonal((0..40).map(|k| unit * f64::from(k)).collect());
+            let found = largest(&operator, 3, 0);
+            assert_eq!(found.len(), 3, "{unit}");
+            for ((value, axis), k) in found.iter().zip([39.0, 38.0, 37.0]) {
+                assert!((value / unit - k).abs() < 1e-11, "{value} {k}");
+                let parts = operator.apply(axis).into_iter().zip(axis);
+                let off = parts.fold(0.0, |most: f64, (a, x)| most.max((a - value * x).abs()));
+                assert!(off < 1e-11 * unit, "{off}");
+            }
+        }
+    }
+}

@@ -163,3 +163,45 @@ fn mode(
     }
     Mode { omega2_s2, residual_s2, shape, what, direction: sector.direction }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::planes::Direction;
+    use super::*;
+    use model::Bar;
+    use model::system::{Joint, Member, System};
+
+    /// A zero that came out as -3 with one within 1 of it is within 4 of one; of joints that move as far the first
+    /// moves forward.
+    #[test]
+    fn a_zero_is_as_near_as_what_it_came_out_as() {
+        let free = |name| Joint::free(name).with_mass(2.0);
+        let joints = vec![Joint::anchor("O", [0.0; 3]), free("P"), free("Q")];
+        let cord = |to| Member::bar(0, to, Bar::homogeneous(1.0, 0.0).unwrap());
+        let system = System::new("cords", 9.81, joints, vec![cord(1), cord(2)]).unwrap();
+        let at = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+        let mechanism = super::super::about_equilibrium(&system, &at).unwrap();
+        let state = super::super::at_rest(&mechanism, &at).unwrap();
+        let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
+        state.rows(&mechanism, &mut vectors);
+        let stiffness = Stiffness::new(&mechanism, &state, &vectors, vec![0.0; 2]);
+        let axes = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let sector = Sector { direction: Direction::Space, axes };
+        let solved = Solved {
+            omega2: vec![-3.0, 7.0],
+            zero: vec![true, false],
+            residual: vec![1.0, 0.5],
+            shapes: DMatrix::from_row_slice(
+                6,
+                2,
+                &[0.0, 0.0, 0.0, -0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0],
+            ),
+            total: 2,
+            negative: 0,
+        };
+        let found = modes(&stiffness, &state, &sector, &solved);
+        let told: Vec<[f64; 2]> = found.iter().map(|m| [m.omega2_s2, m.residual_s2]).collect();
+        assert_eq!(told, [[7.0, 0.5], [0.0, 4.0]]);
+        assert_eq!(found[0].shape, [[0.0; 3], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]]);
+    }
+}

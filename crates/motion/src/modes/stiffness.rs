@@ -189,8 +189,9 @@ impl<'a> Stiffness<'a> {
                 axes.iter().enumerate().map(|(k, axis)| dot(*u, *axis) * at(slot, k)).sum()
             };
             let by: f64 = gradient.iter().map(|(slot, u)| along(*slot, u)).sum();
-            sum += stiffness * by * by;
-            made_of += stiffness * by * by;
+            let part = stiffness * by * by;
+            sum += part;
+            made_of += part;
         }
         for (link, block) in &self.members {
             let mut by = Vector3::zeros();

@@ -139,7 +139,7 @@ fn backwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
 
 #[cfg(test)]
 mod tests {
-    use super::eliminate;
+    use super::{eliminate, reflect};
 
     /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 35.
     #[test]
@@ -158,6 +158,13 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// What is left of a column is told as a part of it: 1e-20 of 2.
+    #[test]
+    fn a_column_that_depends_on_others_is_told() {
+        let found = reflect(&mut [vec![1.0, 0.0, 0.0], vec![2.0, 1e-20, 0.0]], 1);
+        assert!((found.unwrap_err() / 5e-21 - 1.0).abs() < 1e-15);
     }
 
     /// With rows, by the formulas that it spares: `T = Wᵀ A⁻¹ W + S`, `H = A⁻¹ W T⁻¹` and

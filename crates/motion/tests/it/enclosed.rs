@@ -310,3 +310,18 @@ fn what_is_not_enclosed_says_why() {
     let refused = enclose_modes(&hanging(&links(2), &[1.0; 2]), &other).unwrap_err();
     assert_eq!(refused, NotEnclosed::OtherSystem { places: 3, forces: 61 });
 }
+
+/// In a box of 0.6 m to each side a rod of 1 m may stretch as it turns: modes about its middle are no basis.
+#[test]
+fn wide_boxes_have_no_basis() {
+    let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P")];
+    let rod = Bar::homogeneous(1.0, 3.0).unwrap();
+    let system = System::new("rod", 9.81, joints, vec![Member::bar(0, 1, rod)]).unwrap();
+    let wide = |x: f64| Interval::new(x - 0.6, x + 0.6);
+    let at = [[0.0; 3].map(Interval::point), [0.0, 0.0, -1.0].map(wide)];
+    let axial = [Interval::point(1.5 * 9.81)];
+    let hanging = EquilibriumBox { joints_m: &at, axial_n: &axial, turns: 0 };
+    let refused = enclose_modes(&system, &hanging).unwrap_err();
+    let NotEnclosed::NoBasis { found: 2, wanted: 2, norm } = refused else { panic!("{refused}") };
+    assert!(norm >= 1.0, "{norm}");
+}

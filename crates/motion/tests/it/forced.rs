@@ -56,4 +56,7 @@ fn a_rod_follows_forces_and_moments_of_time_through_a_medium() {
     println!("forced and damped: {off:e} m apart");
     assert!(off < 1e-10, "{off:e}");
     assert!(simulation.snapshot().laws.largest() < 1e-12);
+    // What of a moment is along the rod does nothing.
+    simulation.add_moment(0, Box::new(|_| [0.7, 0.0, -0.4])).unwrap();
+    assert!(simulation.snapshot().laws.largest() < 1e-12);
 }

@@ -349,3 +349,19 @@ fn cables_without_force_hold() {
         assert!(along.abs() < 1e-12, "{along} m/s along {aside:?}");
     }
 }
+
+/// From the floor z = v t - g t^2 / 2, be it ever so slow.
+#[test]
+fn what_is_thrown_leaves_the_floor() {
+    for (v, g) in [(3.0, G), (1e-7, 1e-14)] {
+        let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(MASS_KG)];
+        let leash = Member::cable(0, 1, cord(100.0));
+        let system =
+            System::new("thrown", g, joints, vec![leash]).unwrap().with_floor(0.0).unwrap();
+        let mut thrown = at_rest(&system, &[[0.0; 3], [1.0, 0.0, 0.0]], Order::Second);
+        thrown.push(&[[0.0; 3], [0.0, 0.0, MASS_KG * v]]).unwrap();
+        run(&mut thrown, 0.5 * v / g, 0.01 * v / g);
+        let z = thrown.joints_m()[1][2];
+        assert!((z / (v * v / g) - 0.375).abs() < 1e-9, "{z}");
+    }
+}

@@ -83,12 +83,16 @@ fn a_weight_that_reaches_its_pulley_jams() {
         assert_eq!(jam, told);
         near(weights.time_s(), (25.0 / G).sqrt(), 1.01 * step_s);
     }
-    let mut jammed = at;
-    (jammed[2], jammed[3]) = ([0.0, 0.0, -4.0], [1.0, 0.0, 0.0]);
-    let refused = Simulation::new(&system, &jammed, Settings::default()).err().unwrap();
-    assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
-    let refused = modes(&system, &jammed, None).unwrap_err();
-    assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
+    let elastic = vec![rope(&[2, 0, 1, 3], 5.0).with_stiffness(300.0)];
+    let elastic = self::system(system.joints().to_vec(), elastic);
+    for (system, below_m) in [(system, 4.0), (elastic, 4.5)] {
+        let mut jammed = at.clone();
+        (jammed[2], jammed[3]) = ([0.0, 0.0, -below_m], [1.0, 0.0, 0.0]);
+        let refused = Simulation::new(&system, &jammed, Settings::default()).err().unwrap();
+        assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
+        let refused = modes(&system, &jammed, None).unwrap_err();
+        assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
+    }
 }
 
 /// A block of 7 kg on two strands, whose rope runs on over a pulley to 2 kg: it falls with

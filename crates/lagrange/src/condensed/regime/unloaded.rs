@@ -107,6 +107,20 @@ mod tests {
         assert_eq!(middle_bar(&[1.0, 2.0], 8.0), (1, 6.0));
     }
 
+    /// Over a base of 5 the corner of 3 and 4 lies 2.4 below it, 1.8 from the shorter side's end.
+    #[test]
+    fn the_third_corner_lies_below() {
+        for (along, from, to, wanted) in [
+            ([1.0, 0.0], 3.0, 4.0, [1.8, -2.4]),
+            ([1.0, 0.0], 4.0, 3.0, [3.2, -2.4]),
+            ([-1.0, 0.0], 3.0, 4.0, [-1.8, -2.4]),
+            ([0.6, -0.8], 3.0, 4.0, [1.08 - 1.92, -1.44 - 1.44]),
+        ] {
+            let found = third_corner(along, 5.0, from, to);
+            assert!((found[0] - wanted[0]).hypot(found[1] - wanted[1]) < 1e-14, "{found:?}");
+        }
+    }
+
     #[test]
     fn pieces_fill_the_gap() {
         let cases: [(&[f64], [f64; 2]); 9] = [

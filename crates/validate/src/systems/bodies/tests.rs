@@ -125,3 +125,11 @@ fn anchors_of_one_vertical_carry_one_body() {
     assert!(pivots.len() == 2 && pivots[0].is_none() && pivots[1].is_some_and(|pivot| pivot < 2));
     assert_eq!(bodies(true), (vec![0; 5], vec![None]));
 }
+
+/// What touches a vertical in one joint hinges on nothing but that.
+#[test]
+fn one_joint_is_no_hinge() {
+    let mut bodies = Bodies::new(&tree(|_, _| ()), |_| true);
+    bodies.add_hinged(&[vec![0, 3]], |_, _| 0.0, 1.0);
+    assert_eq!((bodies.all.len(), bodies.of_joint), (4, vec![0, 1, 2, 3]));
+}

@@ -32,6 +32,12 @@ fn a_joint_without_load_has_the_mean_load() {
     let (system, answer) = lamp();
     let scale = Scale::new(&system, &answer);
     assert_eq!(scale.joint_n, [2.0 / 3.0, 2.0 / 3.0, 2.0]);
+    // Differences of forces count beside all that acts, or what meets, where nothing acts.
+    let of = |total_n: f64| {
+        let scale = Scale { total_n, ..scale.clone() };
+        [1.0, 5.0, 1e9].map(|meet_n| scale.of_forces_n(meet_n))
+    };
+    assert_eq!([of(2.0), of(0.0)], [[2.0, 5.0, 2e6], [1.0, 5.0, 1e9]]);
 }
 
 /// Springs of 6 N and 1 m, drawn to 1.5 and 3 m: 3 N, and 6 N instead of 12.

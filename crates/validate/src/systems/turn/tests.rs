@@ -1,6 +1,9 @@
 //! Turns by hand.
 
-use super::super::tests::propped;
+use model::system::Joint;
+use model::{Bar, Jam};
+
+use super::super::tests::{lamp, propped};
 use super::*;
 
 /// A quarter turn about (1, 2), and from there to (10, 20).
@@ -52,4 +55,32 @@ fn joints_that_are_left_out_do_not_count() {
     let (turned, parts) = turned_onto(&system, &first, &second, &[false, false, true]);
     assert_eq!(parts, 1);
     assert!(norm(minus(turned.joints_m[2], second.joints_m[2])) < 1e-14, "{:?}", turned.joints_m);
+}
+
+/// A-P goes by (3, 4)/5 about A, P-Q by a right angle about P, each with its forces and with the pull where it jams.
+#[test]
+fn forces_turn_with_their_own_span() {
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q")];
+    let members = vec![Member::bar(0, 1, bar), Member::bar(1, 2, bar)];
+    let system = System::new("two", 9.81, joints, members).unwrap();
+    let (_, like) = lamp();
+    let along = [1.0, 0.0, 2.0];
+    let mut answer = SystemEquilibrium {
+        joints_m: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+        start_forces_n: vec![along; 2],
+        end_forces_n: vec![along.map(|x| -x); 2],
+        axial_n: vec![1.0; 2],
+        reactions_n: vec![[0.0; 3]; 3],
+        ..like
+    };
+    answer.evidence.jams = (0..2).map(|member| Jam { member, span: 0, pull_n: along }).collect();
+    let bodies = Bodies::new(&system, |_| true);
+    let turn = |cos, sin| Turn { cos, sin, ..Turn::NONE };
+    let mut turns = [Turn::NONE; 3];
+    (turns[bodies.of_joint[1]], turns[bodies.of_joint[2]]) = (turn(0.6, 0.8), turn(0.0, 1.0));
+    let found = turned(&system, &answer, &bodies, &turns);
+    let wanted = [[0.6, 0.8, 2.0], [0.0, 1.0, 2.0]];
+    assert_eq!(found.start_forces_n, wanted);
+    assert_eq!(found.evidence.jams.iter().map(|jam| jam.pull_n).collect::<Vec<_>>(), wanted);
 }
