@@ -8,7 +8,7 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
-use crate::run::{Running, column, command, files, program, wait_until};
+use crate::run::{Running, column, command, names, program, wait_until};
 
 /// The outcome of the program in a folder, on so many threads of the pool.
 fn run(folder: &Path, threads: usize, arguments: &[&str]) -> std::process::Output {
@@ -331,7 +331,7 @@ fn an_interrupted_motion_keeps_what_is_done() {
     let mut command = program(folder.path(), &arguments);
     let mut running = Running(command.stdout(Stdio::piped()).spawn().unwrap());
     // The file is begun when the interruption is caught already.
-    wait_until("nothing is written", || !files(folder.path()).is_empty());
+    wait_until("nothing is written", || !names(folder.path()).is_empty());
     std::thread::sleep(std::time::Duration::from_millis(200));
     running.signal("INT");
     assert_eq!(running.code(), Some(130));
