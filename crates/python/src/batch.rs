@@ -1,27 +1,26 @@
 //! Many chains of the same number of bars.
 
-use std::slice::from_ref;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use funicular::prelude::{Anchors, Bar, Chain, Error, SolverName, Solvers, Vector};
 use lagrange::condensed;
 use model::system::System;
 use model::{Equilibrium, Problem, Rung};
-use numpy::PyReadonlyArrayDyn;
+use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 use validate::systems::{SystemFailure, ask_with, judge_chain};
 use validate::{Question, UseCensus};
 
-use crate::arrays::{numbers, vectors};
-use crate::many::Many;
-use crate::raise::internal;
-use crate::told::{self, Told};
+use crate::arrays::{column, numbers, vectors};
+use crate::raise::{exception, parts};
+use crate::told::{Field, Told};
 use crate::{words, work};
 
 /// Chains that one thread takes at a time: some milliseconds, so that Ctrl-C is felt.
 const BLOCK: usize = 256;
+
+/// No rung was reached.
+pub const NO_RUNG: i8 = -1;
 
 /// What is asked.
 struct Batch {
@@ -35,30 +34,61 @@ struct Batch {
     solvers: Solvers,
 }
 
-/// The hanging equilibrium of a chain, as there are arrays of it.
-struct Found {
+/// The answers of some chains in a row: an entry, row or block of rows for each.
+struct Block {
     joints_m: Vec<Vector>,
     forces_n: Vec<Vector>,
     axial_n: Vec<f64>,
-    energy_j: f64,
-    residual: f64,
-    /// The largest violation of Newton's laws.
-    statics: f64,
-    rung: Option<Rung>,
+    energy_j: Vec<f64>,
+    residual: Vec<f64>,
+    statics: Vec<f64>,
+    rung: Vec<i8>,
+    failures: Vec<(usize, Told)>,
 }
 
-impl Found {
-    fn new(problem: &Problem, found: &Equilibrium) -> Self {
+impl Block {
+    fn new(chains: usize, bars: usize) -> Self {
         Self {
-            joints_m: found.joints_m.clone(),
-            forces_n: found.multipliers_n.clone(),
-            axial_n: found.axial_n.clone(),
-            energy_j: found.energy_j,
-            residual: found.evidence.residual,
-            statics: judge_chain(problem, found).largest(),
-            rung: found.evidence.rung(),
+            joints_m: Vec::with_capacity(chains * (bars + 1)),
+            forces_n: Vec::with_capacity(chains * (bars + 1)),
+            axial_n: Vec::with_capacity(chains * bars),
+            energy_j: Vec::with_capacity(chains),
+            residual: Vec::with_capacity(chains),
+            statics: Vec::with_capacity(chains),
+            rung: Vec::with_capacity(chains),
+            failures: Vec::new(),
         }
     }
+
+    fn add(&mut self, found: &Equilibrium, statics: f64) {
+        self.joints_m.extend_from_slice(&found.joints_m);
+        self.forces_n.extend_from_slice(&found.multipliers_n);
+        self.axial_n.extend_from_slice(&found.axial_n);
+        self.energy_j.push(found.energy_j);
+        self.residual.push(found.evidence.residual);
+        self.statics.push(statics);
+        self.rung.push(found.evidence.rung().map_or(NO_RUNG, number));
+    }
+
+    fn add_failure(&mut self, chain: usize, bars: usize, told: Told) {
+        self.joints_m.extend(std::iter::repeat_n([f64::NAN; 3], bars + 1));
+        self.forces_n.extend(std::iter::repeat_n([f64::NAN; 3], bars + 1));
+        self.axial_n.extend(std::iter::repeat_n(f64::NAN, bars));
+        self.energy_j.push(f64::NAN);
+        self.residual.push(f64::NAN);
+        self.statics.push(f64::NAN);
+        self.rung.push(NO_RUNG);
+        self.failures.push((chain, told));
+    }
+}
+
+/// The number of a rung, lowest first, from 0.
+pub fn number(rung: Rung) -> i8 {
+    Rung::ALL
+        .iter()
+        .position(|other| *other == rung)
+        .and_then(|k| k.try_into().ok())
+        .unwrap_or(NO_RUNG)
 }
 
 impl Batch {
@@ -74,41 +104,62 @@ impl Batch {
         Ok(Problem::new(Chain::new(String::new(), self.gravity_m_s2, anchors, bars)?)?)
     }
 
-    /// Of chains in a row: the memory of one solver serves them all.
-    fn block(&self, chains: std::ops::Range<usize>) -> Vec<Result<Found, Told>> {
+    fn block(&self, chains: std::ops::Range<usize>) -> Block {
         let mut solver = condensed::Solver::default();
-        chains.map(|chain| self.one(chain, &mut solver)).collect()
-    }
-
-    fn one(&self, chain: usize, solver: &mut condensed::Solver) -> Result<Found, Told> {
-        let problem = self.problem(chain).map_err(|error| Told::of(&error))?;
         let settings = Question::default().condensed(self.bars);
-        let alone = self.solvers == Solvers::Lagrange;
-        let Some(Ok(solved)) = alone.then(|| solver.solve(&problem, &settings)) else {
-            return self.asked(&problem);
-        };
-        let found = Found::new(&problem, &solved.equilibrium);
-        solver.take_back(solved);
-        Ok(found)
+        let mut block = Block::new(chains.len(), self.bars);
+        for chain in chains {
+            let problem = match self.problem(chain) {
+                Ok(problem) => problem,
+                Err(error) => {
+                    block.add_failure(chain, self.bars, Told::of(&error));
+                    continue;
+                }
+            };
+            // The memory of one solver serves all chains of the block.
+            let alone = self.solvers == Solvers::Lagrange;
+            match alone.then(|| solver.solve(&problem, &settings)) {
+                Some(Ok(found)) => {
+                    block.add(&found.equilibrium, judged(&problem, &found.equilibrium));
+                    solver.take_back(found);
+                }
+                _ => self.asked(chain, &problem, &mut block),
+            }
+        }
+        block
     }
 
     /// Asked, compared and certified like a system alone, but for the census.
-    fn asked(&self, problem: &Problem) -> Result<Found, Told> {
+    fn asked(&self, chain: usize, problem: &Problem, block: &mut Block) {
         let question =
             Question { solvers: self.solvers, census: UseCensus::Never, ..Question::default() };
         let system = System::from(problem.chain());
         let answer = ask_with(&system, &question, &|_| {});
         let first = answer.by(&SolverName::LAGRANGE).or(answer.equilibria.first());
         let as_chain = |found| system.as_row()?.chain_equilibrium(found);
-        let found = first.and_then(as_chain).ok_or_else(|| unsolved(&answer.failures))?;
-        Ok(Found::new(problem, &found))
+        match first.and_then(as_chain) {
+            Some(found) => block.add(&found, judged(problem, &found)),
+            None => block.add_failure(chain, self.bars, unsolved(&answer.failures)),
+        }
     }
+}
+
+/// The largest violation of Newton's laws.
+fn judged(problem: &Problem, found: &Equilibrium) -> f64 {
+    judge_chain(problem, found).largest()
 }
 
 fn unsolved(failures: &[SystemFailure]) -> Told {
     let message = failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-    let failures = told::failures(failures.iter().map(funicular::Failure::of));
-    Told::new("Unsolved", message, failures)
+    let failures: Vec<_> = failures.iter().map(funicular::Failure::of).collect();
+    let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());
+    Told::new("Unsolved", message, vec![("failures", Field::Json(text))])
+}
+
+/// A wrong shape, which the Python half has looked for before.
+fn misshapen(what: &str, wanted: usize, found: usize) -> PyErr {
+    let message = format!("{what}: {wanted} numbers wanted, got {found}");
+    exception(Told::new("InternalError", message, vec![]))
 }
 
 /// The hanging equilibria of chains: arrays with an entry for each, NaN where there is none, and
@@ -147,28 +198,55 @@ pub fn solve_many<'py>(
         ("starts", chains, batch.starts_m.len()),
         ("ends", chains, batch.ends_m.len()),
     ] {
-        // A wrong shape, which the Python half has looked for before.
         if wanted != found {
-            return Err(internal(&format!("{what}: {wanted} numbers wanted, got {found}")));
+            return Err(misshapen(what, wanted, found));
         }
     }
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        let done = AtomicUsize::new(0);
-        let block = |k: usize| {
-            let block = batch.block(k * BLOCK..chains.min((k + 1) * BLOCK));
-            let done = done.fetch_add(block.len(), Ordering::Relaxed) + block.len();
-            watch.tell("chains", done as u64, chains as u64);
-            block
-        };
-        (0..chains.div_ceil(BLOCK)).into_par_iter().flat_map_iter(block).collect()
+    let whole = work::run(py, threads, progress.as_ref(), move |watch| {
+        let done = std::sync::atomic::AtomicUsize::new(0);
+        let blocks: Vec<Block> = (0..chains.div_ceil(BLOCK))
+            .into_par_iter()
+            .map(|k| {
+                let block = batch.block(k * BLOCK..chains.min((k + 1) * BLOCK));
+                let size = block.energy_j.len();
+                let done = done.fetch_add(size, std::sync::atomic::Ordering::Relaxed) + size;
+                watch.tell("chains", done as u64, chains as u64);
+                block
+            })
+            .collect();
+        joined(blocks, chains, bars)
     })?;
-    let many = Many::<Found>::new(py, found);
-    let places = [bars + 1, 3];
-    many.add("joints_m", &places, |found| found.joints_m.as_flattened())?;
-    many.add("forces_n", &places, |found| found.forces_n.as_flattened())?;
-    many.add("axial_n", &[bars], |found| &found.axial_n)?;
-    many.add("energy_j", &[], |found| from_ref(&found.energy_j))?;
-    many.add("residual", &[], |found| from_ref(&found.residual))?;
-    many.add("statics", &[], |found| from_ref(&found.statics))?;
-    many.done(|found| found.rung)
+    dict(py, whole, chains, bars)
+}
+
+/// All blocks, in their order.
+fn joined(blocks: Vec<Block>, chains: usize, bars: usize) -> Block {
+    let mut whole = Block::new(chains, bars);
+    for block in blocks {
+        whole.joints_m.extend_from_slice(&block.joints_m);
+        whole.forces_n.extend_from_slice(&block.forces_n);
+        whole.axial_n.extend_from_slice(&block.axial_n);
+        whole.energy_j.extend_from_slice(&block.energy_j);
+        whole.residual.extend_from_slice(&block.residual);
+        whole.statics.extend_from_slice(&block.statics);
+        whole.rung.extend_from_slice(&block.rung);
+        whole.failures.extend(block.failures);
+    }
+    whole
+}
+
+fn dict(py: Python<'_>, all: Block, chains: usize, bars: usize) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    let cube =
+        |vectors: Vec<Vector>| column(py, vectors.into_flattened()).reshape([chains, bars + 1, 3]);
+    dict.set_item("joints_m", cube(all.joints_m)?)?;
+    dict.set_item("forces_n", cube(all.forces_n)?)?;
+    dict.set_item("axial_n", column(py, all.axial_n).reshape([chains, bars])?)?;
+    dict.set_item("energy_j", column(py, all.energy_j))?;
+    dict.set_item("residual", column(py, all.residual))?;
+    dict.set_item("statics", column(py, all.statics))?;
+    dict.set_item("rung", numpy::PyArray1::from_vec(py, all.rung))?;
+    let failures = all.failures.iter().map(|(chain, told)| Ok((*chain, parts(py, told)?)));
+    dict.set_item("failures", failures.collect::<PyResult<Vec<_>>>()?)?;
+    Ok(dict)
 }

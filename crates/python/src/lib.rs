@@ -12,7 +12,6 @@ mod basins;
 mod batch;
 mod census;
 mod judge;
-mod many;
 mod modes;
 mod nets;
 mod printable;

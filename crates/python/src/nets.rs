@@ -1,6 +1,5 @@
 //! One structure with other numbers: once, or many times.
 
-use std::slice::from_ref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,15 +9,15 @@ use funicular::prelude::{
 use funicular::{Error, JointField, Number};
 use model::AxialForce;
 use model::system::System;
-use numpy::PyReadonlyArrayDyn;
+use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
-use crate::arrays::numbers;
-use crate::many::Many;
+use crate::arrays::{column, numbers};
+use crate::batch::{NO_RUNG, number};
 use crate::problem::Problem;
-use crate::raise::{internal, raise};
+use crate::raise::{internal, parts, raise};
 use crate::told::Told;
 use crate::{words, work};
 
@@ -129,7 +128,7 @@ pub fn solve_nets<'py>(
     let rows = Rows::of(&system, arrays, count)?;
     let solve = Solve::new().solvers(words::solvers(solver)?).census(UseCensus::Never);
     let of = Arc::clone(&problem.of);
-    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+    let all = work::run(py, threads, progress.as_ref(), move |watch| {
         let done = AtomicUsize::new(0);
         let one = |row: usize| {
             let found = rows.problem(&of, row).and_then(|problem| solve.run_here(&problem));
@@ -143,14 +142,35 @@ pub fn solve_nets<'py>(
             };
             found.map(first).map_err(|error| Told::of(&error))
         };
-        (0..count).into_par_iter().map(one).collect()
+        (0..count).into_par_iter().map(one).collect::<Vec<_>>()
     })?;
-    let many = Many::<(SystemEquilibrium, Vec<f64>)>::new(py, found);
-    many.add("joints_m", &[joints, 3], |(found, _)| found.joints_m.as_flattened())?;
-    many.add("reactions_n", &[joints, 3], |(found, _)| found.reactions_n.as_flattened())?;
-    many.add("axial_n", &[members], |(found, _)| &found.axial_n)?;
-    many.add("axial_max_n", &[members], |(_, largest_n)| largest_n)?;
-    many.add("energy_j", &[], |(found, _)| from_ref(&found.energy_j))?;
-    many.add("residual", &[], |(found, _)| from_ref(&found.evidence.residual))?;
-    many.done(|(found, _)| found.evidence.rung())
+    let first = |k: usize| all[k].as_ref().ok().map(|(found, _)| found);
+    let table = |of: fn(&SystemEquilibrium) -> &[Vector]| {
+        let row = |k| first(k).map_or_else(|| vec![[f64::NAN; 3]; joints], |e| of(e).to_vec());
+        column(py, (0..count).flat_map(row).flatten().collect()).reshape([count, joints, 3])
+    };
+    let each = |of: fn(&SystemEquilibrium) -> f64| {
+        column(py, (0..count).map(|k| first(k).map_or(f64::NAN, of)).collect())
+    };
+    let axial = |k| first(k).map_or_else(|| vec![f64::NAN; members], |e| e.axial_n.clone());
+    let largest = |k: usize| {
+        all[k].as_ref().map_or_else(|_| vec![f64::NAN; members], |found| found.1.clone())
+    };
+    let rung = |k| first(k).and_then(|e| e.evidence.rung()).map_or(NO_RUNG, number);
+    let dict = PyDict::new(py);
+    dict.set_item("joints_m", table(|e| &e.joints_m)?)?;
+    dict.set_item("reactions_n", table(|e| &e.reactions_n)?)?;
+    let shape = [count, members];
+    dict.set_item("axial_n", column(py, (0..count).flat_map(axial).collect()).reshape(shape)?)?;
+    dict.set_item(
+        "axial_max_n",
+        column(py, (0..count).flat_map(largest).collect()).reshape(shape)?,
+    )?;
+    dict.set_item("energy_j", each(|e| e.energy_j))?;
+    dict.set_item("residual", each(|e| e.evidence.residual))?;
+    dict.set_item("rung", numpy::PyArray1::from_vec(py, (0..count).map(rung).collect()))?;
+    let failures = all.iter().enumerate().filter_map(|(k, found)| Some((k, found.as_ref().err()?)));
+    let failures = failures.map(|(k, told)| Ok((k, parts(py, told)?)));
+    dict.set_item("failures", failures.collect::<PyResult<Vec<_>>>()?)?;
+    Ok(dict)
 }

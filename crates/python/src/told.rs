@@ -146,8 +146,7 @@ fn parts(error: &Error) -> Parts {
     }
 }
 
-/// What each solver that has no answer says.
-pub fn failures(failures: impl Iterator<Item = funicular::Failure>) -> Vec<(&'static str, Field)> {
+fn failures(failures: impl Iterator<Item = funicular::Failure>) -> Vec<(&'static str, Field)> {
     let failures: Vec<_> = failures.collect();
     let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());
     vec![("failures", Field::Json(text))]

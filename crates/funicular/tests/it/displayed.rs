@@ -1,7 +1,5 @@
 //! An answer of the library as text is what the program prints.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fmt::Display;
 
 use funicular::judge::{fit, parse};

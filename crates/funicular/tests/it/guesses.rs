@@ -1,7 +1,5 @@
 //! What is typed first: files of other programs, pictures in other formats, new files.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::process::Output;
 
 use crate::run::{folder, good, json, ran, refused};

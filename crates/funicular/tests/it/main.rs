@@ -33,6 +33,7 @@ mod pages;
 mod printing;
 mod program;
 mod promise;
+mod reached;
 mod replaced;
 mod ropes;
 mod run;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Output;
 use std::sync::LazyLock;
 
-use crate::run::{command, folder, funicular, good, json, says, stderr, stdout};
+use crate::run::{command, folder, funicular, good, json, says, stderr, stdout, words};
 use serde_json::Value;
 
 fn file(folder: &str, text: &str) -> String {
@@ -319,7 +319,7 @@ fn bad_input_ends_with_code_2_and_shows_the_line() {
     );
     let output = funicular(&["solve", &path]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("6 m are missing"), "{}", stderr(&output));
+    assert!(words(&output).contains("6 m are missing"), "{}", words(&output));
 
     let directory = folder("a-directory");
     for arguments in [
@@ -414,7 +414,7 @@ fn columns_have_the_numbers_of_the_objects() {
 fn the_full_equations_are_refused_for_another_system() {
     let refused = funicular(&["solve", "--case", "bridle", "--equations", "full"]);
     assert_eq!(refused.status.code(), Some(2));
-    let words = stderr(&refused).split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = words(&refused);
     assert!(words.contains("is for chains between two anchors"), "{words}");
     good(".", &["solve", "--case", "five-in-space", "--equations", "full"]);
 }

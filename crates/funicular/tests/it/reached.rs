@@ -7,10 +7,10 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
+use crate::run::files;
 use funicular::{Format, PreparedSweep, Problem, Sweep};
 use model::{Anchors, Bar, Chain};
 use sweep::{Run, RunSettings, Shard};
-use crate::run::files;
 
 /// Four parts, the last of one seed.
 const SEEDS: u64 = 3 * 1024 + 1;

@@ -178,13 +178,19 @@ pub fn column(text: &str, name: &str) -> Vec<f64> {
     lines.map(|mut line| line.nth(at).unwrap().parse().unwrap()).collect()
 }
 
+/// The names of what is in a folder.
+pub fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
 /// The files of a folder by their names.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let file = |entry: std::io::Result<std::fs::DirEntry>| {
-        let entry = entry.unwrap();
-        (entry.file_name().into_string().unwrap(), std::fs::read(entry.path()).unwrap())
-    };
-    std::fs::read_dir(folder).unwrap().map(file).collect()
+    let file = |name: String| (name.clone(), std::fs::read(folder.join(name)).unwrap());
+    names(folder).into_iter().map(file).collect()
 }
 
 /// No number of a JSON value is missing: NaN and infinity would come out as null.
