@@ -117,6 +117,5 @@ fn the_nearest_entry_has_its_number() {
         joints_m[1][0] = f64::NAN;
         assert_eq!(nearest(problem.chain(), &census, &joints_m), None);
         assert_eq!(nearest(problem.chain(), &census, &joints_m[1..]), None);
-        assert_eq!(nearest_degenerate(problem.chain(), &census, &joints_m), None);
     }
 }
