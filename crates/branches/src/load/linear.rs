@@ -125,14 +125,16 @@ fn largest(small: &DMatrix<f64>) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// The eigenvector of 2 has a thousandth in the last row: a rest of a thousandth counts as a millionth.
+    /// The eigenvector of 2 has a thousandth in the last row: a rest of a thousandth counts as a millionth, in any unit.
     #[test]
     fn an_eigenvalue_converges_as_its_last_component() {
-        let of = |rest: f64| {
-            let small = [2.0, 1e-3, 1e-3, 1.0, 0.0, rest];
-            largest(&DMatrix::from_row_slice(3, 2, &small))
-        };
-        assert!((of(1e-3).unwrap() - 2.000_001).abs() < 1e-11);
-        assert_eq!(of(3e-3), None);
+        for unit in [1e-6, 1.0] {
+            let of = |rest: f64| {
+                let small = [2.0, 1e-3, 1e-3, 1.0, 0.0, rest].map(|x| unit * x);
+                largest(&DMatrix::from_row_slice(3, 2, &small))
+            };
+            assert!((of(1e-3).unwrap() / unit - 2.000_001).abs() < 1e-11);
+            assert_eq!(of(3e-3), None);
+        }
     }
 }
