@@ -17,7 +17,7 @@ const CORRECTED: f64 = 1e-13;
 /// A point with a residual above this is no equilibrium.
 pub(crate) const RESIDUAL: f64 = 1e-11;
 
-/// Rounding of the equations, whose parts are of order one.
+/// Rounding of one equation, whose parts are of order one.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// What the equations leave at `y`: n moments, two of the closure, and the size of the pull.
@@ -133,7 +133,9 @@ pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     let Some(left) = by_unknowns.svd(true, false).u else { return f64::INFINITY };
     let psi = left.column(n + 2);
     let slope = psi.dot(&j.view((0, n + 3), (n + 3, 1)).column(0));
-    (ROUNDING / slope.abs()).max(f64::EPSILON)
+    let rounding = ROUNDING * psi.iter().map(|part| part.abs()).sum::<f64>();
+    // Twice: of two folds that touch, the slope falls to nothing on the way.
+    (2.0 * rounding / slope.abs()).max(f64::EPSILON)
 }
 
 /// The direction in which only the position changes.
