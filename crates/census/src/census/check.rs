@@ -34,7 +34,7 @@ use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::slack::families::families;
 use crate::slack::moments::Exact;
-use crate::slack::straight::Straight;
+use crate::slack::straight::{Straight, StraightPosition};
 use crate::slack::unloaded::with_signs;
 
 /// A stated enclosure may be that much wider than the one computed by the check, both being at the
@@ -249,7 +249,12 @@ impl Census {
         // Lengths that do not reach leave no position at all.
         let known = self.topology.as_ref();
         let none = known.is_ok_and(|known| known.betti.iter().all(|number| *number == 0));
-        let wanted = usize::from(!none);
+        // Taut from anchor to anchor, or folded on their line, it has one position, which no force holds.
+        let only = |straight: &StraightPosition| {
+            let onwards = straight.along.iter().filter(|way| **way > 0).count();
+            !straight.upright && (onwards == straight.along.len() || onwards == 1)
+        };
+        let wanted = usize::from(!none && !self.straight.iter().any(only));
         for (which, sign, index) in [("lowest", 1, 0), ("highest", -1, joints)] {
             let families =
                 self.families.iter().filter(|f| f.signs.iter().all(|s| *s == sign || *s == 0));

@@ -19,6 +19,9 @@ const RIGID: f64 = 1e3;
 /// rounding.
 const RIDGE: f64 = 1e-9;
 
+/// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
+const LOOSE: f64 = 1e-3;
+
 /// The drawing with the forces of its linear analysis. Cables and struts that would have the wrong
 /// sign bear nothing.
 pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape {
@@ -26,7 +29,11 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape
     let elastic = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
     let stiffest = elastic.fold(0.0, f64::max);
     let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
-    let taut = |e: usize| frame.rods[e].resists(excess[e].value);
+    let taut = |e: usize| {
+        let rod = &frame.rods[e];
+        let off = excess[e].value / rod.length;
+        off.abs() <= LOOSE || rod.resists(off)
+    };
     let stiffness = |e: usize| {
         let rod = &frame.rods[e];
         match (taut(e), rod.elastic()) {

@@ -18,7 +18,7 @@ use model::system::System;
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Rod};
 use crate::network::law::Excess;
-use crate::network::polish::STIFF_STRAIN;
+use crate::network::polish::{STIFF_STRAIN, rounding_floor};
 use crate::network::shape::{NO_STRAIN, Shape, largest};
 use crate::vector::{along, dot, norm, scaled};
 
@@ -104,6 +104,8 @@ pub(super) fn settled(
     if !factor.cholesky() {
         return Settled::as_is(frame, shape);
     }
+    // Lengths that are kept to rounding stay so.
+    let kept = rounding_floor(frame, &shape).max(here.misfit(&active));
     for _ in 0..STEPS {
         let next = here.stepped(factor, &active, &stiffness);
         let left = next.error(&active);
@@ -112,6 +114,9 @@ pub(super) fn settled(
             break;
         }
         (here, error) = (next, left);
+    }
+    if here.misfit(&active) > kept {
+        return Settled::as_is(frame, shape);
     }
     let back = |(x, u): (&Vector, &Vector)| -> Vector {
         std::array::from_fn(|k| ((x[k] - frame.origin_m[k]) + u[k]) / frame.length_m)
@@ -178,6 +183,13 @@ impl Displaced<'_> {
         let laws = rods.map(|(e, rod)| (self.excess(e).0 / rod.flexibility - self.force[e]).abs());
         let laws = laws.fold(0.0, f64::max) / frame.largest_force(&self.force);
         unbalance.fold(0.0, f64::max).max(laws * (BALANCED / SETTLED)) / BALANCED
+    }
+
+    /// The largest error of the length of an inextensible member, over the length.
+    fn misfit(&self, active: &[bool]) -> f64 {
+        let rods = self.frame.rods.iter().enumerate();
+        let rigid = rods.filter(|(e, rod)| active[*e] && !rod.elastic());
+        rigid.map(|(e, rod)| self.excess(e).0.abs() / rod.length).fold(0.0, f64::max)
     }
 
     fn gradient(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {

@@ -267,10 +267,10 @@ fn a_limit_of_memory_is_kept() {
     };
     let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
     fs::write(folder.join("chain.toml"), chain(200_000)).unwrap();
-    let output = limited("92MB", PROGRAM + 92_000, "chain.toml");
+    let output = limited("80MB", PROGRAM + 80_000, "chain.toml");
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     fs::write(folder.join("longer.toml"), chain(200_001)).unwrap();
-    let output = limited("92MB", PROGRAM, "longer.toml");
+    let output = limited("80MB", PROGRAM, "longer.toml");
     assert_eq!(output.status.code(), Some(2), "{}", words(&output));
     assert!(words(&output).contains("200000"), "{}", words(&output));
     fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
+use model::system_file::Described;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -190,11 +191,16 @@ impl Manifest {
         if self.equilibria_complete || in_space {
             return Ok(None);
         }
-        let problem = model::system_file::parse_problem(&self.system.text, "system.text");
-        let problem = problem.map_err(|error| StoreError::Description {
-            path: MANIFEST.into(),
-            reason: error.to_string(),
-        })?;
+        let unusable = |reason: String| StoreError::Description { path: MANIFEST.into(), reason };
+        let described = model::system_file::parse(&self.system.text, "system.text");
+        let problem = match described.map_err(|error| unusable(error.to_string()))? {
+            Described::Chain(problem) => problem,
+            Described::System(system) => {
+                let row =
+                    system.as_row().ok_or_else(|| unusable("system.text is no row".to_owned()))?;
+                row.problem().clone()
+            }
+        };
         Ok(Some(Reached::new(&problem, self.equilibria.len())))
     }
 
