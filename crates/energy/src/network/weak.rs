@@ -18,7 +18,7 @@ use model::system::System;
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Rod};
 use crate::network::law::Excess;
-use crate::network::polish::{STIFF_STRAIN, rounding_floor};
+use crate::network::polish::STIFF_STRAIN;
 use crate::network::shape::{NO_STRAIN, Shape, largest};
 use crate::vector::{along, dot, norm, scaled};
 
@@ -30,6 +30,9 @@ const BALANCED: f64 = 2.5e-12;
 
 /// which count as no less and no more than so many times the load there, or the mean load where it has none.
 const BORNE: [f64; 2] = [1e-2, 1e2];
+
+/// Units in the last place of the farthest place within which a length is kept.
+const ROUNDINGS: f64 = 8.0;
 
 /// Steps at most; few are enough.
 const STEPS: usize = 12;
@@ -104,8 +107,6 @@ pub(super) fn settled(
     if !factor.cholesky() {
         return Settled::as_is(frame, shape);
     }
-    // Lengths that are kept to rounding stay so.
-    let kept = rounding_floor(frame, &shape).max(here.misfit(&active));
     for _ in 0..STEPS {
         let next = here.stepped(factor, &active, &stiffness);
         let left = next.error(&active);
@@ -115,7 +116,7 @@ pub(super) fn settled(
         }
         (here, error) = (next, left);
     }
-    if here.misfit(&active) > kept {
+    if !here.keeps_lengths(&active) {
         return Settled::as_is(frame, shape);
     }
     let back = |(x, u): (&Vector, &Vector)| -> Vector {
@@ -185,11 +186,14 @@ impl Displaced<'_> {
         unbalance.fold(0.0, f64::max).max(laws * (BALANCED / SETTLED)) / BALANCED
     }
 
-    /// The largest error of the length of an inextensible member, over the length.
-    fn misfit(&self, active: &[bool]) -> f64 {
+    /// Whether all inextensible members have their lengths, to the rounding of their places.
+    fn keeps_lengths(&self, active: &[bool]) -> bool {
+        let unit = 1.0 / self.frame.length_m;
+        let reach = unit * self.x.iter().map(|x| norm(*x)).fold(0.0, f64::max);
         let rods = self.frame.rods.iter().enumerate();
-        let rigid = rods.filter(|(e, rod)| active[*e] && !rod.elastic());
-        rigid.map(|(e, rod)| self.excess(e).0.abs() / rod.length).fold(0.0, f64::max)
+        rods.filter(|(e, rod)| active[*e] && !rod.elastic() && !rod.ground).all(|(e, rod)| {
+            self.excess(e).0.abs() <= ROUNDINGS * f64::EPSILON * (rod.length + reach)
+        })
     }
 
     fn gradient(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
