@@ -51,7 +51,7 @@ fn the_level_chain_has_its_folds_and_branch_points() {
 #[test]
 fn people_get_a_table() {
     let said = good(".", &LEVEL);
-    says(&said, &["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"]);
+    says(&said, &["fold: two branches", "branch point", "1.2247448713916", "each finds exactly"]);
 }
 
 /// Digits shown are digits known: where two curves touch, each has a fold, known to half of the digits.
