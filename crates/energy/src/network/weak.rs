@@ -31,9 +31,6 @@ const BALANCED: f64 = 2.5e-12;
 /// which count as no less and no more than so many times the load there, or the mean load where it has none.
 const BORNE: [f64; 2] = [1e-2, 1e2];
 
-/// Units in the last place of the farthest place within which a length is kept.
-const ROUNDINGS: f64 = 8.0;
-
 /// Steps at most; few are enough.
 const STEPS: usize = 12;
 
@@ -116,9 +113,6 @@ pub(super) fn settled(
         }
         (here, error) = (next, left);
     }
-    if !here.keeps_lengths(&active) {
-        return Settled::as_is(frame, shape);
-    }
     let back = |(x, u): (&Vector, &Vector)| -> Vector {
         std::array::from_fn(|k| ((x[k] - frame.origin_m[k]) + u[k]) / frame.length_m)
     };
@@ -183,17 +177,7 @@ impl Displaced<'_> {
         let rods = frame.rods.iter().enumerate().filter(|(e, rod)| active[*e] && rod.elastic());
         let laws = rods.map(|(e, rod)| (self.excess(e).0 / rod.flexibility - self.force[e]).abs());
         let laws = laws.fold(0.0, f64::max) / frame.largest_force(&self.force);
-        unbalance.fold(0.0, f64::max).max(laws * (BALANCED / SETTLED)) / BALANCED
-    }
-
-    /// Whether all inextensible members have their lengths, to the rounding of their places.
-    fn keeps_lengths(&self, active: &[bool]) -> bool {
-        let unit = 1.0 / self.frame.length_m;
-        let reach = unit * self.x.iter().map(|x| norm(*x)).fold(0.0, f64::max);
-        let rods = self.frame.rods.iter().enumerate();
-        rods.filter(|(e, rod)| active[*e] && !rod.elastic() && !rod.ground).all(|(e, rod)| {
-            self.excess(e).0.abs() <= ROUNDINGS * f64::EPSILON * (rod.length + reach)
-        })
+        (unbalance.fold(0.0, f64::max) / BALANCED).max(laws / SETTLED)
     }
 
     fn gradient(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
