@@ -33,6 +33,9 @@ const LEAST_STRAIN: f64 = model::system::LENGTH_ROUNDING;
 /// finding of their own (module `forces`).
 pub(super) const MOST_FORCE: f64 = 1e6;
 
+/// The rounding of stored numbers explains no more than this part of what acts.
+pub(super) const MOST_ROUNDING: f64 = 1e-6;
+
 /// The sizes for one system, at the places of one answer.
 #[derive(Clone)]
 pub(crate) struct Scale {
@@ -40,6 +43,9 @@ pub(crate) struct Scale {
     pub size_m: f64,
     /// Rounding of coordinates that far from the origin, m.
     pub stored_m: f64,
+    /// What the rounding of coordinates may change of the energy, J: loads by it, and by its square half
+    /// of what an elastic member gains of force by its length; the first order of that is in balance.
+    pub stored_j: f64,
     /// All loads together, N.
     pub load_n: f64,
     /// Of all forces that act together, N; zero where nothing acts.
@@ -80,7 +86,11 @@ impl Scale {
         let far_m =
             system.reference_m().iter().fold(size_m, |most, x| worse(most, x.abs() + size_m));
         let stored_m = STORED_ULPS * f64::EPSILON * far_m;
-        Self { size_m, stored_m, load_n, total_n, held_n: load_n + all_prestress_n, joint_n }
+        let strain_j: f64 =
+            system.members().iter().map(|m| 0.5 * stored_n(m, stored_m) * stored_m).sum();
+        let stored_j = load_n * stored_m + strain_j.min(MOST_ROUNDING * total_n * size_m);
+        let held_n = load_n + all_prestress_n;
+        Self { size_m, stored_m, stored_j, load_n, total_n, held_n, joint_n }
     }
 
     /// What differences of forces are relative to where forces of this size meet, N: all that acts, or
@@ -111,6 +121,12 @@ impl Scale {
 #[must_use]
 pub fn energy_size_j(system: &System, answer: &SystemEquilibrium) -> f64 {
     Scale::new(system, answer).held_n * system.total_length_m()
+}
+
+/// What an elastic member gains of force by the rounding of its joints' coordinates, N.
+pub(super) fn stored_n(member: &Member, rounding_m: f64) -> f64 {
+    let spans = (member.via().len() + 1) as f64;
+    member.stiffness_n.map_or(0.0, |n| n * spans * rounding_m / member.body.length_m())
 }
 
 /// No joint that members hold is further from the reference than the farthest support and all

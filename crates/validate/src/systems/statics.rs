@@ -19,7 +19,7 @@ use serde::Serialize;
 use super::family::Family;
 use super::floor::{push_n, rising};
 use super::free::free_joints;
-use super::scale::{MOST_FORCE, Scale};
+use super::scale::{MOST_FORCE, MOST_ROUNDING, Scale, stored_n};
 use super::spans::{self, span_forces};
 use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
@@ -72,15 +72,14 @@ const BORNE: f64 = 100.0;
 /// out of balance by the rounding of the loads elsewhere, which is a part of no force of its own.
 const IDLE: f64 = 1e-2;
 
-/// The rounding of forces explains no more than this part of what acts at a joint.
-const MOST_ROUNDING: f64 = 1e-6;
-
 /// What the violations of one answer are measured by.
 struct Units {
     /// Rounding of a coordinate or length, m.
     rounding_m: f64,
     /// Rounding of the largest force, N.
     rounding_n: f64,
+    /// Rounding of the energy, J.
+    rounding_j: f64,
     /// Size of the system, m.
     size_m: f64,
     /// Largest force on a member or of the ground, N.
@@ -224,6 +223,7 @@ impl Units {
         Self {
             rounding_m: rounding_m(system, answer),
             rounding_n: STORED_ULPS * f64::EPSILON * largest_n,
+            rounding_j: scale.stored_j,
             size_m: scale.size_m,
             largest_n,
             load_n: scale.load_n,
@@ -241,18 +241,29 @@ impl Units {
 
     /// What a force left over at some joints, or between them, is measured by.
     fn at(&self, joints: &[usize]) -> Local {
+        self.along(joints, 0.0)
+    }
+
+    /// The same where forces follow directions of stored places, which rounding turns by `turned_n`.
+    fn along(&self, joints: &[usize], turned_n: f64) -> Local {
         let most = |of: &[f64]| joints.iter().filter_map(|k| of.get(*k)).copied().reduce(worse);
         let acts_n = most(&self.acts_n).unwrap_or(f64::INFINITY);
         let meet_n = most(&self.meet_n).unwrap_or(f64::INFINITY);
         // Small forces in a long row are differences of what acts on all of it.
         let whole_n = if self.total_n.is_finite() { self.total_n } else { 0.0 };
         let rounding_n = STORED_ULPS * f64::EPSILON * worse(meet_n, whole_n);
-        let rounding_n = rounding_n.min(self.rounding_n);
+        let rounding_n = rounding_n.min(self.rounding_n) + turned_n;
         let rounding_n = rounding_n.min(MOST_ROUNDING * acts_n);
         // Members that bear nothing have no size of their own.
         let idle = joints.iter().any(|k| self.free.get(*k) == Some(&true));
         let least_n = if idle { whole_n } else { 0.0 };
         Local { rounding_n, most_n: worse(BORNE * acts_n, least_n), least_n }
+    }
+
+    /// How far the rounding of stored places turns the pull along a span, N.
+    fn turned_n(&self, pull_n: f64, [a, b]: [usize; 2], answer: &SystemEquilibrium) -> f64 {
+        let span_m = norm(minus(answer.joints_m[b], answer.joints_m[a]));
+        pull_n * (self.rounding_m / span_m.max(self.rounding_m))
     }
 }
 
@@ -362,10 +373,12 @@ fn rope(
 ) {
     let (member, place) = (&system.members()[k], Place::Member(k + 1));
     let joints: Vec<usize> = member.path().collect();
-    let local = units.at(&joints);
     let (axial_n, last) = (answer.axial_n[k], joints.len() - 2);
     let pull = |n: usize| spans::pull_n(k, n, [joints[n], joints[n + 1]], answer);
     let ends = [(0, -1.0, answer.start_forces_n[k]), (last, 1.0, answer.end_forces_n[k])];
+    let turned_n =
+        [0, last].map(|n| units.turned_n(norm(pull(n)), [joints[n], joints[n + 1]], answer));
+    let local = units.along(&joints, worse(turned_n[0], turned_n[1]));
     let unit_n = local.unit_n(worse(norm(answer.start_forces_n[k]), norm(answer.end_forces_n[k])));
     for (n, sign, force) in ends {
         let off = minus(force, times(sign, pull(n)));
@@ -411,7 +424,7 @@ fn law(
             Kind::Cable => elastic_n.max(0.0),
             Kind::Strut => elastic_n.min(0.0),
         };
-        let rounding = stiffness_n * rounding_m / length_m;
+        let rounding = stored_n(member, rounding_m);
         found.note(|s| &mut s.law, of_force((axial_n - wanted_n).abs(), rounding), place);
         return;
     }
@@ -452,20 +465,25 @@ fn joint_balances(
                 .fold(0.0, worse)
         })
         .collect();
+    // Along the spans of a rope the forces are those of the stored places.
+    let mut turned_n = vec![0.0; joints.len()];
     for (k, member) in system.members().iter().enumerate() {
         for (joints, forces) in span_forces(member, k, answer) {
             for (joint, force) in joints.into_iter().zip(forces) {
                 left[joint] = minus(left[joint], force);
                 unit_n[joint] = worse(unit_n[joint], norm(force));
+                if member.rope.is_some() {
+                    turned_n[joint] += units.turned_n(norm(force), joints, answer);
+                }
             }
         }
     }
-    let all = left.into_iter().zip(unit_n).enumerate();
-    all.map(move |(k, (left, unit_n))| {
+    let all = left.into_iter().zip(unit_n).zip(turned_n).enumerate();
+    all.map(move |(k, ((left, unit_n), turned_n))| {
         // Where nothing acts anywhere there is no size but that of the forces.
         let acts_n = units.acts_n.get(k).copied().filter(|acts_n| acts_n.is_finite());
         let least_n = IDLE * acts_n.unwrap_or_default();
-        units.at(&[k]).part(norm(left), worse(unit_n, least_n))
+        units.along(&[k], turned_n).part(norm(left), worse(unit_n, least_n))
     })
 }
 
@@ -562,11 +580,10 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let mut terms = Vec::new();
-    let (mut unit_j, mut rounding_j) = (0.0, 0.0);
+    let mut unit_j = 0.0;
     for (at, force) in loads_at(system, &place) {
         terms.push(-dot(force, at));
         unit_j += norm(force) * units.size_m;
-        rounding_j += norm(force) * units.rounding_m;
     }
     for member in system.members() {
         let Some(stiffness_n) = member.stiffness_n else { continue };
@@ -582,7 +599,7 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
         unit_j += elastic_j + stiffness_n * units.rounding_m;
     }
     let off = (answer.energy_j - sum(terms)).abs();
-    let off = beyond(off, rounding_j);
+    let off = beyond(off, units.rounding_j);
     if off <= 0.0 { 0.0 } else { off / unit_j }
 }
 

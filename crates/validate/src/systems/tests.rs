@@ -153,11 +153,11 @@ fn answers_that_differ_do_not_agree() {
     assert!(!agreed(&|a| a.reactions_n[0][1] = f64::NAN).agrees());
     assert!(agreed(&|a| a.axial_n.truncate(1)).forces_n.is_nan());
     // Budgets by hand: 6 m from the first anchor, which is 3 m from the origin, to the second, with
-    // eight roundings of 9 m; 2 N; and 12 J.
+    // eight roundings of 9 m; 2 N; and 12 J, with 2 N times the roundings.
     let changes: [(Change, f64); 3] = [
         (|a| a.joints_m[2][1] += 1e-6, 1e-10 * 6.0 + 72.0 * f64::EPSILON),
         (|a| a.reactions_n[0][1] += 1e-6, 1e-9 * 2.0),
-        (|a| a.energy_j += 1e-6, 1e-12 * 12.0),
+        (|a| a.energy_j += 1e-6, 1e-12 * 12.0 + 144.0 * f64::EPSILON),
     ];
     for (change, budget) in changes {
         let excess = agreed(&change).disagreement.excesses[0].clone();

@@ -12,6 +12,7 @@ mod chains_million;
 mod chains_stability;
 mod drawn;
 mod external;
+mod far;
 mod field;
 mod first_tries;
 mod floor;
