@@ -121,15 +121,17 @@ fn lowest(proved: bool) -> &'static str {
     }
 }
 
-/// Who found it only after a census had said where.
+/// Who found it only when asked again.
 fn again(asked_again: &[SolverName]) -> String {
     let names: Vec<_> = asked_again.iter().map(ToString::to_string).collect();
     if names.is_empty() {
         return String::new();
     }
-    let begin = if names.len() == 1 { "began" } else { "both began" };
     let who = names.join(" and ");
-    wrapped(&format!("{who} {begin} again next to the lowest equilibrium of the census."), 0) + "\n"
+    wrapped(
+        &format!("{who} had found another equilibrium or none, and began again next to this one."),
+        0,
+    ) + "\n"
 }
 
 /// In a line which question this answers.
@@ -157,7 +159,7 @@ fn question(solution: &SolveAnswer) -> String {
         None if proved => "; it is the lowest of all (proved)".to_owned(),
         None => String::new(),
     };
-    wrapped(&format!("{found}{lower}."), 0) + "\n"
+    wrapped(&format!("{found}{lower}."), 0) + "\n" + &again(solution.asked_again())
 }
 
 /// What is said of the forces besides the rungs, with a mark and of what.

@@ -14,13 +14,22 @@ pub struct Seed {
     /// Axial force of each member, N, tension positive; without them those that leave the joints
     /// least out of balance.
     pub axial_n: Option<Vec<f64>>,
+    /// Whether the places are those of an equilibrium and not of a drawing: every cable that is shorter than its
+    /// length, beyond rounding, begins slack, and every strut that is longer.
+    pub at_rest: bool,
 }
 
 impl Seed {
     /// Places alone.
     #[must_use]
     pub fn at(joints_m: Vec<Vector>) -> Self {
-        Self { joints_m, axial_n: None }
+        Self { joints_m, axial_n: None, at_rest: false }
+    }
+
+    /// The places of an equilibrium that is known.
+    #[must_use]
+    pub fn at_rest(joints_m: Vec<Vector>) -> Self {
+        Self { at_rest: true, ..Self::at(joints_m) }
     }
 
     pub(super) fn check(&self, system: &System) -> Result<(), Error> {

@@ -25,8 +25,8 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// A cable shorter than this part of its length is slack at the start.
-const SLACK_LENGTH: f64 = 1e-3;
+/// A cable that is shorter by more than this part of its length is slack at the start: from a drawing, from a rest.
+const SLACK_LENGTH: [f64; 2] = [1e-3, 1e-9];
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
@@ -395,13 +395,14 @@ impl<'a> Solver<'a> {
             }
         };
         let directions = state.directions(&self.framework);
+        let slack_length = SLACK_LENGTH[usize::from(seed.at_rest)];
         for (k, link) in self.framework.links.iter().enumerate() {
             let length = self.framework.whole(k, |span| directions[span].1);
             let short = 1.0 - length / link.length;
             let slack = match link.kind {
                 Kind::Bar => false,
-                Kind::Cable => short > SLACK_LENGTH || state.axial[k] < 0.0,
-                Kind::Strut => -short > SLACK_LENGTH || state.axial[k] > 0.0,
+                Kind::Cable => short > slack_length || state.axial[k] < 0.0,
+                Kind::Strut => -short > slack_length || state.axial[k] > 0.0,
             };
             if slack {
                 (state.taut[k], state.axial[k]) = (false, 0.0);

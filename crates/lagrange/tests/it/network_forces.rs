@@ -57,7 +57,7 @@ fn square_with_two_cables() {
     let square = [0.0, 1.0].map(|x| [x, 0.0, 0.0]).into_iter();
     let square = square.chain([1.0, 0.0].map(|x| [x, 0.0, 1.0])).collect();
     let prestress = vec![-1.0, -2.0, -1.0, -2.0, root, root];
-    let seed = Seed { joints_m: square, axial_n: Some(prestress) };
+    let seed = Seed { axial_n: Some(prestress), ..Seed::at(square) };
     let solution = solve_from(&system, &seed, &Settings::default()).unwrap();
     let stresses = solution.self_stresses.as_ref().unwrap();
     assert_eq!(stresses.len(), 1);

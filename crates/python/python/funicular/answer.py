@@ -331,7 +331,7 @@ class Answer(Equilibrium):
 
     @property
     def asked_again(self) -> tuple[str, ...]:
-        """The solvers that had no answer, or a higher one than the lowest of a complete census, and were asked again next to that."""
+        """The solvers that had no answer or another equilibrium, and were asked again next to a known one."""
         return tuple(self.data.get("asked_again", ()))
 
     @property

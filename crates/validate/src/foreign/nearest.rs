@@ -66,8 +66,8 @@ pub(super) fn nearest(
 ) -> Nearest {
     watch("lagrange from the answer's positions");
     let seed = lagrange::network::Seed {
-        joints_m: answer.joints_m.clone(),
         axial_n: Some(answer.axial_n.clone()),
+        ..lagrange::network::Seed::at(answer.joints_m.clone())
     };
     let forces =
         lagrange::network::solve_from(system, &seed, &lagrange::network::Settings::default());

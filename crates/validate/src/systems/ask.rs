@@ -1,6 +1,7 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
 use census::network::SystemCensus;
+use lagrange::network::Seed;
 use model::system::{Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Reason, Rung, SolverName, Status, Vector};
 use numerics::Interval;
@@ -25,8 +26,8 @@ pub struct SystemAnswer {
     /// How the first of them lies to the drawing, where the system is drawn: then the question is
     /// the equilibrium next to it, and else the lowest of all.
     pub near: Option<Near>,
-    /// The solvers that were asked again, next to the lowest equilibrium of a complete census,
-    /// because they had no answer or a higher one.
+    /// The solvers that were asked again, because they had no answer or another equilibrium: next to the lowest
+    /// one of a complete census, or next to that of the other solver.
     pub asked_again: Vec<SolverName>,
 }
 
@@ -129,18 +130,18 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     let census = question.census;
     let drawing_m = system.drawing();
     let mut answers = match &drawing_m {
-        Some(drawing_m) => near_to(system, drawing_m, question, watch),
+        Some(drawing_m) => near_to(system, &Seed::at(drawing_m.clone()), question, watch),
         None => lowest(system, question, watch),
     };
     // Without a drawing the lowest is asked for, and a complete list knows it.
     let listed = wanted_census(system, census);
-    let asked_again = match &listed {
+    let mut asked_again = match &listed {
         Ok(listed) if drawing_m.is_none() => {
             ask_again(system, listed, question, watch, &mut answers)
         }
         _ => vec![],
     };
-    let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
+    let mut near = drawing_m.as_ref().and_then(|at| next_to(system, at, &mut answers));
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
     for answer in answers {
@@ -149,7 +150,15 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
             Err(failure) => failures.push(failure),
         }
     }
-    let agreement = judged(system, &mut equilibria, &failures);
+    let mut agreement = judged(system, &mut equilibria, &failures);
+    let drawing_m = drawing_m.as_deref();
+    if let Some((solver, one)) =
+        ask_beside(system, drawing_m, question, watch, &mut equilibria, agreement.as_ref())
+    {
+        agreement = Some(one);
+        near = drawing_m.map(|at| Near::of(system, at, &equilibria[0]));
+        asked_again.push(solver);
+    }
     if census == UseCensus::Never {
         for answer in &mut equilibria {
             let not_asked = || Reason::NoCensus(NoCensus::NotAsked);
@@ -195,34 +204,78 @@ fn ask_again(
             Ok(answer) => answer.solver.clone(),
             Err(failure) => failure.solver(),
         };
-        let alone =
-            if solver == SolverName::LAGRANGE { Solvers::Lagrange } else { Solvers::Energy };
-        let again = near_to(system, &places_m, &Question { solvers: alone, ..*question }, watch);
-        for again in again.into_iter().flatten().filter(|again| is_at(system, lowest, again)) {
+        let again = next_to_by(system, &places_m, &solver, question, watch);
+        if let Some(again) = again.filter(|again| is_at(system, lowest, again)) {
             *answer = Ok(again);
-            asked_again.push(solver.clone());
+            asked_again.push(solver);
         }
     }
     asked_again
 }
 
-/// What the solvers find next to a drawing, each by its own method.
+/// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
+/// solver of the higher one again next to the other, which must be stable and next to the drawing, if there is one. If
+/// they agree then, the solver and the comparison.
+fn ask_beside(
+    system: &System,
+    drawing_m: Option<&[Vector]>,
+    question: &Question,
+    watch: &dyn Fn(&str),
+    answers: &mut Vec<SystemEquilibrium>,
+    apart: Option<&SystemAgreement>,
+) -> Option<(SolverName, SystemAgreement)> {
+    let [first, second] = &answers[..] else { return None };
+    let budget = Tolerances::project().statics.value;
+    let in_balance = |apart: &&SystemAgreement| apart.statics.iter().all(|s| s.passes(budget));
+    let apart = apart.filter(in_balance)?;
+    let (low, high) = if first.energy_j < second.energy_j { (0, 1) } else { (1, 0) };
+    let lower = &answers[low];
+    let is_next = |at: &[Vector]| Near::of(system, at, lower).is_neighbour;
+    let rests = lower.stability.index_in_space == 0 && drawing_m.is_none_or(is_next);
+    if apart.agrees() || !rests || question.equations == Equations::Full {
+        return None;
+    }
+    let solver = answers[high].solver.clone();
+    let again = next_to_by(system, &lower.joints_m, &solver, question, watch)?;
+    let mut both = answers.clone();
+    both[high] = again;
+    let one = compare(system, &mut both, &Tolerances::project());
+    one.agrees().then(|| {
+        *answers = both;
+        (solver, one)
+    })
+}
+
+/// What one solver finds next to an equilibrium.
+fn next_to_by(
+    system: &System,
+    places_m: &[Vector],
+    solver: &SolverName,
+    question: &Question,
+    watch: &dyn Fn(&str),
+) -> Option<SystemEquilibrium> {
+    let alone = if *solver == SolverName::LAGRANGE { Solvers::Lagrange } else { Solvers::Energy };
+    let question = Question { solvers: alone, ..*question };
+    let at_rest = Seed::at_rest(places_m.to_vec());
+    near_to(system, &at_rest, &question, watch).into_iter().flatten().next()
+}
+
+/// What the solvers find next to some places, each by its own method.
 fn near_to(
     system: &System,
-    drawing_m: &[Vector],
+    seed: &Seed,
     question: &Question,
     watch: &dyn Fn(&str),
 ) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
     let mut answers = vec![];
     if question.solvers != Solvers::Energy {
-        use lagrange::network::{Seed, solve_from};
         say_lagrange(system, watch);
-        let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &question.lagrange());
+        let found = lagrange::network::solve_from(system, seed, &question.lagrange());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     if question.solvers != Solvers::Lagrange {
         say_energy(system, watch);
-        let found = energy::network::minimise_near(system, drawing_m, &question.energy());
+        let found = energy::network::minimise_near(system, &seed.joints_m, &question.energy());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     answers

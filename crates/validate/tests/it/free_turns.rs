@@ -129,7 +129,7 @@ fn tried(
     first_m: &[Vector],
     second_m: &[Vector],
 ) -> Option<[SystemEquilibrium; 2]> {
-    let seed = lagrange::network::Seed { joints_m: first_m.to_vec(), axial_n: None };
+    let seed = lagrange::network::Seed::at(first_m.to_vec());
     let forces =
         lagrange::network::solve_from(system, &seed, &lagrange::network::Settings::default());
     let places =

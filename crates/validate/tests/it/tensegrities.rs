@@ -230,7 +230,7 @@ fn both_solvers_come_back_from_displaced_places() {
         })
         .collect();
     let found = energy::network::minimise_from(&system, &start, &ByEnergy::default()).unwrap();
-    let seed = lagrange::network::Seed { joints_m: start, axial_n: None };
+    let seed = lagrange::network::Seed::at(start);
     let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
     for e in [found.equilibrium, other.equilibrium] {
         for (found, wanted) in e.axial_n.iter().zip(&answers[0].axial_n) {
@@ -254,7 +254,7 @@ fn a_prestressed_net_is_minimised_from_places_that_are_not_its_own() {
         let places_m = net.places_m();
         let found =
             energy::network::minimise_from(&system, &places_m, &ByEnergy::default()).unwrap();
-        let seed = lagrange::network::Seed { joints_m: net.places_m(), axial_n: None };
+        let seed = lagrange::network::Seed::at(net.places_m());
         let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
         let far = |a: &[Vector], b: &[Vector]| {
             let distances =
