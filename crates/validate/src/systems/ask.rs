@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
 use super::near::{Near, lower_j, next_to};
+use super::statics::judge;
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
 use crate::tolerances::Tolerances;
@@ -56,6 +57,30 @@ impl SystemFailure {
             Self::Lagrange(lagrange::network::Error::Misfit { .. })
                 | Self::Energy(energy::network::Error::Misfit { .. })
         )
+    }
+
+    /// Whether the search went astray, which another start may mend: no refusal, and no limit of work or memory.
+    fn is_astray(&self) -> bool {
+        use energy::network::Error as Energy;
+        use lagrange::network::Error as Lagrange;
+        match self {
+            Self::Lagrange(error) => matches!(
+                error,
+                Lagrange::NotConverged { .. }
+                    | Lagrange::Unstable { .. }
+                    | Lagrange::Escapes { .. }
+            ),
+            Self::Energy(error) => matches!(
+                error,
+                Energy::NotClosed { .. }
+                    | Energy::Unbalanced { .. }
+                    | Energy::IterationLimit { .. }
+                    | Energy::Stalled { .. }
+                    | Energy::NoMinimum { .. }
+                    | Energy::NoMinimumNear { .. }
+            ),
+            Self::Full(_) => false,
+        }
     }
 
     /// The solver that has no answer.
@@ -152,10 +177,12 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     }
     let mut agreement = judged(system, &mut equilibria, &failures);
     let drawing_m = drawing_m.as_deref();
-    if let Some((solver, one)) =
-        ask_beside(system, drawing_m, question, watch, &mut equilibria, agreement.as_ref())
+    if !agreement.as_ref().is_some_and(SystemAgreement::agrees)
+        && let Some((solver, one)) =
+            ask_beside(system, drawing_m, question, watch, &mut equilibria, &failures)
     {
         agreement = Some(one);
+        failures.clear();
         near = drawing_m.map(|at| Near::of(system, at, &equilibria[0]));
         asked_again.push(solver);
     }
@@ -214,31 +241,32 @@ fn ask_again(
 }
 
 /// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
-/// solver of the higher one again next to the other, which must be stable and next to the drawing, if there is one. If
-/// they agree then, the solver and the comparison.
+/// solver of the higher one again next to the other, or the one that has no answer at all. What is known must be stable,
+/// and next to the drawing, if there is one. If both agree then, the solver and the comparison.
 fn ask_beside(
     system: &System,
     drawing_m: Option<&[Vector]>,
     question: &Question,
     watch: &dyn Fn(&str),
     answers: &mut Vec<SystemEquilibrium>,
-    apart: Option<&SystemAgreement>,
+    failures: &[SystemFailure],
 ) -> Option<(SolverName, SystemAgreement)> {
-    let [first, second] = &answers[..] else { return None };
+    let (known, solver) = match (&answers[..], failures) {
+        ([known], [failure]) if failure.is_astray() => (known, failure.solver()),
+        ([low, high], []) if low.energy_j < high.energy_j => (low, high.solver.clone()),
+        ([high, low], []) => (low, high.solver.clone()),
+        _ => return None,
+    };
     let budget = Tolerances::project().statics.value;
-    let in_balance = |apart: &&SystemAgreement| apart.statics.iter().all(|s| s.passes(budget));
-    let apart = apart.filter(in_balance)?;
-    let (low, high) = if first.energy_j < second.energy_j { (0, 1) } else { (1, 0) };
-    let lower = &answers[low];
-    let is_next = |at: &[Vector]| Near::of(system, at, lower).is_neighbour;
-    let rests = lower.stability.index_in_space == 0 && drawing_m.is_none_or(is_next);
-    if apart.agrees() || !rests || question.equations == Equations::Full {
+    let in_balance = answers.iter().all(|answer| judge(system, answer).passes(budget));
+    let is_next = |at: &[Vector]| Near::of(system, at, known).is_neighbour;
+    let rests = known.stability.index_in_space == 0 && drawing_m.is_none_or(is_next);
+    if !in_balance || !rests || question.equations == Equations::Full {
         return None;
     }
-    let solver = answers[high].solver.clone();
-    let again = next_to_by(system, &lower.joints_m, &solver, question, watch)?;
-    let mut both = answers.clone();
-    both[high] = again;
+    let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;
+    let mut both = vec![known.clone(), again];
+    both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
     let one = compare(system, &mut both, &Tolerances::project());
     one.agrees().then(|| {
         *answers = both;

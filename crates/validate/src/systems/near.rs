@@ -80,19 +80,21 @@ impl Near {
     }
 }
 
-/// How the answers lie to the drawing: that of the first. What `energy` found elsewhere, where
-/// `lagrange` found the neighbour, is no answer to this question.
+/// How the answers lie to the drawing: that of the first. What `energy` found far from the drawing is no answer to
+/// this question, unless `lagrange` has left the drawing, too, and for the same place.
 pub(super) fn next_to(
     system: &System,
     drawing_m: &[Vector],
     answers: &mut Vec<Result<SystemEquilibrium, SystemFailure>>,
 ) -> Option<Near> {
     let near = |answer: &SystemEquilibrium| Near::of(system, drawing_m, answer);
+    let places_m = answers.iter().flatten().next()?.joints_m.clone();
     let first = answers.iter().flatten().map(near).next()?;
     for answer in answers {
         let Ok(found) = answer else { continue };
         let there = near(found);
-        if found.solver == SolverName::ENERGY && first.is_neighbour && !there.is_neighbour {
+        let elsewhere = || first.is_neighbour || Near::of(system, &places_m, found).moved > FAR;
+        if found.solver == SolverName::ENERGY && !there.is_neighbour && elsewhere() {
             let Near { joint, moved_m, .. } = there;
             *answer = Err(energy::network::Error::NoMinimumNear { joint, moved_m }.into());
         }
