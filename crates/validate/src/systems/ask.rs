@@ -265,10 +265,13 @@ fn ask_beside(
         return None;
     }
     let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;
+    let neutral = known.stability.neutral;
     let mut both = vec![known.clone(), again];
     both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
     let one = compare(system, &mut both, &Tolerances::project());
-    one.agrees().then(|| {
+    // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
+    let is_placed = neutral <= one.turned_parts + 3 * one.free_joints;
+    (one.agrees() && is_placed).then(|| {
         *answers = both;
         (solver, one)
     })

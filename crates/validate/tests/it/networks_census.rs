@@ -338,3 +338,38 @@ fn a_mast_leans_on_its_slack_guys() {
         assert_eq!(found.axial_n.iter().filter(|force_n| **force_n > 1e-9).count(), 2);
     }
 }
+
+/// A frame whose joint c1 bears nothing and swings on two bars: where it is nothing says, and what both solvers say of it when
+/// one begins at the answer of the other is no evidence.
+#[test]
+fn a_common_start_is_no_evidence_of_what_is_free() {
+    let bar = |from, to, length_m, mass_kg| {
+        Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+    };
+    let anchor = |name: &str, x, z| Joint::anchor(name, [x, 0.0, z]);
+    let joints = vec![
+        anchor("A", 0.0, 0.0),
+        anchor("B", 6.0, 0.0),
+        anchor("C", 0.0, -1.0),
+        anchor("D", 6.0, -1.0),
+        Joint::free("c0").with_mass(1.0),
+        Joint::free("d0").with_mass(50.0),
+        Joint::free("c1"),
+        Joint::free("d1").with_mass(10.0),
+    ];
+    let members = vec![
+        bar(0, 4, 2.4, 0.0),
+        bar(2, 5, 2.1, 0.0),
+        bar(4, 6, 2.4, 0.0),
+        bar(5, 7, 2.1, 1.0),
+        bar(6, 1, 2.4, 0.0),
+        bar(7, 3, 2.1, 0.0),
+        bar(4, 5, 0.2, 0.0),
+        bar(6, 7, 1.5, 0.0).of_kind(Kind::Cable),
+    ];
+    let system = System::new("frame", 9.80665, joints, members).unwrap();
+    let answer = ask(&system, Solvers::Both, &|_| {});
+    let [first, second] = [0, 1].map(|k| Vector3::from(answer.equilibria[k].joints_m[6]));
+    assert!((first - second).norm() > 0.1);
+    assert!(answer.asked_again.is_empty() && !answer.agrees(), "{answer:?}");
+}
