@@ -234,10 +234,10 @@ fn accelerations_and_forces_are_those_of_the_natural_coordinates() {
             for (i, bar) in chain.bars().iter().enumerate() {
                 let bar_moving = moving(&q[i], &v[i], found.rows(6 * i, 6).as_slice());
                 let [_, end] = ends(bar, &bar_moving);
-                for k in 0..3 {
+                for (k, end) in end.iter().enumerate() {
                     let told = now.accelerations_m_s2[i + 1][k];
                     let force = lambda(i + 1, k) - now.end_forces_n[i][k];
-                    worst = worst.max((end[k].v2 - told).abs() / unit).max(force.abs() / unit);
+                    worst = worst.max((end.v2 - told).abs() / unit).max(force.abs() / unit);
                 }
             }
             for k in 0..3 {

@@ -72,14 +72,13 @@ pub fn merge_shard(
         }
     }
     let _lock = Lock::take(out, &whole, true)?;
-    let each =
-        |work: &(dyn Fn(u64, &Input) -> Result<(PartRecord, Summary), StoreError> + Sync)| {
-            for_each_part(parts.clone(), threads, stop, &|part| {
-                // Every part is in a shard, and every shard is there.
-                let input = inputs.values().find(|input| input.parts().contains(&part));
-                input.map(|input| work(part, input)).transpose()
-            })
-        };
+    let each = |work: &(dyn Fn(u64, &Input) -> Proved + Sync)| {
+        for_each_part(parts.clone(), threads, stop, &|part| {
+            // Every part is in a shard, and every shard is there.
+            let input = inputs.values().find(|input| input.parts().contains(&part));
+            input.map(|input| work(part, input)).transpose()
+        })
+    };
     let proved = each(&|part, input| {
         let result = input.prove(part)?;
         let seeds = whole.seeds_of(part);
@@ -129,6 +128,9 @@ pub fn merge_shard(
     Digests::close(out);
     Ok(Some(summary))
 }
+
+/// A part as it is there, and what it counts.
+type Proved = Result<(PartRecord, Summary), StoreError>;
 
 /// What was discovered, and the way to its numbers from those of every shard.
 type Joined = (Discovered, BTreeMap<u64, Renumbering>);
@@ -236,7 +238,7 @@ impl Input {
     }
 
     /// Read a part, and see that it is the one that the summary speaks of.
-    fn prove(&self, part: u64) -> Result<(PartRecord, Summary), StoreError> {
+    fn prove(&self, part: u64) -> Proved {
         let path = self.folder.join(self.manifest.file_of(part));
         if !path.exists() {
             return Err(StoreError::NoPart { path });
