@@ -95,9 +95,9 @@ impl Continuation {
     /// use branches::{Combine, Continuation, ContinuationSettings, EventKind, Variation};
     /// // Two bars of 1 m: two positions, which meet where the anchors are 2 m apart.
     /// let vary = ["anchors.end_m.x=1.5..2.1:7".parse()?];
-    /// let chain = model::system_file::parse_system(
-    ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
-    ///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", "two.toml")?;
+    /// let bar = model::Bar::homogeneous(1.0, 1.0)?;
+    /// let anchors = model::Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+    /// let chain = model::Chain::new("two", 9.81, anchors, vec![bar; 2])?;
     /// let variation = Variation::new(&chain, &vary, Combine::Product)?;
     /// let found = Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})?;
     /// assert_eq!((found.branches.len(), found.events.len()), (2, 1));

@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use model::BarError;
-
 use crate::table::{Mismatch, Schema};
 
-/// Why columns cannot be read or written. Rows are counted from 1, as bars are.
+/// Why columns cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ColumnsError {
@@ -72,34 +70,6 @@ pub enum ColumnsError {
         /// What all of them may hold, bytes.
         budget: u64,
     },
-    /// Occurs when a column is in the file that means nothing here.
-    #[error("{}: unknown column `{column}`; allowed are {allowed}", path.display())]
-    UnknownColumn {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: String,
-        /// What may be there.
-        allowed: String,
-    },
-    /// Occurs when a column that must be there is not.
-    #[error("{}: there is no column `{column}`, {meaning}", path.display())]
-    MissingColumn {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: &'static str,
-        /// What it would hold.
-        meaning: &'static str,
-    },
-    /// Occurs when two columns have one name.
-    #[error("{}: there are two columns `{column}`", path.display())]
-    DuplicateColumn {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: String,
-    },
     /// Occurs when a column holds something else than numbers.
     #[error("{}: column `{column}` must hold {wanted}, and holds {found}", path.display())]
     WrongType {
@@ -130,28 +100,6 @@ pub enum ColumnsError {
         /// How they do not fit.
         error: Mismatch,
     },
-    /// Occurs when a cell that must be there is missing.
-    #[error("{}: row {row}, column `{column}`: there is no number", path.display())]
-    Missing {
-        /// The file.
-        path: PathBuf,
-        /// The row, from 1.
-        row: u64,
-        /// The column.
-        column: &'static str,
-    },
-    /// Occurs when a number cannot be that of a bar.
-    #[error("{}: row {row}, column `{column}`: {error}", path.display())]
-    Bar {
-        /// The file.
-        path: PathBuf,
-        /// The row, from 1.
-        row: u64,
-        /// The column.
-        column: &'static str,
-        /// What is wrong with it.
-        error: BarError,
-    },
     /// Occurs when there are more rows than a system may have bars.
     #[error("{}: {rows} bars are more than the {limit} that a system may have", path.display())]
     TooManyBars {
@@ -161,12 +109,6 @@ pub enum ColumnsError {
         rows: u64,
         /// What is allowed.
         limit: usize,
-    },
-    /// Occurs when there is no row.
-    #[error("{}: there are columns but no bars", path.display())]
-    NoBars {
-        /// The file.
-        path: PathBuf,
     },
 }
 

@@ -16,13 +16,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`read_bars`] is for chains of a million different bars, [`read_rows`] for systems of as many.
+//! [`read_rows`] is for systems of a million different bars.
 //! [`TableWriter`] and [`read_table`] are for what the program makes itself: every column with its
 //! unit and a description, row group after row group in bounded memory, in files that are whole or
 //! not there.
 
 mod atomic;
-mod bars;
 mod budget;
 mod cells;
 mod csv;
@@ -37,7 +36,6 @@ mod unpack;
 mod writer;
 
 pub use atomic::{AtomicFile, AtomicFolder, abandon, unfinished, write_whole};
-pub use bars::read_bars;
 pub use error::ColumnsError;
 pub use rows::read_rows;
 pub use table::{Column, Data, Kind, Mismatch, Schema, Spread};

@@ -21,8 +21,8 @@ pub fn read_rows(path: impl AsRef<Path>, rows: &mut dyn Rows) -> Result<(), Colu
     let path = path.as_ref();
     guarded(path, || {
         let source = Source::open(path)?;
-        source.bars()?;
-        source.check_types(WANTED, |_| true)?;
+        source.check_rows()?;
+        source.check_types(WANTED)?;
         let names: Vec<&str> = source.fields().iter().map(|field| field.name()).collect();
         if !rows.names(&names) {
             return Ok(());

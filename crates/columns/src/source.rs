@@ -83,12 +83,8 @@ impl<'p> Source<'p> {
     }
 
     /// See that every column holds something that is wanted.
-    pub fn check_types(
-        &self,
-        wanted: &'static str,
-        fits: fn(Holds) -> bool,
-    ) -> Result<(), ColumnsError> {
-        match self.fields().iter().find(|field| !Holds::of(field).is_some_and(fits)) {
+    pub fn check_types(&self, wanted: &'static str) -> Result<(), ColumnsError> {
+        match self.fields().iter().find(|field| Holds::of(field).is_none()) {
             None => Ok(()),
             Some(field) => Err(ColumnsError::WrongType {
                 path: self.path.to_owned(),
@@ -99,15 +95,13 @@ impl<'p> Source<'p> {
         }
     }
 
-    /// How many bars there are: at least one, and no more than a system may have.
-    pub fn bars(&self) -> Result<usize, ColumnsError> {
-        let path = self.path.to_owned();
-        let rows = self.rows()?;
-        match usize::try_from(rows) {
-            Ok(0) => Err(ColumnsError::NoBars { path }),
-            Ok(rows) if rows <= most_bars_of_file() => Ok(rows),
-            _ => Err(ColumnsError::TooManyBars { path, rows, limit: most_bars_of_file() }),
+    /// Refuse more rows than a system may have bars.
+    pub fn check_rows(&self) -> Result<(), ColumnsError> {
+        let (path, rows, limit) = (self.path.to_owned(), self.rows()?, most_bars_of_file());
+        if rows <= limit as u64 {
+            return Ok(());
         }
+        Err(ColumnsError::TooManyBars { path, rows, limit })
     }
 
     /// How many rows there are, by the file and by its groups.

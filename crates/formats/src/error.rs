@@ -113,6 +113,21 @@ pub(crate) fn number(
     })
 }
 
+/// A number above zero.
+pub(crate) fn positive(
+    file: &str,
+    line: Option<usize>,
+    what: &str,
+    text: &str,
+) -> Result<f64, FormatError> {
+    let found = number(file, line, what, text)?;
+    if found > 0.0 {
+        return Ok(found);
+    }
+    let (what, found) = (what.to_owned(), shortened(text));
+    Err(FormatError::new(file, line, Wrong::Value { what, wanted: "positive", found }))
+}
+
 /// What an error shows of a text.
 pub(crate) fn shortened(text: &str) -> String {
     /// Characters.

@@ -3,7 +3,7 @@
 use model::budget::Budget;
 use serde_json::Value;
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Wrong, shortened};
 
 /// Memory that a byte of JSON needs as a tree of values, bytes: some 105 by the sizes of the nodes of the
 /// tree, of a list of objects with one key of no letters.
@@ -17,4 +17,26 @@ pub(crate) fn parse(text: &str, file: &str) -> Result<Value, FormatError> {
     serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
         FormatError::new(file, Some(error.line()), Wrong::Json { reason: error.to_string() })
     })
+}
+
+/// Reads the tree of a file, by its name in errors.
+#[derive(Clone, Copy)]
+pub(crate) struct Reader<'a> {
+    pub file: &'a str,
+}
+
+impl Reader<'_> {
+    pub(crate) fn missing(self, what: &str) -> FormatError {
+        FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() })
+    }
+
+    pub(crate) fn wrong(self, what: &str, wanted: &'static str, found: &Value) -> FormatError {
+        let (what, found) = (what.to_owned(), shortened(&found.to_string()));
+        FormatError::new(self.file, None, Wrong::Value { what, wanted, found })
+    }
+
+    pub(crate) fn number(self, what: &str, value: &Value) -> Result<f64, FormatError> {
+        let number = value.as_f64().filter(|x| x.is_finite());
+        number.ok_or_else(|| self.wrong(what, "a finite number", value))
+    }
 }

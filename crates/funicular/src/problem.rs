@@ -9,7 +9,7 @@ use formats::system::Source;
 use model::Vector;
 use model::budget::Budget;
 use model::system::{Row, System};
-use model::system_file::{self, Described, Readers, Rows, most_file_bytes};
+use model::system_file::{self, Described, Rows, most_file_bytes};
 
 use crate::error::Error;
 use crate::judge::ForeignAnswer;
@@ -57,16 +57,11 @@ impl Reading {
             return Ok(Self { problem, files: vec![path.to_owned()], notes });
         }
         let files = RefCell::new(vec![path.to_owned()]);
-        let keep = |file: &Path| files.borrow_mut().push(file.to_owned());
-        let bars = |file: &Path| {
-            keep(file);
-            parquet_bars(file)
-        };
         let rows = |file: &Path, rows: &mut dyn Rows| {
-            keep(file);
+            files.borrow_mut().push(file.to_owned());
             parquet_rows(file, rows)
         };
-        let described = system_file::read_with(path, Readers { bars: &bars, rows: &rows })?;
+        let described = system_file::read_with(path, &rows)?;
         Ok(Self { problem: described.into(), files: files.into_inner(), notes: vec![] })
     }
 }
@@ -240,17 +235,11 @@ impl From<System> for Problem {
 }
 
 /// What becomes of a file of columns.
-type Read<T> = Option<Result<T, Box<dyn std::error::Error + Send + Sync>>>;
+type Read = Option<Result<(), Box<dyn std::error::Error + Send + Sync>>>;
 
-/// Bars read from a file that is named or begins like Parquet; nothing of other files.
+/// The rows of a file that is named or begins like Parquet; nothing of other files.
 #[cfg(feature = "columns")]
-fn parquet_bars(file: &Path) -> Read<Vec<model::Bar>> {
-    is_parquet(file).then(|| columns::read_bars(file).map_err(Into::into))
-}
-
-/// The same for the rows of joints, and of bars between them.
-#[cfg(feature = "columns")]
-fn parquet_rows(file: &Path, rows: &mut dyn Rows) -> Read<()> {
+fn parquet_rows(file: &Path, rows: &mut dyn Rows) -> Read {
     is_parquet(file).then(|| columns::read_rows(file, rows).map_err(Into::into))
 }
 
@@ -264,14 +253,8 @@ fn is_parquet(file: &Path) -> bool {
                 .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1")
 }
 
-/// Bars are read from CSV alone.
-#[cfg(not(feature = "columns"))]
-fn parquet_bars(_: &Path) -> Read<Vec<model::Bar>> {
-    None
-}
-
 /// Rows are read from CSV alone.
 #[cfg(not(feature = "columns"))]
-fn parquet_rows(_: &Path, _: &mut dyn Rows) -> Read<()> {
+fn parquet_rows(_: &Path, _: &mut dyn Rows) -> Read {
     None
 }

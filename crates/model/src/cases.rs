@@ -4,7 +4,7 @@
 
 use crate::Problem;
 use crate::system::System;
-use crate::system_file::{Described, parse, parse_problem};
+use crate::system_file::{Described, parse};
 
 /// A named case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,8 +25,9 @@ impl Case {
     /// Never: a test reads every case of the registry.
     #[must_use]
     pub fn problem(&self) -> Problem {
-        match parse_problem(self.text, self.name) {
-            Ok(problem) => problem,
+        match parse(self.text, self.name) {
+            Ok(Described::Chain(problem)) => problem,
+            Ok(Described::System(_)) => panic!("{} of the registry is no chain", self.name),
             Err(error) => panic!("case of the registry: {error}"),
         }
     }

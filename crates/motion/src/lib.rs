@@ -123,7 +123,6 @@ mod laws;
 mod mechanism;
 mod modes;
 mod order;
-pub mod paper;
 mod rattle;
 mod saddle;
 mod settings;

@@ -17,6 +17,7 @@
 //! | all but folded on one line | [`folded_chain`] |
 //! | of so many equal bars | [`equal_bars`] |
 //! | of bars written down as numbers | [`chain`] |
+//! | of the text of a system file | [`parsed`] |
 //!
 //! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system in other units, [`root`] what closed forms need.
 //!
@@ -42,7 +43,7 @@ pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
-pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs};
+pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs, parsed};
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, ropes};
 pub use scaled::scaled;

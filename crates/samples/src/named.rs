@@ -1,6 +1,7 @@
 //! Chains written down as numbers, and a frame whose lengths do not fit.
 
 use model::system::{Joint, Member, Misfit, System};
+use model::system_file::Described;
 use model::{Anchors, Bar, Chain, Problem, Vector};
 
 /// A chain from the origin to `end_m`, in gravity 9.81 m/s²; bars as (length m, mass kg, distance
@@ -35,6 +36,25 @@ pub fn chain(bars: &[(f64, f64, f64)], end_m: Vector) -> Problem {
 pub fn equal_bars(n: usize, length_m: f64, mass_kg: f64, end_m: Vector) -> Problem {
     let bar = Bar::homogeneous(length_m / n as f64, mass_kg / n as f64).expect("a valid bar");
     problem(model::STANDARD_GRAVITY_M_S2, end_m, vec![bar; n])
+}
+
+/// The chain that the text of a system file describes.
+///
+/// # Panics
+///
+/// When it describes none, or the chain has no answer.
+///
+/// ```
+/// let anchors = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }";
+/// let text = format!("{anchors}\nbars = [{{ length_m = 1, mass_kg = 1, count = 2 }}]");
+/// assert_eq!(samples::parsed(&text).chain().bars().len(), 2);
+/// ```
+#[must_use]
+pub fn parsed(text: &str) -> Problem {
+    match model::system_file::parse(text, "sample.toml") {
+        Ok(Described::Chain(problem)) => problem,
+        other => panic!("no chain: {other:?}"),
+    }
 }
 
 fn problem(gravity_m_s2: f64, end_m: Vector, bars: Vec<Bar>) -> Problem {

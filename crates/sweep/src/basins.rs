@@ -132,20 +132,18 @@ impl Basins<'_> {
         if side == 0 || side.checked_mul(side) != Some(outcomes) || outcome.len() != outcomes {
             return Err(BasinsError::Shape { size: self.size, outcomes });
         }
-        let legend = match field {
-            Field::Outcome => self.legend(),
-            Field::Iterations => Legend::default(),
-        };
+        let coloured = (field == Field::Outcome).then(|| self.regions());
+        let legend = coloured.as_ref().map(|(pixels, palette)| self.legend(pixels, palette));
+        let legend = legend.unwrap_or_default();
         let [width, height] = legend.size();
         let mut svg = Svg::new([width, height], self.title);
         svg.text(Look::PLAIN.size(17.0).bold(), [LEFT, 34.0], Anchor::Start, self.title);
         svg.text(Look::PLAIN, [LEFT, 58.0], Anchor::Start, self.note);
-        let (pixels, palette) = match field {
-            Field::Outcome => {
-                legend.draw(&mut svg, outcomes);
-                self.regions()
-            }
-            Field::Iterations => self.shades(&mut svg),
+        let (pixels, palette) = if let Some(coloured) = coloured {
+            legend.draw(&mut svg, outcomes);
+            coloured
+        } else {
+            self.shades(&mut svg)
         };
         // The first row of a PNG is the top one, the largest second number.
         let rows: Vec<u8> = pixels.chunks(side).rev().flatten().copied().collect();
@@ -173,32 +171,22 @@ impl Basins<'_> {
         (self.outcomes.outcome.iter().map(pixel).collect(), palette)
     }
 
-    /// What is in the picture, by number.
-    fn legend(&self) -> Legend {
-        let outcome = &self.outcomes.outcome;
-        let colours = regions(self.names.len());
-        let mut counts = vec![0; colours.len()];
-        let (mut other, mut failed) = (0, 0);
-        for o in outcome {
-            match usize::try_from(*o) {
-                Ok(k) if k < counts.len() => counts[k] += 1,
-                Err(_) if *o != Failure::Unlisted as i16 => failed += 1,
-                _ => other += 1,
-            }
+    /// What is in the picture, and failures.
+    fn legend(&self, pixels: &[u8], palette: &[Colour]) -> Legend {
+        let other = if self.names.len() > MOST_REGIONS {
+            format!("from {MOST_REGIONS} on, or in no list")
+        } else {
+            "an equilibrium in no list".to_owned()
+        };
+        let own = self.names.iter().take(palette.len() - 2).cloned();
+        let names = own.chain([other, "no equilibrium reached".to_owned()]);
+        let mut counts = vec![0; palette.len()];
+        for pixel in pixels {
+            counts[usize::from(*pixel)] += 1;
         }
-        let own = self.names.iter().zip(colours).zip(counts).filter(|(_, count)| *count > 0);
-        let mut entries: Vec<_> =
-            own.map(|((name, colour), count)| (colour, name.clone(), count)).collect();
-        if other > 0 {
-            let name = if self.names.len() > MOST_REGIONS {
-                format!("from {MOST_REGIONS} on, or in no list")
-            } else {
-                "an equilibrium in no list".to_owned()
-            };
-            entries.push((OTHER, name, other));
-        }
-        entries.push((FAILURE, "no equilibrium reached".to_owned(), failed));
-        Legend(entries)
+        let all = palette.iter().zip(names).zip(counts);
+        let all = all.map(|((colour, name), count)| (*colour, name, count));
+        Legend(all.filter(|(colour, _, count)| *count > 0 || *colour == FAILURE).collect())
     }
 
     /// Light for few iterations, dark for many, black for failures; with the scale, which ends at

@@ -231,20 +231,20 @@ impl Reached {
         &self.numbers
     }
 
-    /// The way from the numbers of another list, given as they came, to the codes here.
-    pub(crate) fn renumbering(
+    /// The way from so many numbers of another list, of which these entries have theirs, to the codes
+    /// here.
+    pub(crate) fn renumbering<'a>(
         &self,
         given: usize,
-        numbers: &[usize],
-        codes: &[i16],
+        entries: impl Iterator<Item = (usize, &'a Member)>,
     ) -> Renumbering {
-        let mut all = vec![Failure::Unlisted as i16; given];
-        for (number, code) in numbers.iter().zip(codes) {
-            if let Some(place) = all.get_mut(*number) {
-                *place = *code;
+        let mut codes = vec![Failure::Unlisted as i16; given];
+        for (number, member) in entries {
+            if let Some(code) = codes.get_mut(number) {
+                *code = self.find(member);
             }
         }
-        Renumbering { proven: self.proven, codes: all }
+        Renumbering { proven: self.proven, codes }
     }
 
     /// Bars of the chain.

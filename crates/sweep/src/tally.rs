@@ -112,43 +112,33 @@ impl Tally {
 
     /// Count what was counted elsewhere.
     pub fn add(&mut self, other: &Self) {
+        self.add_by(other, |code| code);
+    }
+
+    /// The same rows by other numbers.
+    pub(crate) fn renumbered(&self, renumbering: &Renumbering) -> Self {
+        let mut renumbered = Self::default();
+        renumbered.add_by(self, |code| renumbering.apply(code));
+        renumbered
+    }
+
+    /// Count what was counted elsewhere by other numbers.
+    fn add_by(&mut self, other: &Self, number: impl Fn(i16) -> i16) {
         self.seeds += other.seeds;
         for (solver, rows) in &other.solvers {
             let tally = self.row(solver);
-            for (outcome, other) in &rows.0 {
-                tally.0.entry(*outcome).or_default().add(other);
-            }
-        }
-        for (first, row) in other.both.iter().flatten() {
-            let both = self.both.get_or_insert_default().entry(*first).or_default();
-            for (second, count) in row {
-                *both.entry(*second).or_default() += count;
-            }
-        }
-    }
-}
-
-impl Tally {
-    /// The same rows by other numbers.
-    pub(crate) fn renumbered(&self, renumbering: &Renumbering) -> Self {
-        let mut renumbered = Self { seeds: self.seeds, ..Self::default() };
-        for (solver, rows) in &self.solvers {
-            let tally = renumbered.row(solver);
             for (code, row) in &rows.0 {
-                tally.0.entry(renumbering.apply(*code)).or_default().add(row);
+                tally.0.entry(number(*code)).or_default().add(row);
             }
         }
-        renumbered.both = self.both.as_ref().map(|both| {
-            let mut to = BTreeMap::<i16, BTreeMap<i16, u64>>::new();
-            for (first, row) in both {
-                let to = to.entry(renumbering.apply(*first)).or_default();
-                for (second, count) in row {
-                    *to.entry(renumbering.apply(*second)).or_default() += count;
-                }
+        let Some(other) = &other.both else { return };
+        let both = self.both.get_or_insert_default();
+        for (first, row) in other {
+            let both = both.entry(number(*first)).or_default();
+            for (second, count) in row {
+                *both.entry(number(*second)).or_default() += count;
             }
-            to
-        });
-        renumbered
+        }
     }
 }
 

@@ -199,29 +199,6 @@ fn a_mirrored_path_has_mirrored_folds() {
     }
 }
 
-/// Where it is scaled, nothing happens; and grids do not matter.
-#[test]
-fn gravity_and_scale_change_no_shape() {
-    let trace = run("three-bars-off-centre", &["gravity_m_s2=1e-3..1e3:4"], 0);
-    assert!(trace.checks.agree() && trace.events.is_empty(), "{:?}", trace.events);
-    for branch in &trace.branches {
-        for pair in branch.points.windows(2) {
-            let angles = pair[0].angles_rad.iter().zip(&pair[1].angles_rad);
-            assert!(angles.fold(0.0_f64, |a, (x, y)| a.max((x - y).abs())) < 1e-12);
-        }
-    }
-    let folds = |points: usize| {
-        let vary = ["anchors.end_m.z=-0.5", &format!("anchors.end_m.x=0.1..2.5:{points}")];
-        places(&run("three-equal-bars", &vary, 0), EventKind::Fold, 1)
-    };
-    let (coarse, fine) = (folds(5), folds(83));
-    assert_eq!(coarse.len(), fine.len());
-    assert!(
-        coarse.iter().zip(&fine).all(|(a, b)| (a - b).abs() <= PARAMETER),
-        "{coarse:?} {fine:?}"
-    );
-}
-
 /// Of three points two are next to nothing: the branches that lie in between are found all the
 /// same, by what is missing at the branch points.
 #[test]

@@ -9,12 +9,7 @@ const MGL: f64 = 9.80665;
 
 /// Three bars of 1 m and 1 kg, the last anchor at (1, 0, −1) unless it is varied.
 fn run(vary: &[&str]) -> Continuation {
-    let chain = model::system_file::parse_system(
-        "anchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n\
-         bars = [{ length_m = 1, mass_kg = 1, count = 3 }]",
-        "three.toml",
-    )
-    .unwrap();
+    let chain = samples::equal_bars(3, 3.0, 3.0, [1.0, 0.0, -1.0]).into_chain();
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
     let variation = Variation::new(&chain, &vary, Combine::Product).unwrap();
     Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap()

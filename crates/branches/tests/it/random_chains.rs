@@ -40,7 +40,7 @@ fn draw(random: &mut Random) -> Drawn {
 }
 
 fn variation(text: &str, vary: &str) -> Variation {
-    let chain = model::system_file::parse_system(text, "random").unwrap();
+    let chain = samples::parsed(text).into_chain();
     Variation::new(&chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
 }
 

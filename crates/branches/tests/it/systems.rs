@@ -320,12 +320,7 @@ fn counts_leave_ropes_on_their_rings() {
 fn a_count_of_a_chain_is_that_of_its_file() {
     let file = |rows: &str| {
         let anchors = "anchors = { start_m = [0, 0, 0], end_m = [3, 0, -1] }";
-        let Ok(Described::Chain(problem)) =
-            parse(&format!("{anchors}\nbars = [{rows}]"), "chain.toml")
-        else {
-            panic!("a chain")
-        };
-        problem.into_chain()
+        samples::parsed(&format!("{anchors}\nbars = [{rows}]")).into_chain()
     };
     let [one, two, three] = [
         "{ length_m = 1, mass_kg = 0.5, centre_m = 0.25, count = 2 }",

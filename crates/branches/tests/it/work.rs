@@ -49,7 +49,7 @@ fn run((bars, end_m, vary): Drawn, [length, mass]: [f64; 2]) -> Continuation {
     let bars: String = bars.iter().map(bar).collect();
     let end_m = end_m.map(|x| x * length);
     let text = format!("anchors = {{ start_m = [0, 0, 0], end_m = {end_m:?} }}\n{bars}");
-    let chain = model::system_file::parse_system(&text, "drawn").unwrap();
+    let chain = samples::parsed(&text).into_chain();
     let vary: Vec<_> = vary
         .iter()
         .map(|vary| {

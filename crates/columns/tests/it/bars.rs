@@ -4,10 +4,11 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use columns::{ColumnsError, read_bars};
-use model::{Bar, BarError};
+use columns::{ColumnsError, read_rows};
+use model::Bar;
+use model::system_file::{Cell, Rows, read_with};
 use parquet::basic::{Compression, LogicalType};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::data_type::{DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::file::metadata::{ParquetMetaDataReader, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
 
@@ -35,8 +36,51 @@ impl Folder {
     }
 }
 
+/// Rows of numbers, by the names of their columns; what has none is not a number.
+#[derive(Default)]
+struct Numbers(Vec<String>, Vec<Vec<f64>>);
+
+impl Rows for Numbers {
+    fn names(&mut self, names: &[&str]) -> bool {
+        self.0 = names.iter().map(|name| (*name).to_owned()).collect();
+        true
+    }
+
+    fn row(&mut self, cells: &[Cell<'_>]) -> bool {
+        let number = |cell: &Cell<'_>| if let Cell::Number(x) = cell { *x } else { f64::NAN };
+        self.1.push(cells.iter().map(number).collect());
+        true
+    }
+}
+
+/// The bars of a file.
+fn read_bars(path: impl AsRef<Path>) -> Result<Vec<Bar>, Box<dyn std::error::Error>> {
+    let mut found = Numbers::default();
+    read_rows(path, &mut found)?;
+    let place = |name: &str| found.0.iter().position(|known| known == name);
+    let bar = |row: &Vec<f64>| {
+        let number = |name: &str| place(name).map_or(f64::NAN, |k| row[k]);
+        let centre_m = Some(number("centre_m")).filter(|x| !x.is_nan());
+        Ok(Bar::given(number("length_m"), number("mass_kg"), centre_m, None)?)
+    };
+    found.1.iter().map(bar).collect()
+}
+
 fn error(path: impl AsRef<Path>) -> ColumnsError {
-    read_bars(path).unwrap_err()
+    read_rows(path, &mut Numbers::default()).unwrap_err()
+}
+
+/// What is said of a chain whose bars are these.
+fn refused(columns: &[Cells]) -> String {
+    let folder = Folder::new();
+    folder.write(columns);
+    let chain = folder.0.path().join("chain.toml");
+    let anchors = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }";
+    fs::write(&chain, format!("bars_file = \"bars.parquet\"\n{anchors}\n")).unwrap();
+    let read = read_with(&chain, &|file, rows| Some(read_rows(file, rows).map_err(Into::into)));
+    let said = read.unwrap_err().to_string();
+    assert!(said.contains("chain.toml:1:13: bars_file: ") && said.contains("bars.parquet: "));
+    said
 }
 
 #[test]
@@ -129,94 +173,24 @@ fn a_compression_that_cannot_be_read_is_no_damage() {
 }
 
 #[test]
-fn bad_cells_are_named_by_row_and_column() {
-    let folder = Folder::new();
-    let cases: [(&str, [f64; 3], &str); 6] = [
-        (
-            "length_m",
-            [1.0, 2.0, f64::NAN],
-            "length of a bar must be positive and finite, got NaN m",
-        ),
-        ("length_m", [1.0, 2.0, 0.0], "must be positive and finite, got 0 m"),
-        ("length_m", [1.0, 2.0, 1e200], "a moment of inertia"),
-        ("mass_kg", [1.0, 2.0, -1.0], "must be zero or positive, and finite, got -1 kg"),
-        ("mass_kg", [1.0, 2.0, f64::INFINITY], "got inf kg"),
-        (
-            "centre_m",
-            [0.1, 0.1, 1.5],
-            "must lie on the bar, between 0 and its length 1 m, got 1.5 m",
-        ),
-    ];
-    for (bad, values, wanted) in cases {
-        let columns = ["length_m", "mass_kg", "centre_m"]
-            .map(|name| doubles(name, if name == bad { values } else { [1.0; 3] }));
-        let error = error(folder.write(&columns));
-        let text = error.to_string();
-        assert!(
-            matches!(&error, ColumnsError::Bar { row: 3, column, .. } if *column == bad),
-            "{error:?}"
-        );
-        assert!(
-            text.contains(&format!("row 3, column `{bad}`: ")) && text.contains(wanted),
-            "{text}"
-        );
-    }
-}
-
-#[test]
-fn a_gap_is_allowed_in_the_centres_alone() {
-    let folder = Folder::new();
-    for bad in ["length_m", "mass_kg"] {
-        let columns = ["length_m", "mass_kg"].map(|name| {
-            let gap = if name == bad { None } else { Some(1.0) };
-            cells::<DoubleType>(name, None, vec![Some(1.0), gap])
-        });
-        let error = error(folder.write(&columns));
-        assert!(
-            matches!(&error, ColumnsError::Missing { row: 2, column, .. } if *column == bad),
-            "{error:?}"
-        );
-    }
-}
-
-#[test]
 fn rows_are_counted_across_batches() {
     let mut lengths = vec![1.0; 100_000];
     lengths[65_432] = -1.0;
     let masses = doubles("mass_kg", vec![1.0; lengths.len()]);
-    let path = Folder::new();
-    let error = error(path.write(&[doubles("length_m", lengths), masses]));
-    assert!(matches!(error, ColumnsError::Bar { row: 65_433, error: BarError::Length { .. }, .. }));
+    let said = refused(&[doubles("length_m", lengths), masses]);
+    assert!(said.contains("row 65433, column `length_m`: the length of a bar"), "{said}");
 }
 
 #[test]
-fn columns_that_do_not_belong_are_refused() {
-    let folder = Folder::new();
+fn dates_are_no_numbers() {
     let one = |name| doubles(name, [1.0]);
-    let unknown = error(folder.write(&[one("length_m"), one("mass_kg"), one("mass")]));
-    assert!(matches!(&unknown, ColumnsError::UnknownColumn { column, .. } if column == "mass"));
-    assert!(unknown.to_string().contains("allowed are length_m, mass_kg, centre_m"));
-
-    let missing = error(folder.write(&[one("length_m")]));
-    assert!(matches!(missing, ColumnsError::MissingColumn { column: "mass_kg", .. }));
-
-    let text = vec![Some(ByteArray::from("1.0"))];
-    let text = cells::<ByteArrayType>("mass_kg", Some(LogicalType::String), text);
     let day = cells::<Int32Type>("mass_kg", Some(LogicalType::Date), vec![Some(1)]);
-    for (cells, wanted) in [(text, "BYTE_ARRAY (UTF8)"), (day, "INT32 (DATE)")] {
-        let wrong = error(folder.write(&[one("length_m"), cells]));
-        assert!(
-            matches!(&wrong, ColumnsError::WrongType { column, found, .. }
-            if column == "mass_kg" && found == wanted),
-            "{wrong}"
-        );
-    }
-
-    let twice = error(folder.write(&[one("length_m"), one("mass_kg"), one("mass_kg")]));
-    assert!(matches!(&twice, ColumnsError::DuplicateColumn { column, .. } if column == "mass_kg"));
-
-    let none = error(folder.write(&[doubles("length_m", []), doubles("mass_kg", [])]));
-    assert!(matches!(none, ColumnsError::NoBars { .. }));
+    let wrong = error(Folder::new().write(&[one("length_m"), day]));
+    assert!(
+        matches!(&wrong, ColumnsError::WrongType { column, found, .. }
+            if column == "mass_kg" && found == "INT32 (DATE)"),
+        "{wrong}"
+    );
 }
 
 #[test]
@@ -261,20 +235,4 @@ fn damage_is_an_error_and_never_a_panic() {
     assert!(refused > whole.len() / 10, "{refused} of {}", 3 * whole.len());
     fs::write(&path, &whole).unwrap();
     assert_eq!(read_bars(&path).unwrap(), good);
-}
-
-/// A million bars, within what a slow machine needs for an unoptimised build: seconds would mean
-/// that something is done per row that should be done per batch.
-#[test]
-fn a_million_rows_are_read() {
-    let values: Vec<f64> = (0..1_000_000).map(|k| 1.0 + f64::from(k) * 1e-6).collect();
-    let column = |name| doubles(name, values.clone());
-    let halves = doubles("centre_m", values.iter().map(|x| 0.5 * x));
-    let folder = Folder::new();
-    let path = folder.write(&[column("length_m"), column("mass_kg"), halves]);
-    let start = std::time::Instant::now();
-    let bars = read_bars(path).unwrap();
-    println!("{} bars in {:?}", bars.len(), start.elapsed());
-    assert_eq!(bars.len(), 1_000_000);
-    assert_eq!(bars[999_999], Bar::homogeneous(values[999_999], values[999_999]).unwrap());
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use columns::{Column, Data, Format, Schema, Spread, TableWriter, read_rows};
 use model::system::System;
-use model::system_file::{Described, Readers, Rows, SystemFileError, read_with};
+use model::system_file::{Described, Rows, SystemFileError, read_with};
 
 fn write(path: &Path, columns: Vec<(&str, Data)>) {
     let column = |(name, data): &(&str, Data)| {
@@ -19,7 +19,7 @@ fn write(path: &Path, columns: Vec<(&str, Data)>) {
 /// The system of a file that names these.
 fn read(system: &Path) -> Result<System, SystemFileError> {
     let rows = |file: &Path, rows: &mut dyn Rows| Some(read_rows(file, rows).map_err(Into::into));
-    match read_with(system, Readers { bars: &|_| None, rows: &rows })? {
+    match read_with(system, &rows)? {
         Described::System(system) => Ok(system),
         Described::Chain(_) => panic!("joints by name make no chain"),
     }

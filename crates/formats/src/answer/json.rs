@@ -4,8 +4,8 @@ use model::Vector;
 use serde_json::{Map, Value};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Wrong, shortened};
-use crate::json;
+use crate::error::FormatError;
+use crate::json::{self, Reader};
 
 /// Parse JSON: every equilibrium of `solve --json` or `census --json`, or one object with the same
 /// keys.
@@ -17,7 +17,7 @@ pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
     let root = json::parse(text, file)?;
     let reader = Reader { file };
     let Some(object) = root.as_object() else {
-        return Err(reader.value("the text", "a JSON object", &root));
+        return Err(reader.wrong("the text", "a JSON object", &root));
     };
     match object.get("equilibria") {
         None => Ok(vec![reader.answer(object, file)?]),
@@ -27,35 +27,17 @@ pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
             .enumerate()
             .map(|(k, value)| match value.as_object() {
                 Some(object) => reader.answer(object, &format!("equilibrium {}", k + 1)),
-                None => Err(reader.value(&format!("equilibria[{k}]"), "an object", value)),
+                None => Err(reader.wrong(&format!("equilibria[{k}]"), "an object", value)),
             })
             .collect(),
-        Some(other) => Err(reader.value("equilibria", "a list", other)),
+        Some(other) => Err(reader.wrong("equilibria", "a list", other)),
     }
-}
-
-struct Reader<'a> {
-    file: &'a str,
 }
 
 impl Reader<'_> {
-    fn missing(&self, what: &str) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() })
-    }
-
-    fn value(&self, what: &str, wanted: &'static str, found: &Value) -> FormatError {
-        let (what, found) = (what.to_owned(), shortened(&found.to_string()));
-        FormatError::new(self.file, None, Wrong::Value { what, wanted, found })
-    }
-
-    fn number(&self, what: &str, value: &Value) -> Result<f64, FormatError> {
-        let number = value.as_f64().filter(|x| x.is_finite());
-        number.ok_or_else(|| self.value(what, "a finite number", value))
-    }
-
     fn vector(&self, what: &str, value: &Value) -> Result<Vector, FormatError> {
         let list = value.as_array().filter(|list| list.len() == 3);
-        let list = list.ok_or_else(|| self.value(what, "a vector [x, y, z]", value))?;
+        let list = list.ok_or_else(|| self.wrong(what, "a vector [x, y, z]", value))?;
         Ok([
             self.number(what, &list[0])?,
             self.number(what, &list[1])?,
@@ -64,7 +46,7 @@ impl Reader<'_> {
     }
 
     fn list<'v>(&self, what: &str, value: &'v Value) -> Result<&'v [Value], FormatError> {
-        value.as_array().map(Vec::as_slice).ok_or_else(|| self.value(what, "a list", value))
+        value.as_array().map(Vec::as_slice).ok_or_else(|| self.wrong(what, "a list", value))
     }
 
     fn answer(&self, object: &Map<String, Value>, name: &str) -> Result<Answer, FormatError> {
@@ -131,7 +113,7 @@ impl Reader<'_> {
         joints: &Joints,
     ) -> Result<Vec<(String, Vector)>, FormatError> {
         let Some(object) = value.as_object() else {
-            return Err(self.value("reactions_n", "an object", value));
+            return Err(self.wrong("reactions_n", "an object", value));
         };
         let last = match joints {
             Joints::InOrder(places) => Some(places.len().saturating_sub(1)),

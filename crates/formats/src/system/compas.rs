@@ -13,8 +13,8 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 
-use crate::error::{FormatError, Wrong, shortened};
-use crate::json;
+use crate::error::{FormatError, Wrong};
+use crate::json::{self, Reader};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
 const PLACE: [&str; 3] = ["x", "y", "z"];
@@ -72,10 +72,6 @@ fn ordered(object: &Map<String, Value>) -> Vec<(&String, &Value)> {
     entries
 }
 
-struct Reader<'a> {
-    file: &'a str,
-}
-
 /// Attributes of a node or edge, and what stands for those that it has not.
 #[derive(Clone, Copy)]
 struct Attributes<'a> {
@@ -91,17 +87,8 @@ impl<'a> Attributes<'a> {
 }
 
 impl Reader<'_> {
-    fn missing(&self, what: &str) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() })
-    }
-
     fn unknown(&self, what: String) -> FormatError {
         FormatError::new(self.file, None, Wrong::Unknown { what })
-    }
-
-    fn wrong(&self, what: String, wanted: &'static str, found: &Value) -> FormatError {
-        let found = shortened(&found.to_string());
-        FormatError::new(self.file, None, Wrong::Value { what, wanted, found })
     }
 
     fn object<'v>(
@@ -110,12 +97,7 @@ impl Reader<'_> {
         value: Option<&'v Value>,
     ) -> Result<&'v Map<String, Value>, FormatError> {
         let value = value.ok_or_else(|| self.missing(&format!("object `{what}`")))?;
-        value.as_object().ok_or_else(|| self.wrong(what.to_owned(), "an object", value))
-    }
-
-    fn number(&self, what: &str, value: &Value) -> Result<f64, FormatError> {
-        let number = value.as_f64().filter(|x| x.is_finite());
-        number.ok_or_else(|| self.wrong(what.to_owned(), "a finite number", value))
+        value.as_object().ok_or_else(|| self.wrong(what, "an object", value))
     }
 
     fn node(
@@ -142,7 +124,7 @@ impl Reader<'_> {
         for name in HELD {
             if let Some(value) = attributes.get(name) {
                 let what = format!("{name} of node {key}");
-                held |= value.as_bool().ok_or_else(|| self.wrong(what, "true or false", value))?;
+                held |= value.as_bool().ok_or_else(|| self.wrong(&what, "true or false", value))?;
             }
         }
         let (at_m, force_n) = (vector(PLACE, true)?, vector(LOAD, false)?);
@@ -240,7 +222,7 @@ impl Reader<'_> {
         for (key, face) in ordered(self.object("face", data.get("face"))?) {
             let wanted = "a list of vertices";
             let list = face.as_array().filter(|list| list.len() > 2);
-            let list = list.ok_or_else(|| self.wrong(format!("face {key}"), wanted, face))?;
+            let list = list.ok_or_else(|| self.wrong(&format!("face {key}"), wanted, face))?;
             let names: Vec<_> =
                 list.iter().map(|v| v.to_string().trim_matches('"').to_owned()).collect();
             for (k, name) in names.iter().enumerate() {

@@ -35,52 +35,6 @@ length_m = 1
 mass_kg = 0
 "#;
 
-#[test]
-fn a_system_by_name_has_its_list() {
-    let path = folder("lamps").join("lamps.toml");
-    std::fs::write(&path, LAMPS).unwrap();
-    let path = path.to_str().unwrap();
-    let value = json(&[path], 0);
-    assert_eq!(
-        (&value["census"]["complete"], &value["census"]["count"]),
-        (&true.into(), &4.into())
-    );
-    let energies: Vec<f64> = value["equilibria"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|e| e["energy_j"].as_f64().unwrap())
-        .collect();
-    // 3 N at -4 m or 4 m, 1 N of them 1 m below or above that.
-    for (energy, expected) in energies.iter().zip([-13.0, -11.0, 11.0, 13.0]) {
-        assert!((energy - expected).abs() < ROUNDING, "{energies:?}");
-    }
-    let lowest = &value["equilibria"][0];
-    assert_eq!(
-        (&lowest["joints"][3]["name"], &lowest["bars"][2]["from"]),
-        (&"lamp".into(), &"P".into())
-    );
-    assert!((lowest["bars"][0]["axial_n"].as_f64().unwrap() - 1.875).abs() < ROUNDING);
-    assert_eq!(lowest["evidence"]["rung"], "complete");
-    let chain = &value["census"]["parts"][0]["chain"];
-    assert_eq!((&chain["check"]["passed"], &chain["count_in_plane"]), (&true.into(), &2.into()));
-    let text = stdout(&funicular(&[path]));
-    assert!(text.contains("4 equilibria: proved to be all.") && text.contains("lamp"), "{text}");
-}
-
-#[test]
-fn a_chain_with_a_lamp_has_its_list() {
-    let path = folder("lamp").join("lamp.toml");
-    let bars = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
-    let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1.3, 0, -0.5]\n";
-    std::fs::write(&path, format!("{anchors}{bars}[[loads]]\njoint = 2\nmass_kg = 5\n")).unwrap();
-    let value = json(&[path.to_str().unwrap()], 0);
-    let chain = &value["census"]["parts"][0]["chain"];
-    assert_eq!(chain["alternating_sum"], chain["euler_characteristic"]);
-    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
-    assert_eq!(value["equilibria"].as_array().unwrap().iter().filter(stable).count(), 1);
-}
-
 /// The file, and the list of a net of two closures: the chain with the lamp, and bars from the lamp
 /// to A besides.
 fn net(name: &str, bars: &str) -> (PathBuf, Value) {

@@ -2,7 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use branches::{Combine, Variation};
 use funicular::prelude::*;
 use serde_json::{Value, json};
 
@@ -34,18 +33,6 @@ pub fn bridle() -> Value {
     })
 }
 
-/// Three bars, of which one has a centre of its own and one moments.
-pub fn chain() -> Value {
-    json!({
-        "anchors": { "start_m": [0.1, 0, 0], "end_m": [1.2, 0.3, -0.4] },
-        "bars": [
-            { "length_m": 0.7, "mass_kg": 1.1, "centre_m": 0.2 },
-            { "length_m": 0.8, "mass_kg": 0.9 },
-            { "length_m": 0.6, "mass_kg": 1.3, "inertia_kg_m2": [0.01, 0.02, 0.03] },
-        ],
-    })
-}
-
 pub fn problem(text: &Value) -> Problem {
     Problem::parse(&text.to_string(), "edited.json").unwrap()
 }
@@ -67,12 +54,4 @@ pub fn edited(text: &Value, path: &str, value: f64) -> Problem {
     let mut text = text.clone();
     *entry(&mut text, path) = json!(value);
     problem(&text)
-}
-
-/// The system of the same number as a parameter.
-pub fn varied(text: &Value, path: &str, value: f64) -> Problem {
-    let vary = [format!("{path}={value:?}").parse().unwrap()];
-    let base = problem(text);
-    let variation = Variation::new((*base.system()).clone(), &vary, Combine::Zip).unwrap();
-    variation.system(&[value]).unwrap().into()
 }

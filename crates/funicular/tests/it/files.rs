@@ -1,56 +1,22 @@
-//! Files that commands read and write: links, pipes, what must not be overwritten, and
-//! interruptions.
+//! Files that commands read and write: links, what must not be overwritten, and interruptions.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::fs;
-use std::os::unix::fs::{FileTypeExt as _, symlink};
+use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::run::{LONG, Running, folder, limited, names, ran, wait_until, words};
+use crate::run::{Running, folder, limited, names, ran, wait_until, words};
 use assert_cmd::cargo::cargo_bin;
 
 const SYSTEM: &str = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\
                       [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
 
-fn pipe(path: &Path) {
-    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
-}
-
 /// The commands that read a system and write files by name.
 const COMMANDS: [(&str, &[&str]); 3] =
     [("solve", &[]), ("census", &[]), ("trace", &["--vary", "bars.1.mass_kg=1,2"])];
-
-#[test]
-fn pipes_are_written_into_and_links_are_followed() {
-    for (command, more) in COMMANDS {
-        let folder = folder(&format!("{command}-into"));
-        fs::write(folder.join("chain.toml"), SYSTEM).unwrap();
-        fs::write(folder.join("target.csv"), "old").unwrap();
-        symlink("target.csv", folder.join("link.csv")).unwrap();
-        pipe(&folder.join("pipe"));
-        let csv = |name: &str| {
-            let output =
-                ran(&folder, &[&[command, "chain.toml", "--csv", name][..], more].concat());
-            assert_eq!(output.status.code(), Some(0), "{command} {name}: {}", words(&output));
-        };
-        csv("link.csv");
-        assert!(fs::symlink_metadata(folder.join("link.csv")).unwrap().is_symlink());
-        let wanted = fs::read_to_string(folder.join("target.csv")).unwrap();
-        assert!(wanted.lines().count() > 3, "{command}: {wanted}");
-
-        let (heard, said) = std::sync::mpsc::channel();
-        let reader = folder.join("pipe");
-        // Not joined: a pipe that nobody writes into would be read for ever.
-        std::thread::spawn(move || heard.send(fs::read_to_string(reader).unwrap()));
-        csv("pipe");
-        assert!(fs::metadata(folder.join("pipe")).unwrap().file_type().is_fifo());
-        assert_eq!(said.recv_timeout(LONG).unwrap(), wanted, "{command}");
-        assert_eq!(names(&folder), ["chain.toml", "link.csv", "pipe", "target.csv"]);
-    }
-}
 
 /// Both by one descriptor: neither is lost when standard output goes to a file.
 #[test]
@@ -329,23 +295,4 @@ fn a_disk_that_is_full_in_the_end_is_undecided() {
     }
     // Nothing is left that looks like a result.
     assert!(!out.join("t.csv").exists() && !out.join("r").join("results.json").exists());
-}
-
-/// A link where a careless program would put its temporary file is neither followed nor removed.
-#[test]
-#[cfg(target_os = "linux")]
-fn links_in_the_place_of_temporary_files_are_left_alone() {
-    let folder = folder("links");
-    fs::write(folder.join("precious"), "precious").unwrap();
-    // The process has the number that the shell had, which it puts into the names of the links.
-    let script = "for name in out.csv.$$.part .out.csv.$$.part out.csv.part .out.csv.part \
-        out.csv.$$ .out.csv.tmp; do ln -s precious \"$name\"; done; exec \"$@\"";
-    let mut command = Command::new("sh");
-    command.args(["-c", script, "sh"]).arg(cargo_bin("funicular"));
-    command.args(["solve", "--case", "two-bars", "--csv", "out.csv"]);
-    let output = command.current_dir(&folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    assert_eq!(fs::read_to_string(folder.join("precious")).unwrap(), "precious");
-    assert!(fs::symlink_metadata(folder.join("out.csv")).unwrap().is_file());
-    assert_eq!(names(&folder).len(), 8);
 }

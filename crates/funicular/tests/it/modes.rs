@@ -102,6 +102,8 @@ fn closed_forms_lie_in_the_enclosures_and_large_systems_say_that_they_have_none(
         assert!(sign(low - 1e-13) * sign(high + 1e-13) < 0.0, "{low} {high}");
     }
     assert_eq!(ends.len(), 4);
+    let text = run(folder.path(), 2, &["modes", "double.toml"]).stdout;
+    assert!(String::from_utf8(text).unwrap().contains("oscillation in the plane"));
     let long = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
                 bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]\n";
     std::fs::write(folder.path().join("long.toml"), long).unwrap();

@@ -17,44 +17,6 @@ fn json(arguments: &[&str]) -> Value {
     crate::run::json(&funicular(arguments))
 }
 
-/// A double pendulum of point masses on massless links, by name.
-const DOUBLE: &str = r#"
-name = "double pendulum"
-gravity_m_s2 = 10
-
-[joints]
-O = { at_m = [0, 0, 0] }
-A = { mass_kg = 1 }
-B = { mass_kg = 1 }
-
-[[bars]]
-from = "O"
-to = "A"
-length_m = 1
-mass_kg = 0
-
-[[bars]]
-from = "A"
-to = "B"
-length_m = 1
-mass_kg = 0
-"#;
-
-#[test]
-fn modes_of_a_double_pendulum_by_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = file(folder.path(), "double.toml", DOUBLE);
-    let found = json(&["modes", &path, "--json"]);
-    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
-    let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
-    // (2 -+ sqrt 2) g/l, each in both planes.
-    let root = 2.0_f64.sqrt();
-    let told = [2.0 - root, 2.0 - root, 2.0 + root, 2.0 + root].map(|x| 10.0 * x);
-    assert!(omega2.iter().zip(told).all(|(a, b)| (a - b).abs() < 1e-9), "{omega2:?}");
-    let text = String::from_utf8(funicular(&["modes", &path]).stdout).unwrap();
-    assert!(text.contains("oscillation in the plane"), "{text}");
-}
-
 #[test]
 fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     let folder = tempfile::tempdir().unwrap();

@@ -193,11 +193,3 @@ fn a_study_ends_as_solve_does() {
         said(&["study", "7-study_exit0.json", "--vary", "joints.P0.mass_kg=3068.785648936557"]).0;
     assert_eq!(study, solve);
 }
-
-/// A triangle that turns freely has a zero mode, and is called that.
-#[test]
-fn a_zero_mode_is_called_one() {
-    let (code, text) = said(&["modes", "8-modes_label.json"]);
-    assert_eq!(code, Some(0));
-    assert!(text.contains("turn"), "{text}");
-}

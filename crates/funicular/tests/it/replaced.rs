@@ -9,7 +9,7 @@ use std::path::Path;
 use assert_cmd::Command;
 
 /// Every option of every command that names a file or folder of results; `FILE` is the input.
-const COMMANDS: [&[&str]; 17] = [
+const COMMANDS: [&[&str]; 18] = [
     &["solve", "FILE", "--csv", "old.csv", "--bars-csv", "bars.csv", "--svg", "old.svg"],
     &["census", "FILE", "--csv", "old.csv", "--svg", "old.svg"],
     &["judge", "FILE", "--answer", "answer.csv", "--html", "old.html"],
@@ -18,6 +18,16 @@ const COMMANDS: [&[&str]; 17] = [
     &["study", "FILE", "--vary", "gravity_m_s2=9,10", "--csv", "old.csv", "--svg", "old.svg"],
     &["derivatives", "FILE", "--csv", "old.csv", "--of", "bars.1.axial_n"],
     &["trace", "FILE", "--vary", "gravity_m_s2=9,10", "--csv", "old.csv", "--svg", "old.svg"],
+    &[
+        "trace",
+        "good.toml",
+        "--vary",
+        "anchors.end_m.x=8,9",
+        "--csv",
+        "old.csv",
+        "--svg",
+        "old.svg",
+    ],
     &["basins", "FILE", "--size", "4", "--out", "folder"],
     &["modes", "FILE", "--svg", "old.svg", "--html", "old.html"],
     &["simulate", "FILE", "--time", "0.1", "--out", "old.csv", "--html", "old.html"],

@@ -7,6 +7,7 @@ use funicular::{DerivativesError, Outcome};
 use model::{STANDARD_GRAVITY_M_S2 as G, SolverName};
 use serde_json::{Value, json};
 
+use crate::derivatives::are_differences;
 use crate::edited;
 
 /// Ropes over rings and pulleys: one that keeps its length and meets a ring twice, an elastic one with both ends at
@@ -44,16 +45,7 @@ fn roped() -> Value {
 
 #[test]
 fn derivatives_are_the_differences_of_the_other_solver() {
-    let derivatives = Derivatives::new().run(&edited::problem(&roped())).unwrap();
-    let height = derivatives.gradient("joints.Q.at_m.z").unwrap();
-    let tension = derivatives.gradient("bars.1.axial_n").unwrap();
-    let solved = |parameter: &str, value: f64| {
-        let problem = edited::edited(&roped(), parameter, value);
-        let answer = Solve::new().solvers(Solvers::Energy).run(&problem).unwrap();
-        let found = &answer.equilibria()[0];
-        (found.joints_m.concat(), found.axial_n.clone())
-    };
-    for (parameter, at) in [
+    let parameters = [
         ("bars.1.length_m", 10.5),
         ("bars.2.length_m", 5.0),
         ("bars.2.stiffness_n", 90.0),
@@ -64,27 +56,10 @@ fn derivatives_are_the_differences_of_the_other_solver() {
         ("joints.Q.force_n.x", 2.0),
         ("joints.B.at_m.z", 0.05),
         ("joints.A.at_m.x", -2.0),
-    ] {
-        let step = 1e-3 * f64::max(at, 1.0);
-        let (above, below) = (solved(parameter, at + step), solved(parameter, at - step));
-        let change = derivatives.change(parameter).unwrap();
-        let places: Vec<f64> = change.joints_m.iter().flat_map(|(_, v)| *v).collect();
-        for (told, above, below) in
-            [(&places, &above.0, &below.0), (&change.axial_n, &above.1, &below.1)]
-        {
-            assert_eq!(told.len(), above.len());
-            let size = told.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            for (told, (above, below)) in told.iter().zip(above.iter().zip(below)) {
-                let difference = (above - below) / (2.0 * step);
-                let off = (told - difference).abs();
-                assert!(off < 1e-4 * size + 1e-8, "{parameter}: {told}, not {difference}");
-            }
-        }
-        for (gradient, wanted) in [(&height, places[3 * 4 + 2]), (&tension, change.axial_n[0])] {
-            let by = gradient.by(parameter).unwrap().value;
-            assert!((by - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{parameter}: {by}");
-        }
-    }
+    ];
+    are_differences(&roped(), "Q", 1, &parameters);
+    let derivatives = Derivatives::new().run(&edited::problem(&roped())).unwrap();
+    let height = derivatives.gradient("joints.Q.at_m.z").unwrap();
     // A rope has no mass to vary.
     assert!(height.by("bars.1.mass_kg").is_none() && height.by("bars.6.mass_kg").is_some());
     let refused = derivatives.change("bars.1.mass_kg").unwrap_err();
@@ -103,19 +78,6 @@ fn run(arguments: &[&str]) -> (Option<i32>, Value, String) {
     std::fs::write(folder.path().join("ring.toml"), RING).unwrap();
     let (code, text, error) = crate::run::run(folder.path(), arguments);
     (code, serde_json::from_str(&text).unwrap_or_default(), error)
-}
-
-/// `g κ` along the ellipse, and about the line of the anchors 4/3 m above.
-#[test]
-fn modes_of_a_ring() {
-    let (code, found, said) = run(&["modes", "ring.toml", "--json", "--html", "modes.html"]);
-    assert_eq!(code, Some(0), "{said}");
-    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
-    let told = [G * 2.5 * 2.0_f64.sqrt() / (50.0_f64 / 9.0).powf(1.5), 0.75 * G];
-    assert_eq!(modes.len(), 2);
-    for (mode, told) in modes.iter().zip(told) {
-        assert!((mode["omega2_s2"].as_f64().unwrap() - told).abs() < 1e-9, "{mode} {told}");
-    }
 }
 
 #[test]

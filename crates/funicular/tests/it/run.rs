@@ -13,7 +13,7 @@ use assert_cmd::cargo::cargo_bin;
 use serde_json::Value;
 
 /// Patience of a loaded machine.
-pub const LONG: Duration = Duration::from_secs(300);
+const LONG: Duration = Duration::from_secs(300);
 
 /// The program in a folder, to be started.
 pub fn program(folder: impl AsRef<Path>, arguments: &[&str]) -> std::process::Command {

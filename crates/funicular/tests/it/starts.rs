@@ -342,8 +342,7 @@ fn one_solver_alone_and_settings_out_of_range() {
 
 /// A sweep of both solvers and what becomes of its seeds.
 fn rates(text: &str, seeds: u64) -> (Sweep, Summary) {
-    let problem = model::system_file::parse_problem(text, "degenerate.toml").unwrap();
-    let sweep = sweep_of(&problem, Settings::default()).unwrap();
+    let sweep = sweep_of(&samples::parsed(text), Settings::default()).unwrap();
     let summary = sweep.run(0..seeds, 2).unwrap();
     (sweep, summary)
 }

@@ -5,12 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use funicular::prelude::*;
-use model::system_file::write_network;
 use serde_json::Value;
 
-use crate::edited;
-use crate::run::{json, ran, refused, says, stderr, stdout};
+use crate::run::{ran, refused, says, stderr, stdout};
 
 pub fn study(folder: &Path, arguments: &[&str]) -> Output {
     ran(folder, &[&["study"], arguments].concat())
@@ -144,40 +141,22 @@ fn keys_with_numbers() -> Vec<&'static str> {
     numbers.map(|(key, _)| key).filter(|key| !key.contains(':')).collect()
 }
 
-/// Keys of a system with a path and another value each.
-const OF_SYSTEM: [(&str, &str, f64); 21] = [
-    ("gravity_m_s2", "gravity_m_s2", 3.7),
-    ("floor_m", "floor_m", -8.5),
-    ("joints.NAME.at_m", "joints.A.at_m.x", -1.9),
-    ("joints.NAME.at_m", "joints.D.at_m.z", -1.0),
-    ("joints.NAME.mass_kg", "joints.P.mass_kg", 3.1),
-    ("joints.NAME.force_n", "joints.P.force_n.y", 0.9),
-    ("bars.length_m", "bars.2.length_m", 1.35),
-    ("bars.length_m", "bars.3.length_m", 2.55),
-    ("bars.length_m", "bars.4.length_m", 2.75),
-    ("bars.length_m", "bars.5.length_m", 2.0),
-    ("bars.mass_kg", "bars.2.mass_kg", 0.95),
-    ("bars.mass_kg", "bars.4.mass_kg", 0.1),
-    ("bars.centre_m", "bars.2.centre_m", 1.15),
-    ("bars.centre_m", "bars.3.centre_m", 0.65),
-    ("bars.inertia_kg_m2", "bars.2.inertia_kg_m2.y", 0.2),
-    ("bars.stiffness_n", "bars.2.stiffness_n", 255.0),
-    ("bars.stiffness_n", "bars.4.stiffness_n", 105.0),
-    ("bars.stiffness_n", "bars.3.stiffness_n", 900.0),
-    ("bars.prestress_n", "bars.2.prestress_n", -25.0),
-    ("bars.prestress_n", "bars.4.prestress_n", 0.0),
-    ("bars.length_tolerance_m", "bars.1.length_tolerance_m", 1e-5),
-];
-
-/// Keys of a chain.
-const OF_CHAIN: [(&str, &str, f64); 7] = [
-    ("anchors.start_m", "anchors.start_m.y", 0.2),
-    ("anchors.end_m", "anchors.end_m.z", -0.5),
-    ("bars.length_m", "bars.1.length_m", 0.75),
-    ("bars.length_m", "bars.2.length_m", 0.85),
-    ("bars.mass_kg", "bars.3.mass_kg", 1.5),
-    ("bars.centre_m", "bars.1.centre_m", 0.25),
-    ("bars.inertia_kg_m2", "bars.3.inertia_kg_m2.z", 0.05),
+/// Keys that vary, each held against the edited file in `branches`.
+const PARAMETERS: [&str; 14] = [
+    "gravity_m_s2",
+    "floor_m",
+    "anchors.start_m",
+    "anchors.end_m",
+    "joints.NAME.at_m",
+    "joints.NAME.mass_kg",
+    "joints.NAME.force_n",
+    "bars.length_m",
+    "bars.mass_kg",
+    "bars.centre_m",
+    "bars.inertia_kg_m2",
+    "bars.stiffness_n",
+    "bars.prestress_n",
+    "bars.length_tolerance_m",
 ];
 
 /// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
@@ -217,72 +196,24 @@ const NO_PARAMETERS: [&str; 30] = [
     "tolerances.force_tolerance_n",
 ];
 
-/// A parameter is the number of the file: every key that holds one is varied, to the value that it
-/// has and to another, and gives the system of the edited file, to the last bit. Keys that are no
-/// parameters are listed.
 #[test]
-fn every_parameter_means_the_number_of_the_file() {
-    let (system, chain) = (edited::bridle(), edited::chain());
-    let of_system = OF_SYSTEM.iter().map(|row| (&system, row));
-    let all: Vec<_> = of_system.chain(OF_CHAIN.iter().map(|row| (&chain, row))).collect();
-    for (text, (_, path, value)) in &all {
-        let own = edited::entry(&mut (*text).clone(), path).as_f64();
-        for value in own.into_iter().chain([*value]) {
-            let (wanted, found) =
-                (edited::edited(text, path, value), edited::varied(text, path, value));
-            let [same, system] = [&found, &wanted].map(Problem::system);
-            assert_eq!(same, system, "{path} = {value}");
-            assert_eq!(write_network(&same), write_network(&system), "{path} = {value}");
-            let solved = Solve::new().run(&wanted).unwrap();
-            let study = Study::new().vary(&format!("{path}={value:?}")).unwrap();
-            let found = study.run(&edited::problem(text)).unwrap();
-            let shape = found.points()[0].shape.as_ref().unwrap();
-            let first = &solved.equilibria()[0];
-            let energy_j = first.energy_j;
-            let tension_n = largest(&first.axial_forces(solved.system()));
-            assert!((shape.energy_j - energy_j).abs() < 1e-12 * energy_j.abs(), "{path} = {value}");
-            let most_n = shape.extremes.tension_n.unwrap().1;
-            assert!((most_n - tension_n).abs() < 1e-12 * tension_n, "{path} = {value}");
-        }
-    }
-    let varied = all.iter().map(|(_, (key, ..))| *key);
-    let mut known: Vec<&str> = varied.chain(NO_PARAMETERS).collect();
+fn every_number_of_a_file_is_a_parameter_or_listed_as_none() {
+    let mut known = [&PARAMETERS[..], &NO_PARAMETERS].concat();
     let mut keys = keys_with_numbers();
     known.sort_unstable();
-    known.dedup();
     keys.sort_unstable();
     keys.dedup();
     assert_eq!(keys, known);
 }
 
-fn largest(axial: &[funicular::AxialForce]) -> f64 {
-    axial.iter().map(|along| along.most_n).fold(0.0, f64::max)
-}
-
-/// A string of two halves that bear 100 N at 1 m, EA 1000 N, over a span of 2 m: under 1 kg in the
-/// middle each is D long, bears N = 1100 D - 1000 and holds the weight, 2 N sqrt(D² - 1)/D = m g.
+/// A prestress that a length cannot have is refused at its bar.
 #[test]
-fn a_prestressed_string_is_that_of_the_file_at_its_own_numbers() {
+fn what_no_length_bears_is_told_with_its_bar() {
     let folder = folder("string");
     let text = r#"{"joints": {"A": {"at_m": [0,0,0]}, "B": {"at_m": [2,0,0]}, "P": {"mass_kg": 1}},
         "bars": [{"from":"A","to":"P","length_m":1,"mass_kg":0,"stiffness_n":1000,"prestress_n":100},
                  {"from":"P","to":"B","length_m":1,"mass_kg":0,"stiffness_n":1000,"prestress_n":100}]}"#;
     std::fs::write(folder.join("string.json"), text).unwrap();
-    let force_n = |d: f64| 1100.0 * d - 1000.0;
-    let (mut low, mut high) = (1.0_f64, 1.1);
-    for _ in 0..100 {
-        let d = 0.5 * (low + high);
-        let held = 2.0 * force_n(d) * (d * d - 1.0).sqrt() / d;
-        if held < 9.80665 { low = d } else { high = d }
-    }
-    assert!((force_n(low) - 101.29).abs() < 0.005);
-    for vary in ["bars.1.length_m=1", "bars.1.stiffness_n=1000", "bars.*.prestress_n=100"] {
-        let output = study(&folder, &["string.json", "--vary", vary, "--json"]);
-        let json = json(&output);
-        let tension = json["points"][0]["tension_n"][1].as_f64().unwrap();
-        assert!((tension - force_n(low)).abs() < 1e-9, "{vary}: {tension}");
-    }
-    // A prestress that a cable or a length cannot have is refused at its bar.
     let output = study(&folder, &["string.json", "--vary", "bars.2.prestress_n=-1000,100"]);
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
@@ -353,34 +284,6 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
     }
 }
 
-/// A rider on a rope of 10 m over 8 m: both sides are given in step. It runs along the ellipse with
-/// the anchors as foci; where it is still, in the middle, both sides pull alike.
-#[test]
-fn a_rider_moves_along_a_rope() {
-    let folder = folder("along");
-    let rope = r#"{"joints": {"A": {"at_m": [0,0,0]}, "B": {"at_m": [8,0,0]}, "rider": {"mass_kg": 3}},
-        "bars": [{"from":"A","to":"rider","length_m":5,"mass_kg":0},
-                 {"from":"rider","to":"B","length_m":5,"mass_kg":0}]}"#;
-    std::fs::write(folder.join("rope.json"), rope).unwrap();
-    let vary =
-        ["--vary", "bars.A-rider.*.length_m=2..8:7", "--vary", "bars.rider-B.*.length_m=8..2:7"];
-    let more = ["--zip", "--of", "joints.rider.x", "--of", "joints.rider.z", "--csv", "of.csv"];
-    let output = study(&folder, &[&["rope.json"], &vary[..], &more[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let rows = columns(&folder.join("of.csv"));
-    assert_eq!(rows.len(), 7);
-    for (row, a) in rows.iter().zip([2.0_f64, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]) {
-        let x = (a * a - (10.0 - a).powi(2) + 64.0) / 16.0;
-        let z = -(a * a - x * x).sqrt();
-        for (name, wanted) in [("joints.rider.x", x), ("joints.rider.z", z)] {
-            let value: f64 = row[name].parse().unwrap();
-            assert!((value - wanted).abs() < 1e-10, "{a}: {name} {value} {wanted}");
-        }
-    }
-    let pull: f64 = rows[3]["tension_n"].parse().unwrap();
-    assert!((pull - 3.0 * 9.80665 / 2.0 / 0.6).abs() < 1e-9, "{pull}");
-}
-
 /// The largest tension of the lamp is the force at A for any mass: both curves are seen, as the upper
 /// one is dashed, in the picture and in its legend.
 #[test]
@@ -401,17 +304,3 @@ fn equal_curves_are_told_apart() {
     );
     assert_eq!((of("#009e73", "<polyline"), of("#009e73", "<line")), (vec![true], vec![true]));
 }
-
-/// Rods of all but the same lengths, one of them a strut, with masses from 1 to 3000 kg: `lagrange`
-/// has no answer, `solve` ends with 3, and so does a study of that number.
-#[test]
-fn a_study_ends_as_a_solve_of_its_points() {
-    let folder = folder("unsolved");
-    std::fs::write(folder.join("ratio.json"), UNSOLVED).unwrap();
-    let solved = ran(&folder, &["solve", "ratio.json"]);
-    let vary = "joints.P0.mass_kg=3068.785648936557";
-    let output = study(&folder, &["ratio.json", "--vary", vary]);
-    assert_eq!(output.status.code(), solved.status.code(), "{}", stderr(&output));
-}
-
-const UNSOLVED: &str = r#"{"name": "massratio", "joints": {"A0": {"at_m": [0.4902952839009975, 1.1253156410192462, -0.980447477305213]}, "A1": {"at_m": [1.7663690018371359, 1.38110327822361, -2.0297835730796505]}, "A2": {"at_m": [-0.4598953411863964, 0.5760439067181196, -0.7263283552826616]}, "A3": {"at_m": [-1.7780262955701973, -1.6512380791977443, -2.4321746791644854]}, "P0": {"mass_kg": 3068.785648936557, "force_n": [20.2804741358134, -0.9297093444819353, -15.918682976782307]}}, "bars": [{"from": "A0", "to": "P0", "length_m": 3.36289057685878, "mass_kg": 1.8292499237296465}, {"from": "A1", "to": "P0", "length_m": 3.085722843633816, "mass_kg": 0.27341179720248365, "kind": "strut"}, {"from": "A2", "to": "P0", "length_m": 3.432953446212165, "mass_kg": 0.0}, {"from": "A3", "to": "P0", "length_m": 2.7674472835540063, "mass_kg": 2.927671778030699}]}"#;

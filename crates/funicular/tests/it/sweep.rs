@@ -59,38 +59,6 @@ fn the_tables_and_the_object_say_the_same() {
     assert_eq!(files(&out.join("a")), files(&out.join("b")));
 }
 
-#[test]
-fn threads_shards_and_forms_do_not_show() {
-    let out = folder("shards");
-    for format in ["parquet", "csv"] {
-        let whole = out.join(format).join("whole");
-        let of = format!("--format={format}");
-        assert_eq!(sweep(&whole, &[&of, "--threads", "1", "--angles"]).status.code(), Some(0));
-        let mut merge = vec!["merge".to_owned()];
-        for k in 1..=7 {
-            let part = out.join(format).join(k.to_string());
-            let shard = format!("--shard={k}/7");
-            let output = sweep(&part, &[&of, &shard, "--threads", "2", "--angles"]);
-            assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-            merge.push(part.to_str().unwrap().to_owned());
-        }
-        let merged = out.join(format).join("merged");
-        merge.extend(["--out".to_owned(), merged.to_str().unwrap().to_owned()]);
-        let output = funicular(&merge.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-        assert!(String::from_utf8_lossy(&output.stdout).contains("nothing is missing"));
-        assert_eq!(files(&merged), files(&whole), "{format}");
-        // And without one of them.
-        merge.remove(3);
-        let other = out.join(format).join("other");
-        *merge.last_mut().unwrap() = other.to_str().unwrap().to_owned();
-        let output = funicular(&merge.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(2));
-        assert!(words(&output).contains("of 7 shards these are missing: 3"));
-        assert!(!other.exists());
-    }
-}
-
 /// Bars of 5 m and 1 m just bridge their gap and bear nothing: what seeds reach is one equilibrium,
 /// known to the cube root of their residual, and another with the first bar upright.
 #[test]

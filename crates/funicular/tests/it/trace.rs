@@ -20,35 +20,6 @@ const LEVEL: [&str; 7] = [
 ];
 
 #[test]
-fn the_level_chain_has_its_folds_and_branch_points() {
-    let out = folder("level");
-    let svg = out.join("level.svg");
-    let mut arguments = LEVEL.to_vec();
-    arguments.extend(["--json", "--svg", svg.to_str().unwrap()]);
-    let output = funicular(&arguments);
-    let json = json(&output);
-    assert_eq!(json["schema_version"], 3);
-    let trace = &json["traces"][0];
-    let events = trace["events"].as_array().unwrap();
-    // Closed forms: crates/branches/tests/it/closed_forms.rs.
-    for (kind, count, wanted) in
-        [("fold", 4, 1.5_f64.sqrt()), ("branch-point", 2, 4_f64.cbrt() - 1.0)]
-    {
-        let found: Vec<f64> = events
-            .iter()
-            .filter(|event| event["kind"] == kind)
-            .map(|event| event["values"][1].as_f64().unwrap())
-            .collect();
-        assert_eq!(found.len(), count, "{kind}");
-        assert!(found.iter().all(|place| (place - wanted).abs() <= 1e-10), "{kind}: {found:?}");
-    }
-    assert!(!text(&output.stdout).contains("null"));
-    let svg = std::fs::read_to_string(svg).unwrap();
-    says(&svg, &["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"]);
-    assert!(roxmltree::Document::parse(&svg).is_ok());
-}
-
-#[test]
 fn people_get_a_table() {
     let said = good(".", &LEVEL);
     says(&said, &["fold: two branches", "branch point", "1.2247448713916", "each finds exactly"]);
@@ -123,11 +94,9 @@ fn the_columns_are_in_the_help() {
 #[test]
 fn errors_point_at_what_is_wrong() {
     let vary = ["trace", "--case", "three-equal-bars", "--vary"];
-    let table: [(&[&str], _); 5] = [
+    let table: [(&[&str], _); 3] = [
         (&["bars.2.mas_kg=1,2"], "did you mean `mass_kg`?"),
         (&["bars.9.mass_kg=1,2"], "there is no bar 9"),
-        (&["bars[2.mass_kg=1,2"], "this bracket is not closed"),
-        (&["bars.2]mass_kg=1,2"], "this bracket is not opened"),
         (&["anchors.end_m.z=-9,-8"], "no value of the parameters describes a chain"),
     ];
     refused(".", &vary, &table);
@@ -139,24 +108,6 @@ fn errors_point_at_what_is_wrong() {
     // What would work is named, and no time for what is refused.
     assert!(said.contains("30 bars") && said.contains("funicular study FILE --vary"), "{said}");
     assert!(!said.contains("are expected"), "{said}");
-}
-
-/// Results are replaced by results only.
-#[test]
-fn a_path_that_is_refused_replaces_no_file() {
-    let out = folder("refused");
-    let [csv, svg] = ["good.csv", "good.svg"].map(|name| out.join(name));
-    for path in [&csv, &svg] {
-        std::fs::write(path, "good").unwrap();
-    }
-    // Three bars of 1 m do not reach 5 m.
-    let files = ["--csv", csv.to_str().unwrap(), "--svg", svg.to_str().unwrap()];
-    let vary = ["trace", "--case", "three-equal-bars", "--vary", "anchors.end_m.z=-6,-5"];
-    let output = funicular(&[&vary[..], &files[..]].concat());
-    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
-    for path in [&csv, &svg] {
-        assert_eq!(std::fs::read(path).unwrap(), b"good", "{}", path.display());
-    }
 }
 
 /// Before a census is taken: the million points of this would take minutes.

@@ -5,17 +5,17 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable};
 
-use super::columns::{self, Sheet};
 use super::described::Described;
 use super::duplicate;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::most_bars;
-use super::load::Loaded;
+use super::limits::{most_bars, most_bars_of_file};
 use super::loads;
 use super::material;
-use super::named;
 use super::network;
+use super::network_rows;
+use super::row_table::Row;
+use super::sheet::SheetFile;
 use super::source::Source;
 use super::strength;
 use super::table::Table;
@@ -37,8 +37,6 @@ const ROOT_KEYS: &[&str] = &[
     "joints",
     "joints_file",
 ];
-/// What makes a file one of a system by name.
-const NO_CHAIN: &[&str] = &["joints", "joints_file", "plane"];
 /// What a chain may have in a file and a [`Chain`] has not.
 const BEYOND_CHAINS: &[&str] = &["loads", "cases", "floor_m"];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
@@ -73,10 +71,8 @@ pub(super) struct Places {
 enum Origin {
     /// The `[[bars]]` tables.
     Tables(Vec<BarsPlace>),
-    /// The value of `bars_file`, and the file.
-    File(Range<usize>, Loaded),
-    /// The value of `bars_file`, the file being no text.
-    Foreign(Range<usize>),
+    /// The file that `bars_file` names.
+    File(SheetFile),
 }
 
 /// Where a `[[bars]]` table stands.
@@ -88,15 +84,6 @@ struct BarsPlace {
 }
 
 impl Source<'_> {
-    pub(super) fn chain(&self) -> Result<Chain, SystemFileError> {
-        self.read().map(|(chain, _)| chain)
-    }
-
-    pub(super) fn problem(&self) -> Result<Problem, SystemFileError> {
-        let (chain, places) = self.read()?;
-        Problem::new(chain).map_err(|refusal| self.refusal(refusal, &places))
-    }
-
     /// Whatever the text describes, accepted as an equilibrium problem.
     pub(super) fn described(&self) -> Result<Described, SystemFileError> {
         let tree = self.tree()?;
@@ -109,18 +96,18 @@ impl Source<'_> {
             let kind = Kind::Conflict { key: "plane", other: "anchors" };
             return Err(root.error(kind, "plane"));
         }
-        let (chain, places) = self.chain_of(&root)?;
+        let (chain, places) = chain_of(&root)?;
         let bare = BEYOND_CHAINS.iter().all(|key| root.get(key).is_none());
         let given = || strength::given(&root).or_else(|| tolerance::given(&root));
         if bare && given().is_none() {
             let problem = Problem::new(chain);
-            return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
+            return problem.map(Described::Chain).map_err(|found| refusal(&root, found, &places));
         }
         let loaded = loads::of_chain(&root, &chain)?;
         match Problem::new(chain) {
             // The loads may be all that weighs; the system's own check says so if nothing does.
             Ok(_) | Err(Refusal::NoMass | Refusal::WeightOnAnchors) => {}
-            Err(refusal) => return Err(self.refusal(refusal, &places)),
+            Err(found) => return Err(refusal(&root, found, &places)),
         }
         match loaded.refusal() {
             Ok(()) => Ok(Described::System(loaded)),
@@ -132,37 +119,6 @@ impl Source<'_> {
         }
     }
 
-    /// Put a refusal where the number stands that it rests on.
-    fn refusal(&self, refusal: Refusal, places: &Places) -> SystemFileError {
-        let bar = match refusal {
-            Refusal::OutOfReach { .. } | Refusal::Taut { .. } | Refusal::Unresolved { .. } => {
-                let (key, span) = ("anchors.end_m".to_owned(), places.end.clone());
-                return self.error(Kind::Refused(refusal), Some(key), Some(span));
-            }
-            Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
-            Refusal::SingleBar { .. } | Refusal::NoMass | Refusal::WeightOnAnchors => None,
-        };
-        if let (Refusal::NoMass, Origin::Tables(tables)) = (&refusal, &places.bars) {
-            let (key, span) = ("bars[1].mass_kg".to_owned(), tables[0].mass.clone());
-            return self.error(Kind::Refused(refusal), Some(key), Some(span));
-        }
-        let (key, span) = match (&places.bars, bar) {
-            (Origin::Tables(tables), Some(bar)) => {
-                let table = tables.partition_point(|place| place.first <= bar);
-                (format!("bars[{table}].length_m"), tables[table - 1].length.clone())
-            }
-            (Origin::Tables(tables), None) => ("bars".to_owned(), tables[0].length.clone()),
-            (Origin::File(_, loaded), Some(bar)) => {
-                return Sheet::of(loaded).length_error(Kind::Refused(refusal), bar);
-            }
-            // The message says which bar.
-            (Origin::File(value, _), None) | (Origin::Foreign(value), _) => {
-                ("bars_file".to_owned(), value.clone())
-            }
-        };
-        self.error(Kind::Refused(refusal), Some(key), Some(span))
-    }
-
     /// The text as a tree with places; every number of it is still text.
     fn tree(&self) -> Result<Spanned<DeTable<'_>>, SystemFileError> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
@@ -170,50 +126,6 @@ impl Source<'_> {
             return Err(self.error(Kind::Empty, None, None));
         }
         Ok(tree)
-    }
-
-    /// A chain without loads, which is all that a [`Chain`] can hold.
-    fn read(&self) -> Result<(Chain, Places), SystemFileError> {
-        let tree = self.tree()?;
-        let root = Table::root(self, tree.get_ref());
-        root.only(ROOT_KEYS)?;
-        for key in NO_CHAIN.iter().chain(BEYOND_CHAINS) {
-            if root.get(key).is_some() {
-                return Err(root.error(Kind::NotAChain { key }, key));
-            }
-        }
-        if let Some(key) = strength::given(&root).or_else(|| tolerance::given(&root)) {
-            return Err(root.error(Kind::NotAChain { key }, "bars"));
-        }
-        self.chain_of(&root)
-    }
-
-    fn chain_of(&self, root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
-        let name = root.text("name")?.unwrap_or("unnamed");
-        let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
-        let table =
-            root.table("anchors", root.require("anchors", "a table with start_m and end_m")?)?;
-        let anchors = anchors(&table)?;
-        let (bars, origin) = self.bars(root)?;
-        let end = table.get("end_m").map_or(0..0, Spanned::span);
-
-        let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
-            let kind = Kind::Chain(error);
-            match error {
-                ChainError::Gravity { .. } => root.error(kind, "gravity_m_s2"),
-                ChainError::Anchor { .. } => {
-                    let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
-                    let key = if start_is_good { "end_m" } else { "start_m" };
-                    table.component_error(kind, key, f64::is_finite)
-                }
-                ChainError::Overflow { quantity: "span" } => table.error(kind, "end_m"),
-                _ => match &origin {
-                    Origin::Tables(_) => root.error(kind, "bars"),
-                    Origin::File(..) | Origin::Foreign(_) => root.error(kind, "bars_file"),
-                },
-            }
-        })?;
-        Ok((chain, Places { end, bars: origin }))
     }
 
     fn syntax(&self, error: &toml::de::Error) -> SystemFileError {
@@ -228,30 +140,82 @@ impl Source<'_> {
             span => self.error(Kind::Syntax(error.message().to_owned()), None, span),
         }
     }
+}
 
-    fn bars(&self, root: &Table<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
-        let Some(file) = root.text("bars_file")? else {
-            let value = root.require("bars", WANTED_BARS)?;
-            let tables = value.get_ref().as_array();
-            let tables = tables.ok_or_else(|| root.wrong_type("bars", value, WANTED_BARS))?;
-            return bars(root, tables);
-        };
-        let error = |kind| root.error(kind, "bars_file");
-        if root.get("bars").is_some() {
-            return Err(error(Kind::Conflict { key: "bars_file", other: "bars" }));
+/// A chain, and where its parts stand.
+fn chain_of(root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
+    let name = root.text("name")?.unwrap_or("unnamed");
+    let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
+    let table =
+        root.table("anchors", root.require("anchors", "a table with start_m and end_m")?)?;
+    let anchors = anchors(&table)?;
+    let (bars, origin) = chain_bars(root)?;
+    let end = table.get("end_m").map_or(0..0, Spanned::span);
+
+    let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
+        let kind = Kind::Chain(error);
+        match error {
+            ChainError::Gravity { .. } => root.error(kind, "gravity_m_s2"),
+            ChainError::Anchor { .. } => {
+                let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
+                let key = if start_is_good { "end_m" } else { "start_m" };
+                table.component_error(kind, key, f64::is_finite)
+            }
+            ChainError::Overflow { quantity: "span" } => table.error(kind, "end_m"),
+            _ => match &origin {
+                Origin::Tables(_) => root.error(kind, "bars"),
+                Origin::File(_) => root.error(kind, "bars_file"),
+            },
         }
-        let Some(folder) = self.folder else {
-            return Err(error(Kind::NoFolder { key: "bars_file" }));
-        };
-        let path = folder.join(file);
-        let value = root.get("bars_file").map_or(0..0, Spanned::span);
-        if let Some(bars) = self.reader.and_then(|reader| reader(&path)) {
-            let bars = bars.map_err(|cause| error(Kind::ForeignBars(cause)))?;
-            return Ok((bars, Origin::Foreign(value)));
+    })?;
+    Ok((chain, Places { end, bars: origin }))
+}
+
+/// The bars of a chain, in its file or in one of their own.
+fn chain_bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
+    if root.get("bars").is_some() && root.get("bars_file").is_some() {
+        let kind = Kind::Conflict { key: "bars_file", other: "bars" };
+        return Err(root.error(kind, "bars_file"));
+    }
+    let (mut rows, limit) = (Vec::new(), most_bars_of_file());
+    let mut take = |row: &Row<'_>| {
+        if rows.len() == limit {
+            return Err((None, Kind::TooManyBars { limit }));
         }
-        let loaded = named::text(root, "bars_file", path, columns::COLUMNS)?;
-        let bars = Sheet::of(&loaded).bars()?;
-        Ok((bars, Origin::File(value, loaded)))
+        rows.push(network_rows::of_chain(row)?);
+        Ok(())
+    };
+    if let Some(file) = SheetFile::read(root, "bars_file", &network_rows::CHAIN, &mut take)? {
+        return Ok((rows, Origin::File(file)));
+    }
+    let value = root.require("bars", WANTED_BARS)?;
+    let tables = value.get_ref().as_array();
+    bars(root, tables.ok_or_else(|| root.wrong_type("bars", value, WANTED_BARS))?)
+}
+
+/// Put a refusal where the number stands that it rests on.
+fn refusal(root: &Table<'_>, refusal: Refusal, places: &Places) -> SystemFileError {
+    let bar = match refusal {
+        Refusal::OutOfReach { .. } | Refusal::Taut { .. } | Refusal::Unresolved { .. } => {
+            return root.error_at(Kind::Refused(refusal), "anchors.end_m", places.end.clone());
+        }
+        Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
+        Refusal::SingleBar { .. } | Refusal::NoMass | Refusal::WeightOnAnchors => None,
+    };
+    let massless = refusal == Refusal::NoMass;
+    let kind = Kind::Refused(refusal);
+    match (&places.bars, bar) {
+        (Origin::Tables(tables), None) if massless => {
+            root.error_at(kind, "bars[1].mass_kg", tables[0].mass.clone())
+        }
+        (Origin::Tables(tables), None) => root.error_at(kind, "bars", tables[0].length.clone()),
+        (Origin::Tables(tables), Some(bar)) => {
+            let table = tables.partition_point(|place| place.first <= bar);
+            let place = tables[table - 1].length.clone();
+            root.error_at(kind, &format!("bars[{table}].length_m"), place)
+        }
+        (Origin::File(file), Some(bar)) => file.row_error(root, bar, kind),
+        (Origin::File(_), None) => root.error(kind, "bars_file"),
     }
 }
 

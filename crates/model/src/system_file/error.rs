@@ -12,9 +12,9 @@ use super::location::Position;
 /// and [`help`](Self::help) a program can show the line and mark the place.
 ///
 /// ```
-/// use model::system_file::parse_system;
+/// use model::system_file::parse;
 /// let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0]\n";
-/// let error = parse_system(text, "chain.toml").unwrap_err();
+/// let error = parse(text, "chain.toml").unwrap_err();
 /// assert_eq!(
 ///     error.to_string(),
 ///     "chain.toml:3:9: anchors.end_m: expected three numbers, found 2"

@@ -39,7 +39,7 @@ pub enum SystemFileErrorKind {
         /// The columns that it may have.
         allowed: &'static [&'static str],
     },
-    /// Occurs when the reader of another kind of bars file fails.
+    /// Occurs when the reader of another kind of file fails.
     #[error("{0}")]
     ForeignBars(Box<dyn std::error::Error + Send + Sync>),
     /// Occurs when `bars_file` or `joints_file` stands in a text that was not read from a file.
@@ -98,12 +98,6 @@ pub enum SystemFileErrorKind {
     OutOfScope {
         /// The key.
         key: String,
-    },
-    /// Occurs when a chain is wanted, and the file describes another system.
-    #[error("`{key}` makes this a system of bars, and a chain without loads is wanted here")]
-    NotAChain {
-        /// The key that a chain does not have.
-        key: &'static str,
     },
     /// Occurs when a bar begins or ends at a joint that is not there.
     #[error("there is no joint {joint:?}")]
@@ -247,9 +241,6 @@ pub enum SystemFileErrorKind {
         /// Cells of the row.
         found: usize,
     },
-    /// Occurs when a cell is quoted.
-    #[error("cells are numbers, written without quotes")]
-    Quoted,
     /// Occurs when a quoted cell does not end, or is followed by more than a comma.
     #[error("a quote is not closed")]
     OpenQuote,
@@ -333,7 +324,6 @@ impl SystemFileErrorKind {
                 _ => return None,
             },
             Self::OutOfScope { .. } => SCOPE,
-            Self::NotAChain { .. } => "only commands for any system read such files",
             Self::LoadedAnchor { .. } => "remove the load, or put it on a joint that can move",
             Self::OffPlane { .. } | Self::LeavesPlane { .. } => {
                 "with `plane` all joints lie in one plane and stay in it; without, every joint says \
@@ -369,7 +359,7 @@ impl SystemFileErrorKind {
             Self::TooManyBars { .. } => {
                 "an answer over more bars than this does not fit into 24 GB of memory"
             }
-            Self::Separator { .. } | Self::Quoted | Self::NotANumber { .. } => {
+            Self::Separator { .. } | Self::NotANumber { .. } => {
                 "a row is numbers with a decimal point, separated by commas, such as 0.25,1e-3"
             }
             Self::OpenQuote => {

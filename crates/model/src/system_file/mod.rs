@@ -17,7 +17,9 @@
 //! inertia_kg_m2 = [0.0, 0.0833, 0.0833]   # optional: homogeneous slender bar
 //! count = 3                         # optional: that many equal bars in a row
 //! "#;
-//! let chain = model::system_file::parse_system(text, "chain.toml")?;
+//! use model::system_file::{Described, parse};
+//! let Described::Chain(problem) = parse(text, "chain.toml")? else { panic!("a chain") };
+//! let chain = problem.chain();
 //! assert_eq!(chain.name(), "three equal bars");
 //! assert_eq!(chain.bars().len(), 3);
 //! assert_eq!(chain.anchors().span_m(), 2.0);
@@ -49,31 +51,28 @@
 //!
 //! # Files of bars
 //!
-//! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]. A million rows are read in a
-//! fraction of a second, as `[[bars]]` in seconds. Only the functions that read files follow it:
-//! parsing a text opens no file. A program may bring readers of its own for other kinds of files
-//! ([`read_with`]).
+//! `bars_file = "bars.csv"` takes the bars from a file of columns. A million rows are read in
+//! seconds. Only the functions that read files follow it: parsing a text opens no file. A program may
+//! bring a reader of its own for other kinds of files ([`read_with`]).
 //!
 //! # Refusals
 //!
-//! [`read_system`] takes every chain that can be described; [`read_problem`] refuses what is no
-//! equilibrium problem, with the numbers of its [`Refusal`](crate::Refusal): at `anchors.end_m` if
-//! the bars do not reach, at the bar that is too long, at `bars` if none has mass.
+//! What is no equilibrium problem is refused with the numbers of its [`Refusal`](crate::Refusal): at
+//! `anchors.end_m` if the bars do not reach, at the bar that is too long, at `bars` if none has mass.
 //!
 //! # Errors
 //!
 //! A [`SystemFileError`] names the file, line, column and key, and what is wrong:
 //!
 //! ```
-//! use model::system_file::parse_problem;
+//! use model::system_file::parse;
 //! let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2]\n\n[[bars]]\nmass = 1\n";
-//! let error = parse_problem(text, "chain.toml").unwrap_err();
+//! let error = parse(text, "chain.toml").unwrap_err();
 //! assert_eq!(error.to_string(), "chain.toml:6:1: bars[1].mass: unknown key `mass`");
 //! let help = error.help().unwrap();
 //! assert!(help.starts_with("did you mean `mass_kg`? allowed here: length_m, mass_kg, mass_kg_per_m, "));
 //! ```
 
-pub mod columns;
 mod csv;
 mod described;
 mod document;
@@ -110,12 +109,8 @@ pub use limits::{
     MAX_FILE_BYTES, limit_memory, most_bars, most_bars_of_file, most_file_bytes,
 };
 pub use location::Position;
-pub use read::{
-    parse, parse_problem, parse_system, read, read_problem, read_problem_with, read_system,
-    read_with,
-};
+pub use read::{parse, read, read_with};
 pub use rows::{Cell, Rows, RowsReader};
-pub use source::{BarsReader, Readers};
 pub use suggest::nearest;
 pub use write::write_system;
 pub use write_network::write_network;

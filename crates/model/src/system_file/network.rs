@@ -562,7 +562,7 @@ fn member(
     }
     loads.extend(material::spread(table, length_m, body.length_m())?);
     let stiffness_n = material::stiffness_n(table)?;
-    let strength = strength::of(table, &body, safety)?;
+    let strength = strength::of(table, body.length_m(), safety)?;
     let member = Member::bar(0, 0, body).of_kind(kind).stretching(stiffness_n);
     let member = member.bearing(strength).with_loads(loads);
     network_rows::prestressed(member, table.number("prestress_n")?)

@@ -4,9 +4,7 @@ use super::kind::SystemFileErrorKind as Kind;
 use super::row_table::{Known, Row, Wrong};
 use super::strength;
 use super::suggest::nearest;
-use crate::system::{
-    Joint, Kind as MemberKind, Member, Name, PointLoad, PrestressError, Strength, Support,
-};
+use crate::system::{Joint, Kind as MemberKind, Member, Name, PointLoad, PrestressError, Support};
 use crate::{Bar, BarError, Vector};
 
 const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -34,6 +32,15 @@ pub(super) const JOINTS: Known = Known {
         "force_tolerance_n",
     ],
     needed: &[],
+};
+
+/// The columns of the bars of a chain.
+pub(super) const CHAIN: Known = Known {
+    columns: &["length_m", "mass_kg", "centre_m"],
+    needed: &[
+        ("length_m", "a column of lengths in metres"),
+        ("mass_kg", "a column of masses in kilograms"),
+    ],
 };
 
 /// The columns of bars.
@@ -178,6 +185,23 @@ fn via(row: &Row<'_>, number: &dyn Fn(&str) -> Result<usize, Kind>) -> Result<Ve
     if joints.is_empty() { Err((Some("via"), Kind::EmptyCell)) } else { Ok(joints) }
 }
 
+/// The bar of a row of a chain.
+pub(super) fn of_chain(row: &Row<'_>) -> Result<Bar, Wrong> {
+    body(row, row.needed("length_m")?, row.needed("mass_kg")?)
+}
+
+fn body(row: &Row<'_>, length_m: f64, mass_kg: f64) -> Result<Bar, Wrong> {
+    Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
+        let column = match error {
+            BarError::Mass { .. } => "mass_kg",
+            BarError::Centre { .. } => "centre_m",
+            // The moments have no column of their own: m l²/12 is too large.
+            BarError::Length { .. } | BarError::Inertia { .. } => "length_m",
+        };
+        (Some(column), Kind::Bar(error))
+    })
+}
+
 /// The length of a path over joints where these are drawn, m.
 type Drawn<'a> = dyn Fn(&[usize]) -> Result<Option<f64>, Kind> + 'a;
 
@@ -202,21 +226,13 @@ pub(super) fn member(
         None if via.is_empty() => row.needed("mass_kg")?,
         given => given.unwrap_or(0.0),
     };
-    let body = Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
-        let column = match error {
-            BarError::Mass { .. } => "mass_kg",
-            BarError::Centre { .. } => "centre_m",
-            // The moments have no column of their own: m l²/12 is too large.
-            BarError::Length { .. } | BarError::Inertia { .. } => "length_m",
-        };
-        (Some(column), Kind::Bar(error))
-    })?;
+    let body = body(row, length_m, mass_kg)?;
     let kind = row.word("kind")?;
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     let stiffness_n = row.number("stiffness_n")?;
     let loads = load(row, length_m)?;
     let bar = Member::bar(from, to, body).over(via);
-    let strength = strength_of(row, safety)?;
+    let strength = strength::of(row, length_m, safety)?;
     let member = bar.of_kind(kind).stretching(stiffness_n).bearing(strength).with_loads(loads);
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
@@ -236,18 +252,6 @@ pub(super) fn prestressed(
         };
         (key, Kind::Prestress(error))
     })
-}
-
-/// What the bar of a row bears.
-fn strength_of(row: &Row<'_>, safety: f64) -> Result<Option<Strength>, Wrong> {
-    let numbers = [row.number("strength_n")?, row.number("compression_n")?];
-    let own = row.number("safety")?;
-    if numbers == [None; 2] {
-        return if own.is_some() { Err((Some("strength_n"), Kind::EmptyCell)) } else { Ok(None) };
-    }
-    let strength = Strength::new(numbers[0], numbers[1], own.unwrap_or(safety));
-    let strength = strength.map_err(strength::wrong);
-    strength.map(Some).map_err(|(column, kind)| (Some(column), kind))
 }
 
 /// The force on a bar, in the middle if no place is given.

@@ -74,6 +74,7 @@ impl SheetFile {
             .text
             .as_ref()
             .map_or(("", ""), |loaded| (loaded.file.as_str(), loaded.text.as_str()));
+        let key = key.filter(|key| !key.is_empty());
         SystemFileError::new(file, without_mark(text), Some(span), key, kind)
     }
 }

@@ -5,17 +5,20 @@ use toml::de::DeTable;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::table::Table;
-use crate::Bar;
+use super::tolerance::Numbers;
 use crate::system::{Strength, StrengthError, System};
 
 /// The keys of a bar.
 const KEYS: [&str; 4] = ["strength_n", "compression_n", "bending_n_m2", "safety"];
 const POSITIVE: &str = "positive and finite";
-const WANTED: &str =
-    "the tension that breaks a bar, N, or compression_n: a safety is of a strength";
+/// A safety, and no strength that it is of.
+const OF_NOTHING: Kind = Kind::MissingKey {
+    key: "strength_n",
+    wanted: "the tension that breaks a bar, N, or compression_n: a safety is of a strength",
+};
 
 /// What is wrong with a number, and its key or column.
-pub(super) fn wrong(error: StrengthError) -> (&'static str, Kind) {
+fn wrong(error: StrengthError) -> (&'static str, Kind) {
     (error.what, Kind::OutOfRange { found: error.found.to_string(), wanted: POSITIVE })
 }
 
@@ -29,44 +32,42 @@ pub(super) fn safety(root: &Table<'_>) -> Result<f64, SystemFileError> {
     checked.map(|strength| strength.safety())
 }
 
-/// What the bar of a table bears.
-pub(super) fn of(
-    table: &Table<'_>,
-    body: &Bar,
+/// What a bar of this length bears.
+pub(super) fn of<N: Numbers>(
+    own: &N,
+    length_m: f64,
     safety: f64,
-) -> Result<Option<Strength>, SystemFileError> {
-    let tension_n = table.number("strength_n")?;
-    let mut compression_n = table.number("compression_n")?;
-    if let Some(bending_n_m2) = table.number("bending_n_m2")? {
+) -> Result<Option<Strength>, N::Error> {
+    let tension_n = own.get("strength_n")?;
+    let mut compression_n = own.get("compression_n")?;
+    if let Some(bending_n_m2) = own.get("bending_n_m2")? {
         if compression_n.is_some() {
             let kind = Kind::Conflict { key: "bending_n_m2", other: "compression_n" };
-            return Err(table.error(kind, "bending_n_m2"));
+            return Err(own.wrong(kind, "bending_n_m2"));
         }
         if !(bending_n_m2.is_finite() && bending_n_m2 > 0.0) {
             let kind = Kind::OutOfRange { found: bending_n_m2.to_string(), wanted: POSITIVE };
-            return Err(table.error(kind, "bending_n_m2"));
+            return Err(own.wrong(kind, "bending_n_m2"));
         }
-        compression_n = Some(Strength::euler_n(bending_n_m2, body.length_m()));
+        compression_n = Some(Strength::euler_n(bending_n_m2, length_m));
     }
-    let own = table.number("safety")?;
+    let own_safety = own.get("safety")?;
     if tension_n.is_none() && compression_n.is_none() {
-        return if own.is_some() { Err(of_nothing(table)) } else { Ok(None) };
+        let nothing = || own.wrong(OF_NOTHING, "safety");
+        return own_safety.map_or(Ok(None), |_| Err(nothing()));
     }
-    let strength = Strength::new(tension_n, compression_n, own.unwrap_or(safety));
+    let strength = Strength::new(tension_n, compression_n, own_safety.unwrap_or(safety));
     strength.map(Some).map_err(|error| {
         let (key, kind) = wrong(error);
-        table.error(kind, key)
+        own.wrong(kind, key)
     })
 }
 
 /// Refuse a safety for all bars where none has a strength.
 pub(super) fn check(root: &Table<'_>, system: &System) -> Result<(), SystemFileError> {
     let of_none = system.members().iter().all(|member| member.strength.is_none());
-    if root.get("safety").is_some() && of_none { Err(of_nothing(root)) } else { Ok(()) }
-}
-
-fn of_nothing(table: &Table<'_>) -> SystemFileError {
-    table.error(Kind::MissingKey { key: "strength_n", wanted: WANTED }, "safety")
+    let is_wanted = root.get("safety").is_some();
+    if is_wanted && of_none { Err(root.error(OF_NOTHING, "safety")) } else { Ok(()) }
 }
 
 /// The first key about strengths that the file of a chain has.
@@ -91,7 +92,7 @@ pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFile
     let mut left = members.iter_mut();
     for table in tables(root)? {
         for member in left.by_ref().take(table.count("count")?) {
-            member.strength = of(&table, &member.body, safety)?.map(Box::new);
+            member.strength = of(&table, member.body.length_m(), safety)?.map(Box::new);
         }
     }
     let (name, gravity_m_s2) = (system.name(), system.gravity_m_s2());

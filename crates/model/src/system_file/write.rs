@@ -8,9 +8,10 @@ use crate::{Bar, Chain, Vector};
 /// the moments of inertia are left out where they were not given.
 ///
 /// ```
-/// let chain = model::cases::paper().into_chain();
-/// let text = model::system_file::write_system(&chain);
-/// assert_eq!(model::system_file::parse_system(&text, "paper.toml")?, chain);
+/// use model::system_file::{Described, parse, write_system};
+/// let problem = model::cases::paper();
+/// let text = write_system(problem.chain());
+/// assert_eq!(parse(&text, "paper.toml")?, Described::Chain(problem));
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
 #[must_use]

@@ -1,8 +1,6 @@
 //! What evidence is made of, and the registries that everything is tested over.
 
-use model::evidence::{
-    Disagreement, Evidence, Excess, ForceUncertainty, Quantity, Reason, UncertaintyCause,
-};
+use model::evidence::{Disagreement, Excess, Quantity, Reason};
 use model::system::{Kind, Member, PrestressError};
 use model::{Bar, SolverName, cases};
 
@@ -31,14 +29,6 @@ fn a_lone_answer_tells_its_balance() {
     let said = Reason::OneSolverOnly { solver: SolverName::ENERGY, statics: 3e-14 }.to_string();
     assert!(said.contains("only energy was asked"), "{said}");
     assert!(said.contains("every bar in balance"), "{said}");
-}
-
-#[test]
-fn the_uncertainty_of_the_forces_is_kept_with_the_convergence() {
-    let uncertainty = ForceUncertainty { relative: 1e-7, cause: UncertaintyCause::WeakClosure };
-    let evidence = Evidence::new("residual", 1e-15, 1e-12, 3);
-    assert_eq!(evidence.force_uncertainty(), None);
-    assert_eq!(evidence.with_force_uncertainty(uncertainty).force_uncertainty(), Some(uncertainty));
 }
 
 /// Tests run over these lists: an empty one would let them all pass.

@@ -1,7 +1,7 @@
 //! What evidence says, and what it counts.
 
-use model::evidence::{Disagreement, Evidence, Reason, Room, Status, Verified, VerifiedSystem};
-use model::{Rung, SolverName};
+use model::Rung;
+use model::evidence::{Evidence, Reason, Room, Status, Verified, VerifiedSystem};
 
 #[test]
 fn room_is_told_where_there_is_some() {
@@ -21,18 +21,6 @@ fn room_is_told_where_there_is_some() {
     let all = said(1, 2, &["P", "Q"]).unwrap();
     assert!(all.starts_with("one part turns freely") && all.contains("first; 2 joints without"));
     assert!(all.ends_with("compared; P, Q slide through equilibria with the same forces"));
-}
-
-#[test]
-fn solvers_have_their_names() {
-    assert_eq!(SolverName::LAGRANGE.as_str(), "lagrange");
-    assert_eq!(SolverName::ENERGY.as_str(), "energy");
-}
-
-#[test]
-fn nothing_differs_in_an_empty_disagreement() {
-    let empty = Disagreement::default();
-    assert!(empty.is_empty() && empty.sentences().is_empty());
 }
 
 /// The box of a system tells its turns, slack members and loose joints where there are some.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use model::Bar;
 use model::system::{Joint, Kind, Member, PointLoad, Support, System};
-use model::system_file::{Cell, Described, Readers, Rows, SystemFileError, read, read_with};
+use model::system_file::{Cell, Described, Rows, SystemFileError, read, read_with};
 
 const JOINTS: &str = "name,x_m,y_m,z_m,fixed,free,mass_kg,force_x_n,force_y_n,force_z_n\n\
                       A,0,0,0,,,,,,\n\
@@ -291,7 +291,7 @@ fn readers_of_other_files_name_their_rows() {
             let _ = rows.names(&["from", "to", "length_m", "mass_kg"]) && rows.row(&cells);
             Some(Ok(()))
         };
-        read_with(&path, Readers { bars: &|_| None, rows: &rows })
+        read_with(&path, &rows)
     };
     let Ok(Described::System(system)) = by(2.0, 7.0) else { panic!("one bar hangs") };
     assert_eq!(system.members()[0].to, 1);

@@ -1,7 +1,5 @@
 //! Chains that can be described and have no equilibrium, each with its exact refusal and its place.
 
-use model::system_file::parse_system;
-
 use crate::support::{anchored, check};
 
 #[test]
@@ -69,12 +67,6 @@ fn chains_that_are_no_equilibrium_problem() {
          together: the chain cannot close",
         "9",
     );
-}
-
-#[test]
-fn what_is_refused_as_a_problem_is_still_a_system() {
-    let text = anchored("[[bars]]\nlength_m = 2\nmass_kg = 1\n");
-    assert_eq!(parse_system(&text, "f").unwrap().bars().len(), 1);
 }
 
 #[test]

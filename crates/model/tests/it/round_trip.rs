@@ -1,8 +1,10 @@
 //! What is written reads back, bit for bit.
 
-use model::system_file::{parse_system, write_system};
-use model::{Anchors, Bar, Chain};
+use model::system_file::{parse, write_system};
+use model::{Anchors, Bar, Chain, Problem};
 use proptest::prelude::*;
+
+use crate::support::chain;
 
 /// Numbers of a wide range of magnitudes, with all their digits; as masses none is lost in another.
 fn positive() -> impl Strategy<Value = f64> {
@@ -16,7 +18,8 @@ fn not_negative() -> impl Strategy<Value = f64> {
 
 fn bar() -> impl Strategy<Value = Bar> {
     let part = prop_oneof![Just(-0.0), 0.0..=1.0_f64];
-    (positive(), not_negative(), part, any::<bool>()).prop_map(|(length, mass, part, plain)| {
+    // Any three of them close.
+    (0.5..1.0_f64, not_negative(), part, any::<bool>()).prop_map(|(length, mass, part, plain)| {
         if plain {
             Bar::homogeneous(length, mass).unwrap()
         } else {
@@ -42,16 +45,19 @@ proptest! {
     fn systems_read_back_bit_for_bit(
         name in any::<String>(),
         gravity in positive(),
-        start_m in prop::array::uniform3(-1e9..1e9_f64),
-        end_m in prop::array::uniform3(prop_oneof![Just(-0.0), -1e-9..1e-9_f64]),
-        runs in prop::collection::vec((bar(), 1..5_usize), 1..6),
+        start_m in prop::array::uniform3(-0.5..0.5_f64),
+        runs in prop::collection::vec((bar(), 1..5_usize), 3..6),
+        end_m in prop::array::uniform3(prop_oneof![Just(-0.0), -0.1..0.1_f64]),
     ) {
         let bars = runs.iter().flat_map(|(bar, count)| vec![*bar; *count]).collect();
-        let chain = Chain::new(name, gravity, Anchors { start_m, end_m }, bars).unwrap();
-        let text = write_system(&chain);
-        let read = parse_system(&text, "written").unwrap();
-        prop_assert_eq!(read.name(), chain.name());
-        prop_assert_eq!(bits(&read), bits(&chain));
+        let anchors = Anchors { start_m, end_m };
+        let written = Chain::new(name, gravity, anchors, bars).unwrap();
+        // Of some all weight is on the anchors.
+        prop_assume!(Problem::new(written.clone()).is_ok());
+        let text = write_system(&written);
+        let read = chain(parse(&text, "written")).unwrap();
+        prop_assert_eq!(read.chain().name(), written.name());
+        prop_assert_eq!(bits(read.chain()), bits(&written));
         // One table for each run of equal bars: two runs may happen to be equal, never to be split.
         prop_assert!(text.matches("[[bars]]").count() <= runs.len());
     }
@@ -70,8 +76,10 @@ fn a_run_of_equal_bars_is_one_table() {
 #[test]
 fn every_case_reads_back() {
     for case in model::cases::all() {
-        let chain = case.problem().into_chain();
-        let read = parse_system(&write_system(&chain), case.name).unwrap();
-        assert_eq!((read.name(), bits(&read)), (chain.name(), bits(&chain)), "{}", case.name);
+        let problem = case.problem();
+        let written = problem.chain();
+        let read = chain(parse(&write_system(written), case.name)).unwrap();
+        let read = read.chain();
+        assert_eq!((read.name(), bits(read)), (written.name(), bits(written)), "{}", case.name);
     }
 }

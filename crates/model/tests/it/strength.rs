@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use model::system::{Strength, System};
-use model::system_file::{Described, parse, parse_system, write_network};
+use model::system_file::{Described, parse, write_network};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -128,8 +128,6 @@ fn what_is_no_strength_is_refused_where_it_stands() {
         assert_eq!(error.key(), Some("bars[1]"), "{error}");
         assert!(error.to_string().contains(words), "{error}");
     }
-    let error = parse_system(&chain("", ", strength_n = 1", ""), "chain.toml").unwrap_err();
-    assert!(error.to_string().contains("strength_n"), "{error}");
 }
 
 /// The three numbers of a strength, one after the other.

@@ -1,6 +1,40 @@
 //! Texts to put mistakes into, and the check of their errors.
 
-use model::system_file::parse_problem;
+use std::fs;
+use std::path::PathBuf;
+
+use model::Problem;
+use model::system_file::{Described, SystemFileError, parse};
+
+/// A folder of one test; removed at the end of it, if the test passes.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Self {
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    pub fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, content).unwrap();
+        path
+    }
+
+    pub fn done(self) {
+        fs::remove_dir_all(self.0).unwrap();
+    }
+}
+
+/// What is described, which is a chain.
+pub fn chain(described: Result<Described, SystemFileError>) -> Result<Problem, SystemFileError> {
+    match described? {
+        Described::Chain(problem) => Ok(problem),
+        Described::System(system) => panic!("a system: {system:?}"),
+    }
+}
 
 /// A file with the anchors of the paper in front of the given rest.
 pub fn anchored(rest: &str) -> String {
@@ -16,7 +50,7 @@ pub fn barred(head: &str) -> String {
 /// marked.
 #[track_caller]
 pub fn check(text: &str, message: &str, marked: &str) {
-    let error = parse_problem(text, "f").expect_err(text);
+    let error = parse(text, "f").expect_err(text);
     let found = error.span().map_or("", |span| &error.text()[span]);
     assert_eq!((error.to_string().as_str(), found), (message, marked));
 }

@@ -1,8 +1,8 @@
 //! Malformed texts, each with its exact error.
 
-use model::system_file::{parse_problem, parse_system};
+use model::system_file::parse;
 
-use crate::support::{anchored, barred, check};
+use crate::support::{anchored, barred, chain, check};
 
 #[test]
 fn text_that_is_no_system() {
@@ -344,7 +344,8 @@ fn values_of_stranger_types() {
 fn numbers_are_read_as_written() {
     let text = "gravity_m_s2 = 0x10\nanchors = { start_m = [-0, 1_000, 0o17], end_m = [2, 0.1, 1e3] }\n\
                 bars = [{ length_m = 18446744073709551617, mass_kg = 9007199254740993, count = 0b11 }]\n";
-    let chain = parse_system(text, "f").unwrap();
+    let problem = chain(parse(text, "f")).unwrap();
+    let chain = problem.chain();
     assert_eq!(chain.gravity_m_s2().to_bits(), 16.0_f64.to_bits());
     let bits = |v: [f64; 3]| v.map(f64::to_bits);
     assert_eq!(bits(chain.anchors().start_m), bits([-0.0, 1000.0, 15.0]));
@@ -358,7 +359,7 @@ fn numbers_are_read_as_written() {
 
 #[test]
 fn help_says_what_is_allowed() {
-    let help = |text: &str| parse_problem(text, "f").unwrap_err().help().unwrap();
+    let help = |text: &str| parse(text, "f").unwrap_err().help().unwrap();
     assert_eq!(
         help(&anchored("[[bars]]\nlenth_m = 1\n")),
         "did you mean `length_m`? allowed here: length_m, mass_kg, mass_kg_per_m, diameter_m, density_kg_m3, temperature_k, \
@@ -389,14 +390,14 @@ fn help_says_what_is_allowed() {
 #[test]
 fn positions_count_characters_and_lines_of_any_kind() {
     let text = "name = \"Ketten\u{e4}hnlich\" # \u{2713}\r\n[anchors]\r\nstart_m = [0, 0, 0]\r\nend_m = [0, 0, nan]\r\n";
-    let error = parse_problem(&barred(text), "f").unwrap_err();
+    let error = parse(&barred(text), "f").unwrap_err();
     let position = error.position().unwrap();
     assert_eq!((position.line, position.column), (4, 16));
     assert_eq!(error.line(), Some("end_m = [0, 0, nan]"));
-    let same_line = parse_problem("name = \"\u{e4}\u{e4}\" x", "f").unwrap_err();
+    let same_line = parse("name = \"\u{e4}\u{e4}\" x", "f").unwrap_err();
     assert_eq!(same_line.position().unwrap().column, 13);
     // A byte order mark is no character of the first line.
-    let marked = parse_problem("\u{feff}name = 3\n", "f").unwrap_err();
+    let marked = parse("\u{feff}name = 3\n", "f").unwrap_err();
     assert_eq!(
         (marked.to_string().as_str(), marked.text()),
         ("f:1:8: name: expected a string, found an integer", "name = 3\n")

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use model::system::{System, Uncertain, UncertainNumber};
-use model::system_file::{Described, parse, parse_system, write_network};
+use model::system_file::{Described, parse, write_network};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -160,9 +160,6 @@ fn what_is_no_tolerance_is_refused_where_it_stands() {
         let said = format!("{error} {}", error.help().unwrap_or_default());
         assert!(said.contains(words), "{said}");
     }
-    let error =
-        parse_system(&chain("", ", length_tolerance_m = 0.1", ""), "chain.toml").unwrap_err();
-    assert!(error.to_string().contains("length_tolerance_m"), "{error}");
 }
 
 /// A system at other values: each number that is uncertain, and nothing else.

@@ -82,56 +82,17 @@ fn matrix(rows: usize, columns: usize, entries: &[Entry]) -> DMatrix<f64> {
 /// An orthonormal basis of what is orthogonal to the columns.
 fn null_space(columns: &DMatrix<f64>) -> DMatrix<f64> {
     let (size, given) = columns.shape();
-    let mut basis: Vec<DVector<f64>> = Vec::with_capacity(size);
-    // Twice is enough (Kahan, Parlett): Gram-Schmidt with the columns of largest rest first.
-    let mut rest: Vec<DVector<f64>> = (0..given).map(|k| columns.column(k).into_owned()).collect();
-    let largest = rest.iter().map(DVector::norm).fold(0.0, f64::max);
-    while let Some(next) = take_longest(&mut rest, INDEPENDENT * largest) {
-        let unit = next.normalize();
-        for other in &mut rest {
-            subtract(other, &unit);
-        }
-        basis.push(unit);
+    let mut turned = DMatrix::identity(size, size);
+    if given == 0 {
+        return turned;
     }
-    let taken = basis.len();
-    let mut units: Vec<DVector<f64>> = (0..size)
-        .map(|k| {
-            let mut unit = DVector::zeros(size);
-            unit[k] = 1.0;
-            for b in basis.iter().chain(&basis) {
-                subtract(&mut unit, b);
-            }
-            unit
-        })
-        .collect();
-    while basis.len() < size {
-        let Some(next) = take_longest(&mut units, 0.0) else { break };
-        let mut unit = next.normalize();
-        for b in &basis {
-            subtract(&mut unit, b);
-        }
-        unit.normalize_mut();
-        for other in &mut units {
-            subtract(other, &unit);
-        }
-        basis.push(unit);
-    }
-    if basis.len() == taken {
-        return DMatrix::zeros(size, 0);
-    }
-    DMatrix::from_columns(&basis[taken..])
-}
-
-fn subtract(from: &mut DVector<f64>, unit: &DVector<f64>) {
-    let part = from.dot(unit);
-    from.axpy(-part, unit, 1.0);
-}
-
-/// The longest vector, if it is longer than this.
-fn take_longest(vectors: &mut Vec<DVector<f64>>, longer_than: f64) -> Option<DVector<f64>> {
-    let lengths = vectors.iter().map(DVector::norm);
-    let (k, length) = lengths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (length > longer_than).then(|| vectors.swap_remove(k))
+    let qr = columns.clone().col_piv_qr();
+    let largest = columns.column_iter().map(|column| column.norm()).fold(0.0, f64::max);
+    let r = qr.r();
+    let is_independent = |k: &usize| r[(*k, *k)].abs() > INDEPENDENT * largest;
+    let rank = (0..r.nrows()).take_while(is_independent).count();
+    qr.q_tr_mul(&mut turned);
+    turned.rows(rank, size - rank).transpose()
 }
 
 #[cfg(test)]

@@ -5,14 +5,8 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// A symmetric operator without large negative eigenvalues.
-pub(super) trait Operator {
-    /// Number of coordinates.
-    fn size(&self) -> usize;
-
-    /// The operator on a vector.
-    fn apply(&self, w: &[f64]) -> Vec<f64>;
-}
+/// A linear map.
+pub(super) type Map<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
 
 /// Steps beyond two for each eigenvalue wanted or known: what the first ones take to settle.
 const STEPS_BEYOND: usize = 60;
@@ -26,30 +20,29 @@ const CONVERGED: f64 = 1e-14;
 /// Eigenvalues below this, relative to the largest, are those of what moves no mass: zero.
 const NOTHING: f64 = 1e-13;
 
-/// Eigenvalues and unit eigenvectors, largest first: those of the `count` largest that have
+/// Eigenvalues and eigenvectors, of length one in a metric, of an operator that is symmetric in it
+/// and has no large negative eigenvalues: largest first, those of the `count` largest that have
 /// converged. With another number of eigenpairs `known` (and taken out of the operator) it begins
 /// elsewhere.
 pub(super) fn largest(
-    operator: &impl Operator,
-    count: usize,
-    known: usize,
+    operator: Map<'_>,
+    metric: Map<'_>,
+    size: usize,
+    [count, known]: [usize; 2],
 ) -> Vec<(f64, Vec<f64>)> {
-    let size = operator.size();
     let most = (2 * (count + known) + STEPS_BEYOND).min(size);
-    let mut basis: Vec<Vec<f64>> = vec![start(size, known)];
+    let mut first = start(size, known);
+    let length = across(&mut first, &[], metric);
+    divide(&mut first, length);
+    let mut basis = vec![first];
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     loop {
-        let steps = diagonal.len();
-        let mut next = operator.apply(&basis[steps]);
-        diagonal.push(dot(&basis[steps], &next));
-        let before = dot(&next, &next).sqrt();
-        for _ in 0..2 {
-            for q in &basis {
-                let part = dot(q, &next);
-                next.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
-            }
-        }
-        let length = dot(&next, &next).sqrt();
+        let last = &basis[basis.len() - 1];
+        let mut next = operator(last);
+        let weighed = metric(&next);
+        diagonal.push(dot(last, &weighed));
+        let before = dot(&next, &weighed).sqrt();
+        let length = across(&mut next, &basis, metric);
         let steps = diagonal.len();
         let is_exhausted = length <= f64::EPSILON * before || length.is_nan();
         let ended = is_exhausted || steps == most;
@@ -64,6 +57,18 @@ pub(super) fn largest(
         beside.push(length);
         basis.push(next);
     }
+}
+
+/// Take out of a vector what is along others of length one, twice; the length of what is left.
+pub(super) fn across(w: &mut [f64], others: &[Vec<f64>], metric: Map<'_>) -> f64 {
+    for _ in 0..2 {
+        let weighed = metric(w);
+        for q in others {
+            let part = dot(q, &weighed);
+            w.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
+        }
+    }
+    dot(w, &metric(w)).sqrt()
 }
 
 /// The converged ones of the `count` largest eigenpairs of the tridiagonal matrix.
@@ -98,15 +103,12 @@ fn combined(basis: &[Vec<f64>], parts: &DVector<f64>) -> Vec<f64> {
     sum
 }
 
-/// A unit vector with parts in every direction, the same whenever it is asked for: a Weyl sequence
+/// A vector with parts in every direction, the same whenever it is asked for: a Weyl sequence
 /// of the golden ratio.
 fn start(size: usize, known: usize) -> Vec<f64> {
     let (step, turn) = (0.618_033_988_749_894_9, 0.381_966_011_250_105_2);
     let at = |k: usize| (k as f64).mul_add(step, (known as f64) * turn);
-    let mut w: Vec<f64> = (0..size).map(|k| at(k) - at(k).floor() - 0.5).collect();
-    let length = dot(&w, &w).sqrt();
-    divide(&mut w, length);
-    w
+    (0..size).map(|k| at(k) - at(k).floor() - 0.5).collect()
 }
 
 /// Divide a vector.
@@ -125,28 +127,20 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    struct Diagonal(Vec<f64>);
-
-    impl Operator for Diagonal {
-        fn size(&self) -> usize {
-            self.0.len()
-        }
-
-        fn apply(&self, w: &[f64]) -> Vec<f64> {
-            w.iter().zip(&self.0).map(|(w, d)| w * d).collect()
-        }
-    }
-
     /// Whatever their unit, the largest are found, with their axes.
     #[test]
     fn eigenvalues_of_any_size() {
         for unit in [1e-20, 1.0, 1e20] {
-            let operator = Diagonal((0..40).map(|k| unit * f64::from(k)).collect());
-            let found = largest(&operator, 3, 0);
+            // In the metric of 1, 2, 3.., in which it is symmetric.
+            let by = |w: &[f64], of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+                w.iter().zip(0..40).map(|(w, k)| w * of(f64::from(k))).collect()
+            };
+            let operator = |w: &[f64]| by(w, &|k| unit * k);
+            let found = largest(&operator, &|w| by(w, &|k| 1.0 + k), 40, [3, 0]);
             assert_eq!(found.len(), 3, "{unit}");
             for ((value, axis), k) in found.iter().zip([39.0, 38.0, 37.0]) {
                 assert!((value / unit - k).abs() < 1e-11, "{value} {k}");
-                let parts = operator.apply(axis).into_iter().zip(axis);
+                let parts = operator(axis).into_iter().zip(axis);
                 let off = parts.fold(0.0, |most: f64, (a, x)| most.max((a - value * x).abs()));
                 assert!(off < 1e-11 * unit, "{off}");
             }

@@ -1,8 +1,8 @@
 //! The lowest modes of a large system: Lanczos' method with shift and inversion.
 //!
-//! With `M = GᵀG`, member by member, and `S` the solution operator of the shifted, constrained
-//! stiffness ([`Shifted`]), the operator `G S Gᵀ` is symmetric and has the eigenvalues `1/(ω² −
-//! σ)`: with the shift below all modes the lowest are the largest of these. Lanczos' method may
+//! With `S` the solution operator of the shifted, constrained stiffness ([`Shifted`]), the operator
+//! `S M` is symmetric in the metric of the inertia `M` and has the eigenvalues `1/(ω² − σ)`: with
+//! the shift below all modes the lowest are the largest of these. Lanczos' method may
 //! miss a mode of a multiple frequency; how many lie below a shift between two that are found is
 //! told by Sylvester's law of inertia, and what is missing is looked for across those found.
 //!
@@ -11,14 +11,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::lanczos::{Operator, divide, dot, largest};
+use super::lanczos::{across, divide, dot, largest};
 use super::planes::Sector;
 use super::shifted::Shifted;
 use super::solved::{Solved, ZERO};
 use super::stiffness::{Entries, Stiffness};
 use crate::error::MotionError;
-use model::Vector;
-use numerics::vector;
 
 /// Shift of the first attempt, in units of [`Stiffness::unit`]: below zero, where a mode may be.
 const FIRST_SHIFT: f64 = -0.1;
@@ -56,8 +54,8 @@ pub(super) fn solve(
     let (shift, below_all) = below_all(&entries, axes, unit)?;
     let total = entries.size - below_all.independent;
     let count = count.min(total);
-    let root = Root::new(stiffness, sector);
-    let mut search = Search { root, shifted: &below_all, unit: -shift, found: Vec::new() };
+    let (entries, shifted, values, shapes) = (&entries, &below_all, Vec::new(), Vec::new());
+    let mut search = Search { entries, shifted, unit: -shift, values, shapes };
     let mut missing = (count + BEYOND).min(total);
     for _ in 0..MOST_SEARCHES + count {
         search.add(missing);
@@ -66,18 +64,18 @@ pub(super) fn solve(
         let mut lacking = count.saturating_sub(pairs.len());
         if lacking == 0 {
             let (shift, expected) = counting_shift(&pairs, count, total, unit);
-            let below = Shifted::new(&entries, axes, shift).and_then(|shifted| shifted.below);
+            let below = Shifted::new(entries, axes, shift).and_then(|shifted| shifted.below);
             let failed = MotionError::ModesUncounted { found: pairs.len(), asked: count };
             lacking = below.and_then(|below| below.checked_sub(expected)).ok_or(failed)?;
         }
         if lacking == 0 {
             pairs.truncate(count);
-            let negative = negative(&entries, axes, &pairs)?;
-            return Ok(solved(&entries, &pairs, total, negative));
+            let negative = negative(entries, axes, &pairs)?;
+            return Ok(solved(entries, &pairs, total, negative));
         }
         missing = lacking;
     }
-    Err(MotionError::ModesUncounted { found: search.found.len(), asked: count })
+    Err(MotionError::ModesUncounted { found: search.shapes.len(), asked: count })
 }
 
 /// A mode as it is found.
@@ -157,115 +155,29 @@ fn solved(entries: &Entries, pairs: &[Pair], total: usize, negative: usize) -> S
     }
 }
 
-/// `G` of `M = GᵀG`: each row has a part in at most two slots, the same for every axis, and each
-/// excess of a moment one row over all axes.
-struct Root {
-    rows: Vec<[(usize, f64); 2]>,
-    excesses: Vec<([Option<usize>; 2], Vec<f64>)>,
-    axes: usize,
-    size: usize,
-}
-
-impl Root {
-    fn new(stiffness: &Stiffness<'_>, sector: &Sector) -> Self {
-        let (mechanism, axes) = (stiffness.mechanism, sector.axes.len());
-        let moving = mechanism.moving;
-        let joints = mechanism.system.joints();
-        let mut rows = Vec::new();
-        let mut put = |first: (usize, f64), second: (usize, f64)| {
-            if first.1.abs() > 0.0 || second.1.abs() > 0.0 {
-                rows.push([first, second]);
-            }
-        };
-        for slot in 0..moving {
-            put((slot, joints[mechanism.joint_at[slot]].mass_kg.sqrt()), (slot, 0.0));
-        }
-        for link in &mechanism.spans {
-            let m = link.inertia;
-            match (link.a < moving, link.b < moving) {
-                (true, true) if m.from > 0.0 => {
-                    let root = m.from.sqrt();
-                    let across = m.between / root;
-                    put((link.a, root), (link.b, across));
-                    put((link.b, (m.to - across * across).max(0.0).sqrt()), (link.b, 0.0));
-                }
-                (true, false) => put((link.a, m.from.sqrt()), (link.a, 0.0)),
-                (_, true) => put((link.b, m.to.sqrt()), (link.b, 0.0)),
-                (_, false) => {}
-            }
-        }
-        let excesses = stiffness.excesses.iter().map(|excess| {
-            let part = |axis: &Vector| excess.inertia_kg.sqrt() * vector::dot(excess.axis, *axis);
-            let first = [excess.a, excess.b].map(|slot| (slot < moving).then_some(slot * axes));
-            (first, sector.axes.iter().map(part).collect())
-        });
-        Self { rows, excesses: excesses.collect(), axes, size: moving * axes }
-    }
-
-    fn times(&self, y: &[f64]) -> Vec<f64> {
-        let axes = 0..self.axes;
-        let rows = self.rows.iter().flat_map(|[(a, by_a), (b, by_b)]| {
-            axes.clone().map(move |k| by_a * y[a * self.axes + k] + by_b * y[b * self.axes + k])
-        });
-        let across = self.excesses.iter().map(|(ends, parts)| {
-            let along = |first: &Option<usize>| -> f64 {
-                first.map_or(0.0, |first| parts.iter().zip(&y[first..]).map(|(p, y)| p * y).sum())
-            };
-            along(&ends[1]) - along(&ends[0])
-        });
-        rows.chain(across).collect()
-    }
-
-    /// Number of its rows, over all axes.
-    fn len(&self) -> usize {
-        self.rows.len() * self.axes + self.excesses.len()
-    }
-
-    fn transposed_times(&self, w: &[f64]) -> Vec<f64> {
-        let mut f = vec![0.0; self.size];
-        for (row, w) in self.rows.iter().zip(w.chunks(self.axes)) {
-            for (slot, by) in row {
-                for (k, w) in w.iter().enumerate() {
-                    f[slot * self.axes + k] += by * w;
-                }
-            }
-        }
-        let across = &w[self.rows.len() * self.axes..];
-        for ((ends, parts), w) in self.excesses.iter().zip(across) {
-            for (first, sign) in ends.iter().zip([-1.0, 1.0]) {
-                let Some(first) = first else { continue };
-                for (part, f) in parts.iter().zip(&mut f[*first..]) {
-                    *f += sign * part * w;
-                }
-            }
-        }
-        f
-    }
-}
-
 /// Eigenvectors of the operator found so far.
 struct Search<'a> {
-    root: Root,
+    entries: &'a Entries,
     shifted: &'a Shifted,
     /// The operator is multiplied by this, 1/s²: its eigenvalues are then about one and below.
     unit: f64,
-    /// `w` of length one, and their eigenvalues.
-    found: Vec<(f64, Vec<f64>)>,
+    values: Vec<f64>,
+    /// Displacements of length one in the metric of the inertia.
+    shapes: Vec<Vec<f64>>,
 }
 
 impl Search<'_> {
-    fn operate(&self, w: &[f64]) -> Vec<f64> {
-        let y = self.shifted.solve(&self.root.transposed_times(w));
-        let mut out = self.root.times(&y);
-        divide(&mut out, 1.0 / self.unit);
-        out
+    fn inertial(&self, y: &[f64]) -> Vec<f64> {
+        self.entries.inertia_times(y)
     }
 
-    /// The operator with what is found taken out.
-    fn rest(&self, w: &[f64]) -> Vec<f64> {
-        let mut out = self.operate(w);
-        for (theta, q) in &self.found {
-            let part = theta * dot(q, w);
+    /// The operator with these taken out.
+    fn operate(&self, y: &[f64], without: &[Vec<f64>]) -> Vec<f64> {
+        let inertial = self.inertial(y);
+        let mut out = self.shifted.solve(&inertial);
+        divide(&mut out, 1.0 / self.unit);
+        for (theta, q) in self.values.iter().zip(without) {
+            let part = theta * dot(q, &inertial);
             out.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
         }
         out
@@ -273,34 +185,31 @@ impl Search<'_> {
 
     /// Look for so many more.
     fn add(&mut self, count: usize) {
-        for (theta, mut w) in largest(self, count, self.found.len()) {
-            for _ in 0..2 {
-                for (_, q) in &self.found {
-                    let part = dot(q, &w);
-                    w.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
-                }
-            }
-            let length = dot(&w, &w).sqrt();
+        let rest = |y: &[f64]| self.operate(y, &self.shapes);
+        let metric = |y: &[f64]| self.inertial(y);
+        let numbers = [count, self.shapes.len()];
+        for (theta, mut y) in largest(&rest, &metric, self.entries.size, numbers) {
+            let length = across(&mut y, &self.shapes, &|y| self.entries.inertia_times(y));
             if length > 0.5 {
-                divide(&mut w, length);
-                self.found.push((theta, w));
+                divide(&mut y, length);
+                self.values.push(theta);
+                self.shapes.push(y);
             }
         }
     }
 
     /// The modes found, each after one more step of inverse iteration.
     fn pairs(&self, stiffness: &Stiffness<'_>, sector: &Sector, shift: f64) -> Vec<Pair> {
-        let pair = |(_, w): &(f64, Vec<f64>)| {
-            let mut y = self.shifted.solve(&self.root.transposed_times(w));
-            let mut w = self.root.times(&y);
-            let length = dot(&w, &w).sqrt();
+        let metric = |y: &[f64]| self.inertial(y);
+        let pair = |y: &Vec<f64>| {
+            let mut y = self.operate(y, &[]);
+            let length = across(&mut y, &[], &metric);
             divide(&mut y, length);
-            divide(&mut w, length);
             let [omega2, made_of] = stiffness.energy(sector, &y);
-            let by = self.operate(&w);
-            let theta = dot(&w, &by);
-            let left: f64 = by.iter().zip(&w).map(|(by, w)| (by - theta * w).powi(2)).sum();
-            let off = left.sqrt();
+            let mut by = self.operate(&y, &[]);
+            let theta = dot(&y, &self.inertial(&by));
+            by.iter_mut().zip(&y).for_each(|(by, y)| *by -= theta * y);
+            let off = across(&mut by, &[], &metric);
             // There is an eigenvalue of the operator within `off` of theta.
             let of = |theta: f64| shift + self.unit / theta;
             let low = (of(theta + off) - omega2).abs();
@@ -308,17 +217,7 @@ impl Search<'_> {
             let is_zero = omega2.abs() <= ZERO * made_of;
             Pair { omega2, residual: low.max(high), is_zero, y }
         };
-        self.found.iter().map(pair).collect()
-    }
-}
-
-impl Operator for Search<'_> {
-    fn size(&self) -> usize {
-        self.root.len()
-    }
-
-    fn apply(&self, w: &[f64]) -> Vec<f64> {
-        self.rest(w)
+        self.shapes.iter().map(pair).collect()
     }
 }
 

@@ -40,9 +40,10 @@ pub(super) fn modes(
         zeros.iter().map(|&k| solved.shapes.column(k).into_owned()).collect();
     let zero_shapes = DMatrix::from_columns(&columns);
     let mut named: Vec<DVector<f64>> = Vec::new();
+    let entries = stiffness.entries(sector);
     for (axis_m, turn) in turns(mechanism, state, sector) {
         // Coefficients in the zero modes, which are orthonormal in the metric of the inertia.
-        let inertial = inertia_times(stiffness, sector, &turn);
+        let inertial = DVector::from_vec(entries.inertia_times(turn.as_slice()));
         let size = turn.dot(&inertial).sqrt();
         let coefficients = zero_shapes.transpose() * inertial / size;
         if (coefficients.norm() - 1.0).abs() <= IS_A_TURN {
@@ -94,41 +95,6 @@ fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2]
         }
     }
     found
-}
-
-fn inertia_times(stiffness: &Stiffness<'_>, sector: &Sector, y: &DVector<f64>) -> DVector<f64> {
-    let mechanism = stiffness.mechanism;
-    let axes = sector.axes.len();
-    let mut product = DVector::zeros(y.len());
-    for slot in 0..mechanism.moving {
-        for k in 0..axes {
-            product[slot * axes + k] += mechanism.mass[slot] * y[slot * axes + k];
-        }
-    }
-    for link in &mechanism.spans {
-        if link.a < mechanism.moving && link.b < mechanism.moving {
-            for k in 0..axes {
-                let (a, b) = (link.a * axes + k, link.b * axes + k);
-                product[a] += link.inertia.between * y[b];
-                product[b] += link.inertia.between * y[a];
-            }
-        }
-    }
-    for excess in &stiffness.excesses {
-        let parts: Vec<f64> = sector.axes.iter().map(|axis| dot(excess.axis, *axis)).collect();
-        let ends = [(excess.a, -1.0), (excess.b, 1.0)];
-        let moving = || ends.iter().filter(|(slot, _)| *slot < mechanism.moving);
-        let along = |slot: usize| -> f64 {
-            parts.iter().enumerate().map(|(k, part)| part * y[slot * axes + k]).sum()
-        };
-        let difference: f64 = moving().map(|(slot, sign)| sign * along(*slot)).sum();
-        for (slot, sign) in moving() {
-            for (k, part) in parts.iter().enumerate() {
-                product[slot * axes + k] += sign * part * excess.inertia_kg * difference;
-            }
-        }
-    }
-    product
 }
 
 /// A mode with its shape by joint; the largest displacement is 1, its largest component positive.

@@ -43,6 +43,17 @@ pub(super) struct Entries {
     pub rows: Vec<Entry>,
 }
 
+impl Entries {
+    /// `M y`.
+    pub(super) fn inertia_times(&self, y: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.size];
+        for &(row, column, value) in &self.inertia {
+            product[row] += value * y[column];
+        }
+        product
+    }
+}
+
 impl<'a> Stiffness<'a> {
     pub(super) fn new(
         mechanism: &'a Mechanism,

@@ -12,9 +12,10 @@
 //! Methods for Discrete Sequential Estimation*, 1977).
 
 use model::Vector;
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::forest::Symmetric;
-use numerics::vector::{add_times, dot, times};
+use numerics::vector::dot;
 
 /// Least diagonal of `U` relative to its column: below it is rounding.
 const LEAST_DIAGONAL: f64 = 1e-13;
@@ -45,101 +46,46 @@ impl Eliminated {
 }
 
 /// Eliminate a joint with the inertia `a`, the columns `w` of its rows and the roots of what its
-/// children left on them; the relative diagonal (or pivot of `a`) that fails otherwise.
+/// children left on them; the relative diagonal that fails otherwise, zero where `a` does.
 pub(super) fn eliminate(a: Symmetric, w: &[Vector], roots: &[f64]) -> Result<Eliminated, f64> {
-    let l = cholesky(a)?;
+    let [xx, xy, xz, yy, yz, zz] = a;
+    let a = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let l = a.cholesky().ok_or(0.0)?.l();
+    let backwards = |v: Vector3<f64>| l.tr_solve_lower_triangular(&v).unwrap_or_default().into();
     let m = w.len();
-    // Columns to reflect: those of the rows, then the unit vectors of the joint, which become the
-    // rows of Q.
-    let mut columns: Vec<Vec<f64>> = Vec::with_capacity(m + 3);
+    let mut stacked = DMatrix::zeros(3 + m, m);
     for (k, (&w, &root)) in w.iter().zip(roots).enumerate() {
-        let mut column = vec![0.0; 3 + m];
-        column[..3].copy_from_slice(&forwards(l, w));
-        column[3 + k] = root;
-        columns.push(column);
+        let own = l.solve_lower_triangular(&Vector3::from(w)).unwrap_or_default();
+        stacked.fixed_view_mut::<3, 1>(0, k).copy_from(&own);
+        stacked[(3 + k, k)] = root;
     }
-    for axis in 0..3 {
-        let mut unit = vec![0.0; 3 + m];
-        unit[axis] = 1.0;
-        columns.push(unit);
+    // The rows of Q that belong to the joint, as columns.
+    let mut q = DMatrix::identity(3 + m, 3);
+    let mut u = DMatrix::zeros(m, m);
+    if m > 0 {
+        let qr = stacked.qr();
+        qr.q_tr_mul(&mut q);
+        u = qr.r();
     }
-    for k in 0..m {
-        reflect(&mut columns, k)?;
-    }
-    let q = &columns[m..];
-    let backwards = |k: usize| backwards(l, [q[0][k], q[1][k], q[2][k]]);
-    let mut h: Vec<Vector> = (0..m).map(backwards).collect();
-    // The inverse of U, by columns.
-    let mut inverse = vec![vec![0.0; m]; m];
-    for k in (0..m).rev() {
-        let diagonal = columns[k][k];
-        for j in k + 1..m {
-            h[k] = add_times(h[k], -columns[j][k], h[j]);
-        }
-        h[k] = times(1.0 / diagonal, h[k]);
-        inverse[k][k] = 1.0 / diagonal;
-        for i in (0..k).rev() {
-            let sum: f64 = (i + 1..=k).map(|j| columns[j][i] * inverse[k][j]).sum();
-            inverse[k][i] = -sum / columns[i][i];
+    for (k, column) in u.column_iter().enumerate() {
+        let (below, whole) = (u[(k, k)].abs(), column.norm());
+        if below.is_nan() || below <= LEAST_DIAGONAL * whole {
+            return Err(if whole > 0.0 { below / whole } else { 0.0 });
         }
     }
-    let mut t_inverse = vec![0.0; m * m];
-    for i in 0..m {
-        for j in 0..m {
-            t_inverse[i * m + j] = inverse.iter().map(|column| column[i] * column[j]).sum();
-        }
-    }
-    Ok(Eliminated { f: [backwards(m), backwards(m + 1), backwards(m + 2)], h, t_inverse })
-}
-
-/// Reflect column `k` onto its first `k + 1` entries, and all later columns with it.
-fn reflect(columns: &mut [Vec<f64>], k: usize) -> Result<(), f64> {
-    let (whole, below) = (norm(&columns[k]), norm(&columns[k][k..]));
-    if below.is_nan() || below <= LEAST_DIAGONAL * whole {
-        return Err(if whole > 0.0 { below / whole } else { 0.0 });
-    }
-    let mut mirror = columns[k][k..].to_vec();
-    mirror[0] += below.copysign(mirror[0]);
-    let size: f64 = mirror.iter().map(|x| x * x).sum();
-    for column in &mut columns[k..] {
-        let along: f64 = column[k..].iter().zip(&mirror).map(|(x, v)| x * v).sum();
-        let part = 2.0 * along / size;
-        column[k..].iter_mut().zip(&mirror).for_each(|(x, v)| *x -= part * v);
-    }
-    Ok(())
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// `A = L Lᵀ`: xx, yx, yy, zx, zy, zz of `L`.
-fn cholesky([xx, xy, xz, yy, yz, zz]: Symmetric) -> Result<Symmetric, f64> {
-    let root = |pivot: f64| if pivot > 0.0 { Ok(pivot.sqrt()) } else { Err(pivot) };
-    let a = root(xx)?;
-    let (b, d) = (xy / a, xz / a);
-    let c = root(yy - b * b)?;
-    let e = (yz - b * d) / c;
-    Ok([a, b, c, d, e, root(zz - d * d - e * e)?])
-}
-
-/// `L⁻¹ v`.
-fn forwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
-    let x = v[0] / a;
-    let y = (v[1] - b * x) / c;
-    [x, y, (v[2] - d * x - e * y) / f]
-}
-
-/// `L⁻ᵀ v`.
-fn backwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
-    let z = v[2] / f;
-    let y = (v[1] - e * z) / c;
-    [(v[0] - b * y - d * z) / a, y, z]
+    let inverse = u.solve_upper_triangular(&DMatrix::identity(m, m)).ok_or(0.0)?;
+    let scaled = &inverse * q.rows(0, m);
+    let row = |of: &DMatrix<f64>, k: usize| Vector3::new(of[(k, 0)], of[(k, 1)], of[(k, 2)]);
+    Ok(Eliminated {
+        f: [0, 1, 2].map(|k| backwards(row(&q, m + k))),
+        h: (0..m).map(|k| backwards(row(&scaled, k))).collect(),
+        t_inverse: (&inverse * inverse.transpose()).iter().copied().collect(),
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{eliminate, reflect};
+    use super::eliminate;
 
     /// Without rows `P` is the inverse of the inertia: here of a full matrix with the determinant 35.
     #[test]
@@ -158,13 +104,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    /// What is left of a column is told as a part of it: 1e-20 of 2.
-    #[test]
-    fn a_column_that_depends_on_others_is_told() {
-        let found = reflect(&mut [vec![1.0, 0.0, 0.0], vec![2.0, 1e-20, 0.0]], 1);
-        assert!((found.unwrap_err() / 5e-21 - 1.0).abs() < 1e-15);
     }
 
     /// With rows, by the formulas that it spares: `T = Wᵀ A⁻¹ W + S`, `H = A⁻¹ W T⁻¹` and

@@ -43,20 +43,3 @@ fn the_energy_of_the_papers_chain_stays_in_its_band_without_trend() {
     assert!(band_j < 2e-4, "{band_j:e}");
     assert!(trend_j.abs() < 0.01 * band_j, "{trend_j:e} {band_j:e}");
 }
-
-#[test]
-fn the_band_falls_with_the_square_of_the_step() {
-    let band = |steps: u32| {
-        let step = 3.0 / f64::from(steps);
-        let mut chain = at_rest(&paper(), &closed(0.8, 1.0), Order::Second);
-        let begin_j = chain.energy_j();
-        let mut band_j = 0.0_f64;
-        for _ in 0..steps {
-            chain.step(step).unwrap();
-            band_j = band_j.max((chain.energy_j() - begin_j).abs());
-        }
-        band_j
-    };
-    let ratio = band(1500) / band(3000);
-    assert!((ratio - 4.0).abs() < 0.2, "{ratio}");
-}

@@ -1,12 +1,10 @@
 //! The pieces of the equations in natural coordinates against dual numbers.
 
 use model::Bar;
-use motion::{EndInertia, Order, random_position};
-use num_dual::{Dual2_64, DualNum, HyperDual64};
+use motion::EndInertia;
+use num_dual::{DualNum, HyperDual64};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-use crate::common::{at_rest, paper, run};
 
 /// Kinetic energy along one axis of point masses on a straight member with the end velocities `v`.
 fn energy<D: DualNum<f64> + Copy>(masses: &[(f64, f64)], v: [D; 2]) -> D {
@@ -38,31 +36,6 @@ fn the_inertia_of_the_ends_is_the_second_derivative_of_the_kinetic_energy() {
             [(found.from, second(0, 0)), (found.between, second(0, 1)), (found.to, second(1, 1))]
         {
             assert!((found - told).abs() < 1e-13 * mass, "{found} {told}");
-        }
-    }
-}
-
-#[test]
-fn the_second_derivative_of_every_length_vanishes_along_a_motion() {
-    for seed in 0..10 {
-        let at = random_position(&paper(), seed).unwrap();
-        let mut simulation = at_rest(&paper(), &at, Order::Second);
-        run(&mut simulation, 0.5, 1e-3);
-        let now = simulation.snapshot();
-        let joint = |j: usize| -> [Dual2_64; 3] {
-            std::array::from_fn(|k| {
-                let (v, a) = (now.velocities_m_s[j][k], now.accelerations_m_s2[j][k]);
-                Dual2_64::new(now.joints_m[j][k], v, a)
-            })
-        };
-        for bar in 0..3 {
-            let (from, to) = (joint(bar), joint(bar + 1));
-            let squares = (0..3).map(|k| (to[k] - from[k]) * (to[k] - from[k]));
-            let squared = squares.fold(Dual2_64::from(0.0), |sum, square| sum + square);
-            assert!((squared.re - 1.0).abs() < 1e-14, "{}", squared.re);
-            // Rates up to some 10 m²/s, their rates up to some 1000 m²/s².
-            assert!(squared.v1.abs() < 1e-12, "{}", squared.v1);
-            assert!(squared.v2.abs() < 1e-10, "{}", squared.v2);
         }
     }
 }

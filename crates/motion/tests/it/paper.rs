@@ -1,23 +1,23 @@
-//! The paper's equation of motion, piece by piece against dual numbers, and as a whole against the
-//! natural coordinates.
+//! The paper's equation of motion (33), sections V and VI, solved with dual numbers and held against
+//! the natural coordinates; `paper::equations` has its formulas and their corrections.
 
 use model::system::System;
 use model::{Anchors, Bar, Chain};
-use motion::paper::{
-    Constraints, Coordinates, accelerations, angles, angular_inertia, matrix, rates,
-    rates_derivative, rotation, velocity_terms,
-};
 use motion::{Settings, Simulation};
-use nalgebra::{Matrix3, Vector3};
-use num_dual::{Dual2_64, Dual64, DualNum, HyperDual64, first_derivative};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use num_dual::{Dual, Dual2_64, Dual64, DualNum, HyperDual64};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::common::G;
 
+/// Place of the centre of a bar and its angles, `(X_C, Y_C, Z_C, ψ, θ, φ)`, or their derivatives by
+/// time.
+type Coordinates = [f64; 6];
+
 type Rotation<D> = [[D; 3]; 3];
 
-/// `[ψ][θ][φ]`, written out anew for any numbers.
+/// `[A] = [ψ] [θ] [φ]` (1)-(5): its columns are the axes of the bar.
 fn turned<D: DualNum<f64> + Copy>(angles: [D; 3]) -> Rotation<D> {
     let (zero, one) = (D::from(0.0), D::from(1.0));
     let [(sp, cp), (st, ct), (sf, cf)] = angles.map(|a| a.sin_cos());
@@ -33,71 +33,40 @@ fn product<D: DualNum<f64> + Copy>(a: Rotation<D>, b: Rotation<D>) -> Rotation<D
     })
 }
 
-fn random(rng: &mut ChaCha8Rng, size: f64) -> Vector3<f64> {
-    Vector3::from_fn(|_, _| rng.random_range(-size..size))
+fn angles(q: &Coordinates) -> [f64; 3] {
+    [q[3], q[4], q[5]]
 }
 
-/// Angular velocity in the axes of the bar from the rotation's derivative alone: `Aᵀ Ȧ = [ω]`.
-fn omega(at: &Vector3<f64>, by: &Vector3<f64>) -> Vector3<f64> {
-    let dual = turned([0, 1, 2].map(|k| Dual64::new(at[k], by[k])));
-    let a = Matrix3::from_fn(|i, j| dual[i][j].re);
-    let dot = Matrix3::from_fn(|i, j| dual[i][j].eps);
-    let skew = a.transpose() * dot;
-    assert!((skew + skew.transpose()).norm() < 1e-14 * dot.norm().max(1.0));
-    Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)])
+/// The axis along a bar.
+fn axis(q: &Coordinates) -> Vector3<f64> {
+    let a = turned(angles(q));
+    Vector3::new(a[0][0], a[1][0], a[2][0])
 }
 
-#[test]
-fn rotation_and_angular_velocity_are_those_of_dual_numbers() {
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    for _ in 0..100 {
-        let (at, by) = (random(&mut rng, 3.0), random(&mut rng, 2.0));
-        let told = turned([at.x, at.y, at.z]);
-        assert!((rotation(&at) - Matrix3::from_fn(|i, j| told[i][j])).norm() < 1e-15);
-        assert!((rates(&at) * by - omega(&at, &by)).norm() < 1e-14);
-        let h = |t: Dual64| {
-            let (st, ct) = (t * by.y + at.y).sin_cos();
-            let (sf, cf) = (t * by.z + at.z).sin_cos();
-            [ct * cf, sf, -ct * sf, cf, st]
-        };
-        let dot = rates_derivative(&at, &by);
-        let entries = [dot.m11, dot.m12, dot.m21, dot.m22, dot.m31];
-        for (k, entry) in entries.into_iter().enumerate() {
-            let (_, slope) = first_derivative(|t| h(t)[k], 0.0);
-            assert!((slope - entry).abs() < 1e-14, "{k}");
-        }
-    }
+/// Angular velocity in the axes of the bar, from the rotation alone: `[ω] = Aᵀ Ȧ`.
+fn omega<D: DualNum<f64> + Copy>(at: [D; 3], by: [D; 3]) -> [D; 3] {
+    let dual = turned([0, 1, 2].map(|k| Dual::<D, f64>::new(at[k], by[k])));
+    let entry = |i: usize, k: usize| {
+        let [x, y, z] = [0, 1, 2].map(|row| dual[row][i].re * dual[row][k].eps);
+        x + y + z
+    };
+    [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-/// Kinetic energy of rotation, from the rotation alone, for any numbers: `½ Σ J_k ω_k²` with
-/// `[ω] = Aᵀ Ȧ`, `Ȧ = Σ ∂A/∂β_k β̇_k` by the products' rule.
+/// `[Q]` (23): `ω` from the velocities of the angles.
+fn rates(q: &Coordinates) -> Matrix3<f64> {
+    let unit = |k: usize| Vector3::from(omega(angles(q), Vector3::ith(k, 1.0).into()));
+    Matrix3::from_columns(&[unit(0), unit(1), unit(2)])
+}
+
+/// Kinetic energy of rotation, `½ Σ J_k ω_k²`.
 fn energy<D: DualNum<f64> + Copy>(j: [f64; 3], at: [D; 3], by: [D; 3]) -> D {
-    let zero = D::from(0.0);
-    let [(sp, cp), (st, ct), (sf, cf)] = at.map(|a| a.sin_cos());
-    let (one, a) = (D::from(1.0), turned(at));
-    let psi = [[one, zero, zero], [zero, cp, -sp], [zero, sp, cp]];
-    let theta = [[ct, zero, st], [zero, one, zero], [-st, zero, ct]];
-    let phi = [[cf, -sf, zero], [sf, cf, zero], [zero, zero, one]];
-    let psi_by = [[zero; 3], [zero, -sp, -cp], [zero, cp, -sp]];
-    let theta_by = [[-st, zero, ct], [zero; 3], [-ct, zero, -st]];
-    let phi_by = [[-sf, -cf, zero], [cf, -sf, zero], [zero; 3]];
-    let parts = [
-        product(product(psi_by, theta), phi),
-        product(product(psi, theta_by), phi),
-        product(product(psi, theta), phi_by),
-    ];
-    let dot: Rotation<D> = std::array::from_fn(|i| {
-        std::array::from_fn(|k| {
-            parts[0][i][k] * by[0] + parts[1][i][k] * by[1] + parts[2][i][k] * by[2]
-        })
-    });
-    let skew = |i: usize, k: usize| a[0][i] * dot[0][k] + a[1][i] * dot[1][k] + a[2][i] * dot[2][k];
-    let omega = [skew(2, 1), skew(0, 2), skew(1, 0)];
-    (omega[0] * omega[0] * j[0] + omega[1] * omega[1] * j[1] + omega[2] * omega[2] * j[2]) * 0.5
+    let [x, y, z] = omega(at, by);
+    (x * x * j[0] + y * y * j[1] + z * z * j[2]) * 0.5
 }
 
 /// Derivative of the energy by two of its six arguments.
-fn second(j: [f64; 3], at: &Vector3<f64>, by: &Vector3<f64>, first: usize, other: usize) -> f64 {
+fn second(j: [f64; 3], at: [f64; 3], by: [f64; 3], first: usize, other: usize) -> f64 {
     let x = |k: usize| {
         let value = if k < 3 { at[k] } else { by[k - 3] };
         let unit = |wanted: usize| if k == wanted { 1.0 } else { 0.0 };
@@ -106,140 +75,131 @@ fn second(j: [f64; 3], at: &Vector3<f64>, by: &Vector3<f64>, first: usize, other
     energy(j, [x(0), x(1), x(2)], [x(3), x(4), x(5)]).eps1eps2
 }
 
-#[test]
-fn inertia_and_velocity_terms_follow_from_the_kinetic_energy_by_lagranges_equations() {
-    let mut rng = ChaCha8Rng::seed_from_u64(2);
-    for _ in 0..100 {
-        let (at, by) = (random(&mut rng, 3.0), random(&mut rng, 2.0));
-        let j = [0, 1, 2].map(|_| rng.random_range(0.1..2.0));
-        // d/dt ∂T/∂β̇ − ∂T/∂β = ∂²T/∂β̇∂β̇ β̈ + ∂²T/∂β̇∂β β̇ − ∂T/∂β.
-        let inertia = Matrix3::from_fn(|i, k| second(j, &at, &by, 3 + i, 3 + k));
-        assert!((angular_inertia(j, &at) - inertia).norm() < 1e-13);
-        let gradient = Vector3::from_fn(|i, _| {
-            let dual = |k: usize| Dual64::new(at[k], if k == i { 1.0 } else { 0.0 });
-            energy(j, [dual(0), dual(1), dual(2)], [0, 1, 2].map(|k| Dual64::from(by[k]))).eps
-        });
-        let mixed = Matrix3::from_fn(|i, k| second(j, &at, &by, 3 + i, k));
-        let told = gradient - mixed * by;
-        let found = velocity_terms(j, &at, &by);
-        assert!((found - told).norm() < 1e-12 * told.norm().max(1.0), "{found} {told}");
-    }
+/// `[Q]ᵀ[J][Q]` (31), from the kinetic energy.
+fn angular_inertia(j: [f64; 3], at: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, k| second(j, at, [0.0; 3], 3 + i, 3 + k))
 }
 
-/// A chain of n bars with three moments each, at random angles that its anchors fit.
-fn chain(rng: &mut ChaCha8Rng, n: usize) -> (Chain, Vec<Coordinates>) {
-    let mut q = Vec::new();
-    let mut bars = Vec::new();
-    let mut joint = random(rng, 1.0);
-    let start = joint;
-    for _ in 0..n {
-        let l = rng.random_range(0.5..2.0);
-        let r = l * rng.random_range(0.2..0.8);
-        let across = rng.random_range(0.05..0.5);
-        let along = rng.random_range(0.01..0.1);
-        bars.push(Bar::new(l, rng.random_range(0.5..3.0), r, [along, across, across]).unwrap());
-        let mut at = random(rng, 3.0);
-        // Away from gimbal lock.
-        at.y = rng.random_range(-1.0..1.0);
-        let axis = rotation(&at).column(0).into_owned();
-        let centre = joint + axis * r;
-        q.push([centre.x, centre.y, centre.z, at.x, at.y, at.z]);
-        joint += axis * l;
-    }
-    let anchors = Anchors { start_m: start.into(), end_m: joint.into() };
-    (Chain::new("random", G, anchors, bars).unwrap(), q)
+/// `{F̃_β}` (39), by Lagrange's equations: `∂T/∂β − ∂²T/∂β̇∂β β̇`.
+fn velocity_terms(j: [f64; 3], at: [f64; 3], by: [f64; 3]) -> Vector3<f64> {
+    let gradient = Vector3::from_fn(|i, _| {
+        let dual = |k: usize| Dual64::new(at[k], if k == i { 1.0 } else { 0.0 });
+        energy(j, [dual(0), dual(1), dual(2)], by.map(Dual64::from)).eps
+    });
+    gradient - Matrix3::from_fn(|i, k| second(j, at, by, 3 + i, k)) * Vector3::from(by)
 }
 
-/// The constraints of a chain for any numbers.
+/// The two ends of a bar.
+fn ends<D: DualNum<f64> + Copy>(bar: &Bar, q: &[D; 6]) -> [[D; 3]; 2] {
+    let a = turned([q[3], q[4], q[5]]);
+    [-bar.centre_m(), bar.length_m() - bar.centre_m()]
+        .map(|along| [0, 1, 2].map(|k| q[k] + a[k][0] * along))
+}
+
+/// The constraints (7)-(20) of n bars: joint 0 at its anchor, both bars of a joint in one place,
+/// joint n at its anchor.
 fn constraints<D: DualNum<f64> + Copy>(chain: &Chain, q: &[[D; 6]]) -> Vec<D> {
-    let n = chain.bars().len();
-    let end = |i: usize, far: bool| -> [D; 3] {
-        let bar = &chain.bars()[i];
-        let along = if far { bar.length_m() - bar.centre_m() } else { -bar.centre_m() };
-        let a = turned([q[i][3], q[i][4], q[i][5]]);
-        [0, 1, 2].map(|k| q[i][k] + a[k][0] * along)
+    let ends: Vec<_> = chain.bars().iter().zip(q).map(|(bar, q)| ends(bar, q)).collect();
+    let [start, end] = [chain.anchors().start_m, chain.anchors().end_m].map(|x| x.map(D::from));
+    let far = ends.iter().map(|ends| ends[1]);
+    let near = ends.iter().skip(1).map(|ends| ends[0]).chain([end]);
+    let first = [0, 1, 2].map(|k| ends[0][0][k] - start[k]);
+    let joined = far.zip(near).map(|(far, near)| [0, 1, 2].map(|k| far[k] - near[k]));
+    [first].into_iter().chain(joined).flatten().collect()
+}
+
+/// `[B]` (22): derivatives of the constraints by the coordinates.
+fn constraint_matrix(chain: &Chain, q: &[Coordinates]) -> DMatrix<f64> {
+    let column = |column: usize| {
+        let dual = |(i, q): (usize, &Coordinates)| {
+            let unit = |k| if 6 * i + k == column { 1.0 } else { 0.0 };
+            std::array::from_fn(|k| Dual64::new(q[k], unit(k)))
+        };
+        let dual: Vec<[Dual64; 6]> = q.iter().enumerate().map(dual).collect();
+        DVector::from_iterator(3 * q.len() + 3, constraints(chain, &dual).iter().map(|f| f.eps))
     };
-    let mut values = Vec::new();
-    for joint in 0..=n {
+    DMatrix::from_columns(&(0..6 * q.len()).map(column).collect::<Vec<_>>())
+}
+
+/// The matrix of (33).
+fn matrix(chain: &Chain, q: &[Coordinates]) -> DMatrix<f64> {
+    let b = constraint_matrix(chain, q);
+    let (rows, size) = b.shape();
+    let mut matrix = DMatrix::zeros(size + rows, size + rows);
+    for (i, (bar, q)) in chain.bars().iter().zip(q).enumerate() {
         for k in 0..3 {
-            values.push(match joint {
-                0 => end(0, false)[k] - chain.anchors().start_m[k],
-                _ if joint == n => end(n - 1, true)[k] - chain.anchors().end_m[k],
-                _ => end(joint - 1, true)[k] - end(joint, false)[k],
-            });
+            matrix[(6 * i + k, 6 * i + k)] = bar.mass_kg();
         }
+        let angular = angular_inertia(bar.inertia_kg_m2(), angles(q));
+        matrix.view_mut((6 * i + 3, 6 * i + 3), (3, 3)).copy_from(&angular);
     }
-    values
+    matrix.view_mut((0, size), (size, rows)).copy_from(&(-b.transpose()));
+    matrix.view_mut((size, 0), (rows, size)).copy_from(&b);
+    matrix
 }
 
-#[test]
-fn the_constraints_and_their_derivatives_are_those_of_dual_numbers() {
-    let mut rng = ChaCha8Rng::seed_from_u64(3);
-    for n in [2, 3, 5] {
-        let (chain, mut q) = chain(&mut rng, n);
-        let closed = Constraints::new(&chain).values(&q);
-        assert!(closed.amax() < 1e-14);
-        // The derivatives hold off the constraints too.
-        q[0][1] += 0.1;
-        let values = Constraints::new(&chain).values(&q);
-        let told = constraints::<f64>(&chain, &q);
-        assert!(values.iter().zip(&told).all(|(a, b)| (a - b).abs() < 1e-14));
-        let b = Constraints::new(&chain).matrix(&q);
-        let v: Vec<Coordinates> =
-            (0..n).map(|_| [0; 6].map(|_| rng.random_range(-1.0..1.0))).collect();
-        for column in 0..6 * n {
-            let dual: Vec<[Dual64; 6]> = (0..n)
-                .map(|i| {
-                    std::array::from_fn(|k| {
-                        let unit = if 6 * i + k == column { 1.0 } else { 0.0 };
-                        Dual64::new(q[i][k], unit)
-                    })
-                })
-                .collect();
-            for (row, value) in constraints(&chain, &dual).into_iter().enumerate() {
-                assert!((value.eps - b[(row, column)]).abs() < 1e-14, "{row} {column}");
-            }
-        }
-        // Along q + t v: the second derivative is Ḃ v.
-        let along: Vec<[Dual2_64; 6]> =
-            (0..n).map(|i| std::array::from_fn(|k| Dual2_64::new(q[i][k], v[i][k], 0.0))).collect();
-        let gamma = Constraints::new(&chain).gamma(&q, &v);
-        for (row, value) in constraints(&chain, &along).into_iter().enumerate() {
-            assert!((value.v2 + gamma[row]).abs() < 1e-13, "{row}");
-        }
-    }
+/// `q + t v + t² a/2`.
+fn moving(q: &Coordinates, v: &Coordinates, a: &[f64]) -> [Dual2_64; 6] {
+    std::array::from_fn(|k| Dual2_64::new(q[k], v[k], a[k]))
 }
 
-/// Velocities of the angles of bars whose joints move with these velocities, without spin.
+/// `{q̈}`, six for each bar, then `{λ}`, three for each joint.
+fn accelerations(chain: &Chain, q: &[Coordinates], v: &[Coordinates]) -> DVector<f64> {
+    let matrix = matrix(chain, q);
+    let mut right = DVector::zeros(matrix.nrows());
+    for (i, (bar, (q, v))) in chain.bars().iter().zip(q.iter().zip(v)).enumerate() {
+        right[6 * i + 2] = -bar.mass_kg() * chain.gravity_m_s2();
+        let terms = velocity_terms(bar.inertia_kg_m2(), angles(q), angles(v));
+        right.rows_mut(6 * i + 3, 3).copy_from(&terms);
+    }
+    // `−[Ḃ]{q̇}`.
+    let even: Vec<_> = q.iter().zip(v).map(|(q, v)| moving(q, v, &[0.0; 6])).collect();
+    for (k, value) in constraints(chain, &even).iter().enumerate() {
+        right[6 * q.len() + k] = -value.v2;
+    }
+    matrix.lu().solve(&right).unwrap()
+}
+
+fn random(rng: &mut ChaCha8Rng, size: f64) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| rng.random_range(-size..size))
+}
+
+/// The coordinates of bars one after the other from a place, and their joints.
+fn placed(
+    bars: &[Bar],
+    start: Vector3<f64>,
+    angles: &[[f64; 3]],
+) -> (Vec<Coordinates>, Vec<[f64; 3]>) {
+    let (mut joints, mut q) = (vec![start.into()], Vec::new());
+    let mut joint = start;
+    for (bar, [psi, theta, phi]) in bars.iter().zip(angles) {
+        let along = axis(&[0.0, 0.0, 0.0, *psi, *theta, *phi]);
+        let centre = joint + along * bar.centre_m();
+        q.push([centre.x, centre.y, centre.z, *psi, *theta, *phi]);
+        joint += along * bar.length_m();
+        joints.push(joint.into());
+    }
+    (q, joints)
+}
+
+/// Velocities of the coordinates of bars whose joints move with these velocities, without spin.
 fn velocities(chain: &Chain, q: &[Coordinates], joints: &[[f64; 3]]) -> Vec<Coordinates> {
     let bars = chain.bars().iter().zip(q).enumerate();
     bars.map(|(i, (bar, q))| {
         let [a, b] = [joints[i], joints[i + 1]].map(Vector3::from);
-        let at = angles(q);
-        let axis = rotation(&at).column(0).into_owned();
-        let omega = axis.cross(&((b - a) / bar.length_m()));
-        let by = rates(&at).lu().solve(&(rotation(&at).transpose() * omega)).unwrap();
+        let omega = axis(q).cross(&((b - a) / bar.length_m()));
+        let by = rates_of(q, &omega);
         let centre = a + (b - a) * (bar.centre_m() / bar.length_m());
         [centre.x, centre.y, centre.z, by.x, by.y, by.z]
     })
     .collect()
 }
 
-/// Acceleration of the far end of a bar.
-fn far_end(
-    chain: &Chain,
-    i: usize,
-    q: &Coordinates,
-    v: &Coordinates,
-    a: &Coordinates,
-) -> Vector3<f64> {
-    let bar = &chain.bars()[i];
-    let (at, by) = (angles(q), angles(v));
-    let omega = rates(&at) * by;
-    let turned = rates(&at) * angles(a) + rates_derivative(&at, &by) * by;
-    let x = Vector3::x() * (bar.length_m() - bar.centre_m());
-    let relative = rotation(&at) * (turned.cross(&x) + omega.cross(&omega.cross(&x)));
-    Vector3::new(a[0], a[1], a[2]) + relative
+/// Velocities of the angles of a bar that turns with `ω`, in the axes of the world.
+fn rates_of(q: &Coordinates, omega: &Vector3<f64>) -> Vector3<f64> {
+    let a = turned(angles(q));
+    let own = Matrix3::from_fn(|i, k| a[k][i]) * omega;
+    rates(q).lu().solve(&own).unwrap()
 }
 
 #[test]
@@ -248,31 +208,41 @@ fn accelerations_and_forces_are_those_of_the_natural_coordinates() {
     let mut worst = 0.0_f64;
     for n in [2, 3, 4, 6] {
         for _ in 0..10 {
-            let (chain, q) = chain(&mut rng, n);
-            let system = System::from(&chain);
-            let mut joints = vec![chain.anchors().start_m];
-            for (bar, q) in chain.bars().iter().zip(&q) {
-                let axis = rotation(&angles(q)).column(0) * bar.length_m();
-                let last = joints[joints.len() - 1];
-                joints.push([0, 1, 2].map(|k| last[k] + axis[k]));
-            }
-            let mut natural = Simulation::new(&system, &joints, Settings::default()).unwrap();
+            let bar = |rng: &mut ChaCha8Rng| {
+                let l = rng.random_range(0.5..2.0);
+                let (along, across) = (rng.random_range(0.01..0.1), rng.random_range(0.05..0.5));
+                let (mass, r) = (rng.random_range(0.5..3.0), l * rng.random_range(0.2..0.8));
+                Bar::new(l, mass, r, [along, across, across]).unwrap()
+            };
+            let bars: Vec<Bar> = (0..n).map(|_| bar(&mut rng)).collect();
+            // Away from gimbal lock.
+            let turns = [0; 6].map(|_| random(&mut rng, 3.0)).map(|a| [a.x, a.y / 3.0, a.z]);
+            let (q, joints) = placed(&bars, random(&mut rng, 1.0), &turns);
+            let anchors = Anchors { start_m: joints[0], end_m: joints[n] };
+            let chain = Chain::new("random", G, anchors, bars).unwrap();
+            let closed = constraints(&chain, &q);
+            assert!(closed.iter().all(|f: &f64| f.abs() < 1e-14), "{closed:?}");
+            let mut natural =
+                Simulation::new(&System::from(&chain), &joints, Settings::default()).unwrap();
             let wild: Vec<[f64; 3]> = joints.iter().map(|_| random(&mut rng, 2.0).into()).collect();
             natural.set_velocities(&wild).unwrap();
             let now = natural.snapshot();
             let v = velocities(&chain, &q, &now.velocities_m_s);
-            let found = accelerations(&chain, &q, &v).unwrap();
+            let found = accelerations(&chain, &q, &v);
             let unit = now.end_forces_n.iter().flatten().fold(1.0, |a: f64, x| a.max(x.abs()));
-            for i in 0..n {
-                let end = far_end(&chain, i, &q[i], &v[i], &found.q[i]);
-                for k in 0..3 {
+            let lambda = |joint: usize, k: usize| found[6 * n + 3 * joint + k];
+            for (i, bar) in chain.bars().iter().enumerate() {
+                let bar_moving = moving(&q[i], &v[i], found.rows(6 * i, 6).as_slice());
+                let [_, end] = ends(bar, &bar_moving);
+                for (k, end) in end.iter().enumerate() {
                     let told = now.accelerations_m_s2[i + 1][k];
-                    let force = found.lambda_n[i + 1][k] - now.end_forces_n[i][k];
-                    worst = worst.max((end[k] - told).abs() / unit).max(force.abs() / unit);
+                    let force = lambda(i + 1, k) - now.end_forces_n[i][k];
+                    worst = worst.max((end.v2 - told).abs() / unit).max(force.abs() / unit);
                 }
             }
             for k in 0..3 {
-                let force = found.lambda_n[0][k] - now.start_forces_n[0][k];
+                // (7) has the first bar with the sign of a far end.
+                let force = lambda(0, k) - now.start_forces_n[0][k];
                 worst = worst.max(force.abs() / unit);
             }
         }
@@ -288,23 +258,15 @@ fn the_papers_coordinates_are_singular_where_the_paper_has_its_equilibrium() {
     let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
     let chain = Chain::new("three thick bars", G, anchors, vec![bar; 3]).unwrap();
     let degrees = [19.694_867_976_133_02_f64, 38.599_136_184_451_89, -73.920_588_792_231_34];
-    // θ = π/2 − ε: the bar points along A x = (cos θ cos φ, ...); at ε = 0 it lies in OYZ.
-    let at = |epsilon: f64| -> Vec<Coordinates> {
+    // θ = π/2 − ε: the bar points along A x = (cos θ cos φ, ...); at ε = 0 it lies in OYZ, with
+    // ψ = 0 at x = (0, sin φ, −cos φ), φ the angle from the descending vertical.
+    let at = |epsilon: f64| {
         let theta = std::f64::consts::FRAC_PI_2 - epsilon;
-        let mut joint = Vector3::zeros();
-        let mut q = Vec::new();
-        for angle in degrees {
-            // ψ = 0: x = (0, sin φ, −cos φ) at ε = 0, the angle from the descending vertical.
-            let angles = Vector3::new(0.0, theta, angle.to_radians());
-            let axis = rotation(&angles).column(0).into_owned();
-            let centre = joint + axis * 0.5;
-            q.push([centre.x, centre.y, centre.z, angles.x, angles.y, angles.z]);
-            joint += axis;
-        }
-        q
+        let angles = degrees.map(|angle| [0.0, theta, angle.to_radians()]);
+        placed(chain.bars(), Vector3::zeros(), &angles)
     };
     let smallest = |epsilon: f64| {
-        let values = matrix(&chain, &at(epsilon)).svd(false, false).singular_values;
+        let values = matrix(&chain, &at(epsilon).0).svd(false, false).singular_values;
         values.min() / values.max()
     };
     // On the lock the matrix of (33) has no inverse; off it the smallest singular value falls like
@@ -314,30 +276,17 @@ fn the_papers_coordinates_are_singular_where_the_paper_has_its_equilibrium() {
     assert!(on < 1e-16 && near > 1e-7, "{on:e} {near:e}");
     assert!((near / nearer / 100.0 - 1.0).abs() < 0.05, "{near:e} {nearer:e}");
     // Columns 4 and 6 of B agree there: ψ and φ turn about the same axis.
-    let b = Constraints::new(&chain).matrix(&at(0.0));
+    let b = constraint_matrix(&chain, &at(0.0).0);
     for bar in 0..3 {
         let difference = b.column(6 * bar + 3) - b.column(6 * bar + 5);
         assert!(difference.norm() < 1e-15, "{difference}");
     }
     // The same slow turn of a bar asks for faster and faster angles; its ends move as before.
-    let turn = Vector3::new(0.0, 0.0, 1.0);
-    let speed = |epsilon: f64| {
-        let at = angles(&at(epsilon)[0]);
-        rates(&at).lu().solve(&(rotation(&at).transpose() * turn)).unwrap().norm()
-    };
+    let speed = |epsilon: f64| rates_of(&at(epsilon).0[0], &Vector3::z()).norm();
     assert!((speed(1e-3) / speed(1e-2) - 10.0).abs() < 0.01, "{} {}", speed(1e-3), speed(1e-2));
     // In natural coordinates nothing happens there: the chain starts from the lock at rest.
-    let joints = |q: &[Coordinates]| {
-        let axes = q.iter().map(|q| rotation(&angles(q)).column(0).into_owned());
-        let mut at = vec![[0.0; 3]];
-        for axis in axes {
-            let last = at[at.len() - 1];
-            at.push([0, 1, 2].map(|k| last[k] + axis[k]));
-        }
-        at
-    };
     let mut natural =
-        Simulation::new(&System::from(&chain), &joints(&at(0.0)), Settings::default()).unwrap();
+        Simulation::new(&System::from(&chain), &at(0.0).1, Settings::default()).unwrap();
     let still = natural.snapshot().accelerations_m_s2;
     assert!(still.iter().flatten().all(|a| a.abs() < 1e-11), "{still:?}");
 }

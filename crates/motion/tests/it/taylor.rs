@@ -2,74 +2,27 @@
 //! arithmetic (31 digits): the equations for the two angles, which the natural coordinates never
 //! see.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 use motion::Order;
+use numerics::DoubleDouble as Twin;
 
 use crate::common::{G, at_rest, hanging, links, run, string};
 
-/// A number of 31 digits: the sum of two doubles.
-#[derive(Clone, Copy, Debug)]
-struct Twin(f64, f64);
-
-fn quick(a: f64, b: f64) -> Twin {
-    let sum = a + b;
-    Twin(sum, b - (sum - a))
-}
-
-impl Add for Twin {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        let sum = self.0 + other.0;
-        let of_other = sum - self.0;
-        let lost = (self.0 - (sum - of_other)) + (other.0 - of_other);
-        let low = self.1 + other.1;
-        let of_low = low - self.1;
-        let low_lost = (self.1 - (low - of_low)) + (other.1 - of_low);
-        let first = quick(sum, lost + low);
-        quick(first.0, first.1 + low_lost)
-    }
-}
-
-impl Neg for Twin {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-
-impl Sub for Twin {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for Twin {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        let product = self.0 * other.0;
-        let lost = self.0.mul_add(other.0, -product);
-        quick(product, lost + (self.0 * other.1 + self.1 * other.0))
-    }
-}
-
-impl Div for Twin {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let first = Self(self.0 / other.0, 0.0);
-        let rest = self - first * other;
-        let second = Self(rest.0 / other.0, 0.0);
-        let rest = rest - second * other;
-        first + second + Self(rest.0 / other.0, 0.0)
-    }
-}
-
 fn twin(x: f64) -> Twin {
-    Twin(x, 0.0)
+    Twin::point(x)
 }
 
-const ZERO: Twin = Twin(0.0, 0.0);
+/// A number as a double.
+fn double(x: Twin) -> f64 {
+    x.interval().mid()
+}
+
+/// The same number, without the bound of what is rounded off in it.
+fn unbounded(x: Twin) -> Twin {
+    let high = twin(double(x));
+    high + twin(double(x - high))
+}
+
+const ZERO: Twin = Twin::ZERO;
 
 /// Coefficient `n` of the product of two series.
 fn product(a: &[Twin], b: &[Twin], n: usize) -> Twin {
@@ -154,7 +107,7 @@ fn step(state: [Twin; 4], h: Twin) -> [Twin; 4] {
         v.push(next_v / by);
         e.push(a[n + 1] - b[n + 1]);
     }
-    [a, b, u, v].map(|x| x.iter().rev().fold(ZERO, |sum, c| sum * h + *c))
+    [a, b, u, v].map(|x| unbounded(x.iter().rev().fold(ZERO, |sum, c| sum * h + *c)))
 }
 
 /// Energy of the two masses from the height of the anchor.
@@ -178,10 +131,11 @@ const START: [f64; 2] = [1.0, 1.5];
 fn the_series_keeps_its_energy_and_does_not_depend_on_its_step() {
     let (coarse, fine) = (taylor(START, 128, 10), taylor(START, 256, 10));
     for (a, b) in coarse.iter().zip(&fine) {
-        assert!((*a - *b).0.abs() < 1e-25, "{:e}", (*a - *b).0);
+        let apart = double(*a - *b);
+        assert!(apart.abs() < 1e-25, "{apart:e}");
     }
     let begin = energy([twin(START[0]), twin(START[1]), ZERO, ZERO]);
-    let lost = (energy(fine) - begin).0;
+    let lost = double(energy(fine) - begin);
     println!("energy lost by the series {lost:e} J");
     assert!(lost.abs() < 1e-27, "{lost:e}");
 }
@@ -189,7 +143,7 @@ fn the_series_keeps_its_energy_and_does_not_depend_on_its_step() {
 #[test]
 fn the_double_pendulum_follows_its_taylor_series() {
     let [a, b, ..] = taylor(START, 64, 10);
-    let told = string(&[1.0, 1.0], &[a.0, b.0]);
+    let told = string(&[1.0, 1.0], &[double(a), double(b)]);
     let system = hanging(&links(2), &[1.0, 1.0]);
     let mut pendulum = at_rest(&system, &string(&[1.0, 1.0], &START), Order::Fourth);
     run(&mut pendulum, 10.0, 5e-4);

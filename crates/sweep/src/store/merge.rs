@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
-
-use sha2::{Digest as _, Sha256};
 
 use crate::identify::Member;
 use crate::reached::{Discovered, Renumbering};
@@ -16,7 +12,7 @@ use crate::store::digests::Digests;
 use crate::store::error::{NAMED, StoreError, regular};
 use crate::store::finished::{PartRecord, StoreSummary};
 use crate::store::lock::Lock;
-use crate::store::manifest::{Manifest, hexadecimal};
+use crate::store::manifest::Manifest;
 use crate::store::part;
 use crate::store::run::for_each_part;
 use crate::store::shard::Shard;
@@ -76,24 +72,19 @@ pub fn merge_shard(
         }
     }
     let _lock = Lock::take(out, &whole, true)?;
-    let proved = Mutex::new(BTreeMap::new());
-    let each = |work: &(dyn Fn(u64, &Input) -> Result<(), StoreError> + Sync)| {
+    let each = |work: &(dyn Fn(u64, &Input) -> Proved + Sync)| {
         for_each_part(parts.clone(), threads, stop, &|part| {
             // Every part is in a shard, and every shard is there.
             let input = inputs.values().find(|input| input.parts().contains(&part));
-            input.map_or(Ok(()), |input| work(part, input))
+            input.map(|input| work(part, input)).transpose()
         })
     };
-    each(&|part, input| {
+    let proved = each(&|part, input| {
         let result = input.prove(part)?;
-        if let Ok(mut proved) = proved.lock() {
-            proved.insert(part, result);
-        }
         let seeds = whole.seeds_of(part);
         done(seeds.end - seeds.start);
-        Ok(())
+        Ok(result)
     })?;
-    let proved = proved.into_inner().unwrap_or_default();
     if proved.len() as u64 != count {
         return Ok(None);
     }
@@ -105,14 +96,13 @@ pub fn merge_shard(
         }
     }
     let joined = join(&whole, &inputs)?;
-    let results = Mutex::new(BTreeMap::new());
-    each(&|part, input| {
+    let results = each(&|part, input| {
         let file = whole.file_of(part);
         let (from, to) = (input.folder.join(&file), out.join(&file));
-        let Some((record, summary)) = proved.get(&part) else { return Ok(()) };
+        let (record, summary) = &proved[&part];
         let renumbering =
             joined.as_ref().and_then(|(_, ways)| ways.get(&input.manifest.shard.number));
-        let result = match renumbering {
+        match renumbering {
             Some(renumbering) if !renumbering.is_identity() => {
                 part::renumber(&from, &to, &whole, renumbering)?;
                 let read = part::record(&from, file, record.seeds.clone())?;
@@ -121,19 +111,14 @@ pub fn merge_shard(
                     let _ = fs::remove_file(&to);
                     return Err(StoreError::part(&from, CHANGED));
                 }
-                part::read(out, &whole, joined_list(joined.as_ref()), part)?
+                part::read(out, &whole, joined_list(joined.as_ref()), part)
             }
             _ => {
                 copy(&from, &to, &record.sha256)?;
-                (record.clone(), summary.clone())
+                Ok((record.clone(), summary.clone()))
             }
-        };
-        if let Ok(mut results) = results.lock() {
-            results.insert(part, result);
         }
-        Ok(())
     })?;
-    let results = results.into_inner().unwrap_or_default();
     if results.len() as u64 != count {
         return Ok(None);
     }
@@ -143,6 +128,9 @@ pub fn merge_shard(
     Digests::close(out);
     Ok(Some(summary))
 }
+
+/// A part as it is there, and what it counts.
+type Proved = Result<(PartRecord, Summary), StoreError>;
 
 /// What was discovered, and the way to its numbers from those of every shard.
 type Joined = (Discovered, BTreeMap<u64, Renumbering>);
@@ -154,8 +142,6 @@ fn joined_list(joined: Option<&Joined>) -> &[Member] {
 /// Join what the shards discovered, in their order; nothing where lists are complete.
 fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined>, StoreError> {
     let Some(mut all) = whole.nothing_reached()? else { return Ok(None) };
-    let lists: Vec<_> =
-        inputs.iter().map(|(number, input)| (*number, input.discovered())).collect();
     for input in inputs.values() {
         let list = input.summary.discovered.as_ref();
         let Some(list) = list.filter(|list| list.fits(all.bars())) else {
@@ -165,13 +151,11 @@ fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined
         all.join(list);
     }
     let (discovered, _) = all.finish();
-    let way = |(number, list): (u64, &[Member])| {
-        let codes: Vec<i16> = list.iter().map(|member| all.find(member)).collect();
-        let numbers: Vec<usize> = (0..list.len()).collect();
-        (number, all.renumbering(list.len(), &numbers, &codes))
+    let way = |(number, input): (&u64, &Input)| {
+        let list = input.discovered();
+        (*number, all.renumbering(list.len(), list.iter().enumerate()))
     };
-    let ways = lists.into_iter().map(way).collect();
-    Ok(Some((discovered, ways)))
+    Ok(Some((discovered, inputs.iter().map(way).collect())))
 }
 
 /// Every shard that makes `whole`, by its number.
@@ -254,7 +238,7 @@ impl Input {
     }
 
     /// Read a part, and see that it is the one that the summary speaks of.
-    fn prove(&self, part: u64) -> Result<(PartRecord, Summary), StoreError> {
+    fn prove(&self, part: u64) -> Proved {
         let path = self.folder.join(self.manifest.file_of(part));
         if !path.exists() {
             return Err(StoreError::NoPart { path });
@@ -276,9 +260,6 @@ impl Input {
 
 const CHANGED: &str = "it changed while it was being copied";
 
-/// Bytes copied at a time.
-const COPIED: usize = 1 << 17;
-
 /// Whether two names lead to one folder.
 fn is_same(a: &Path, b: &Path) -> bool {
     match (fs::canonicalize(a), fs::canonicalize(b)) {
@@ -289,20 +270,9 @@ fn is_same(a: &Path, b: &Path) -> bool {
 
 /// Copy a file, and see that it is still the one that was proved.
 fn copy(from: &Path, to: &Path, wanted: &str) -> Result<(), StoreError> {
-    let mut reader = fs::File::open(from).map_err(|error| StoreError::file(from, error))?;
     let io = |error| StoreError::file(to, error);
     let mut writer = columns::AtomicFile::create(to).map_err(io)?;
-    let mut hasher = Sha256::new();
-    let mut buffer = vec![0; COPIED];
-    loop {
-        let read = reader.read(&mut buffer).map_err(|error| StoreError::file(from, error))?;
-        if read == 0 {
-            break;
-        }
-        hasher.update(&buffer[..read]);
-        writer.write_all(&buffer[..read]).map_err(io)?;
-    }
-    if hexadecimal(&hasher.finalize()) != wanted {
+    if part::copied(from, &mut writer, io)?.1 != wanted {
         return Err(StoreError::part(from, CHANGED));
     }
     writer.commit().map_err(io)

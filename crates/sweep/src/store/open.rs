@@ -17,11 +17,10 @@ use crate::store::compute::Compute;
 use crate::store::description::{SCHEMA_VERSION, SUMMARY, read_json, write_json};
 use crate::store::digests::Digests;
 use crate::store::error::{StoreError, regular};
-use crate::store::finished::{PartRecord, StoreSummary};
+use crate::store::finished::StoreSummary;
 use crate::store::manifest::Manifest;
 use crate::store::part::{self, Watch};
-use crate::store::run::{Run, RunSettings, for_each_part};
-use crate::summary::Summary;
+use crate::store::run::{Run, RunSettings, Whole, for_each_part};
 
 /// What the names of the files of such parts begin with, until the sweep is finished.
 pub(crate) const BEFORE: &str = "reached-";
@@ -66,19 +65,11 @@ pub(crate) fn run(
     let finished = before.and_then(|summary| summary.discovered);
     let finished = finished.filter(|list| list.fits(nothing.bars()));
     let parts = Parts { folder, manifest, digests, nothing, finished };
-    let computed = parts.compute(compute, settings)?;
+    let whole = parts.compute(compute, settings)?;
     let all = manifest.shard.parts(manifest.parts());
-    let mut run = Run {
-        summary: None,
-        seeds: computed.seeds,
-        seeds_before: computed.seeds_before,
-        repaired: computed.repaired,
-    };
-    run.repaired.sort();
-    if computed.whole.len() as u64 == all.end - all.start
-        && let Some(summary) = parts.finish(&computed.whole, settings)?
-    {
-        run.summary = Some(summary);
+    let mut run = Run::of(manifest, whole.iter().map(|(part, whole)| (*part, whole)));
+    if whole.len() as u64 == all.end - all.start {
+        run.summary = parts.finish(&whole, settings)?;
     }
     Ok(run)
 }
@@ -93,23 +84,13 @@ struct Parts<'a> {
     finished: Option<Discovered>,
 }
 
-/// What is there when the parts are computed.
-#[derive(Default)]
-struct Computed {
-    /// By part, whether it has its last numbers.
-    whole: BTreeMap<u64, bool>,
-    seeds: u64,
-    seeds_before: u64,
-    repaired: Vec<(String, String)>,
-}
-
 impl Parts<'_> {
     /// Compute what is not there.
     fn compute(
         &self,
         compute: &impl Compute,
         settings: &RunSettings<'_>,
-    ) -> Result<Computed, StoreError> {
+    ) -> Result<BTreeMap<u64, Whole>, StoreError> {
         let Self { folder, manifest, digests, .. } = *self;
         // For those who watch; the list that counts is joined in the order of the parts.
         let so_far = Mutex::new(self.nothing.nothing());
@@ -127,7 +108,6 @@ impl Parts<'_> {
             });
         };
         let watch = Watch { stop: settings.stop, done: settings.done, grown: &grown };
-        let computed = Mutex::new(Computed::default());
         let parts = manifest.shard.parts(manifest.parts());
         for_each_part(parts, settings.threads, settings.stop, &|part| {
             let seeds = manifest.seeds_of(part);
@@ -162,7 +142,7 @@ impl Parts<'_> {
                 let written =
                     part::write(&path, manifest, part, compute, Some(&mut reached), &watch)?;
                 if written.is_none() {
-                    return Ok(());
+                    return Ok(None);
                 }
                 write_json(&folder.join(&list), &PartList::of(reached))?;
                 for file in [rows, list] {
@@ -170,24 +150,14 @@ impl Parts<'_> {
                     digests.add(&part::record(&path, file, seeds.clone())?)?;
                 }
             }
-            if let Ok(mut computed) = computed.lock() {
-                computed.whole.insert(part, there && last);
-                computed.seeds += count;
-                if there {
-                    computed.seeds_before += count;
-                } else {
-                    computed.repaired.extend(damage);
-                }
-            }
-            Ok(())
-        })?;
-        Ok(computed.into_inner().unwrap_or_default())
+            Ok(Some(Whole { before: there, last: there && last, damage }))
+        })
     }
 
     /// Join the lists, and give all rows their last numbers.
     fn finish(
         &self,
-        whole: &BTreeMap<u64, bool>,
+        whole: &BTreeMap<u64, Whole>,
         settings: &RunSettings<'_>,
     ) -> Result<Option<StoreSummary>, StoreError> {
         let Self { folder, manifest, digests, .. } = *self;
@@ -200,16 +170,14 @@ impl Parts<'_> {
             }
         }
         let (discovered, _) = all.finish();
-        let results = Mutex::new(BTreeMap::<u64, (PartRecord, Summary)>::new());
         let parts = manifest.shard.parts(manifest.parts());
         let count = parts.end - parts.start;
-        for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
-            let is_last = whole.get(&part).copied().unwrap_or_default();
+        let results = for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
+            let is_last = whole.get(&part).is_some_and(|whole| whole.last);
             if !is_last {
                 let list = self.list_of(part)?;
-                let entries = &list.discovered.equilibria;
-                let codes: Vec<i16> = entries.iter().map(|member| all.find(member)).collect();
-                let renumbering = all.renumbering(list.given, &list.numbers, &codes);
+                let entries = list.numbers.iter().copied().zip(&list.discovered.equilibria);
+                let renumbering = all.renumbering(list.given, entries);
                 let [rows, _] = files_of(manifest, part);
                 let to = folder.join(manifest.file_of(part));
                 regular(&to)?;
@@ -222,12 +190,8 @@ impl Parts<'_> {
                 // Best effort: it goes with the lists in the end.
                 let _ = fs::remove_file(folder.join(rows));
             }
-            if let Ok(mut results) = results.lock() {
-                results.insert(part, result);
-            }
-            Ok(())
+            Ok(Some(result))
         })?;
-        let results = results.into_inner().unwrap_or_default();
         if results.len() as u64 != count {
             return Ok(None);
         }

@@ -1,7 +1,7 @@
 //! One part: a file of consecutive seeds.
 
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{Read as _, Write};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -317,19 +317,29 @@ fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
 
 /// Length and digest of a file, of these seeds.
 pub fn record(path: &Path, file: String, seeds: Range<u64>) -> Result<PartRecord, StoreError> {
-    let io = |error| StoreError::file(path, error);
-    let mut opened = File::open(path).map_err(io)?;
+    let (bytes, sha256) =
+        copied(path, &mut std::io::sink(), |error| StoreError::file(path, error))?;
+    Ok(PartRecord { file, seeds, bytes, sha256 })
+}
+
+/// Copy a file; its length and digest.
+pub fn copied(
+    from: &Path,
+    to: &mut impl Write,
+    unwritten: impl Fn(std::io::Error) -> StoreError,
+) -> Result<(u64, String), StoreError> {
+    let unread = |error| StoreError::file(from, error);
+    let mut reader = File::open(from).map_err(unread)?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 17];
     let mut bytes = 0;
     loop {
-        let read = opened.read(&mut buffer).map_err(io)?;
+        let read = reader.read(&mut buffer).map_err(unread)?;
         if read == 0 {
-            break;
+            return Ok((bytes, hexadecimal(&hasher.finalize())));
         }
         hasher.update(&buffer[..read]);
+        to.write_all(&buffer[..read]).map_err(&unwritten)?;
         bytes += read as u64;
     }
-    let sha256 = hexadecimal(&hasher.finalize());
-    Ok(PartRecord { file, seeds, bytes, sha256 })
 }

@@ -11,20 +11,18 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::store::compute::Compute;
 use crate::store::description::{SUMMARY, write_json};
 use crate::store::digests::Digests;
 use crate::store::error::{StoreError, regular};
-use crate::store::finished::{PartRecord, StoreSummary};
+use crate::store::finished::StoreSummary;
 use crate::store::lock::Lock;
 use crate::store::manifest::Manifest;
 use crate::store::open;
 use crate::store::part::{self, Watch};
 use crate::store::shard::MOST_PARTS;
-use crate::summary::Summary;
 
 /// How a sweep is run; nothing of it changes the result.
 #[derive(Clone, Copy)]
@@ -78,76 +76,78 @@ pub fn run(
         return open::run(folder, manifest, compute, settings, &digests, &nothing);
     }
     let parts = manifest.shard.parts(manifest.parts());
-    let found = Mutex::new(Found::default());
-    for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
-        let path = folder.join(manifest.file_of(part));
-        let seeds = manifest.seeds_of(part);
-        let mut damage = None;
-        let mut result = None;
+    let found = for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
+        let (file, seeds) = (manifest.file_of(part), manifest.seeds_of(part));
+        let path = folder.join(&file);
         regular(&path)?;
+        let mut damage = vec![];
         if path.exists() {
             let read = part::read(folder, manifest, &[], part);
-            let read = read.and_then(|read| digests.check(folder, &read.0).map(|()| read));
-            match read {
+            match read.and_then(|read| digests.check(folder, &read.0).map(|()| read)) {
                 Ok(read) => {
-                    result = Some(read);
                     (settings.done)(seeds.end - seeds.start);
+                    return Ok(Some((Whole { before: true, last: true, damage }, read)));
                 }
-                Err(error) => damage = Some(error.to_string()),
+                Err(error) => damage.push((file.clone(), error.to_string())),
             }
         }
-        let before = result.is_some();
-        if !before {
-            let watch = Watch { stop: settings.stop, done: settings.done, grown: &|_, _| () };
-            if let Some(summary) = part::write(&path, manifest, part, compute, None, &watch)? {
-                let record = part::record(&path, manifest.file_of(part), seeds.clone())?;
-                digests.add(&record)?;
-                result = Some((record, summary));
-            }
-        }
-        if let Ok(mut found) = found.lock() {
-            if let Some(damage) = damage {
-                found.repaired.push((manifest.file_of(part), damage));
-            }
-            if let Some(result) = result {
-                found.seeds_before += if before { seeds.end - seeds.start } else { 0 };
-                found.parts.insert(part, result);
-            }
-        }
-        Ok(())
+        let watch = Watch { stop: settings.stop, done: settings.done, grown: &|_, _| () };
+        let written = part::write(&path, manifest, part, compute, None, &watch)?;
+        let Some(summary) = written else { return Ok(None) };
+        let record = part::record(&path, file, seeds)?;
+        digests.add(&record)?;
+        Ok(Some((Whole { before: false, last: true, damage }, (record, summary))))
     })?;
-    let found = found.into_inner().unwrap_or_default();
-    let complete = found.parts.len() as u64 == parts.end - parts.start;
-    let mut run = Run {
-        summary: None,
-        seeds: found.parts.values().map(|(_, summary)| summary.seeds()).sum(),
-        seeds_before: found.seeds_before,
-        repaired: found.repaired,
-    };
-    if complete {
-        let summary = StoreSummary::of(manifest, None, found.parts.into_values());
+    let mut run = Run::of(manifest, found.iter().map(|(part, (whole, _))| (*part, whole)));
+    if found.len() as u64 == parts.end - parts.start {
+        let results = found.into_values().map(|(_, result)| result);
+        let summary = StoreSummary::of(manifest, None, results);
         write_json(&folder.join(SUMMARY), &summary)?;
         Digests::close(folder);
         run.summary = Some(summary);
     }
-    run.repaired.sort();
     Ok(run)
 }
 
-#[derive(Default)]
-struct Found {
-    parts: BTreeMap<u64, (PartRecord, Summary)>,
-    seeds_before: u64,
-    repaired: Vec<(String, String)>,
+/// A part that is there.
+pub(crate) struct Whole {
+    /// Whether it was there before.
+    pub before: bool,
+    /// Whether its rows have their last numbers.
+    pub last: bool,
+    /// Files of it that could not be trusted, and why.
+    pub damage: Vec<(String, String)>,
 }
 
-/// Do something for every part, the next free thread taking the next part; the first error ends it.
-pub(crate) fn for_each_part(
+impl Run {
+    /// Of parts by their numbers.
+    pub(crate) fn of<'a>(
+        manifest: &Manifest,
+        parts: impl Iterator<Item = (u64, &'a Whole)>,
+    ) -> Self {
+        let mut run = Self { summary: None, seeds: 0, seeds_before: 0, repaired: vec![] };
+        for (part, whole) in parts {
+            let seeds = manifest.seeds_of(part);
+            run.seeds += seeds.end - seeds.start;
+            if whole.before {
+                run.seeds_before += seeds.end - seeds.start;
+            } else {
+                run.repaired.extend_from_slice(&whole.damage);
+            }
+        }
+        run.repaired.sort();
+        run
+    }
+}
+
+/// What comes of every part, by its number; the next free thread takes the next part, the first error
+/// ends it.
+pub(crate) fn for_each_part<T: Send>(
     parts: Range<u64>,
     threads: usize,
     stop: &AtomicBool,
-    work: &(dyn Fn(u64) -> Result<(), StoreError> + Sync),
-) -> Result<(), StoreError> {
+    work: &(dyn Fn(u64) -> Result<Option<T>, StoreError> + Sync),
+) -> Result<BTreeMap<u64, T>, StoreError> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
@@ -155,17 +155,22 @@ pub(crate) fn for_each_part(
     let next = AtomicU64::new(parts.start);
     let failed = AtomicBool::new(false);
     let results = pool.broadcast(|_| {
+        let mut results = vec![];
         while !stop.load(Ordering::Relaxed) && !failed.load(Ordering::Relaxed) {
             let part = next.fetch_add(1, Ordering::Relaxed);
             if part >= parts.end {
                 break;
             }
-            if let Err(error) = work(part) {
-                failed.store(true, Ordering::Relaxed);
-                return Err(error);
+            match work(part) {
+                Ok(result) => results.extend(result.map(|result| (part, result))),
+                Err(error) => {
+                    failed.store(true, Ordering::Relaxed);
+                    return Err(error);
+                }
             }
         }
-        Ok(())
+        Ok(results)
     });
-    results.into_iter().collect()
+    let results = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(results.into_iter().flatten().collect())
 }

@@ -110,46 +110,6 @@ fn by_energy(problem: &Problem) -> impl Fn(&[Vector]) -> Option<Vec<Vector>> + S
     }
 }
 
-/// [`seeds`] for `lagrange` on the paper's chain in a third of the time: an end is known by its
-/// energy and by the distance of joint 1 from the vertical of the anchors, without the spectrum at
-/// the solution.
-fn circles_by_lagrange(problem: &Problem, census: &Census, seeds: usize) -> Found {
-    /// As in [`seeds`], in m and in mgl; the two circles are 1.3 mgl apart.
-    const SEEDED: f64 = 1e-7;
-    let settings = lagrange::Settings::default();
-    let known: Vec<[f64; 2]> = census
-        .equilibria
-        .iter()
-        .map(|e| [e.energy_j.mid(), e.joints_m[1][0].mid().hypot(e.joints_m[1][1].mid())])
-        .collect();
-    let ends: Vec<Option<usize>> = (0..seeds)
-        .into_par_iter()
-        .map_init(
-            || lagrange::Solver::new(problem, &settings).unwrap(),
-            |solver, k| {
-                let mut rng = ChaCha8Rng::seed_from_u64(7);
-                rng.set_stream(k as u64);
-                let directions = random_directions(problem, &mut rng, k % 2 == 1);
-                let end = solver.solve(&lagrange::Seed::directions(&directions)).ok()?;
-                let [x, y] = end.first_offset_m();
-                let found = [end.energy_j(), x.hypot(y)];
-                let same = |place: &[f64; 2]| (0..2).all(|k| (place[k] - found[k]).abs() < SEEDED);
-                let number = known.iter().position(same);
-                assert!(number.is_some(), "{found:?}: not in the census");
-                number
-            },
-        )
-        .collect();
-    let mut found = Found { hits: vec![0; known.len()], lost: 0 };
-    for end in ends {
-        match end {
-            Some(number) => found.hits[number] += 1,
-            None => found.lost += 1,
-        }
-    }
-    found
-}
-
 /// Every equilibrium that seeds of either solver find is in the list; `STARTS=100000` tries more of them.
 #[test]
 fn no_seed_finds_what_is_not_listed() {
@@ -157,7 +117,7 @@ fn no_seed_finds_what_is_not_listed() {
     let problem = model::cases::paper();
     let census = census(&problem);
     let clock = Instant::now();
-    let lagrange = circles_by_lagrange(&problem, &census, count);
+    let lagrange = seeds(&problem, &census, count, by_lagrange(&problem));
     println!("lagrange {lagrange:?} {:.1} s", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
     let energy = seeds(&problem, &census, count, by_energy(&problem));
@@ -191,7 +151,7 @@ fn a_seed_finds_what_was_deleted() {
     let problem = model::cases::paper();
     let mut census = census(&problem);
     census.equilibria.remove(1);
-    circles_by_lagrange(&problem, &census, 8);
+    seeds(&problem, &census, 8, by_lagrange(&problem));
 }
 
 /// `lagrange` stays where it is started in the list, with the same stability, and Newton's laws

@@ -5,6 +5,8 @@
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use serde::Deserialize;
 
+use crate::chains_catenary::Catenary;
+
 /// A chain of equal homogeneous bars.
 fn equal_bars(
     n: usize,
@@ -24,44 +26,6 @@ fn solved(problem: &Problem) -> [Equilibrium; 2] {
         lagrange::solve(problem, &lagrange::Settings::default()).unwrap().equilibrium,
         energy::minimise(problem, &energy::Settings::default()).unwrap().equilibrium,
     ]
-}
-
-/// The catenary of length `length` and unit weight per length from (0, 0) to (a, b), closed form.
-struct Catenary {
-    /// Horizontal pull, which is the parameter c of y = c cosh(x/c).
-    c: f64,
-    /// Abscissa of the lowest point, measured from the start.
-    low: f64,
-    a: f64,
-}
-
-impl Catenary {
-    fn new(length: f64, a: f64, b: f64) -> Self {
-        // sqrt(L^2 - b^2) = 2c sinh(a / 2c), by Newton in u = a/2c on sinh(u)/u = r.
-        let r = (length * length - b * b).sqrt() / a;
-        let mut u = (6.0 * (r - 1.0)).sqrt().min(1.0 + r.ln());
-        for _ in 0..200 {
-            u -= (u.sinh() - r * u) / (u.cosh() - r);
-        }
-        let c = a / (2.0 * u);
-        // tanh((a - 2 low) / 2c) = b / L
-        Self { c, low: 0.5 * a - c * (b / length).atanh(), a }
-    }
-
-    /// Integral of the height above the start, times the arc length element.
-    fn energy(&self) -> f64 {
-        let Self { c, low, a } = *self;
-        let primitive = |x: f64| {
-            let t = (x - low) / c;
-            0.5 * c * (x + c * t.sinh() * t.cosh()) - c * (low / c).cosh() * c * t.sinh()
-        };
-        primitive(a) - primitive(0.0)
-    }
-
-    /// Force of the ground on the chain at the start: (horizontal, vertical).
-    fn start_force(&self) -> (f64, f64) {
-        (-self.c, self.c * (self.low / self.c).sinh())
-    }
 }
 
 #[derive(Deserialize)]
@@ -106,50 +70,6 @@ fn the_closed_form_of_the_catenary_is_that_of_the_reference_digits() {
     let pull: f64 = cops.catenary.horizontal_pull.parse().unwrap();
     assert!((energy / reference - 1.0).abs() < CLOSED_FORM, "{energy} {reference}");
     assert!((catenary.c / pull - 1.0).abs() < CLOSED_FORM, "{} {pull}", catenary.c);
-}
-
-/// Errors of energy, horizontal and vertical start force of a chain of n bars against the catenary.
-fn errors(n: usize, length: f64, a: f64, b: f64) -> [[f64; 3]; 2] {
-    let catenary = Catenary::new(length, a, b);
-    let (horizontal, vertical) = catenary.start_force();
-    solved(&equal_bars(n, length, length, 1.0, [a, 0.0, b])).map(|found| {
-        [
-            found.energy_j - catenary.energy(),
-            found.reactions_n.start[0] - horizontal,
-            found.reactions_n.start[2] - vertical,
-        ]
-    })
-}
-
-#[test]
-fn chains_converge_to_the_catenary_with_order_two() {
-    let cops = cops();
-    let rise = cops.problem.end_height - cops.problem.start_height;
-    for (length, a, b) in
-        [(cops.problem.length, cops.problem.span_x, rise), (1.5, 1.0, -0.2), (1.05, 1.0, 0.0)]
-    {
-        let runs: Vec<_> = [50, 100, 200, 400, 800].map(|n| errors(n, length, a, b)).into();
-        for (solver, name) in ["lagrange", "energy"].into_iter().enumerate() {
-            // The energy comes from above: the chain is inscribed in no catenary, its minimum is
-            // over fewer shapes.
-            assert!(runs.iter().all(|run| run[solver][0] > 0.0), "{name}: {runs:?}");
-            for quantity in 0..3 {
-                let order = |k: usize| {
-                    let [coarse, fine] = [k, k + 1].map(|k| runs[k][solver][quantity].abs());
-                    (coarse / fine).log2()
-                };
-                // Level anchors: half the weight each, at every n. No error, no order.
-                if quantity == 2 && b.abs() < f64::EPSILON {
-                    assert!(runs.iter().all(|run| run[solver][2].abs() < 1e-12));
-                    continue;
-                }
-                // The next term of the expansion is of order four: at n = 400 it is 1e-3 of the
-                // first or less.
-                let last = order(3);
-                assert!((last - 2.0).abs() < 5e-3, "{name}, quantity {quantity}: order {last}");
-            }
-        }
-    }
 }
 
 #[test]

@@ -27,7 +27,6 @@ mod near_slack;
 mod network_properties;
 mod networks;
 mod networks_census;
-mod paper;
 mod prescribed;
 mod ropes;
 mod ropes_corners;

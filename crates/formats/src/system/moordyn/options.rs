@@ -3,7 +3,7 @@
 use model::STANDARD_GRAVITY_M_S2;
 
 use super::sections::{Section, Sections};
-use crate::error::{FormatError, Wrong, number, shortened};
+use crate::error::{FormatError, Wrong, number, positive, shortened};
 
 /// Gravity, water and floor.
 pub(super) struct Options {
@@ -57,16 +57,8 @@ impl Options {
             let (value, name) =
                 (words.next().unwrap_or_default(), words.next().unwrap_or_default());
             let at = Some(*line);
-            let positive = || {
-                let found = number(file, at, name, value)?;
-                let wrong = || {
-                    let (what, found) = (name.to_owned(), shortened(value));
-                    Wrong::Value { what, wanted: "positive", found }
-                };
-                if found > 0.0 { Ok(found) } else { Err(FormatError::new(file, at, wrong())) }
-            };
             match name.to_lowercase().as_str() {
-                "g" | "gravity" => options.gravity_m_s2 = positive()?,
+                "g" | "gravity" => options.gravity_m_s2 = positive(file, at, name, value)?,
                 "wtrdnsty" | "rhow" | "rho" => {
                     options.density_kg_m3 = number(file, at, name, value)?;
                 }
@@ -75,7 +67,7 @@ impl Options {
                         let what = format!("the floor {value:?}");
                         return Err(FormatError::new(file, at, Wrong::OutOfScope { what }));
                     }
-                    options.floor_m = Some(-positive()?);
+                    options.floor_m = Some(-positive(file, at, name, value)?);
                 }
                 known if NO_BEARING.contains(&known) => {}
                 known if ZERO.contains(&known) => {

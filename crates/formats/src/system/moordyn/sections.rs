@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{FormatError, Wrong, number, shortened};
+use crate::error::{FormatError, Wrong, number, positive, shortened};
 
 /// The sections that are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -242,11 +242,6 @@ impl Row<'_> {
     }
 
     pub(super) fn positive(&self, column: &str) -> Result<f64, FormatError> {
-        let found = self.number(column)?;
-        if found > 0.0 {
-            return Ok(found);
-        }
-        let (what, found) = (column.to_owned(), found.to_string());
-        Err(self.error(Wrong::Value { what, wanted: "positive", found }))
+        positive(self.file, Some(self.line), column, self.text(column)?)
     }
 }

@@ -23,7 +23,7 @@ use model::system::{Joint, Member, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 use numerics::vector::{minus, norm};
 
-use crate::error::{FormatError, Wrong, number, shortened};
+use crate::error::{FormatError, Wrong, number, positive, shortened};
 use crate::system::ForeignSystem;
 use crate::system::drawing::support;
 use tcl::{Command, Script, Variables};
@@ -144,12 +144,7 @@ impl<'a> Words<'a> {
     }
 
     fn positive(&self, k: usize, what: &str) -> Result<f64, FormatError> {
-        let found = self.number(k, what)?;
-        if found > 0.0 {
-            return Ok(found);
-        }
-        let (what, found) = (what.to_owned(), found.to_string());
-        Err(self.error(Wrong::Value { what, wanted: "positive", found }))
+        positive(self.file, Some(self.command.line), what, self.get(k)?)
     }
 
     /// The number behind an option, from the word `first` on.

@@ -25,21 +25,18 @@ fn example(folder: &Path, format: Format) -> Vec<u8> {
 
 fn check(path: &Path, format: Format, bytes: &[u8]) {
     std::fs::write(path, bytes).unwrap();
-    let read = match format {
-        Format::Parquet => columns::read_bars(path).map_err(|error| error.to_string()),
-        Format::Csv => {
-            model::system_file::columns::read_bars(path).map_err(|error| error.to_string())
-        }
-    };
-    match read {
-        Ok(bars) => {
+    let chain = path.with_file_name("chain.toml");
+    match funicular::Problem::read(chain) {
+        Ok(problem) => {
+            let system = problem.system();
+            let bars = system.members();
             assert!(bars.len() <= 50 * bytes.len(), "{} bars in {}", bars.len(), bytes.len());
-            for bar in &bars {
-                assert!(bar.length_m() > 0.0 && bar.length_m().is_finite());
-                assert!(bar.mass_kg() >= 0.0 && bar.mass_kg().is_finite());
+            for bar in bars {
+                assert!(bar.body.length_m() > 0.0 && bar.body.length_m().is_finite());
+                assert!(bar.body.mass_kg() >= 0.0 && bar.body.mass_kg().is_finite());
             }
         }
-        Err(said) => assert!(!said.is_empty()),
+        Err(said) => assert!(!said.to_string().is_empty()),
     }
     let mut rows = 0;
     let each = &mut |data: &[Data]| rows += data[0].len();
@@ -54,6 +51,9 @@ fn files_of_columns() {
     for format in [Format::Parquet, Format::Csv] {
         let good = example(folder.path(), format);
         let path = folder.path().join(format!("damaged.{}", format.extension()));
+        let anchors = "anchors = { start_m = [0, 0, 0], end_m = [3, 0, 0] }";
+        let chain = format!("bars_file = \"damaged.{}\"\n{anchors}\n", format.extension());
+        std::fs::write(folder.path().join("chain.toml"), chain).unwrap();
         fuzz(
             &format!("columns-{}", format.extension()),
             |random| mutated(random, &good, &[&good]),
