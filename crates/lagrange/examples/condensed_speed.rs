@@ -5,9 +5,8 @@
 //! cargo run --profile dist -p lagrange --example condensed_speed
 //! ```
 //!
-//! For each number of bars the median and the least of many runs of each part: reading the bars
-//! into arrays, the pull alone, joints and forces as arrays, and as vectors; then `solve`, which
-//! does all but the arrays. "Fresh" asks the system for memory in each run, "again" uses that of
+//! For each number of bars the median and the least of many runs: reading the bars into arrays, the
+//! pull alone, and `solve`, which does all. "Fresh" asks the system for memory in each run, "again" uses that of
 //! the run before: for a million bars most of the time of a fresh run goes into the first touch of
 //! 80 MB. "On two" is "solve again" on two processors. Medians are disturbed by whatever else the
 //! machine does; the least are what it can do.
@@ -36,14 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let pull = chain.pull(&settings)?;
         measure(n, "prepare", || Condensed::new(&problem));
         measure(n, "pull", || chain.pull(&settings));
-        measure(n, "arrays", || chain.reconstruct(&pull));
-        measure(n, "equilibrium", || chain.equilibrium(&pull, &settings));
         measure(n, "solve, fresh", || solve(&problem, &settings));
-        let mut kept = Some(chain);
-        measure(n, "prepare again", || kept = kept.take().map(|chain| chain.again(&problem)));
-        let Some(chain) = kept else { return Ok(()) };
-        let mut shape = chain.reconstruct(&pull);
-        measure(n, "arrays again", || chain.reconstruct_into(&pull, &mut shape));
         let mut solver = Solver::default();
         measure(n, "solve again", || {
             solver.solve(&problem, &settings).map(|solution| solver.take_back(solution))

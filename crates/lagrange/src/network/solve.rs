@@ -25,13 +25,12 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// A cable shorter than this part of its length is slack at the start.
-const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// A shape whose stiff members miss their lengths by more than this part is closed first. Stiff are
+/// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
+/// by more is slack. Stiff are
 /// those that the mean load stretches by less; cables and struts further off are loose.
 const MISDRAWN: f64 = 1e-3;
 const STIFF: f64 = 1e-3;
@@ -400,8 +399,8 @@ impl<'a> Solver<'a> {
             let short = 1.0 - length / link.length;
             let slack = match link.kind {
                 Kind::Bar => false,
-                Kind::Cable => short > SLACK_LENGTH || state.axial[k] < 0.0,
-                Kind::Strut => -short > SLACK_LENGTH || state.axial[k] > 0.0,
+                Kind::Cable => short > MISDRAWN || state.axial[k] < 0.0,
+                Kind::Strut => -short > MISDRAWN || state.axial[k] > 0.0,
             };
             if slack {
                 (state.taut[k], state.axial[k]) = (false, 0.0);
