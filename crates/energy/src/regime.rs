@@ -9,15 +9,6 @@ use crate::links::Links;
 use crate::settings::Motion;
 use crate::vector::{dot, norm};
 
-/// The way in which a chain is solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Regime {
-    /// How much length there is to spare.
-    pub(crate) reach: Reach,
-    /// What holds the vertical plane of the chain.
-    pub(crate) turning: Turning,
-}
-
 /// How much length a chain can spare before its bars lie on one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reach {
@@ -69,16 +60,13 @@ const FEWEST_TO_UNFOLD: usize = 3;
 /// they win.
 const NEARLY_VERTICAL: f64 = 0.01;
 
-impl Regime {
-    /// The regime of a chain in its own units.
-    pub(crate) fn of(links: &Links) -> Self {
-        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
-        let reach = Reach::of(links.bars(), links.total(), norm(links.span[0]), longest);
-        Self { reach, turning: Turning::of(links) }
-    }
-}
-
 impl Reach {
+    /// That of a chain in its own units.
+    pub(crate) fn of_links(links: &Links) -> Self {
+        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
+        Self::of(links.bars(), links.total(), norm(links.span[0]), longest)
+    }
+
     /// From the number of bars, the total length, the span and the longest bar, in any one unit.
     pub(crate) fn of(bars: usize, total: f64, span: f64, longest: f64) -> Self {
         let (taut, folded) = (total - span, total + span - 2.0 * longest);

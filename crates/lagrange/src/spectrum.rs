@@ -25,15 +25,6 @@ pub(crate) const LARGEST_DECOMPOSED: usize = 300;
 const ESTIMATE_DAMPING: f64 = 1e-7;
 
 /// Singular values of a Jacobian.
-///
-/// ```
-/// let problem = model::cases::paper();
-/// let found = lagrange::solve(&problem, &Default::default())?;
-/// let spectrum = lagrange::spectrum(problem.chain(), &found.q, &found.lambda)?;
-/// // Three spins and the turn about the vertical: four of thirty.
-/// assert_eq!(spectrum.singular_values.iter().filter(|value| **value < 1e-12).count(), 4);
-/// # Ok::<(), lagrange::SolveError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// All of them, the largest first.

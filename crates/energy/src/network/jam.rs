@@ -116,7 +116,7 @@ fn corners(
     let mut tips = vec![];
     for joint in (0..acting.len()).filter(several) {
         let (count, axes) = free_axes(&system.joints()[joint]).ok()?;
-        let lies = joints_m[joint][2] - floor_m <= NO_FORCE * far_m;
+        let lies = joints_m[joint][2] - floor_m <= ZERO * far_m;
         let free = axes[..count].to_vec();
         let rising = free.iter().fold([0.0; 3], |sum, axis| along(sum, axis[2], *axis));
         let rising = unit(rising).filter(|_| lies && norm(rising) > ZERO);
@@ -159,7 +159,7 @@ impl Tip {
         for axis in &self.free {
             let others = level.iter().chain([&up]);
             let rest = others.fold(*axis, |rest, other| along(rest, -dot(rest, *other), *other));
-            level.extend(unit(rest).filter(|_| norm(rest) > NO_FORCE.sqrt()));
+            level.extend(unit(rest).filter(|_| norm(rest) > ZERO.sqrt()));
         }
         level
     }
@@ -194,7 +194,7 @@ fn shared(
     if rows > 0 && columns > 0 {
         let svd = balance.svd().ok()?;
         let largest = svd.S()[0];
-        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > NO_FORCE * largest) {
+        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > ZERO * largest) {
             let (u, v) = (svd.U().col(k), svd.V().col(k));
             let part = u.transpose() * wanted.col(0) / svd.S()[k];
             (0..columns).for_each(|row| parts[(row, 0)] += part * v[row]);
