@@ -88,9 +88,7 @@ const SOLVE: &str = "lagrange: all joints and forces";
 const AGAIN: &str = "  the same bars again and again";
 const TWO: &str = "  the same on two processors";
 const FRESH: &str = "  the same in fresh memory";
-const READ: &str = "  of it: bars to arrays";
 const PULL: &str = "  of it: the pull";
-const WRITE: &str = "  of it: joints and forces";
 const MEMORY: &str = "reading the bars from memory, once";
 const ENERGY: &str = "energy: all joints and forces";
 
@@ -117,19 +115,6 @@ fn pull(bars: usize) -> Timer {
     Timer::new(PULL, bars, move || {
         black_box(black_box(&chain).pull(&Settings::default()).expect("a slack chain"));
     })
-}
-
-/// Reading, and writing to arrays; the vectors of the answer are some more.
-fn parts(bars: usize) -> [Timer; 2] {
-    let problem = equal_bars(bars);
-    let chain = Condensed::new(&problem);
-    let found = chain.pull(&Settings::default()).expect("a slack chain");
-    let mut shape = chain.reconstruct(&found);
-    let mut kept = Some(chain.clone());
-    [
-        Timer::new(READ, bars, move || kept = kept.take().map(|kept| kept.again(&problem))),
-        Timer::new(WRITE, bars, move || chain.reconstruct_into(black_box(&found), &mut shape)),
-    ]
 }
 
 fn memory(bars: usize) -> Timer {
@@ -169,7 +154,6 @@ fn timers() -> Vec<Timer> {
         timers.push(solver(SOLVE, copies(bars), 1));
         timers.push(solver(AGAIN, vec![equal_bars(bars)], 1));
         timers.push(pull(bars));
-        timers.extend(parts(bars));
         timers.push(solver(TWO, copies(bars), 2));
         timers.push(fresh(bars));
         timers.push(memory(bars));

@@ -67,26 +67,6 @@ fn solve(criterion: &mut Criterion) {
     }
 }
 
-/// Where the time of the above goes: reading the bars into arrays, then writing joints and forces.
-fn parts(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("lagrange/parts");
-    for n in SIZES {
-        settle(&mut group, n);
-        let problem = equal_bars(n);
-        let mut kept = Some(Condensed::new(&problem));
-        group.bench_function(BenchmarkId::new("read", n), |b| {
-            b.iter(|| kept = kept.take().map(|chain| chain.again(black_box(&problem))));
-        });
-        let chain = kept.take().unwrap_or_else(|| Condensed::new(&problem));
-        let pull = chain.pull(&Settings::default()).expect("a slack chain");
-        let mut shape = chain.reconstruct(&pull);
-        group.bench_function(BenchmarkId::new("write", n), |b| {
-            b.iter(|| chain.reconstruct_into(black_box(&pull), &mut shape));
-        });
-    }
-    group.finish();
-}
-
 fn energy(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("energy/all joints and forces");
     for n in ENERGY_SIZES {
@@ -100,5 +80,5 @@ fn energy(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pull, solve, parts, energy);
+criterion_group!(benches, pull, solve, energy);
 criterion_main!(benches);

@@ -6,9 +6,6 @@
 //! | kind | system |
 //! |---|---|
 //! | `net` | n x n joints and rigid bars, hung from the four corners |
-//! | `pushing` | the same with lengths that differ by a fifth: some bars push |
-//! | `cables` | the net of cables a third longer than the distances of the corners ask for |
-//! | `ring` | a square net of cables within a ring, hung from all of it: members near it are slack |
 //! | `bridle` | three strands of n bars each |
 //! | `branches` | ten branchings in a tree of n bars in all, between twelve anchors |
 //! | `tree` | a random tree of n bars |
@@ -48,11 +45,6 @@ impl Draft {
         Ok(())
     }
 
-    fn cable(&mut self, from: usize, to: usize, length_m: f64) -> Result<(), Failure> {
-        self.members.push(Member::cable(from, to, Bar::homogeneous(length_m, length_m)?));
-        Ok(())
-    }
-
     /// Bars in a row.
     fn run(&mut self, from: usize, to: usize, bars: usize, length_m: f64) -> Result<(), Failure> {
         let mut here = from;
@@ -69,17 +61,15 @@ impl Draft {
     }
 }
 
-/// A net hung from four corners that are `span` of a side apart, with lengths that differ by
-/// `rough`.
-fn net(n: usize, span: f64, rough: f64, cables: bool) -> Result<System, Failure> {
-    let mut random = ChaCha8Rng::seed_from_u64(1);
+/// A net hung from four corners that are 0.8 of a side apart.
+fn net(n: usize) -> Result<System, Failure> {
     let step = 1.0 / (n as f64 - 1.0);
     let mut draft = Draft::default();
     for i in 0..n {
         for j in 0..n {
             let corner = (i == 0 || i == n - 1) && (j == 0 || j == n - 1);
             if corner {
-                draft.anchor([span * i as f64 * step, span * j as f64 * step, 0.0]);
+                draft.anchor([0.8 * i as f64 * step, 0.8 * j as f64 * step, 0.0]);
             } else {
                 draft.free();
             }
@@ -90,50 +80,11 @@ fn net(n: usize, span: f64, rough: f64, cables: bool) -> Result<System, Failure>
             let right = (i + 1 < n).then_some((i + 1) * n + j);
             let up = (j + 1 < n).then_some(i * n + j + 1);
             for to in [right, up].into_iter().flatten() {
-                let length_m = step * (1.0 + rough * random.random_range(-1.0..1.0));
-                if cables {
-                    draft.cable(i * n + j, to, length_m)?;
-                } else {
-                    draft.bar(i * n + j, to, length_m)?;
-                }
+                draft.bar(i * n + j, to, step)?;
             }
         }
     }
     draft.finish("net")
-}
-
-/// Rows and columns of a square.
-fn cells(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n * n).map(move |k| (k / n, k % n))
-}
-
-/// A net of cables in a ring of diameter one. Joints whose neighbour would be outside are anchors
-/// on the ring.
-fn ring(n: usize) -> Result<System, Failure> {
-    let step = 1.0 / (n as f64 - 1.0);
-    let at = |k: usize| k as f64 * step - 0.5;
-    let inside = |i: usize, j: usize| at(i).hypot(at(j)) < 0.5;
-    let mut draft = Draft::default();
-    let mut number = vec![vec![None; n + 1]; n + 1];
-    let mut places = Vec::new();
-    for (i, j) in cells(n).filter(|&(i, j)| inside(i, j)) {
-        let (x, y) = (at(i), at(j));
-        let around = [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)];
-        let free = around.iter().all(|&(i, j)| inside(i, j));
-        let place = if free { [x, y] } else { [x, y].map(|c| 0.5 * c / x.hypot(y)) };
-        places.push(place);
-        let [x, y] = place;
-        number[i][j] = Some(if free { draft.free() } else { draft.anchor([x, y, 0.0]) });
-    }
-    for (i, j) in cells(n) {
-        let Some(from) = number[i][j] else { continue };
-        for to in [number[i + 1][j], number[i][j + 1]].into_iter().flatten() {
-            let [a, b]: [[f64; 2]; 2] = [places[from], places[to]];
-            let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
-            draft.cable(from, to, (1.1 * step).max(1.02 * apart))?;
-        }
-    }
-    draft.finish("ring")
 }
 
 fn bridle(n: usize) -> Result<System, Failure> {
@@ -213,10 +164,7 @@ fn main() -> Result<(), Failure> {
     for n in sizes {
         let mut beside = String::new();
         let system = match kind {
-            "net" => net(n, 0.8, 0.0, false)?,
-            "pushing" => net(n, 0.8, 0.2, false)?,
-            "cables" => net(n, 0.75, 0.0, true)?,
-            "ring" => ring(n)?,
+            "net" => net(n)?,
             "bridle" => bridle(n)?,
             "branches" => branches(n)?,
             "tree" => tree(n)?,
@@ -238,7 +186,6 @@ fn main() -> Result<(), Failure> {
         };
         let (work, time_s) = (solution.work, solution.equilibrium.evidence.solve_s);
         let idle = solution.equilibrium.axial_n.iter().filter(|n| n.abs() <= 0.0).count();
-        let pushing = solution.equilibrium.axial_n.iter().filter(|n| **n < 0.0).count();
         println!(
             "{n:>8} {members:>8} {time_s:>9.4} {:>9.3} {:>10} {:>10} {:>14} {:>9.1e} {:>9.1e} {:>8}{beside}",
             1e6 * time_s / members as f64,
@@ -247,7 +194,7 @@ fn main() -> Result<(), Failure> {
             work.factorisations,
             work.unbalance,
             work.misfit,
-            if kind == "pushing" { pushing } else { idle },
+            idle,
         );
     }
     Ok(())

@@ -5,6 +5,7 @@ use model::Vector;
 use crate::links::Links;
 use crate::settings::Motion;
 use crate::symmetric::{Column, Symmetric};
+use crate::thresholds::{FAIR_PART, PROGRESS, ROUNDING};
 use crate::vector::{Sum, VectorSum, along, cross, dot, norm, scaled, tangent};
 
 /// Directions of the bars with what one pass over them gives.
@@ -31,12 +32,6 @@ pub(crate) struct Moments {
     pub(crate) value: f64,
 }
 
-/// A gap below this part of its terms is rounding; corrections stop there.
-const CLOSED: f64 = 4.0 * f64::EPSILON;
-
-/// Least part of the predicted fall of the squared gap that counts as success.
-const FAIR_PART: f64 = 0.1;
-
 /// A predicted fall below this part of the squared gap counts as zero: the bars are parallel to the
 /// gap.
 const NO_FALL: f64 = 1e-8;
@@ -57,10 +52,6 @@ pub(crate) const LOST_SPREAD: f64 = model::STRAIGHT_TOLERANCE;
 
 /// Angle by which bars on one straight line are turned off it, alternately, rad.
 const NUDGE: f64 = 0.05;
-
-/// Where the gap as a whole is rounding, a component that shrinks to this part still says
-/// something: a chain drawn out along an axis holds that component to more digits than the others.
-const FINER: f64 = 0.5;
 
 /// How often a straight chain is nudged.
 const NUDGES: usize = 3;
@@ -136,7 +127,8 @@ impl Links {
             if !left.is_finite() {
                 return Err((gap, corrections));
             }
-            let finer = gap <= SMALL_GAP && trial.moments.parts() <= FINER * shape.moments.parts();
+            let finer =
+                gap <= SMALL_GAP && trial.moments.parts() <= PROGRESS * shape.moments.parts();
             if finer || gap * gap - left * left >= FAIR_PART * predicted {
                 (shape, gap) = (trial, left);
                 damping =
@@ -183,7 +175,7 @@ impl Moments {
 
     /// Whether the gap is nothing but rounding.
     fn closed(&self) -> bool {
-        self.parts() <= CLOSED
+        self.parts() <= ROUNDING
     }
 }
 
@@ -210,7 +202,7 @@ fn predicted_fall(spread: &Symmetric, damping: f64, gap: Vector, pull: Vector) -
     dot(gap, gap) - dot(left, left)
 }
 
-/// A gap of rounding: a sum of many directions, each rounded, may not get below [`CLOSED`].
+/// A gap of rounding: a sum of many directions, each rounded, may not get below [`ROUNDING`].
 const SMALL_GAP: f64 = 1e-14;
 
 /// Pi (3 - sqrt 5), rad: no multiple comes near a full turn.

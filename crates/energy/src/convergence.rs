@@ -4,6 +4,7 @@ use crate::closure::Shape;
 use crate::curvature::Curvature;
 use crate::settings::Settings;
 use crate::slope::Slope;
+use crate::thresholds::{GRADIENT_PART, STEP_ROUNDING};
 use crate::vector::norm;
 
 /// How often the whole chain may turn towards its plane when the energy it wins is below its noise:
@@ -18,13 +19,6 @@ const SHIFT_UP: f64 = 4.0;
 
 /// Factor of the shift while the Hessian is not positive definite.
 const INDEFINITE_UP: f64 = 8.0;
-
-/// Smallest shift worth trying when none failed, in units of the mean gradient: it holds the mean
-/// turn of the bars to a few radians.
-const GRADIENT_PART: f64 = 0.25;
-
-/// A residual this small is rounding; no further step is worth its time.
-const EXACT: f64 = 8.0 * f64::EPSILON;
 
 /// What an iterate is, by its first and second derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,7 +72,7 @@ impl Convergence {
         if curvature.index(slope.zero) > 0 {
             return Iterate::Saddle;
         }
-        if self.polished || slope.residual() <= EXACT {
+        if self.polished || slope.residual() <= STEP_ROUNDING {
             return Iterate::Minimum;
         }
         self.polished = true;

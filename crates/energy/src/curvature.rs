@@ -10,6 +10,7 @@ use crate::links::Links;
 use crate::settings::Motion;
 use crate::slope::Slope;
 use crate::symmetric::{Column, MOST, Symmetric};
+use crate::thresholds::GRADIENT_PART;
 use crate::vector::{along, cross, dot, norm, scaled, tangent};
 
 /// The Hessian of the Lagrangian on the motions that keep the chain closed.
@@ -57,10 +58,6 @@ pub(crate) struct Step {
 
 /// The safe shift exceeds the most negative axial force by this part of it.
 const MARGIN: f64 = 0.25;
-
-/// Part of the mean gradient in the safe shift: it holds the mean turn of the bars to about one
-/// radian where the curvature says nothing.
-const GRADIENT_PART: f64 = 0.25;
 
 impl Curvature {
     /// Rows of the closure in the motions considered.

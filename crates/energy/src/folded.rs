@@ -4,7 +4,7 @@ use model::Vector;
 
 use crate::closure::Shape;
 use crate::links::Links;
-use crate::regime::Regime;
+use crate::regime::Reach;
 use crate::vector::{along, dot, unit};
 
 impl Links {
@@ -17,7 +17,7 @@ impl Links {
     /// turned first, and the other bars are closed on the way back, where they are a nearly taut
     /// chain.
     pub(crate) fn unfolded(&self, u: Vec<Vector>) -> Vec<Vector> {
-        if !Regime::of(self).reach.starts_unfolded() {
+        if !Reach::of_links(self).starts_unfolded() {
             return u;
         }
         let Some((k, longest)) =

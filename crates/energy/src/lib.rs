@@ -20,7 +20,7 @@
 //! |---|---|---|---|
 //! | `l_i`, `m_i`, `r_i` | `length_m`, `mass_kg`, `centre_m` of `model::Bar` | m, kg, m | section II |
 //! | first column of `[A_i]` | `u`, `directions` | - | (5) |
-//! | `V` | [`potential_j`], `energy_j` (from joint 0) | J | (v) |
+//! | `V` | `energy_j` (from joint 0) | J | (v) |
 //! | `V / mgl` | [`example::potential`] (6 more) | `mgl` | (vi) |
 //! | - | `carried`, `h_i`: weight hanging on bar *i*, less one half | total weight | (v), see `links` |
 //! | `sum l_i u_i = D` | `closure`, `gap` | total length | (i), (ii) |
@@ -50,12 +50,12 @@
 //!
 //! # Regimes
 //!
-//! Two questions decide which way a chain takes, [`Regime::of_problem`] answers both from the
+//! Two questions decide which way a chain takes, `regime` answers both from the
 //! lengths and the anchors before any iteration. Let L be the total length, D the way from anchor
 //! to anchor, l the longest bar and s the length to spare, the smaller of $L - |D|$ and
 //! $L + |D| - 2l$. The thresholds stand in `regime`.
 //!
-//! | [`Reach`] | test | unknowns | fallback | what the evidence says |
+//! | `Reach` | test | unknowns | fallback | what the evidence says |
 //! |---|---|---|---|---|
 //! | slack | neither of those below | directions on the closed chains, 2 n - 3; axes level and upright | a saddle is left along its lowest mode; bars that carry next to nothing: Newton's method with the weights counted from the least loaded bar (`refine`) | converged; minimum, with its indices |
 //! | drawn out | $s < L/4$ and $s < \lvert D\rvert$ | the same, with an axis along D | nearly parallel bars: that method with an axis along them | the same; how uncertain the forces are, if above 1e-9 |
@@ -63,7 +63,7 @@
 //! | triangle | two bars, $\lvert D\rvert \le 10^{-3} L$ | the turn about the line through the anchors: the shape is that of a triangle to twice the digits (`triangle`) | none is needed | converged, with no uncertainty of the forces |
 //! | folded anyway | the same, but $2l = L$: D is no axis | the same start, axes level and upright | the same | the same |
 //!
-//! | [`Turning`] | test | what is done | what the evidence says |
+//! | `Turning` | test | what is done | what the evidence says |
 //! |---|---|---|---|
 //! | free | anchors on one vertical | the turn about it is taken out of the Newton system | the turn counts in `nullity` |
 //! | soft | level distance of the anchors at most 1/100 of the unit of length | the chain is turned as a whole before Newton's steps | its condition |
@@ -80,7 +80,7 @@
 //!
 //! Up to which *n* does it keep up? The time is linear in *n* as far as memory goes: nothing is
 //! stored but a few vectors of length *n*, and the number of iterations on the chain itself does
-//! not grow. `cargo run --release -p energy --example energy_speed` shows it up to a million bars.
+//! not grow. `cargo bench -p benches --bench chains` shows it.
 //! A pass over the bars costs a square root and a division per bar, and an iteration takes about
 //! five passes (system, step, two or three corrections of the closure); a method with three
 //! unknowns instead of 2 n needs one pass and stays ahead by that factor and by the coarser chains.
@@ -110,7 +110,6 @@ mod links;
 mod minimise;
 mod objective;
 mod plane;
-mod potential;
 mod reaction;
 mod refine;
 mod regime;
@@ -123,6 +122,7 @@ mod stability;
 mod start;
 mod strands;
 mod symmetric;
+mod thresholds;
 mod triangle;
 mod twofold;
 mod vector;
@@ -136,9 +136,7 @@ pub mod network;
 
 pub use error::Error;
 pub use minimise::{minimise, minimise_from};
-pub use potential::potential_j;
 pub use reaction::reaction_by_differences;
-pub use regime::{Reach, Regime, Turning};
 pub use seed::Seed;
 pub use settings::{Motion, Settings};
 pub use solution::{Solution, Work};

@@ -208,7 +208,7 @@ fn descend_to_line(
             .ctrlc(false)
             .timer(false)
             .run()
-            .map_err(ended)?;
+            .map_err(|error| unwrapped(error, |reason| Error::Ended { reason }))?;
     let evaluations = state.problem.counts.values().sum();
     let (mut state, unsettled) = (state.state, state.solver.unsettled);
     // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
@@ -239,38 +239,33 @@ fn descend_to_line(
     }
 }
 
-/// An error that argmin passes on: ours if it was ours.
-pub(crate) fn ended(error: argmin::core::Error) -> Error {
-    error.downcast::<Error>().unwrap_or_else(|other| Error::Ended { reason: other.to_string() })
-}
-
-/// argmin's reasons, all of them: only one of them is a success, whatever `Ok` it came in.
+/// What the end of a run says, whatever `Ok` it came in.
 fn outcome(state: &Run) -> Result<(), Error> {
     let iterations = state.get_iter();
     let gradient = state.get_gradient().map_or(f64::NAN, |slope| slope.residual());
-    verdict(state.get_termination_status(), iterations, gradient)
+    let limit = Error::IterationLimit { iterations, gradient };
+    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
 }
 
-/// The match behind [`outcome`], for every state of this crate.
-pub(crate) fn verdict(
+/// The error behind one of argmin's: ours, or `other` from its text.
+pub(crate) fn unwrapped<E: std::error::Error + Send + Sync + 'static>(
+    error: argmin::core::Error,
+    other: impl FnOnce(String) -> E,
+) -> E {
+    error.downcast::<E>().unwrap_or_else(|error| other(error.to_string()))
+}
+
+/// What the end of a run says: converged, the `limit` of iterations, or another end, by its text.
+pub(crate) fn verdict<E>(
     status: &TerminationStatus,
-    iterations: u64,
-    gradient: f64,
-) -> Result<(), Error> {
+    limit: E,
+    other: impl FnOnce(String) -> E,
+) -> Result<(), E> {
     match status {
-        TerminationStatus::Terminated(reason) => match reason {
-            TerminationReason::SolverConverged => Ok(()),
-            TerminationReason::MaxItersReached => {
-                Err(Error::IterationLimit { iterations, gradient })
-            }
-            TerminationReason::TargetCostReached
-            | TerminationReason::Interrupt
-            | TerminationReason::Timeout => Err(Error::Ended { reason: reason.text().to_owned() }),
-            TerminationReason::SolverExit(text) => Err(Error::Ended { reason: text.clone() }),
-        },
-        TerminationStatus::NotTerminated => {
-            Err(Error::Ended { reason: "not terminated".to_owned() })
-        }
+        TerminationStatus::Terminated(TerminationReason::SolverConverged) => Ok(()),
+        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Err(limit),
+        TerminationStatus::Terminated(reason) => Err(other(reason.text().to_owned())),
+        TerminationStatus::NotTerminated => Err(other("not terminated".to_owned())),
     }
 }
 

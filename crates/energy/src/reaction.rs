@@ -11,7 +11,7 @@ use crate::plane::Turn;
 use crate::settings::{Motion, Settings};
 use crate::slope::Slope;
 use crate::solution::Solution;
-use crate::vector::{Sum, along, norm, scaled};
+use crate::vector::{Sum, along, scaled};
 
 /// The force at every joint, world frame, N, in the order of the paper's multipliers.
 ///
@@ -140,7 +140,7 @@ pub fn reaction_by_differences(
         solution.directions.iter().map(|&u| units.frame.into_frame(u)).collect();
     let turn = Turn::into_plane(&links, &in_frame);
     let start = turn.flattened(&in_frame);
-    let spare = spare_length(&links);
+    let spare = links.spare();
     let mut reaction = [0.0; 3];
     for (axis, component) in reaction.iter_mut().enumerate() {
         let motion = if axis == 1 { Motion::Space } else { Motion::Plane };
@@ -175,33 +175,9 @@ fn extrapolated(step: f64, value: impl Fn(f64) -> Result<f64, Error>) -> Result<
     Ok(table[LEVELS - 1])
 }
 
-/// How far the anchor can move, at least, before the chain cannot close any more: what is left of
-/// the total length over the span, or of the other bars and the span over the longest bar.
-fn spare_length(links: &Links) -> f64 {
-    let (total, span) = (links.total(), norm(links.span[0]));
-    let longest = links.length.iter().fold(0.0_f64, |m, l| m.max(*l));
-    (total - span).min(total + span - 2.0 * longest)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_anchor_moves_until_the_chain_is_straight_or_folded() {
-        let links = |length: Vec<f64>, span: Vector| Links {
-            carried: vec![0.0; length.len()],
-            length,
-            span: [span, [0.0; 3]],
-            up: [0.0, 0.0, 1.0],
-            vertical: false,
-            motion: Motion::Plane,
-        };
-        // 1.5 long over 1.25: a quarter. Folded over a bar of one, the others 0.5: 0.5 + 0.75 - 1.
-        assert!((spare_length(&links(vec![0.5; 3], [0.75, 0.0, 1.0])) - 0.25).abs() < 1e-15);
-        let folded = links(vec![0.25, 1.0, 0.25], [0.45, 0.0, -0.6]);
-        assert!((spare_length(&folded) - 0.25).abs() < 1e-15);
-    }
 
     /// The central differences of a polynomial of the seventh degree have errors in three even
     /// powers of the step; four levels leave nothing of them.

@@ -37,6 +37,7 @@ use crate::plane::Turn;
 use crate::settings::Settings;
 use crate::slope::Slope;
 use crate::strands::off_the_line;
+use crate::thresholds::{FORCE_ROUNDING, KNOWN, ROUNDING};
 use crate::vector::{Sum, along, dot, norm, scaled, tangent};
 
 /// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
@@ -49,15 +50,6 @@ const STEPS: usize = 60;
 
 /// A step that turns a bar by more than this, rad, leaves the neighbourhood of the minimum.
 const LARGEST_TURN: f64 = 0.5;
-
-/// Turns of this size, rad, are rounding.
-const EXACT: f64 = 4.0 * f64::EPSILON;
-
-/// Once steps are this small, rad, one that does not halve is rounding.
-const SMALL: f64 = 1e-9;
-
-/// Axial forces below this part of the largest force are rounding.
-pub(crate) const NO_FORCE: f64 = 64.0 * f64::EPSILON;
 
 /// An axis within this angle, rad, of the line of the bars is on it: the small components keep all
 /// but three of their digits.
@@ -105,7 +97,7 @@ pub(crate) fn refine(
     }
     // Bars without force to rounding hang free: any direction of theirs is an equilibrium as far as
     // doubles tell, and the answer is one of them.
-    let failed = if slope.softest <= NO_FORCE * slope.pull {
+    let failed = if slope.softest <= FORCE_ROUNDING * slope.pull {
         Refinement::NotNeeded
     } else {
         Refinement::Failed(first)
@@ -232,7 +224,7 @@ impl Point {
         for _ in 0..STEPS {
             let step = self.step()?;
             // A bar without any force answers rounding by any turn, once all others are right.
-            if turn <= SMALL && step.largest > SMALL {
+            if turn <= KNOWN && step.largest > KNOWN {
                 break;
             }
             if step.largest > LARGEST_TURN {
@@ -242,7 +234,7 @@ impl Point {
             self.shape = self.links.moved(&self.shape.u, |i, _| step.turns[i]);
             self.multiplier = along(self.multiplier, 1.0, step.multiplier);
             turn = turn.min(step.largest);
-            if size <= EXACT || (last <= SMALL && size > 0.5 * last) {
+            if size <= ROUNDING || (last <= KNOWN && size > 0.5 * last) {
                 break;
             }
             last = size;

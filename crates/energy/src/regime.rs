@@ -5,31 +5,13 @@
 //! Both are answered by the lengths and the anchors alone. What only a solution can tell (bars on
 //! one line, a sharp bend) is an outcome of the attempt: modules `strands` and `bend`.
 
-use model::Problem;
-
 use crate::links::Links;
 use crate::settings::Motion;
 use crate::vector::{dot, norm};
 
-/// The way in which a chain is solved.
-///
-/// ```
-/// use energy::{Reach, Regime, Turning};
-/// // Three bars of length 1 m between anchors 2 m apart on one vertical.
-/// let regime = Regime::of_problem(&model::cases::paper());
-/// assert_eq!(regime, Regime { reach: Reach::Slack, turning: Turning::Free });
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Regime {
-    /// How much length there is to spare.
-    pub reach: Reach,
-    /// What holds the vertical plane of the chain.
-    pub turning: Turning,
-}
-
 /// How much length a chain can spare before its bars lie on one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reach {
+pub(crate) enum Reach {
     /// A good part of its length: any axes and any start will do.
     Slack,
     /// Little, before it is taut or its longest bar folds on the others along the span: an axis of
@@ -48,7 +30,7 @@ pub enum Reach {
 
 /// What holds the vertical plane of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Turning {
+pub(crate) enum Turning {
     /// Nothing: the anchors are on one vertical and the turn about it is taken out of the Newton
     /// system.
     Free,
@@ -78,33 +60,13 @@ const FEWEST_TO_UNFOLD: usize = 3;
 /// they win.
 const NEARLY_VERTICAL: f64 = 0.01;
 
-impl Regime {
-    /// The regime of a problem that may move in space.
-    ///
-    /// ```
-    /// use energy::{Reach, Regime, Turning};
-    /// use model::{Anchors, Bar, Chain, Problem};
-    /// // Nearly taut, and level.
-    /// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.999, 0.0, 0.0] };
-    /// let chain = Chain::new("taut", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 2])?;
-    /// let regime = Regime::of_problem(&Problem::new(chain)?);
-    /// assert_eq!(regime, Regime { reach: Reach::DrawnOut, turning: Turning::Held });
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn of_problem(problem: &Problem) -> Self {
-        Self::of(&Links::new(problem, Motion::Space).0)
-    }
-
-    /// The regime of a chain in its own units.
-    pub(crate) fn of(links: &Links) -> Self {
-        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
-        let reach = Reach::of(links.bars(), links.total(), norm(links.span[0]), longest);
-        Self { reach, turning: Turning::of(links) }
-    }
-}
-
 impl Reach {
+    /// That of a chain in its own units.
+    pub(crate) fn of_links(links: &Links) -> Self {
+        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
+        Self::of(links.bars(), links.total(), norm(links.span[0]), longest)
+    }
+
     /// From the number of bars, the total length, the span and the longest bar, in any one unit.
     pub(crate) fn of(bars: usize, total: f64, span: f64, longest: f64) -> Self {
         let (taut, folded) = (total - span, total + span - 2.0 * longest);

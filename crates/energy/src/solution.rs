@@ -13,6 +13,7 @@ use crate::reaction::{axial_forces, joint_forces, reactions};
 use crate::settings::Settings;
 use crate::solver::force_uncertainty;
 use crate::stability::SecondOrder;
+use crate::thresholds::KNOWN;
 use crate::vector::{VectorSum, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -55,14 +56,6 @@ const RESIDUAL_OF: &str =
 /// What it means where bars that carry next to nothing are not known well enough.
 const TURN_LEFT: &str = "turn of a bar that the next step of Newton's method asks for, rad, where bars carry next to nothing";
 
-/// How well the direction of every bar is known where the answer counts as converged, rad: what two
-/// solvers are asked to agree to.
-const KNOWN_RAD: f64 = 1e-9;
-
-/// Uncertainty of the forces, as a part of the largest, above which the evidence speaks of it: what
-/// two solvers are asked to agree to.
-const WORTH_SAYING: f64 = 1e-9;
-
 impl Solution {
     pub(crate) fn new(
         problem: &Problem,
@@ -79,8 +72,8 @@ impl Solution {
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
         let tolerance = settings.gradient_tolerance;
-        let mut evidence = match unknown_rad.filter(|turn| *turn > KNOWN_RAD) {
-            Some(turn) => Evidence::new(TURN_LEFT, turn, KNOWN_RAD, iterations_usize),
+        let mut evidence = match unknown_rad.filter(|turn| *turn > KNOWN) {
+            Some(turn) => Evidence::new(TURN_LEFT, turn, KNOWN, iterations_usize),
             None => Evidence::new(RESIDUAL_OF, residual, tolerance, iterations_usize),
         };
         // A refined minimum has its own digits.
@@ -88,7 +81,7 @@ impl Solution {
             Some(_) => 0.0,
             None => force_uncertainty(&links, &shape, &slope),
         };
-        if relative > WORTH_SAYING {
+        if relative > KNOWN {
             let cause = UncertaintyCause::ParallelBars;
             evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }

@@ -15,6 +15,7 @@ use crate::plane::Turn;
 use crate::settings::Settings;
 use crate::slope::Slope;
 use crate::strands::off_the_line;
+use crate::thresholds::{FAIR_PART, PROGRESS};
 use crate::vector::{dot, norm, scaled};
 
 /// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
@@ -43,9 +44,6 @@ pub(crate) struct FeasibleNewton {
     pub(crate) unsettled: Option<Error>,
 }
 
-/// Least part of the predicted fall of the energy that counts as success.
-const FAIR_PART: f64 = 0.1;
-
 /// A step better than this part of its prediction lets the shift shrink.
 const GOOD_PART: f64 = 0.7;
 
@@ -66,9 +64,6 @@ const CORRECTIONS: usize = 12;
 /// Energies are sums of rounded products: differences below this, times the size of the forces,
 /// say nothing, and the gradient decides alone.
 const ENERGY_NOISE: f64 = 2.0 * f64::EPSILON;
-
-/// Once differences of energy are rounding, a step must shrink the mean gradient to this part.
-const GRADIENT_PROGRESS: f64 = 0.5;
 
 /// Above this part of the noise a fall as large as predicted still says something.
 const HALF_BLIND: f64 = 0.05;
@@ -126,7 +121,7 @@ impl FeasibleNewton {
                 let next = problem.gradient(&shape)?;
                 // On a straight chain the multiplier is another one.
                 let comparable = next.line.is_some() == slope.line.is_some();
-                let flatter = next.mean <= GRADIENT_PROGRESS * slope.mean;
+                let flatter = next.mean <= PROGRESS * slope.mean;
                 if decided || !comparable || flatter || lower {
                     if !decided || good {
                         self.convergence.good_step(&next);

@@ -4,6 +4,7 @@ use model::{STRAIGHT_TOLERANCE, Vector};
 
 use crate::closure::{LOST_SPREAD, Shape};
 use crate::links::Links;
+use crate::thresholds::FORCE_ROUNDING;
 use crate::vector::{along, cross, dot, norm};
 
 /// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame
@@ -12,9 +13,6 @@ const NEARLY_STRAIGHT: f64 = 1e-6;
 
 /// Bisections of the interval of multipliers: all digits of a double.
 const BISECTIONS: usize = 64;
-
-/// Rounding of the forces along the bars, in units of the largest.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The common line of the bars, if they are on one to rounding: the direction in which no motion
 /// moves the last joint.
@@ -78,7 +76,7 @@ pub(crate) fn opening_multiplier(
     if room <= 0.0 {
         // A single tau, at which two bars with nothing between them are slack, is met to rounding.
         let size = low.abs().max(high.abs()).max(1.0);
-        return (room >= -ROUNDING * size).then(|| along(multiplier, 0.5 * (low + high), e));
+        return (room >= -FORCE_ROUNDING * size).then(|| along(multiplier, 0.5 * (low + high), e));
     }
     for _ in 0..BISECTIONS {
         let tau = 0.5 * (low + high);

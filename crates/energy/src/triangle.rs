@@ -25,7 +25,7 @@ use model::Vector;
 use crate::closure::Shape;
 use crate::links::Links;
 use crate::minimise::Minimum;
-use crate::regime::{Reach, Regime};
+use crate::regime::Reach;
 use crate::settings::Motion;
 use crate::slope::Slope;
 use crate::twofold::Twofold;
@@ -50,7 +50,7 @@ impl Triangle {
     /// The equilibrium of two bars over near anchors to which directions lean: the upper or the
     /// lower one, or, about anchors on one vertical, that in their plane. `None` of other chains.
     pub(crate) fn near(links: &Links, u: &[Vector]) -> Option<Self> {
-        if Regime::of(links).reach != Reach::Triangle {
+        if Reach::of_links(links) != Reach::Triangle {
             return None;
         }
         let (&[l1, l2], &[first, second]) = (links.length.as_slice(), u) else { return None };

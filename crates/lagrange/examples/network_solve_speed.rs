@@ -6,16 +6,14 @@
 //! bars; `crumpled` nets of cables with all their edges held, the cables between as long as their
 //! places are apart up to 1.5 times that; `ring` such nets of massless cables of 1.05 m with 1 kg
 //! at each joint. Each prints a line: members, time, time of the processor (on Linux, in steps of
-//! 10 ms), factorisations, residual, members in compression, slack ones; for
-//! a bridle also the times of one chain of as many bars, by `lagrange::solve` (the paper's 6n
-//! coordinates) and by `lagrange::condensed`.
+//! 10 ms), factorisations, residual, members in compression, slack ones.
 
 use std::error::Error;
 use std::time::Instant;
 
 use lagrange::network::{Settings, solve};
+use model::Bar;
 use model::system::{Joint, Kind, Member, System};
-use model::{Anchors, Bar, Chain, Problem};
 
 /// Span of the corners over the length of a side.
 const SPAN: f64 = 0.8;
@@ -64,9 +62,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             solution.residual,
             solution.slack.len(),
         );
-        if shape == "bridle" {
-            chain_times(system.members().len())?;
-        }
     }
     Ok(())
 }
@@ -81,23 +76,6 @@ fn processor_s() -> f64 {
     let after = status.rsplit(')').next().unwrap_or_default();
     let ticks = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
     ticks.map(|ticks| ticks.unwrap_or(f64::NAN)).sum::<f64>() / PER_SECOND
-}
-
-/// Times of a chain of `n` bars.
-fn chain_times(n: usize) -> Result<(), Box<dyn Error>> {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [SPAN * n as f64, 0.0, 0.0] };
-    let bar = Bar::homogeneous(1.0, 1.0)?;
-    let problem = Problem::new(Chain::new("chain", 9.806_65, anchors, vec![bar; n])?)?;
-    let began = Instant::now();
-    lagrange::solve(&problem, &lagrange::Settings::default())?;
-    let full = began.elapsed().as_secs_f64();
-    let began = Instant::now();
-    lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default())?;
-    let condensed = began.elapsed().as_secs_f64();
-    println!(
-        "{n:>8} {full:>10.3} chain, lagrange::solve\n{n:>8} {condensed:>10.3} chain, lagrange::condensed"
-    );
-    Ok(())
 }
 
 /// A tree of `n` bars below one anchor: each joint carries two more.

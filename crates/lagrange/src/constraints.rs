@@ -19,6 +19,21 @@ pub(crate) fn bar_coordinates<T: RealField + Copy>(
     (Vector3::new(q[at], q[at + 1], q[at + 2]), [q[at + 3], q[at + 4], q[at + 5]])
 }
 
+/// The coordinates `q` of eq. (21): the centres follow from the angles along the chain, so that
+/// every constraint but the last three holds.
+pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector<f64> {
+    let mut q = DVector::zeros(mechanism.coordinates());
+    let mut joint = mechanism.start;
+    for (bar, &[psi, theta, phi]) in angles.iter().enumerate() {
+        let u = direction(psi, theta, phi);
+        let centre = joint + u * mechanism.centres[bar];
+        joint += u * mechanism.lengths[bar];
+        let part = [centre.x, centre.y, centre.z, psi, theta, phi];
+        q.rows_mut(PER_BAR * bar, PER_BAR).copy_from_slice(&part);
+    }
+    q
+}
+
 /// Constraint functions $f_1 \dots f_{3(n+1)}$ of n bars at the coordinates `q` (6n, eq. 21), m.
 ///
 /// Rows 0..3 hold the first bar at joint 0, eqs. (7)-(9); rows 3k..3k+3 hold bars k and k+1

@@ -1,14 +1,6 @@
 //! What a solve took.
 
 /// What a solve took.
-///
-/// ```
-/// use lagrange::{Seed, Settings, solve_from};
-/// let seed = Seed::planar(&[0.3, 0.7, -1.3]);
-/// let effort = solve_from(&model::cases::paper(), &seed, &Settings::default())?.effort;
-/// assert!(effort.iterations <= 6 && effort.relaxations == 0 && effort.solve_s > 0.0);
-/// # Ok::<(), lagrange::SolveError>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
     /// Steps of all kinds.

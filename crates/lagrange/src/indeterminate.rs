@@ -13,7 +13,6 @@ use nalgebra::Vector3;
 
 use crate::condensed::Condensed;
 use crate::mechanism::Units;
-use crate::newton::Equations;
 use crate::reduced::Reduced;
 use crate::settings::Settings;
 use crate::spin::regular_angles;

@@ -38,8 +38,7 @@
 //! `point`). Their matrix is singular at every solution; module `step` treats it, and nothing else
 //! does. Module `newton` makes the method global; module `relax` helps where the residual has local
 //! minima that are no roots; module `spin` says where the paper's coordinates lose a moment balance
-//! and with it admit false roots, and how they are avoided. [`StepMethod::Dense`] does the same on
-//! the full matrix with a singular value decomposition, to be read and to be compared.
+//! and with it admit false roots, and how they are avoided.
 //!
 //! What a run of Newton's method has led to is known only afterwards, and decides what follows:
 //!
@@ -86,7 +85,6 @@
 pub mod batch;
 pub mod condensed;
 mod constraints;
-mod dense;
 mod effort;
 mod error;
 mod indeterminate;
@@ -117,7 +115,7 @@ pub use error::SolveError;
 pub use load::load_vector;
 pub use rotation::{direction, direction_gradient, direction_hessian, rotation};
 pub use seed::Seed;
-pub use settings::{Settings, SettingsError, StepMethod};
+pub use settings::{Settings, SettingsError};
 pub use solution::Solution;
 pub use solve::{Converged, Solver, solve, solve_from};
 pub use spectrum::{Spectrum, spectrum};

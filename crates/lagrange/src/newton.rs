@@ -1,20 +1,8 @@
 //! Newton's method made global and safe at singular solutions: Levenberg and Marquardt's.
 
+use crate::reduced::Reduced;
 use crate::settings::Settings;
-
-/// A system of equations at a point, with a damped step to the next.
-pub(crate) trait Equations {
-    /// Norm of the residual at the point.
-    fn norm(&self) -> f64;
-    /// Largest equation, in the units of [`Settings::tolerance`].
-    fn largest(&self) -> f64;
-    /// Compute the step $d = -(J^T J + s^2)^{-1} J^T r$ for the damping s; norm of $r + J d$.
-    fn step(&mut self, damping: f64) -> f64;
-    /// Norm of the residual at the end of the step.
-    fn attempt(&mut self) -> f64;
-    /// Go there.
-    fn accept(&mut self);
-}
+use crate::thresholds::EARNED;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,8 +15,6 @@ pub(crate) enum Ending {
 
 /// Damping in the first step, in units of the residual; the gain ratio corrects it at once.
 const FIRST_DAMPING: f64 = 1.0;
-/// A step that earns less than this part of the promised decrease is not taken.
-const ACCEPT: f64 = 1e-4;
 /// Below this part of the promised decrease the damping grows, ...
 const POOR: f64 = 0.25;
 /// ... above this part it shrinks, ...
@@ -50,7 +36,7 @@ const POLISH: usize = 3;
 /// One run from the point of the equations. Appends the norm of the residual at each step to
 /// `history`.
 pub(crate) fn newton(
-    equations: &mut impl Equations,
+    equations: &mut Reduced,
     settings: &Settings,
     history: &mut Vec<f64>,
 ) -> Ending {
@@ -71,7 +57,7 @@ pub(crate) fn newton(
         let predicted = equations.step((factor * norm).max(LEAST_DAMPING));
         let trial = equations.attempt();
         let gain = (norm * norm - trial * trial) / (norm * norm - predicted * predicted);
-        if gain > ACCEPT {
+        if gain > EARNED {
             equations.accept();
             norm = equations.norm();
         }
@@ -88,7 +74,7 @@ pub(crate) fn newton(
 }
 
 /// Steps on while each halves the residual.
-fn polish(equations: &mut impl Equations, factor: f64, history: &mut Vec<f64>) {
+fn polish(equations: &mut Reduced, factor: f64, history: &mut Vec<f64>) {
     for _ in 0..POLISH {
         let norm = equations.norm();
         equations.step((factor * norm).max(LEAST_DAMPING));

@@ -4,7 +4,6 @@ use nalgebra::{Complex, Vector3};
 
 use crate::mechanism::Mechanism;
 use crate::multipliers::estimate_pull;
-use crate::newton::Equations;
 use crate::point::{Metric, Point};
 use crate::spin::regular_angles;
 use crate::step::Matrix;
@@ -116,7 +115,7 @@ impl Reduced {
     }
 
     /// The bar on which the largest moment acts, from 0, and that moment in units of the largest
-    /// force times the mean length. [`Equations::largest`] sees only what the paper's equations
+    /// force times the mean length. [`Self::largest`] sees only what the paper's equations
     /// see.
     pub fn largest_moment(&self) -> (usize, f64) {
         let unit = self.here.largest_force(&self.carried) / self.carried.len() as f64;
@@ -125,18 +124,19 @@ impl Reduced {
         // A NaN is kept.
         moments.enumerate().fold((0, 0.0), |best, next| if next.1 <= best.1 { best } else { next })
     }
-}
 
-impl Equations for Reduced {
-    fn norm(&self) -> f64 {
+    /// Norm of the residual at the point.
+    pub fn norm(&self) -> f64 {
         self.here.norm(&self.mechanism, &self.metric)
     }
 
-    fn largest(&self) -> f64 {
+    /// Largest equation, in the units of [`Settings::tolerance`](crate::Settings::tolerance).
+    pub fn largest(&self) -> f64 {
         self.here.largest(&self.mechanism, &self.carried)
     }
 
-    fn step(&mut self, damping: f64) -> f64 {
+    /// Compute the step $d = -(J^T J + s^2)^{-1} J^T r$ for the damping s; norm of $r + J d$.
+    pub fn step(&mut self, damping: f64) -> f64 {
         if !self.assembled {
             self.matrix.assemble(&self.here, &self.metric);
             self.assembled = true;
@@ -146,12 +146,14 @@ impl Equations for Reduced {
         self.matrix.predicted_norm()
     }
 
-    fn attempt(&mut self) -> f64 {
+    /// Norm of the residual at the end of the step.
+    pub fn attempt(&mut self) -> f64 {
         self.advance(1.0);
         self.there.norm(&self.mechanism, &self.metric)
     }
 
-    fn accept(&mut self) {
+    /// Go there.
+    pub fn accept(&mut self) {
         self.stay();
         self.leave_gimbal_lock(self.lock_margin);
     }

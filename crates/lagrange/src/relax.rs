@@ -21,8 +21,8 @@
 
 use nalgebra::{Complex, Vector3};
 
-use crate::newton::Equations;
 use crate::reduced::Reduced;
+use crate::thresholds::{EARNED, SUM_ROUNDING};
 
 /// First step of the motion, in units in which weight, length and friction are one.
 const FIRST_TAU: f64 = 1.0;
@@ -36,12 +36,8 @@ const LARGEST_TAU: f64 = 1e6;
 const LARGEST_TURN: f64 = 0.5;
 /// A penalty above the multipliers is exact; twice as much leaves room for their errors.
 const PENALTY: f64 = 2.0;
-/// Part of the promised decrease that a step must earn (Armijo's rule).
-const EARNED: f64 = 1e-4;
 /// Halvings of a step; then it is taken as it is, shorter than 1e-6 of itself.
 const HALVINGS: usize = 20;
-/// The merit is a sum of terms of order one: below this its changes are rounding.
-const ROUNDING: f64 = 1e-15;
 /// Bars leave gimbal lock early: the motion has no preference for any angles.
 const LOCK_MARGIN: f64 = 0.1;
 
@@ -110,7 +106,7 @@ fn take(chain: &mut Reduced, penalty: f64, slope: f64) -> bool {
     let mut cut = false;
     for _ in 0..HALVINGS {
         chain.advance(part);
-        if merit(chain, true) <= start + EARNED * part * slope + ROUNDING * penalty {
+        if merit(chain, true) <= start + EARNED * part * slope + SUM_ROUNDING * penalty {
             break;
         }
         part *= CUT;

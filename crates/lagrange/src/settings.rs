@@ -2,26 +2,6 @@
 
 use serde::Serialize;
 
-/// How a step is computed.
-///
-/// ```
-/// use lagrange::{Settings, StepMethod, solve};
-/// let readable = Settings { method: StepMethod::Dense, ..Default::default() };
-/// let found = solve(&model::cases::paper(), &readable)?;
-/// assert!((found.equilibrium.energy_j / 9.80665 + 6.0 - 2.335468651999305).abs() < 1e-13);
-/// # Ok::<(), lagrange::SolveError>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[non_exhaustive]
-pub enum StepMethod {
-    /// From the reduced system, 3n + 3 unknowns: O(n) per step and no allocation.
-    #[default]
-    Reduced,
-    /// From the full system of the paper, 6n + 3(n+1) unknowns, by its singular value
-    /// decomposition: the readable form, held against the other in tests. Cubic in n.
-    Dense,
-}
-
 /// Settings of [`solve_from`](crate::solve_from) and [`solve`](crate::solve()).
 ///
 /// ```
@@ -59,15 +39,6 @@ pub struct Settings {
     ///
     /// Default 0.1. Range 0 to 0.9.
     pub lock_margin: f64,
-    /// Up to this number of bars nullity and condition of a [`Solution`](crate::Solution) are those
-    /// of the full Jacobian, above of the reduced one, which has the same nullity and is smaller;
-    /// both by a decomposition, cubic in n. Above 300 bars neither is decomposed: the nullity is
-    /// counted from the geometry and the condition estimated.
-    ///
-    /// Default 30.
-    pub full_spectrum_bars: usize,
-    /// How a step is computed. Default [`StepMethod::Reduced`].
-    pub method: StepMethod,
 }
 
 impl Default for Settings {
@@ -78,8 +49,6 @@ impl Default for Settings {
             relaxations: 8,
             max_relaxation_steps: 500,
             lock_margin: 0.1,
-            full_spectrum_bars: 30,
-            method: StepMethod::Reduced,
         }
     }
 }
@@ -104,6 +73,16 @@ pub struct SettingsError {
     pub high: f64,
 }
 
+/// Check names, values and ranges; NaN is out of every range.
+pub(crate) fn within(ranges: &[(&'static str, f64, f64, f64)]) -> Result<(), SettingsError> {
+    for &(name, value, low, high) in ranges {
+        if !(low..=high).contains(&value) {
+            return Err(SettingsError { name, value, low, high });
+        }
+    }
+    Ok(())
+}
+
 impl Settings {
     /// Check every range.
     ///
@@ -116,17 +95,12 @@ impl Settings {
     /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
         const STEPS: f64 = 1e9;
-        for (name, value, low, high) in [
+        within(&[
             ("tolerance", self.tolerance, 1e-15, 1e-3),
             ("max_iterations", self.max_iterations as f64, 1.0, STEPS),
             ("relaxations", self.relaxations as f64, 0.0, 1000.0),
             ("max_relaxation_steps", self.max_relaxation_steps as f64, 1.0, STEPS),
             ("lock_margin", self.lock_margin, 0.0, 0.9),
-        ] {
-            if !(low..=high).contains(&value) {
-                return Err(SettingsError { name, value, low, high });
-            }
-        }
-        Ok(())
+        ])
     }
 }

@@ -3,14 +3,14 @@
 use model::{Equilibrium, Evidence, Reactions, SolverName, Vector};
 use nalgebra::{DVector, Vector3};
 
-use crate::dense::coordinates;
+use crate::constraints::coordinates;
 use crate::effort::Effort;
 use crate::error::SolveError;
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::reduced::Reduced;
 use crate::settings::Settings;
-use crate::spectrum::{LARGEST_DECOMPOSED, Spectrum, spectrum};
+use crate::spectrum::{LARGEST_DECOMPOSED, LARGEST_FULL, Spectrum, spectrum};
 use crate::stability::stability;
 use crate::system::relative_residual;
 
@@ -61,7 +61,7 @@ impl Solution {
         let lambda = all_multipliers(&mechanism, &(point.pull * units.weight));
         let residual = relative_residual(chain, &q, &lambda);
         let spectrum = match chain.bars().len() {
-            bars if bars <= settings.full_spectrum_bars => spectrum(chain, &q, &lambda)?,
+            bars if bars <= LARGEST_FULL => spectrum(chain, &q, &lambda)?,
             bars if bars <= LARGEST_DECOMPOSED => Spectrum::reduced(&reduced.mechanism, point)?,
             _ => Spectrum::estimated(&reduced.mechanism, point),
         };

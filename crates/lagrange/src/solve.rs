@@ -4,16 +4,15 @@ use std::time::Instant;
 
 use model::{InSpace, Problem, Stability};
 
-use crate::dense::Dense;
 use crate::effort::Effort;
 use crate::error::SolveError;
 use crate::indeterminate;
 use crate::mechanism::{Mechanism, Units};
-use crate::newton::{Ending, Equations, newton};
+use crate::newton::{Ending, newton};
 use crate::reduced::Reduced;
 use crate::relax::relax;
 use crate::seed::{Seed, perturb};
-use crate::settings::{Settings, StepMethod};
+use crate::settings::Settings;
 use crate::solution::{Solution, energy, first_offset};
 use crate::stability::stability;
 use crate::thresholds::UNSEEN_MOMENT;
@@ -27,8 +26,7 @@ const LATER_HANDOVER: f64 = 0.03;
 /// ... down to this.
 const LAST_HANDOVER: f64 = 1e-12;
 
-/// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed
-/// (with [`StepMethod::Reduced`]).
+/// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed.
 ///
 /// ```
 /// use lagrange::{Seed, Settings, Solver};
@@ -209,10 +207,7 @@ impl<'p> Solver<'p> {
     fn attempt(&mut self) -> Attempt {
         let before = self.history.len();
         self.reduced.choose_unit();
-        let ending = match self.settings.method {
-            StepMethod::Reduced => newton(&mut self.reduced, &self.settings, &mut self.history),
-            StepMethod::Dense => self.newton_dense(),
-        };
+        let ending = newton(&mut self.reduced, &self.settings, &mut self.history);
         self.effort.iterations += self.history.len() - before;
         self.effort.reparametrisations = self.reduced.reparametrisations;
         if ending == Ending::Stagnated {
@@ -225,16 +220,6 @@ impl<'p> Solver<'p> {
         } else {
             Attempt::FalseRoot { bar, moment }
         }
-    }
-
-    /// One run on the full system, from the reduced one's point and back to it.
-    fn newton_dense(&mut self) -> Ending {
-        let mechanism = self.reduced.mechanism.clone();
-        let mut dense = Dense::new(&mechanism, &self.reduced.here);
-        let ending = newton(&mut dense, &self.settings, &mut self.history);
-        let pull = dense.pull();
-        self.reduced.resume(dense.angles().into_iter(), pull);
-        ending
     }
 
     /// Relax the chain from the seed, perturbed when this is not the first time.
@@ -282,45 +267,18 @@ impl Converged<'_> {
     }
 
     /// The largest equation, in the units of [`Settings::tolerance`].
-    ///
-    /// ```
-    /// use lagrange::{Seed, Settings, Solver};
-    /// let problem = model::cases::paper();
-    /// let mut solver = Solver::new(&problem, &Settings::default())?;
-    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
-    /// assert!(found.residual() <= Settings::default().tolerance);
-    /// # Ok::<(), lagrange::SolveError>(())
-    /// ```
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.solver.reduced.largest()
     }
 
     /// What it took.
-    ///
-    /// ```
-    /// use lagrange::{Seed, Settings, Solver};
-    /// let problem = model::cases::paper();
-    /// let mut solver = Solver::new(&problem, &Settings::default())?;
-    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
-    /// assert_eq!(found.effort().relaxations, 0);
-    /// # Ok::<(), lagrange::SolveError>(())
-    /// ```
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.solver.effort
     }
 
     /// Second-order behaviour.
-    ///
-    /// ```
-    /// use lagrange::{Seed, Settings, Solver};
-    /// let problem = model::cases::paper();
-    /// let mut solver = Solver::new(&problem, &Settings::default())?;
-    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
-    /// assert_eq!(found.stability().in_plane, model::InPlane::Minimum);
-    /// # Ok::<(), lagrange::SolveError>(())
-    /// ```
     #[must_use]
     pub fn stability(&self) -> Stability {
         stability(&self.solver.reduced.mechanism, &self.solver.reduced.here)
@@ -328,16 +286,6 @@ impl Converged<'_> {
 
     /// Horizontal vector from joint 0 to joint 1, m, which tells an equilibrium from its mirror
     /// image.
-    ///
-    /// ```
-    /// use lagrange::{Seed, Settings, Solver};
-    /// let problem = model::cases::paper();
-    /// let mut solver = Solver::new(&problem, &Settings::default())?;
-    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
-    /// let [x, y] = found.first_offset_m();
-    /// assert!(x.abs() < 1e-14 && (y - 19.694867976133019_f64.to_radians().sin()).abs() < 1e-13);
-    /// # Ok::<(), lagrange::SolveError>(())
-    /// ```
     #[must_use]
     pub fn first_offset_m(&self) -> [f64; 2] {
         let offset = first_offset(&self.solver.reduced) * self.solver.units.length;
@@ -350,15 +298,6 @@ impl Converged<'_> {
     /// # Errors
     ///
     /// [`SolveError::Spectrum`] when their iteration does not converge.
-    ///
-    /// ```
-    /// use lagrange::{Seed, Settings, Solver};
-    /// let problem = model::cases::paper();
-    /// let mut solver = Solver::new(&problem, &Settings::default())?;
-    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
-    /// assert_eq!(found.solution()?.angles_rad.len(), 3);
-    /// # Ok::<(), lagrange::SolveError>(())
-    /// ```
     pub fn solution(&self) -> Result<Solution, SolveError> {
         let Solver { problem, settings, reduced, effort, history, .. } = self.solver;
         Solution::new(problem, settings, reduced, *effort, history.clone())

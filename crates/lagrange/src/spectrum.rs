@@ -15,22 +15,16 @@ use crate::thresholds::ZERO_SINGULAR_VALUE;
 /// Steps of the iteration behind a singular value decomposition, per row; a few are usual.
 const SVD_STEPS: usize = 100;
 
-/// Up to this number of bars the reduced Jacobian is decomposed (half a second), above it is not.
+/// Up to this number of bars the full Jacobian is decomposed, above the reduced one, which has the same
+/// nullity and is smaller, ...
+pub(crate) const LARGEST_FULL: usize = 30;
+/// ... up to this (half a second); above it none is.
 pub(crate) const LARGEST_DECOMPOSED: usize = 300;
 /// Damping of the estimate: what is smaller stays hidden, above all the zero ones, which come out
 /// at 1e-16 divided by its square.
 const ESTIMATE_DAMPING: f64 = 1e-7;
 
 /// Singular values of a Jacobian.
-///
-/// ```
-/// let problem = model::cases::paper();
-/// let found = lagrange::solve(&problem, &Default::default())?;
-/// let spectrum = lagrange::spectrum(problem.chain(), &found.q, &found.lambda)?;
-/// // Three spins and the turn about the vertical: four of thirty.
-/// assert_eq!(spectrum.singular_values.iter().filter(|value| **value < 1e-12).count(), 4);
-/// # Ok::<(), lagrange::SolveError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// All of them, the largest first.

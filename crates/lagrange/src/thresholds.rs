@@ -9,12 +9,9 @@
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 
 /// Rounding of a closure, in parts of the terms that are added: a few u for each of direction,
-/// product and sum. Compensated sums keep it there for any number of bars.
+/// product and sum. Compensated sums keep it there for any number of bars. Lengths, sums of lengths and
+/// distances that differ by less than this part are equal.
 pub(crate) const CLOSURE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF;
-
-/// Lengths, sums of lengths and distances that differ by less than this part of the total length
-/// are equal: both carry the rounding of a closure.
-pub(crate) const EQUAL_LENGTHS: f64 = CLOSURE_ROUNDING;
 
 /// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced
 /// along an axis: with a closure known to $8u$, upright axes would leave less than 12 digits of the
@@ -71,3 +68,12 @@ pub(crate) const ZERO_PIVOT: f64 = 1e-12;
 /// Unloaded bars with less room than this, in total lengths, between them and a straight line are
 /// straight: their directions, like the square root of it, are within 1e-6 of one line.
 pub(crate) const NO_ROOM: f64 = 1e-12;
+
+/// Part of the promised decrease that a step must earn (Armijo's rule).
+pub(crate) const EARNED: f64 = 1e-4;
+
+/// Some rounding errors of a sum of terms of order one: changes below this are none.
+pub(crate) const SUM_ROUNDING: f64 = 1e-15;
+
+/// 1 over the golden ratio: the fractions of its multiples are spread without pattern.
+pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;

@@ -5,13 +5,12 @@
 )]
 
 use super::BatchSettings;
+use crate::thresholds::ARMIJO;
 
 /// Largest turn of a bar in one correction or step.
 const LARGEST_TURN: f64 = 0.7;
 /// Damping of a correction, in squares of the gap: it vanishes faster than the gap does.
 const DAMPING: f64 = 0.1;
-/// Part of the fall that the slope promises which a step must bring.
-const FAIR: f64 = 1e-4;
 /// Roundings in the energy, in units of the total weight times the total length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
@@ -111,7 +110,7 @@ impl Lane {
         }
         if square <= settings.closure * settings.closure {
             // Rounding errors of the energy must not stop a step that promises less than they are.
-            if value <= self.value + FAIR * self.part * self.fall + ROUNDING
+            if value <= self.value + ARMIJO * self.part * self.fall + ROUNDING
                 || self.value.is_infinite()
             {
                 self.value = value;

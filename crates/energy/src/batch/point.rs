@@ -6,6 +6,7 @@
 
 use super::piece::Piece;
 use super::wide::{WIDTH, Wide, accumulate, same, wide};
+use crate::thresholds::FORCE_ROUNDING;
 
 /// One bar in all lanes.
 #[derive(Debug, Clone, Copy)]
@@ -100,9 +101,6 @@ pub(crate) struct Slopes {
 /// An axial force smaller than this, in the direction of the step only, is taken for this one.
 const LEAST_STIFFNESS: f64 = 1e-3;
 
-/// A push of less than this part of the pull is rounding.
-const NO_PUSH: f64 = 64.0 * f64::EPSILON;
-
 /// Slope, curvature and step at the trial, which is closed. The lanes where it is not get nonsense,
 /// which nobody uses; `accepted` says which lanes take it over.
 #[inline(always)]
@@ -127,7 +125,7 @@ pub(crate) fn slopes(
         let slope = wide(|k| x[k] * up[k] - z[k] * mu[0][k]);
         let axial = wide(|k| -(z[k] * up[k] + x[k] * mu[0][k]));
         accumulate(&mut negative, |k| if axial[k] < 0.0 { 1.0 } else { 0.0 });
-        accumulate(&mut pushed, |k| if axial[k] >= -NO_PUSH * force[k] { 0.0 } else { 1.0 });
+        accumulate(&mut pushed, |k| if axial[k] >= -FORCE_ROUNDING * force[k] { 0.0 } else { 1.0 });
         let weight = wide(|k| piece.length / axial[k]);
         accumulate(&mut matrix[0], |k| weight[k] * z[k] * z[k]);
         accumulate(&mut matrix[1], |k| -(weight[k] * x[k] * z[k]));

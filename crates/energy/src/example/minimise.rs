@@ -9,8 +9,9 @@ use argmin::core::{
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
 use crate::error::Error;
-use crate::minimise::{ended, verdict};
+use crate::minimise::{unwrapped, verdict};
 use crate::settings::Settings;
+use crate::thresholds::{ROUNDING, STEP_ROUNDING};
 
 /// A local minimum of (vi) on the closure curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +70,14 @@ pub fn minimise(
         .ctrlc(false)
         .timer(false)
         .run()
-        .map_err(ended)?;
+        .map_err(|error| unwrapped(error, |reason| Error::Ended { reason }))?;
     let state = result.state;
     let Some(&place) = state.get_param() else {
         return Err(Error::NotFinite { quantity: "last iterate" });
     };
     let Along { gradient, curvature, .. } = Along::at(place);
-    verdict(state.get_termination_status(), state.get_iter(), gradient.abs())?;
+    let limit = Error::IterationLimit { iterations: state.get_iter(), gradient: gradient.abs() };
+    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })?;
     let [theta_rad, alpha_rad] = place;
     Ok(ExampleMinimum {
         theta_rad,
@@ -137,7 +139,7 @@ const RAY_ACCURACY: f64 = 1e-6;
 fn corrected(mut place: [f64; 2]) -> ([f64; 2], f64) {
     let mut f = closure(place[0], place[1]);
     for _ in 0..CORRECTIONS {
-        if f.abs() <= CLOSED {
+        if f.abs() <= ROUNDING {
             break;
         }
         let g = closure_gradient(place);
@@ -150,9 +152,6 @@ fn corrected(mut place: [f64; 2]) -> ([f64; 2], f64) {
 
 /// Corrections across the curve; three are normal.
 const CORRECTIONS: usize = 8;
-
-/// The closure is a sum of numbers up to 5: this is its rounding.
-const CLOSED: f64 = 4.0 * f64::EPSILON;
 
 /// First and second derivative of the energy along the curve, by its length.
 #[derive(Debug, Clone, Copy)]
@@ -240,9 +239,6 @@ const STEP_ASIDE: f64 = 0.1;
 /// Halvings of a step before the rounding of the energy must be what stops it.
 const HALVINGS: usize = 40;
 
-/// Energies of size 5 say nothing about differences below this; the gradient decides then.
-const ENERGY_NOISE: f64 = 8.0 * f64::EPSILON;
-
 impl CurveNewton {
     fn new(settings: Settings) -> Self {
         Self { settings, converged: false, polished: false }
@@ -285,7 +281,7 @@ impl Solver<Example, Iterate> for CurveNewton {
             let (next, left) = corrected(aside);
             let lower = problem.cost(&next)?;
             let gradient = problem.gradient(&next)?;
-            let falls = lower < value || (lower - value <= ENERGY_NOISE && gradient.abs() < size);
+            let falls = lower < value || (lower - value <= STEP_ROUNDING && gradient.abs() < size);
             if left.abs() <= self.settings.closure_tolerance && falls {
                 return Ok((state.param(next).gradient(gradient).cost(lower), None));
             }

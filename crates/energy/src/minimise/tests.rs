@@ -43,22 +43,17 @@ fn a_chain_that_is_too_short_by_a_rounding_does_not_close() {
 /// Only one of the reasons to stop is a success.
 #[test]
 fn a_run_that_ends_otherwise_is_an_error() {
-    let reason = |reason| verdict(&TerminationStatus::Terminated(reason), 7, 0.5);
-    assert!(reason(TerminationReason::SolverConverged).is_ok());
-    let Err(Error::IterationLimit { iterations, gradient }) =
-        reason(TerminationReason::MaxItersReached)
-    else {
-        panic!("it ran out of iterations");
-    };
-    assert!(iterations == 7 && (gradient - 0.5).abs() <= 0.0);
+    let run = |status| verdict(&status, None, Some);
+    let reason = |reason| run(TerminationStatus::Terminated(reason));
+    assert_eq!(reason(TerminationReason::SolverConverged), Ok(()));
+    assert_eq!(reason(TerminationReason::MaxItersReached), Err(None));
     for other in [
         TerminationReason::TargetCostReached,
         TerminationReason::Interrupt,
         TerminationReason::Timeout,
         TerminationReason::SolverExit("tired".to_owned()),
     ] {
-        assert!(matches!(reason(other), Err(Error::Ended { .. })));
+        assert!(matches!(reason(other), Err(Some(_))));
     }
-    let open = verdict(&TerminationStatus::NotTerminated, 7, 0.5);
-    assert!(matches!(open, Err(Error::Ended { .. })));
+    assert!(matches!(run(TerminationStatus::NotTerminated), Err(Some(_))));
 }

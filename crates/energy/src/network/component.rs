@@ -5,13 +5,8 @@ use model::system::System;
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, Spot};
+use crate::thresholds::{NO_STRAIN, ZERO};
 use crate::vector::{along, dot, norm, scaled, unit};
-
-/// A direction shorter than this after projection counts as zero.
-const NO_DIRECTION: f64 = 1e-9;
-
-/// A load below this part of all loads is rounding.
-const NO_LOAD: f64 = 1e-12;
 
 /// The representative of a joint's part.
 fn root(parent: &mut [usize], mut joint: usize) -> usize {
@@ -42,7 +37,7 @@ fn left_free(space: Vec<Vector>, spot: &Spot) -> Vec<Vector> {
             normal = along(normal, -dot(normal, *axis), *axis);
         }
         let shadow = space.iter().fold([0.0; 3], |sum, b| along(sum, dot(normal, *b), *b));
-        if norm(shadow) < NO_DIRECTION {
+        if norm(shadow) < ZERO {
             continue;
         }
         let shadow = scaled(1.0 / norm(shadow), shadow);
@@ -52,7 +47,7 @@ fn left_free(space: Vec<Vector>, spot: &Spot) -> Vec<Vector> {
             for other in &rest {
                 b = along(b, -dot(b, *other), *other);
             }
-            if norm(b) > NO_DIRECTION.sqrt()
+            if norm(b) > ZERO.sqrt()
                 && let Some(b) = unit(b)
             {
                 rest.push(b);
@@ -78,7 +73,7 @@ pub(super) fn check_held(system: &System, frame: &Frame) -> Result<(), Error> {
     for (joint, space) in space.into_iter().enumerate() {
         let free = space.unwrap_or_default();
         let falling = free.iter().map(|b| dot(load[joint], *b).powi(2)).sum::<f64>().sqrt();
-        if falling > NO_LOAD {
+        if falling > NO_STRAIN {
             let joint = system.joints()[joint].name.to_string();
             return Err(Error::Falls { joint, force_n: falling * frame.force_n });
         }

@@ -13,15 +13,14 @@ use crate::network::frame::Frame;
 use crate::network::minimise::seeded;
 use crate::network::polish::rounding_floor;
 use crate::network::shape::{Shape, largest};
-use crate::network::stability::{DENSE, Dense, RANK, ZERO, below, rows};
+use crate::network::stability::{DENSE, Dense, below, rows};
+use crate::thresholds::ZERO;
 use crate::vector::scaled;
 
-/// What is left of the gradient, over the largest force, besides rounding.
-const BALANCE: f64 = 1e-9;
-/// A member that misses its length by less than this part of it is taut.
-const TAUT: f64 = 1e-9;
 /// Rounds in which members with a force of the wrong sign become slack.
 const ROUNDS: usize = 8;
+/// Misses of lengths, over them, and what is left of the gradient, over the largest force, besides rounding.
+const MET: f64 = 1e-9;
 
 /// The energy at a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +43,7 @@ impl Critical {
     /// Whether the shape is an equilibrium.
     #[must_use]
     pub fn is_equilibrium(&self) -> bool {
-        self.unbalance <= self.allowed && self.misfit <= TAUT
+        self.unbalance <= self.allowed && self.misfit <= MET
     }
 }
 
@@ -88,7 +87,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
             Kind::Strut => -excess[e].value,
         };
         let taut = rigid.into_iter().filter(|e| {
-            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -TAUT * frame.rods[*e].length
+            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -MET * frame.rods[*e].length
         });
         multipliers(&frame, &mut shape, taut.collect());
     }
@@ -109,7 +108,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
     let (unbalance, misfit) = (slope.unbalance, slope.misfit);
-    Ok(Some(Critical { unbalance, allowed: BALANCE + rounding, misfit, index, curvature }))
+    Ok(Some(Critical { unbalance, allowed: MET + rounding, misfit, index, curvature }))
 }
 
 /// Forces of the taut inextensible members that leave least of the gradient; those whose sign would
@@ -124,7 +123,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
         let most = svd.S().column_vector().iter().copied().fold(0.0, f64::max);
         for k in 0..svd.S().column_vector().nrows() {
             let size = svd.S()[k];
-            if size <= RANK * most {
+            if size <= ZERO * most {
                 continue;
             }
             let part: f64 = (0..gradient.len()).map(|row| svd.V()[(row, k)] * gradient[row]).sum();
@@ -133,7 +132,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
             }
         }
         frame.spread(&mut shape.force);
-        let zero = BALANCE * largest(&shape.force);
+        let zero = MET * largest(&shape.force);
         let wrong = |e: &usize| {
             let force = shape.force[*e];
             force.abs() > zero && !frame.rods[*e].resists(force)

@@ -8,6 +8,7 @@ use model::system::{Joint, Kind, Member, Support, System};
 use crate::network::error::Error;
 use crate::network::law::Excess;
 use crate::network::work::Meter;
+use crate::thresholds::ZERO;
 use crate::vector::{along, cross, dot, norm, scaled, unit};
 
 /// A joint with the directions in which it can move.
@@ -85,9 +86,6 @@ pub(super) struct Frame {
     /// What minimisations over it cost.
     pub(super) meter: Meter,
 }
-
-/// A direction that rises less than this is level: the floor cannot hold it.
-const LEVEL: f64 = 1e-9;
 
 /// The loads of a member divided between its joints, N.
 pub(super) fn end_loads_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
@@ -211,7 +209,7 @@ impl Frame {
         self.loads.push([0.0; 3]);
         for to in 0..self.joints {
             let spot = &self.spots[to];
-            if spot.axes[..spot.freedom].iter().all(|axis| axis[2].abs() <= LEVEL) {
+            if spot.axes[..spot.freedom].iter().all(|axis| axis[2].abs() <= ZERO) {
                 continue;
             }
             let kind = Kind::Cable;

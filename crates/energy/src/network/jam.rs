@@ -13,13 +13,8 @@ use crate::network::error::Error;
 use crate::network::frame::{Frame, end_loads_n, free_axes, loads_n};
 use crate::network::shape::Shape;
 use crate::network::solution::Solution;
+use crate::thresholds::{NO_FORCE, ZERO};
 use crate::vector::{along, dot, norm, scaled, unit};
-
-/// Rounding of a force over the largest that acts.
-const ROUNDING: f64 = 1e-9;
-
-/// A direction that rises less than this is level.
-const LEVEL: f64 = 1e-9;
 
 /// The minimum of a system; where a span ends in a corner, of the one with its two joints as one, and so on.
 pub(super) fn at_corners(
@@ -112,7 +107,7 @@ fn corners(
 ) -> Option<Corners> {
     let acting = acting(system, joined, joints_m, axial_n);
     let largest = axial_n.iter().map(|n| n.abs()).chain(acting.iter().map(|f| norm(*f)));
-    let most = ROUNDING * largest.fold(0.0, f64::max);
+    let most = NO_FORCE * largest.fold(0.0, f64::max);
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
     let far_m = joints_m.iter().flatten().fold(1.0, |far: f64, x| far.max(x.abs()));
     let several = |joint: &usize| {
@@ -121,10 +116,10 @@ fn corners(
     let mut tips = vec![];
     for joint in (0..acting.len()).filter(several) {
         let (count, axes) = free_axes(&system.joints()[joint]).ok()?;
-        let lies = joints_m[joint][2] - floor_m <= ROUNDING * far_m;
+        let lies = joints_m[joint][2] - floor_m <= ZERO * far_m;
         let free = axes[..count].to_vec();
         let rising = free.iter().fold([0.0; 3], |sum, axis| along(sum, axis[2], *axis));
-        let rising = unit(rising).filter(|_| lies && norm(rising) > LEVEL);
+        let rising = unit(rising).filter(|_| lies && norm(rising) > ZERO);
         tips.push(Tip { joint, force: acting[joint], free, rising });
     }
     loop {
@@ -164,7 +159,7 @@ impl Tip {
         for axis in &self.free {
             let others = level.iter().chain([&up]);
             let rest = others.fold(*axis, |rest, other| along(rest, -dot(rest, *other), *other));
-            level.extend(unit(rest).filter(|_| norm(rest) > ROUNDING.sqrt()));
+            level.extend(unit(rest).filter(|_| norm(rest) > ZERO.sqrt()));
         }
         level
     }
@@ -199,7 +194,7 @@ fn shared(
     if rows > 0 && columns > 0 {
         let svd = balance.svd().ok()?;
         let largest = svd.S()[0];
-        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > ROUNDING * largest) {
+        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > ZERO * largest) {
             let (u, v) = (svd.U().col(k), svd.V().col(k));
             let part = u.transpose() * wanted.col(0) / svd.S()[k];
             (0..columns).for_each(|row| parts[(row, 0)] += part * v[row]);

@@ -32,6 +32,7 @@ use crate::network::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_fl
 use crate::network::shape::{Shape, largest};
 use crate::network::share::Share;
 use crate::network::stability::DENSE;
+use crate::thresholds::{GOLDEN, NO_FORCE, PROGRESS};
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -41,9 +42,6 @@ const SOFT: f64 = 1e4;
 
 /// Softness of the first reading at most: more than that and nothing is rigid.
 const SOFTEST: f64 = 1e-2;
-
-/// The softness of each reading over that of the one before.
-const HARDER: f64 = 1e-3;
 
 /// Softness of the last reading: below it all is rounding.
 const HARDEST: f64 = 1e-14;
@@ -55,16 +53,10 @@ const LEANING: f64 = 1e-10;
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
 
-/// A step leaves at most this part of the residual, or it is one of the last.
-const PROGRESS: f64 = 0.5;
-
 /// Residual of a start in which the loads are borne; and what of the mean load may be left where
 /// they still are.
 const BORNE: f64 = 1e-6;
 const UNBORNE: f64 = 1e-2;
-
-/// A self-stress in forces, over the largest, that is none.
-const UNSHARED: f64 = 1e-9;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
@@ -157,7 +149,7 @@ impl Frame {
         let size = self.force_scale(&shape.force);
         let any = |(e, stressed): (usize, &bool)| {
             // Without order, so that it has a part of every self-stress.
-            if *stressed { size * (0.5 + (0.618_033_988_75 * (e + 1) as f64).fract()) } else { 0.0 }
+            if *stressed { size * (0.5 + (GOLDEN * (e + 1) as f64).fract()) } else { 0.0 }
         };
         let mut force: Vec<f64> = members.iter().enumerate().map(any).collect();
         self.spread(&mut force);
@@ -232,7 +224,7 @@ impl Newton {
                 Reading::Astray if exact && self.determinate(&mut share, shape) => break,
                 Reading::Astray => {}
             }
-            softness *= HARDER;
+            softness *= STIFFER;
         }
         Ok(best.map_or(Reading::Regular, Reading::Found))
     }
@@ -243,7 +235,7 @@ impl Newton {
             return false;
         }
         let rest = self.frame.self_stress(share, shape);
-        largest(&rest) <= UNSHARED * largest(&shape.force)
+        largest(&rest) <= NO_FORCE * largest(&shape.force)
     }
 
     /// One reading of the shape.

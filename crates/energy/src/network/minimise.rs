@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use argmin::core::{Executor, State, TerminationReason, TerminationStatus};
+use argmin::core::{Executor, State};
 use model::Vector;
 use model::system::System;
 
+use crate::minimise::{unwrapped, verdict};
 use crate::network::component::check_held;
 use crate::network::error::Error;
 use crate::network::factor::Factor;
@@ -22,6 +23,7 @@ use crate::network::shape::Shape;
 use crate::network::solution::Solution;
 use crate::network::start::hanging;
 use crate::network::work::Meter;
+use crate::thresholds::GOLDEN;
 use crate::vector::{along, dot, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
@@ -41,9 +43,6 @@ const NEAR_SEED: f64 = 0.1;
 
 /// Square roots of numbers that no ratio connects, as turns that have nothing in common.
 const SPREAD: f64 = 7.0;
-
-/// The golden section: its multiples are spread evenly.
-const GOLDEN: f64 = 0.618_033_988_75;
 
 /// Find a configuration of least energy from no guess.
 ///
@@ -408,28 +407,15 @@ fn descend(
     }
 }
 
-/// An error that argmin passes on: ours if it was ours.
+/// An error that argmin passes on.
 fn passed_on(error: argmin::core::Error) -> Error {
-    error.downcast::<Error>().unwrap_or_else(|other| Error::Ended { reason: other.to_string() })
+    unwrapped(error, |reason| Error::Ended { reason })
 }
 
-/// argmin's reasons, all of them: only one of them is a success, whatever `Ok` it came in.
+/// What the end of a run says, whatever `Ok` it came in.
 fn outcome(state: &Iterate) -> Result<(), Error> {
     let (unbalance, misfit) =
         state.get_gradient().map_or((f64::NAN, f64::NAN), |slope| (slope.unbalance, slope.misfit));
-    match state.get_termination_status() {
-        TerminationStatus::Terminated(reason) => match reason {
-            TerminationReason::SolverConverged => Ok(()),
-            TerminationReason::MaxItersReached => {
-                Err(Error::IterationLimit { iterations: state.get_iter(), unbalance, misfit })
-            }
-            TerminationReason::TargetCostReached
-            | TerminationReason::Interrupt
-            | TerminationReason::Timeout => Err(Error::Ended { reason: reason.text().to_owned() }),
-            TerminationReason::SolverExit(text) => Err(Error::Ended { reason: text.clone() }),
-        },
-        TerminationStatus::NotTerminated => {
-            Err(Error::Ended { reason: "not terminated".to_owned() })
-        }
-    }
+    let limit = Error::IterationLimit { iterations: state.get_iter(), unbalance, misfit };
+    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
 }

@@ -95,4 +95,3 @@ pub use error::Error;
 pub use minimise::{minimise, minimise_from, minimise_near};
 pub use settings::Settings;
 pub use solution::{Forces, Solution, Work};
-pub use stability::Rigidity;

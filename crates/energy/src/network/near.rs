@@ -9,15 +9,12 @@
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::shape::Shape;
+use crate::thresholds::RIDGE;
 use crate::vector::scaled;
 
 /// Stiffness of inextensible members over that of the stiffest elastic one: their forces are right
 /// to the inverse of it, which is enough to begin with.
 const RIGID: f64 = 1e3;
-
-/// The ridge over the stiffest member: far below what a mechanism of a real structure has, far above
-/// rounding.
-const RIDGE: f64 = 1e-9;
 
 /// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
 const LOOSE: f64 = 1e-3;

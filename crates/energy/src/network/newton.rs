@@ -32,6 +32,7 @@ use crate::network::polish::NEUTRAL;
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
 use crate::network::shape::{Shape, Slope, largest};
+use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
 /// First strain of the springs under the largest force.
@@ -49,21 +50,12 @@ const LAST_STRAIN: f64 = 1e-9;
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
 
-/// Misfit that is rounding in any system.
-const ROUNDED: f64 = 8.0 * f64::EPSILON;
-
 /// First shift and smallest one, over the size of the matrix.
 const FIRST_SHIFT: f64 = 1e-3;
 const SMALLEST_SHIFT: f64 = 1e-8;
 
 /// Largest shift: more than that and the steps are nothing.
 const LARGEST_SHIFT: f64 = 1e8;
-
-/// Part of the first-order fall of the energy that a step must bring.
-const FAIR: f64 = 1e-4;
-
-/// Rounding of the energy, over its size.
-const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// Largest relative displacement of the ends of a member in one step, over its length; of a strut,
 /// which must not be turned inside out: its energy falls for ever on the other side.
@@ -206,7 +198,7 @@ impl Newton {
 
     /// Rounding of the augmented Lagrangian.
     fn noise(&self, shape: &Shape, local: &Local) -> f64 {
-        NOISE * (local.value.abs() + self.frame.largest_force(&shape.force))
+        FORCE_ROUNDING * (local.value.abs() + self.frame.largest_force(&shape.force))
     }
 
     /// One step down the augmented Lagrangian.
@@ -221,7 +213,7 @@ impl Newton {
                 for _ in 0..HALVINGS {
                     let x = self.frame.moved(&shape.x, part, &step);
                     let (_, _, value) = self.value(&x, &shape.force);
-                    if value <= local.value + FAIR * part * slope + noise {
+                    if value <= local.value + ARMIJO * part * slope + noise {
                         self.definite = self.shift <= 0.0;
                         self.relent(part);
                         return Ok(Shape { x, force: shape.force.clone() });
@@ -285,7 +277,7 @@ impl Newton {
         }
         // A start without symmetry, the same in every run.
         let mut mode: Vec<f64> =
-            (0..self.frame.freedom).map(|k| (1.0 + 0.618_033_988_75 * k as f64).sin()).collect();
+            (0..self.frame.freedom).map(|k| (1.0 + GOLDEN * k as f64).sin()).collect();
         for _ in 0..MODE_STEPS {
             let size = largest(&mode);
             for value in &mut mode {
@@ -398,7 +390,7 @@ impl Solver<Potential, Iterate> for Newton {
                 return accept(problem, state, Arc::new(solution));
             }
             // Off a saddle the misfit need not become less than it was there.
-            self.near = NEAR.min((0.1 * slope.misfit).max(ROUNDED));
+            self.near = NEAR.min((0.1 * slope.misfit).max(STEP_ROUNDING));
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

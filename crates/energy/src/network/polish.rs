@@ -20,6 +20,7 @@ use crate::network::frame::{Frame, Rod};
 use crate::network::law::{Excess, Softened};
 use crate::network::newton::{NEAR, Newton};
 use crate::network::shape::Shape;
+use crate::thresholds::STEP_ROUNDING;
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -36,9 +37,6 @@ pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
-
-/// What the springs of a rope leave along it, in units of their stiffness, where they cancel: rounding.
-const ALONG: f64 = 8.0 * f64::EPSILON;
 
 /// Steps of Newton's method for places and forces, and with one factorisation.
 const POLISH: usize = 12;
@@ -188,7 +186,7 @@ impl Newton {
         let excess = frame.excesses(&shape.x);
         let largest = frame.largest_force(&shape.force);
         let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
-        let along = if frame.ropes.is_empty() { 0.0 } else { ALONG * stiffness / largest };
+        let along = if frame.ropes.is_empty() { 0.0 } else { STEP_ROUNDING * stiffness / largest };
         let neutral = NEUTRAL.max(along);
         let block = |e: usize| {
             let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
@@ -273,5 +271,5 @@ fn release(shape: &mut Shape, active: &[bool]) {
 pub(super) fn rounding_floor(frame: &Frame, shape: &Shape) -> f64 {
     let extent = shape.x.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
     let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
-    8.0 * f64::EPSILON * (1.0 + extent / shortest)
+    STEP_ROUNDING * (1.0 + extent / shortest)
 }

@@ -5,6 +5,7 @@ use model::Vector;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::Frame;
 use crate::network::law::Excess;
+pub(super) use crate::thresholds::NO_STRAIN;
 use crate::vector::{norm, scaled};
 
 /// Places of the joints and forces of the members: the primal and the dual variables.
@@ -32,9 +33,6 @@ impl Slope {
         self.unbalance.max(self.misfit)
     }
 }
-
-/// Strain that is rounding.
-pub(super) const NO_STRAIN: f64 = 1e-12;
 
 /// The largest entry by magnitude.
 pub(super) fn largest(values: &[f64]) -> f64 {

@@ -24,6 +24,7 @@ use crate::network::factor::{Block, Factor};
 use crate::network::frame::Frame;
 use crate::network::law::Excess;
 use crate::network::shape::largest;
+use crate::thresholds::{GOLDEN, ROUNDING};
 use crate::vector::scaled;
 
 /// Stiffness of the floor over that of a member of the unit of length. Its deflection is taken back
@@ -32,9 +33,6 @@ const FLOOR: f64 = 1e4;
 
 /// Solutions for one distribution: the first one, and corrections.
 const SOLUTIONS: usize = 8;
-
-/// What is left of joint forces, over the largest, after which corrections bring no more.
-const EXACT: f64 = 4.0 * f64::EPSILON;
 
 /// The part of forces without any order that a self-stress must take to count as one. Rounding
 /// leaves some 1e-12.
@@ -110,7 +108,7 @@ impl Share {
     /// The same joint forces, borne by the springs.
     pub(super) fn shared(&mut self, force: &[f64]) -> Shared {
         let borne = self.joint_forces(|e| force[e]);
-        let enough = EXACT * largest(&borne);
+        let enough = ROUNDING * largest(&borne);
         let mut y = vec![0.0; borne.len()];
         let mut stretch = vec![0.0; force.len()];
         let mut floor = vec![0.0; force.len()];
@@ -140,7 +138,7 @@ impl Share {
     pub(super) fn self_stressed(&mut self) -> Option<Vec<bool>> {
         // The fractional parts of the multiples of the golden section: spread evenly, alike in
         // every run.
-        let disorder = |e: usize| 0.5 + (0.618_033_988_75 * (e + 1) as f64).fract();
+        let disorder = |e: usize| 0.5 + (GOLDEN * (e + 1) as f64).fract();
         let mut force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
         self.frame.spread(&mut force);
         let shared = self.shared(&force).force;

@@ -4,16 +4,17 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use model::system::{System, SystemEquilibrium, SystemStability};
-use model::{Evidence, ForceChoice, InSpace, SelfStresses, SolverName, Vector};
+use model::{Evidence, ForceChoice, InSpace, Rigidity, SelfStresses, SolverName, Vector};
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, end_loads_n};
 use crate::network::limit::Limit;
 use crate::network::minimise::Minimum;
 use crate::network::settings::Settings;
-use crate::network::shape::{NO_STRAIN, Shape};
-use crate::network::stability::{Rigidity, SecondOrder, second_order};
+use crate::network::shape::Shape;
+use crate::network::stability::{SecondOrder, second_order};
 use crate::network::weak::{self, Settled};
+use crate::thresholds::NO_STRAIN;
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -124,12 +125,7 @@ impl Solution {
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
         evidence.self_stresses = self_stresses(&second, limit.as_ref());
-        evidence.rigidity = second.rigidity.map(|counted| model::Rigidity {
-            rank: counted.rank,
-            mechanisms: counted.mechanisms,
-            self_stresses: counted.self_stresses,
-            gap: counted.gap,
-        });
+        evidence.rigidity = second.rigidity;
         let equilibrium = equilibrium(system, frame, &settled, &second, evidence);
         let work = Work {
             relaxation: effort.relaxation,

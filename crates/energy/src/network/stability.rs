@@ -6,44 +6,21 @@
 //! springs for the lengths.
 
 use faer::{Mat, Side};
-use model::Vector;
+use model::{Rigidity, Vector};
 
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Spot};
 use crate::network::law::Excess;
 use crate::network::limit::{Limit, stressed};
 use crate::network::shape::{Shape, largest};
+use crate::thresholds::ZERO;
 use crate::vector::{along, cross, dot, norm, unit};
 
 /// Coordinates up to which dense matrices serve.
 pub(super) const DENSE: usize = 240;
 
-/// Eigenvalues below this part of the size of the matrix are zero.
-pub(super) const ZERO: f64 = 1e-9;
-
-/// Singular values of the rigidity matrix below this part of the largest are zero.
-pub(super) const RANK: f64 = 1e-9;
-
 /// Strain of the springs that stand for the lengths in the sparse count.
 const STRAIN: f64 = 1e-6;
-
-/// A component of a unit vector below this counts as zero.
-const PLANE: f64 = 1e-9;
-
-/// How the lengths of the members that resist determine shape and forces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rigidity {
-    /// Rank of the rigidity matrix: one row for each inextensible member that resists, one column
-    /// for each coordinate in which a joint can move; joints that touch the floor move along it.
-    pub rank: usize,
-    /// Independent sets of forces in balance with no load: with none the forces are unique.
-    pub self_stresses: usize,
-    /// Independent motions that keep the lengths to first order.
-    pub mechanisms: usize,
-    /// The smallest singular value that counts, and the largest that does not, over the largest
-    /// one.
-    pub gap: [f64; 2],
-}
 
 /// The second order at an equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,10 +114,10 @@ fn plane_spots(frame: &Frame, shape: &Shape) -> Option<Vec<Spot>> {
     let places: Vec<Vector> = shape.x.iter().map(|x| along(*x, -1.0, origin)).collect();
     let (place, load) = (longest(&places), longest(&frame.loads));
     let extent = largest(&places.iter().map(|place| norm(*place)).collect::<Vec<f64>>());
-    let small = PLANE * extent.max(1.0);
+    let small = ZERO * extent.max(1.0);
     let direction = if norm(place) > small {
         unit(place)?
-    } else if norm(load) > PLANE {
+    } else if norm(load) > ZERO {
         unit(load)?
     } else {
         [1.0, 0.0, 0.0]
@@ -148,7 +125,7 @@ fn plane_spots(frame: &Frame, shape: &Shape) -> Option<Vec<Spot>> {
     let up = [0.0, 0.0, 1.0];
     let normal = cross(direction, up);
     let flat = places.iter().all(|place| dot(*place, normal).abs() <= small)
-        && frame.loads.iter().all(|load| dot(*load, normal).abs() <= PLANE);
+        && frame.loads.iter().all(|load| dot(*load, normal).abs() <= ZERO);
     if !flat {
         return None;
     }
@@ -161,15 +138,15 @@ fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Optio
     let (freedom, axes) = match spot.freedom {
         0 => (0, [zero; 3]),
         1 => match dot(spot.axes[0], normal).abs() {
-            out if out < PLANE => (1, spot.axes),
-            out if out > 1.0 - PLANE => (0, [zero; 3]),
+            out if out < ZERO => (1, spot.axes),
+            out if out > 1.0 - ZERO => (0, [zero; 3]),
             _ => return None,
         },
         2 => {
             let held = cross(spot.axes[0], spot.axes[1]);
             match dot(held, normal).abs() {
-                out if out < PLANE => (1, [unit(cross(held, normal))?, zero, zero]),
-                out if out > 1.0 - PLANE => (2, [direction, up, zero]),
+                out if out < ZERO => (1, [unit(cross(held, normal))?, zero, zero]),
+                out if out > 1.0 - ZERO => (2, [direction, up, zero]),
                 _ => return None,
             }
         }
@@ -258,7 +235,7 @@ pub(super) struct Dense {
 
 impl Dense {
     pub(super) fn new(frame: &Frame, shape: &Shape) -> Self {
-        Self::with(frame, shape, |e| resists(frame, shape, e), RANK)
+        Self::with(frame, shape, |e| resists(frame, shape, e), ZERO)
     }
 
     /// With the members that are taut, and the part of the largest singular value below which all

@@ -13,6 +13,7 @@ use crate::network::error::Error;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::{Frame, Rod, Spot};
 use crate::network::shape::Shape;
+use crate::thresholds::RIDGE;
 use crate::vector::{dot, norm};
 
 /// Multiplicative updates of the force densities: lengths are within some per cent after that many,
@@ -21,9 +22,6 @@ const UPDATES: usize = 5;
 
 /// The most by which one update changes a density.
 const CLAMP: f64 = 20.0;
-
-/// Part of the diagonal added where supports leave a translation free.
-const SHIFT: f64 = 1e-9;
 
 /// A strand has at least this part of the length of its rope: the density of one without length has no
 /// bound.
@@ -62,7 +60,7 @@ impl Densities {
     fn places(&mut self, frame: &Frame, density: &[f64]) -> Result<Vec<Vector>, Error> {
         let sizes = frame.sizes(|e| density[e] * frame.rods[e].length);
         let block = |e: usize| Block { isotropic: density[e], ..Block::default() };
-        for shift in [0.0, SHIFT] {
+        for shift in [0.0, RIDGE] {
             self.factor.fill(&self.spots, &frame.rods, block, |joint| shift * sizes[joint]);
             if self.factor.cholesky() {
                 return Ok(self.solve(frame, density));

@@ -6,6 +6,7 @@
 
 use super::lanes::{LANES, LARGEST_ANGLE, Lanes, each};
 use super::numbers::Bar;
+use crate::thresholds::GOLDEN;
 
 /// One bar in all lanes.
 #[derive(Debug, Clone, Copy)]
@@ -46,11 +47,7 @@ pub(crate) struct Common {
 
 /// Every how many steps the plain Newton step is taken, and the multipliers are estimated again
 /// while the residual is large.
-///
-/// ```
-/// assert_eq!(lagrange::batch::PLAIN_EVERY, 8);
-/// ```
-pub const PLAIN_EVERY: u32 = 8;
+const PLAIN_EVERY: u32 = 8;
 
 /// Largest turn of a bar in a step, rad, in turn. On random chains of 2 to 8 bars a limit of 1.5
 /// with plain steps in between needed the fewest steps of those tried (0.5 to infinity); it is
@@ -64,8 +61,6 @@ const LIMITS: [f64; 32] = limits();
 const PLAIN: f64 = 8.0;
 
 const fn limits() -> [f64; 32] {
-    /// 1/golden ratio.
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let mut limits = [0.0; 32];
     let mut fraction = 0.0;
     let mut k = 0;

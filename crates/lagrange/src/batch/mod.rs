@@ -40,7 +40,7 @@
 //! minimum. Here the plain Newton step is taken, shortened only in length:
 //!
 //! - no bar turns by more than a limit, which varies from step to step so that the iteration runs
-//!   into no cycle; every eighth step is a plain one ([`PLAIN_EVERY`]);
+//!   into no cycle; every eighth step is a plain one;
 //! - the first multipliers are estimated from the angles as `solve_from` does, and estimated again
 //!   after every eighth step as long as the residual is large;
 //! - where the step is undefined (all bars parallel, say) the bars are turned by a small fixed
@@ -75,5 +75,4 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
-pub use kernel::PLAIN_EVERY;
 pub use solver::{Batch, BatchSettings};

@@ -15,6 +15,7 @@
 
 use super::lanes::Lanes;
 use super::numbers::Bar;
+use crate::thresholds::EARNED;
 
 /// Passes for the closed shape: a seed needs no more digits than they give.
 const CLOSING_PASSES: usize = 25;
@@ -33,8 +34,6 @@ const TOO_STIFF: f64 = 1e20;
 const REGULARISATION: f64 = 1e-12;
 /// A force this small has no direction.
 const LEAST_FORCE: f64 = 1e-300;
-/// Part of the promised decrease that a step to the closed shape must earn (Armijo's rule).
-const EARNED: f64 = 1e-4;
 /// Shortest part of such a step.
 const SHORTEST: f64 = 1e-3;
 

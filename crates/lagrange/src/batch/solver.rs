@@ -10,7 +10,7 @@ use super::kernel::{Common, MOST_STEPS, State, step};
 use super::lanes::{LANES, Lanes, each};
 use super::numbers::{Bar, Numbers};
 use super::signs::Signs;
-use crate::settings::SettingsError;
+use crate::settings::{SettingsError, within};
 
 /// Passes over the bars that a solve by signs may take for each Newton step that was allowed
 /// before: none of the chains tried took more than the 1,000 of the default.
@@ -54,15 +54,10 @@ impl BatchSettings {
     /// assert_eq!(settings.validate().unwrap_err().low, 1e-15);
     /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
-        for (name, value, low, high) in [
+        within(&[
             ("tolerance", self.tolerance, 1e-15, 1e-3),
             ("max_iterations", f64::from(self.max_iterations), 1.0, f64::from(MOST_STEPS)),
-        ] {
-            if !(low..=high).contains(&value) {
-                return Err(SettingsError { name, value, low, high });
-            }
-        }
-        Ok(())
+        ])
     }
 }
 
@@ -104,15 +99,7 @@ impl Batch {
     }
 
     /// Number of bars n.
-    ///
-    /// ```
-    /// use lagrange::batch::{Batch, BatchSettings};
-    /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
-    /// assert_eq!(batch.bars(), 3);
-    /// # Ok::<(), lagrange::SettingsError>(())
-    /// ```
-    #[must_use]
-    pub fn bars(&self) -> usize {
+    pub(super) fn bars(&self) -> usize {
         self.numbers.bars.len()
     }
 

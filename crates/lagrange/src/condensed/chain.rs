@@ -56,10 +56,6 @@ pub struct Condensed {
 
 impl Condensed {
     /// Prepare a chain: one pass over its bars.
-    ///
-    /// ```
-    /// assert_eq!(lagrange::condensed::Condensed::new(&model::cases::paper()).bars(), 3);
-    /// ```
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
         Self::with_processors(problem, NonZeroUsize::MIN)
@@ -68,28 +64,14 @@ impl Condensed {
     /// Prepare a chain, and let so many processors share this and all other work on it. Each wants
     /// some 65,000 bars, or it is not asked. The bits of all results are the same for any number of
     /// them.
-    ///
-    /// ```
-    /// use lagrange::condensed::Condensed;
-    /// let two = std::num::NonZeroUsize::MIN.saturating_add(1);
-    /// assert_eq!(Condensed::with_processors(&model::cases::paper(), two).bars(), 3);
-    /// ```
-    #[must_use]
-    pub fn with_processors(problem: &Problem, processors: NonZeroUsize) -> Self {
+    pub(super) fn with_processors(problem: &Problem, processors: NonZeroUsize) -> Self {
         Self::prepare(problem, processors, BarData::default(), Moments::default())
     }
 
     /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more
     /// than all computing.
-    ///
-    /// ```
-    /// use lagrange::condensed::Condensed;
-    /// let chain = Condensed::new(&model::cases::get("thirty-bars").unwrap().problem());
-    /// assert_eq!(chain.bars(), 30);
-    /// assert_eq!(chain.again(&model::cases::paper()).bars(), 3);
-    /// ```
     #[must_use]
-    pub fn again(self, problem: &Problem) -> Self {
+    pub(super) fn again(self, problem: &Problem) -> Self {
         Self::prepare(problem, self.processors, self.bars, self.moments)
     }
 
@@ -113,14 +95,7 @@ impl Condensed {
     }
 
     /// Number of bars.
-    ///
-    /// ```
-    /// use lagrange::condensed::Condensed;
-    /// let problem = model::cases::get("hundred-bars").unwrap().problem();
-    /// assert_eq!(Condensed::new(&problem).bars(), 100);
-    /// ```
-    #[must_use]
-    pub fn bars(&self) -> usize {
+    pub(super) fn bars(&self) -> usize {
         self.bars.lengths.len()
     }
 

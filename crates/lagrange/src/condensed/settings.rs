@@ -1,6 +1,6 @@
 //! Settings of the condensed solve.
 
-use crate::settings::SettingsError;
+use crate::settings::{SettingsError, within};
 
 /// Settings of [`solve`](super::solve()) and [`Condensed::pull`](super::Condensed::pull).
 ///
@@ -42,14 +42,9 @@ impl Settings {
     /// assert_eq!((error.name, error.low), ("max_passes", 1.0));
     /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
-        for (name, value, low, high) in [
+        within(&[
             ("closure", self.closure, 1e-15, 1e-3),
             ("max_passes", self.max_passes as f64, 1.0, 1e9),
-        ] {
-            if !(low..=high).contains(&value) {
-                return Err(SettingsError { name, value, low, high });
-            }
-        }
-        Ok(())
+        ])
     }
 }

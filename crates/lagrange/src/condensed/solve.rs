@@ -9,21 +9,14 @@ use super::chain::Condensed;
 use super::error::CondensedError;
 use super::pull::Pull;
 use super::settings::Settings;
-use super::shape::{Totals, Vectors};
 use super::stability::second_order;
+use super::vectors::{Totals, Vectors};
 use crate::thresholds::REPORTED_FORCE_ERROR;
 
 /// What the residual is.
 const RESIDUAL_OF: &str = "distance of the last joint from its anchor, in total lengths";
 
 /// An equilibrium from the condensed equations. That it exists means converged.
-///
-/// ```
-/// let found = lagrange::condensed::solve(&model::cases::paper(), &Default::default())?;
-/// assert_eq!(found.equilibrium.stability.index_in_space, 0);
-/// assert_eq!(found.pull.compressed(), [2]);
-/// # Ok::<(), lagrange::condensed::CondensedError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// The equilibrium as everyone reads it.
@@ -42,7 +35,7 @@ pub struct Solution {
 /// ```
 /// use lagrange::condensed::{Settings, solve};
 /// let solution = solve(&model::cases::paper(), &Settings::default())?;
-/// // E1: the third bar props the chain up, and the anchors carry three weights in_parallel.
+/// // E1: the third bar props the chain up.
 /// assert_eq!(solution.pull.compressed(), [2]);
 /// let weight = model::STANDARD_GRAVITY_M_S2;
 /// let ground = solution.pull.ground_n();
@@ -84,15 +77,6 @@ impl Default for Solver {
 
 impl Solver {
     /// A solver that shares large chains among so many processors; by default there is one.
-    ///
-    /// ```
-    /// use lagrange::condensed::{Settings, Solver};
-    /// let two = std::num::NonZeroUsize::MIN.saturating_add(1);
-    /// let mut solver = Solver::with_processors(two);
-    /// let found = solver.solve(&model::cases::paper(), &Settings::default())?;
-    /// assert!((found.equilibrium.energy_j / 9.80665 + 3.664531348000695).abs() < 1e-14);
-    /// # Ok::<(), lagrange::condensed::CondensedError>(())
-    /// ```
     #[must_use]
     pub fn with_processors(processors: NonZeroUsize) -> Self {
         Self { processors, chain: None, spare: Vectors::default() }
@@ -103,16 +87,6 @@ impl Solver {
     /// # Errors
     ///
     /// Those of [`solve`](solve()).
-    ///
-    /// ```
-    /// use lagrange::condensed::{Settings, Solver};
-    /// let mut solver = Solver::default();
-    /// for case in model::cases::all() {
-    ///     let found = solver.solve(&case.problem(), &Settings::default())?;
-    ///     assert!(found.equilibrium.evidence.residual <= 1e-13);
-    /// }
-    /// # Ok::<(), lagrange::condensed::CondensedError>(())
-    /// ```
     pub fn solve(
         &mut self,
         problem: &Problem,
@@ -126,23 +100,12 @@ impl Solver {
         let chain = self.chain.insert(chain);
         let pull = chain.pull(settings)?;
         let memory = std::mem::take(&mut self.spare);
-        let mut equilibrium = chain.equilibrium_in(memory, &pull, settings)?;
+        let mut equilibrium = chain.equilibrium(memory, &pull, settings)?;
         equilibrium.evidence.solve_s = begun.elapsed().as_secs_f64();
         Ok(Solution { equilibrium, pull })
     }
 
     /// Use the memory of a solution that is not needed any more for the next one.
-    ///
-    /// ```
-    /// use lagrange::condensed::{Settings, Solver};
-    /// let mut solver = Solver::default();
-    /// let found = solver.solve(&model::cases::paper(), &Settings::default())?;
-    /// let joints = found.equilibrium.joints_m.as_ptr();
-    /// solver.take_back(found);
-    /// let again = solver.solve(&model::cases::paper(), &Settings::default())?;
-    /// assert_eq!(again.equilibrium.joints_m.as_ptr(), joints);
-    /// # Ok::<(), lagrange::condensed::CondensedError>(())
-    /// ```
     pub fn take_back(&mut self, solution: Solution) {
         let Equilibrium { joints_m, multipliers_n, axial_n, .. } = solution.equilibrium;
         self.spare = Vectors { joints_m, multipliers_n, axial_n };
@@ -151,31 +114,7 @@ impl Solver {
 
 impl Condensed {
     /// Joints, multipliers, axial forces, energy and stability that belong to a pull of this chain.
-    ///
-    /// # Errors
-    ///
-    /// [`CondensedError::NotClosed`] when the last joint is farther from its anchor than
-    /// [`Settings::closure`], [`CondensedError::Overflow`] when a force or the energy is infinite.
-    ///
-    /// ```
-    /// use lagrange::condensed::{Condensed, Settings};
-    /// let chain = Condensed::new(&model::cases::paper());
-    /// let pull = chain.pull(&Settings::default())?;
-    /// let found = chain.equilibrium(&pull, &Settings::default())?;
-    /// // Both anchors carry the three weights together.
-    /// let sum = found.reactions_n.start[2] + found.reactions_n.end[2];
-    /// assert!((sum / 9.80665 - 3.0).abs() < 1e-14);
-    /// # Ok::<(), lagrange::condensed::CondensedError>(())
-    /// ```
-    pub fn equilibrium(
-        &self,
-        pull: &Pull,
-        settings: &Settings,
-    ) -> Result<Equilibrium, CondensedError> {
-        self.equilibrium_in(Vectors::default(), pull, settings)
-    }
-
-    fn equilibrium_in(
+    fn equilibrium(
         &self,
         mut memory: Vectors,
         pull: &Pull,

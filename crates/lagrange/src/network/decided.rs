@@ -19,6 +19,7 @@ use super::error::Error;
 use super::framework::Framework;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::{GOLDEN, SUM_ROUNDING};
 
 /// The cut where lengths are taken as they are: a line with a slack of 1e-10 of its span, whose
 /// forces are real, has 1e-5; lengths that are rounded to doubles leave a flat frame out of its
@@ -29,13 +30,9 @@ pub(super) const WIDEST: f64 = 1e-2;
 /// Sweeps of refinement: each leaves of what a motion of the singular value s changes the part
 /// cut²/(cut² + s²).
 const SWEEPS: usize = 8;
-/// Refinement ends where a sweep changes less than this part.
-const SWEPT: f64 = 1e-15;
 /// A member takes part in a self-stress where this part of an error of lengths without pattern, or
 /// more, is in no shape.
 const TAKES_PART: f64 = 1e-7;
-/// Golden ratio: multiples of it are spread without pattern.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Of each member its direction and $1/l$, the latter zero for those that do not keep a length.
 fn rows(framework: &Framework, state: &State) -> Vec<(Vector3<f64>, f64)> {
@@ -158,7 +155,7 @@ impl Decided {
                     *e -= taken;
                 }
             }
-            if change <= SWEPT * largest {
+            if change <= SUM_ROUNDING * largest {
                 break;
             }
         }

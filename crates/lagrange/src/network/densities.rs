@@ -15,11 +15,9 @@ use model::system::Kind;
 /// hang from few points take fewer of those after 20 than after 5 (22 in the place of 28 for 19,800
 /// bars from four corners).
 const DENSITY_STEPS: usize = 20;
-/// The least density of a member at the start, in units of the mean one.
-const LEAST_DENSITY: f64 = 1e-3;
-
-/// A span has at least this part of its rope's length: where it has none its density has no bound.
-const NO_SPAN: f64 = 1e-3;
+/// The least density of a member at the start, in units of the mean one, and the least span that it is divided by,
+/// in units of its rope's length.
+const LEAST: f64 = 1e-3;
 
 /// Whether a member takes part: one that cannot pull does not.
 pub(super) fn pulls(framework: &Framework, link: &Link) -> bool {
@@ -43,7 +41,7 @@ pub(super) fn by_densities(framework: &Framework) -> Result<(Vec<Vector3<f64>>, 
         }
     }
     // A member whose joints are at one place has lost its density.
-    let least = LEAST_DENSITY * densities.iter().sum::<f64>() / densities.len().max(1) as f64;
+    let least = LEAST * densities.iter().sum::<f64>() / densities.len().max(1) as f64;
     Ok((places, densities.into_iter().map(|density| density.max(least)).collect()))
 }
 
@@ -57,7 +55,7 @@ fn nearer(framework: &Framework, places: &[Vector3<f64>], densities: &[f64]) -> 
         }
         let length = framework.whole(k, span);
         let force = framework.whole(k, |k| densities[k] * span(k) * span(k)) / length;
-        let density = force / span(k).max(NO_SPAN * length);
+        let density = force / span(k).max(LEAST * length);
         density * (length / (link.length + link.compliance * force))
     };
     framework.links.iter().enumerate().map(nearer).collect()

@@ -35,11 +35,10 @@ use super::smooth;
 use super::solution::Solution;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::SUM_ROUNDING;
 
 /// The linear system is solved when this part of the right-hand side is left, or less.
 const SOLVED: f64 = 1e-8;
-/// Refinement goes on to this part: rounding.
-const ROUNDING: f64 = 1e-15;
 
 /// A parameter of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -322,7 +321,7 @@ impl<'a> Derivatives<'a> {
         }
         let sides = (forces, lengths.as_slice());
         let solved =
-            self.derivative.solve(&self.framework, &mut self.stiffness, sides, ROUNDING, None);
+            self.derivative.solve(&self.framework, &mut self.stiffness, sides, SUM_ROUNDING, None);
         match solved {
             Some((step, left)) if left <= SOLVED => Ok(step),
             Some((_, left)) => Err(Error::NoDerivative { left }),

@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::coarse::{self, Start};
 use super::framework::{Framework, Link};
 use super::newton::{Run, with_held};
-use super::runs::{Runs, Step};
+use super::runs::{Runs, SOME_FORCE, Step};
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
@@ -30,7 +30,6 @@ const ALONG: f64 = 1e-5;
 /// A force below this part of the largest one in its run has no direction to rely on, nor one below
 /// the other part of the largest in the system.
 const CLEAR: f64 = 1e-6;
-const SOME_FORCE: f64 = 1e-9;
 /// A step is halved while the slope at its end rises steeper than this part of the first slope.
 const SLOPE: f64 = 0.5;
 /// Newton steps at most, and halvings of one.

@@ -3,7 +3,7 @@
 use model::system::Misfit;
 use serde::Serialize;
 
-use super::settings::SettingsError;
+use crate::settings::SettingsError;
 
 /// Why no equilibrium of a system was returned. `Ok` always means converged.
 #[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]

@@ -12,7 +12,7 @@ use super::state::State;
 use super::stiffness::Stiffness;
 
 /// Stiffness that stands for a rigid member, in units of the stiffest elastic one.
-const RIGID: f64 = 1e3;
+pub(super) const RIGID: f64 = 1e3;
 /// Ridge of the least squares, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 

@@ -20,9 +20,9 @@ use super::directions::Directions;
 use super::error::Error;
 use super::framework::{Framework, Lying, Node, across};
 use super::residual::Residual;
-use super::second_order::{SecondOrder, self_stresses};
+use super::second_order::{PLANE, SecondOrder, self_stresses};
 use super::settings::Settings;
-use super::solution::{Found, NO_FORCE, Solution};
+use super::solution::{Found, NO_FORCE, NO_PART, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
@@ -33,15 +33,11 @@ const TOGETHER: usize = 30;
 /// A joint touches the floor where its height is that of the floor to so many roundings of the
 /// largest coordinate.
 const ON_FLOOR: f64 = 8.0 * f64::EPSILON;
-/// A self-stress, of unit norm, that presses less than this on the floor does not press on it.
-const NO_PUSH: f64 = 1e-9;
-/// A free direction that rises less than this is level: the floor cannot hold it.
-const LEVEL: f64 = 1e-9;
 
 /// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
 pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
     let free = node.free.part(&Vector3::z());
-    (free.norm() > LEVEL).then_some(free)
+    (free.norm() > PLANE).then_some(free)
 }
 
 /// A joint that lies on a floor at this height.
@@ -124,7 +120,7 @@ fn open_pushes(
     let mut open = lies.to_vec();
     for stress in self_stresses(&laid, &state) {
         for ((lying, push), none) in laid.lying.iter().zip(pushes(&stress)).zip(&none) {
-            open[lying.joint] |= (push - none).abs() > NO_PUSH;
+            open[lying.joint] |= (push - none).abs() > NO_PART;
         }
     }
     (open != lies).then_some(open)

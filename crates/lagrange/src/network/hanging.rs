@@ -47,9 +47,8 @@ pub(super) const FIRST_END: f64 = 1e-7;
 pub(super) const SECOND_END: f64 = 1e-8;
 /// Here the stiffness along a taut member is 10^9 times that across, and rounding sets in.
 pub(super) const LAST_END: f64 = 1e-9;
-/// Where rounding lets no step go on, this is a start as well.
-const NEAR_END: f64 = 1e-6;
-/// Lengths are right to this part where the method has ended.
+/// Lengths are right to this part where the method has ended; where rounding lets no step go on, such a gap is a
+/// start as well.
 const FEASIBLE: f64 = 1e-6;
 /// A member is clearly taut when its force, in units of the mean one, is this many times its slack,
 /// in units of its length.
@@ -140,7 +139,7 @@ impl Hanging {
             self.steps += 1;
             self.measure(framework);
         }
-        self.ended(end.max(NEAR_END))
+        self.ended(end.max(FEASIBLE))
     }
 
     /// Whether no member pulls.

@@ -47,8 +47,8 @@
 //! systems with ropes to augmented multipliers (`settle`) and Newton's method.
 //!
 //! [`Derivatives`] of an answer by lengths, masses, stiffnesses, loads and anchors come from one
-//! more factorisation; where the forces are one family [`force_ranges`] says how far each of them
-//! is open.
+//! more factorisation; where the forces are one family the evidence says how far each of them is
+//! open (`ranges`).
 //!
 //! | symbol | code | meaning |
 //! |---|---|---|
@@ -84,7 +84,6 @@ mod jam;
 mod law;
 mod newton;
 mod order;
-mod paper;
 mod possible;
 mod ranges;
 mod readings;
@@ -106,9 +105,7 @@ mod work;
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use equations::{Equations, Side};
 pub use error::Error;
-pub use paper::{PaperUnknowns, paper_residual};
-pub use ranges::force_ranges;
 pub use seed::Seed;
-pub use settings::{Settings, SettingsError};
+pub use settings::Settings;
 pub use solution::{Forces, Solution};
 pub use solve::{solve, solve_from};

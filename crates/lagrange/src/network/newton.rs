@@ -14,17 +14,17 @@
 use nalgebra::Vector3;
 
 use super::decided::Decided;
+use super::fitted::RIGID;
 use super::framework::Framework;
 use super::residual::Residual;
 use super::settings::Settings;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::EARNED;
 
 /// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
 /// and far below the inverse of rounding.
 const PENALTY: f64 = 1e5;
-/// The same in units of the largest stiffness of an elastic member, where those have their true one.
-const STIFFER: f64 = 1e3;
 /// Sweeps of refinement in a step.
 const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
@@ -32,13 +32,11 @@ const REFINED: f64 = 3e-6;
 /// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
 /// a correction: it is made so long that it leaves least.
 const POOR_SWEEP: f64 = 0.1;
-/// A step is accepted when the merit falls by this part of what the slope promises.
-const ARMIJO: f64 = 1e-4;
 /// A step is halved at most so many times.
 const HALVINGS: usize = 24;
 
 /// In this many steps the merit ought to fall to this part, or the start was too far away.
-const HALVED: f64 = 0.5;
+pub(super) const HALVED: f64 = 0.5;
 const SLOW_STEPS: usize = 3;
 
 /// When a run of Newton's method ends without success.
@@ -134,7 +132,7 @@ fn search(
     for _ in 0..if done { 1 } else { HALVINGS } {
         let state = step.applied(&run.state, t);
         let residual = Residual::within(framework, &state, decided.as_deref_mut());
-        if residual.merit <= run.residual.merit * (1.0 - 2.0 * ARMIJO * t) {
+        if residual.merit <= run.residual.merit * (1.0 - 2.0 * EARNED * t) {
             return Some((state, residual));
         }
         t *= 0.5;
@@ -194,11 +192,8 @@ impl Derivative {
         let stiffest = new.rows.iter().filter(|row| elastic(row)).map(|row| row.compliance.recip());
         let stiffest = stiffest.fold(0.0, f64::max);
         for row in new.rows.iter_mut().filter(|row| row.taut) {
-            row.along = if elastic(row) {
-                row.compliance.recip()
-            } else {
-                row.along.max(STIFFER * stiffest)
-            };
+            row.along =
+                if elastic(row) { row.compliance.recip() } else { row.along.max(RIGID * stiffest) };
         }
         new.assembled(framework, stiffness);
         // Also where it is singular: what needs more borders it.

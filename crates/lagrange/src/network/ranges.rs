@@ -7,59 +7,19 @@
 //! unknowns, which an exchange step (Dantzig) replaces one by one by members at their limits.
 
 use model::ForceRange;
-use model::system::{Kind, System};
+use model::system::Kind;
 
 use super::framework::Framework;
 use super::second_order::self_stresses;
-use super::solution::{NO_FORCE, Solution};
+use super::solution::{NO_FORCE, NO_PART};
 use super::state::State;
 
-/// An entry of the table below this is zero: the basis is orthonormal.
-const NO_ENTRY: f64 = 1e-9;
 /// Exchange steps of one programme, in units of its unknowns and conditions together. Some two
 /// are the rule.
 const MOST_EXCHANGES: usize = 50;
 
-/// The range of every member's axial force over all forces in balance with the right signs: cables
-/// pull, struts push, bars do either. Nothing where the self-stresses were not counted (see
-/// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
-///
-/// Every inextensible member that has its length takes part, also a cable that is just taut and
-/// bears nothing in the answer: the family is at least as large as that of
-/// [`Solution::self_stresses`].
-///
-/// ```
-/// use lagrange::network::{Settings, force_ranges, solve};
-/// use model::{Bar, ForceRange};
-/// use model::system::{Joint, Kind, Member, System};
-/// // A weight of 1 N on three cables in a plane, of sqrt 2, 1 and sqrt 2 m:
-/// // sqrt 2 a + b = 1 with a, b >= 0.
-/// let side = 2.0_f64.sqrt();
-/// let anchor = |x: f64| Joint::anchor(x.to_string(), [x, 0.0, 0.0]);
-/// let mut joints: Vec<_> = [-1.0, 0.0, 1.0].map(anchor).into();
-/// joints.push(Joint::free("P").with_force([0.0, 0.0, -1.0]));
-/// let cable = |from, length| -> Result<Member, Box<dyn std::error::Error>> {
-///     Ok(Member::bar(from, 3, Bar::homogeneous(length, 0.0)?).of_kind(Kind::Cable))
-/// };
-/// let members = vec![cable(0, side)?, cable(1, 1.0)?, cable(2, side)?];
-/// let system = System::new("fan", 9.80665, joints, members)?;
-/// let solution = solve(&system, &Settings::default())?;
-/// let ranges = force_ranges(&system, &solution).ok_or("not counted")?;
-/// let ForceRange::Bounded { least_n: Some(least), most_n: Some(most) } = ranges[0] else {
-///     return Err("no range".into());
-/// };
-/// assert!(least.abs() < 1e-9 && (most - 1.0 / side).abs() < 1e-9);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn force_ranges(system: &System, solution: &Solution) -> Option<Vec<ForceRange>> {
-    solution.self_stresses.as_ref()?;
-    let framework = Framework::of(system, solution);
-    let state = State::of(&framework, solution);
-    ranges(&framework, state, &solution.limp)
-}
-
-/// The same of a state and the members that have their length and bear nothing.
+/// The range of every member's axial force over all forces in balance with the right signs. Inextensible members
+/// that have their length and bear nothing (`limp`), as a cable that is just taut, take part.
 pub(super) fn ranges(
     framework: &Framework,
     mut state: State,
@@ -126,7 +86,7 @@ impl Table {
         let rows: Vec<Vec<f64>> = (0..signs.len())
             .map(|k| basis.iter().map(|stress| turn(k) * stress[k]).collect())
             .collect();
-        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_ENTRY)).collect();
+        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_PART)).collect();
         let value = |k: usize| {
             let value = turn(k) * forces[k] / largest;
             // A force of the wrong sign by rounding counts as zero.
@@ -176,7 +136,7 @@ impl Table {
         let row = &self.rows[member];
         (0..row.len()).find_map(|j| {
             let gain = direction * row[j];
-            let improves = gain > NO_ENTRY || (self.free[j] && gain < -NO_ENTRY);
+            let improves = gain > NO_PART || (self.free[j] && gain < -NO_PART);
             improves.then_some((j, gain.signum()))
         })
     }
@@ -186,7 +146,7 @@ impl Table {
         let mut first: Option<(f64, usize)> = None;
         for (k, row) in self.rows.iter().enumerate() {
             let fall = -way * row[unknown];
-            if self.signs[k] != 0.0 && fall > NO_ENTRY {
+            if self.signs[k] != 0.0 && fall > NO_PART {
                 let room = self.values[k].max(0.0) / fall;
                 if first.is_none_or(|(least, _)| room < least) {
                     first = Some((room, k));

@@ -13,9 +13,9 @@ use nalgebra::Vector3;
 use super::framework::{Framework, Link, Node};
 use model::system::Kind;
 
-/// A member at a free end is decided by the load there if that is more than this part of the loads
-/// it consists of: the rest may be rounding.
-const LOADED: f64 = 1e-9;
+/// A force, or a load, below this part of the largest that it is a sum or difference of may be rounding.
+pub(super) const SOME_FORCE: f64 = 1e-9;
+
 /// No joint, no member.
 const NONE: usize = usize::MAX;
 /// In the place of the number of members at a joint: a tree that was taken away.
@@ -217,7 +217,7 @@ impl Graph {
             let mut tip = joint;
             while self.degrees[tip] == 1
                 && framework.nodes[tip].freedom() == 3
-                && self.loads[tip].norm() > LOADED * sizes[tip]
+                && self.loads[tip].norm() > SOME_FORCE * sizes[tip]
             {
                 let (member, force) = (self.members[tip], self.loads[tip]);
                 let root = framework.links[member].from ^ framework.links[member].to ^ tip;

@@ -28,8 +28,8 @@ const ROUNDING: f64 = 1e-13;
 const RIGID: f64 = 1e6;
 /// Steps towards self-stresses that stiffen mechanisms; each at least halves what is left of one.
 const STIFFENING_STEPS: usize = 100;
-/// Joints and forces lie in a plane to this part of the extent.
-const PLANE: f64 = 1e-9;
+/// Joints and forces lie in a plane to this part of the extent, and a direction that rises less is level.
+pub(super) const PLANE: f64 = 1e-9;
 
 /// What the second order says.
 #[derive(Default)]

@@ -1,6 +1,6 @@
 //! Settings of the solve of a system.
 
-use serde::Serialize;
+use crate::settings::{SettingsError, within};
 
 /// Settings of [`solve`](super::solve()) and [`solve_from`](super::solve_from()).
 ///
@@ -48,20 +48,6 @@ impl Default for Settings {
     }
 }
 
-/// Why settings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
-#[error("setting {name} = {value} is outside its range, {low:e} to {high:e}")]
-pub struct SettingsError {
-    /// The field.
-    pub name: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Smallest value allowed.
-    pub low: f64,
-    /// Largest value allowed.
-    pub high: f64,
-}
-
 impl Settings {
     /// Check every range.
     ///
@@ -69,16 +55,11 @@ impl Settings {
     ///
     /// [`SettingsError`] with the first field that is out of range; NaN is out of every range.
     pub fn validate(&self) -> Result<(), SettingsError> {
-        for (name, value, low, high) in [
+        within(&[
             ("tolerance", self.tolerance, 1e-14, 1e-3),
             ("max_iterations", self.max_iterations as f64, 1.0, 1e9),
             ("dense_freedoms", self.dense_freedoms as f64, 0.0, 3000.0),
             ("max_work", self.max_work as f64, 1.0, u64::MAX as f64),
-        ] {
-            if !(low..=high).contains(&value) {
-                return Err(SettingsError { name, value, low, high });
-            }
-        }
-        Ok(())
+        ])
     }
 }

@@ -12,6 +12,7 @@ use nalgebra::Vector3;
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::EARNED;
 use model::system::Kind;
 
 /// First $\rho$ in units of the mean $|N|/l$: members stretch by some percent.
@@ -38,8 +39,6 @@ const STEPS: usize = 100;
 const CLOSE: f64 = 1e-7;
 /// Forces in balance to this part of the largest before an update.
 const BALANCED: f64 = 1e-3;
-/// A step is accepted when the energy falls by this part of what the slope promises.
-const ARMIJO: f64 = 1e-4;
 const HALVINGS: usize = 40;
 /// Stiffness given to every joint where the matrix is not definite, in units of the mean $|N|/l$:
 /// the first one, and how it grows until the matrix is definite and falls from step to step.
@@ -202,7 +201,7 @@ impl Penalty {
         let mut t = 1.0;
         (0..HALVINGS).find_map(|_| {
             let places: Vec<_> = from.iter().zip(moves).map(|(p, step)| p + step * t).collect();
-            let falls = self.energy(framework, &places) <= before - ARMIJO * t * slope;
+            let falls = self.energy(framework, &places) <= before - EARNED * t * slope;
             t *= 0.5;
             falls.then_some(places)
         })

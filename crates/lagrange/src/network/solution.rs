@@ -61,8 +61,8 @@ pub struct Solution {
 
 /// A force below this part of the largest one counts as zero.
 pub(super) const NO_FORCE: f64 = 1e-10;
-/// A member with less than this in every self-stress of the basis, of unit norm, takes part in none.
-const NO_PART: f64 = 1e-9;
+/// Less than this in a self-stress of unit norm is nothing: a member takes no part in it, the floor is not pressed.
+pub(super) const NO_PART: f64 = 1e-9;
 /// A member whose length is off by less than this part of it just reaches.
 pub(super) const NO_SLACK: f64 = 1e-10;
 

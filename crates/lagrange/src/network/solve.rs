@@ -25,15 +25,15 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// A cable that is shorter by more than this part of its length is slack at the start: from a drawing, from a rest.
-const SLACK_LENGTH: [f64; 2] = [1e-3, 1e-9];
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// A shape whose stiff members miss their lengths by more than this part is closed first. Stiff are
-/// those that the mean load stretches by less; cables and struts further off are loose.
+/// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
+/// by more is slack. Stiff are those that the mean load stretches by less; cables and struts further off are loose.
 const MISDRAWN: f64 = 1e-3;
+/// The same of a cable in a shape at rest.
+const REST_SLACK: f64 = 1e-9;
 const STIFF: f64 = 1e-3;
 const LOOSE: f64 = 0.1;
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
@@ -395,7 +395,7 @@ impl<'a> Solver<'a> {
             }
         };
         let directions = state.directions(&self.framework);
-        let slack_length = SLACK_LENGTH[usize::from(seed.at_rest)];
+        let slack_length = if seed.at_rest { REST_SLACK } else { MISDRAWN };
         for (k, link) in self.framework.links.iter().enumerate() {
             let length = self.framework.whole(k, |span| directions[span].1);
             let short = 1.0 - length / link.length;

@@ -13,7 +13,7 @@
 use model::system::System;
 
 use super::framework::{Framework, Link};
-use super::newton::{Derivative, Run};
+use super::newton::{Derivative, HALVED, Run};
 use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
@@ -24,9 +24,6 @@ const SETTLED: f64 = 1e-10;
 
 /// Steps at most; two or three are enough.
 const ROUNDS: usize = 8;
-
-/// A step must leave less than this part of the error.
-const PROGRESS: f64 = 0.5;
 
 /// What a linear solve leaves of the errors.
 const SOLVED: f64 = 1e-9;
@@ -58,7 +55,7 @@ pub(super) fn settled(
         let there = exact_misfits(system, framework, &next);
         let left = force_error(framework, &next, &there);
         // NaN is no progress.
-        if left.is_nan() || left >= PROGRESS * error {
+        if left.is_nan() || left >= HALVED * error {
             break;
         }
         (best, misfits, error) = (next, there, left);

@@ -5,9 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use lagrange::{
-    Seed, Settings, Solution, StepMethod, relative_residual, solve, solve_from, spectrum,
-};
+use lagrange::{Seed, Settings, Solution, relative_residual, solve, solve_from, spectrum};
 use model::{InPlane, InSpace, cases};
 
 use crate::common::MG;
@@ -68,14 +66,11 @@ fn assert_is(found: &Solution, heading: f64, angles: [f64; 3], energy: usize) {
 #[test]
 fn four_planar_equilibria_from_seeds_near_them() {
     // Frozen work: quadratic convergence from a tenth of a radian, and a step or two of polish.
-    for (method, most) in [(StepMethod::Reduced, 5), (StepMethod::Dense, 6)] {
-        let settings = Settings { method, ..Default::default() };
-        for (angles, energy) in equilibria() {
-            let seed = Seed::planar(&angles.map(|angle| angle + 0.1));
-            let found = solve_from(&cases::paper(), &seed, &settings).unwrap();
-            assert_is(&found, FRAC_PI_2, angles, energy);
-            assert!(found.effort.iterations <= most, "{method:?}: {:?}", found.effort);
-        }
+    for (angles, energy) in equilibria() {
+        let seed = Seed::planar(&angles.map(|angle| angle + 0.1));
+        let found = solve_from(&cases::paper(), &seed, &Settings::default()).unwrap();
+        assert_is(&found, FRAC_PI_2, angles, energy);
+        assert!(found.effort.iterations <= 5, "{:?}", found.effort);
     }
 }
 
@@ -155,15 +150,12 @@ fn nullity_is_three_when_the_anchors_are_not_on_one_vertical() {
 
 #[test]
 fn no_guess_gives_e1() {
-    for method in [StepMethod::Reduced, StepMethod::Dense] {
-        let settings = Settings { method, ..Default::default() };
-        let found = solve(&cases::paper(), &settings).unwrap();
-        let v = found.equilibrium.energy_j / MG + 6.0;
-        assert!((v - V[0]).abs() < ENERGY);
-        assert_eq!(found.equilibrium.stability.in_space, InSpace::Stable);
-        let chain = cases::paper();
-        assert!(relative_residual(chain.chain(), &found.q, &found.lambda) < 1e-14);
-    }
+    let chain = cases::paper();
+    let found = solve(&chain, &Settings::default()).unwrap();
+    let v = found.equilibrium.energy_j / MG + 6.0;
+    assert!((v - V[0]).abs() < ENERGY);
+    assert_eq!(found.equilibrium.stability.in_space, InSpace::Stable);
+    assert!(relative_residual(chain.chain(), &found.q, &found.lambda) < 1e-14);
 }
 
 #[test]

@@ -267,7 +267,8 @@ fn refusals_of_lagrange_for_chains() {
 
 #[test]
 fn refusals_of_lagrange_for_systems() {
-    use lagrange::network::{Error, SettingsError};
+    use lagrange::SettingsError;
+    use lagrange::network::Error;
     let settings = SettingsError { name: "tolerance", value: 2.5, low: 1e-14, high: 0.5 };
     let joint = || "P".to_owned();
     let refusals = [

@@ -22,7 +22,7 @@ use super::chain::Condensed;
 use super::folded::Folded;
 use super::newton::Budget;
 use super::pull::Pull;
-use crate::thresholds::{EQUAL_LENGTHS, NEARLY_STRAIGHT, STEEP};
+use crate::thresholds::{CLOSURE_ROUNDING, NEARLY_STRAIGHT, STEEP};
 
 /// The way a chain is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,14 +61,14 @@ impl Regime {
         }
         let (bottom, across) = (&chain.bottom, chain.span.across);
         let gap = across.hypot(bottom.gap);
-        let rounding = EQUAL_LENGTHS * chain.bars.total_length;
+        let rounding = CLOSURE_ROUNDING * chain.bars.total_length;
         // |G|² less the square of the length. Anchors that are a little apart pull strands of equal
         // depth together, though the gap is no longer than the bar in any of its digits.
         let terms = [across * across, bottom.over * (bottom.gap.abs() + bottom.length)];
         let excess = terms[0] + terms[1];
         if across <= rounding && bottom.over.abs() <= rounding {
             Self::Indeterminate
-        } else if excess > EQUAL_LENGTHS * (terms[0] + terms[1].abs()) {
+        } else if excess > CLOSURE_ROUNDING * (terms[0] + terms[1].abs()) {
             Self::in_tension(chain)
         } else if gap < bottom.shortest_reach - rounding {
             Self::in_compression(chain)
@@ -181,8 +181,8 @@ mod tests {
         assert_eq!(four([1.0 - 0.9 * NEARLY_STRAIGHT, 0.0, 0.0]), Regime::Taut);
         assert_eq!(four([1.0 - 1.1 * NEARLY_STRAIGHT, 0.0, 0.0]), Regime::Tension);
         // Strands of equal depth: apart by more than rounding they are pulled together, ...
-        assert_eq!(four([0.5 * EQUAL_LENGTHS, 0.0, 0.0]), Regime::Indeterminate);
-        assert_eq!(four([2.0 * EQUAL_LENGTHS, 0.0, 0.0]), Regime::SideBySide);
+        assert_eq!(four([0.5 * CLOSURE_ROUNDING, 0.0, 0.0]), Regime::Indeterminate);
+        assert_eq!(four([2.0 * CLOSURE_ROUNDING, 0.0, 0.0]), Regime::SideBySide);
         // ... and are no strands side by side where they are as far apart as a bar may be tilted.
         assert_eq!(four([0.9 * NEARLY_STRAIGHT, 0.0, 0.0]), Regime::SideBySide);
         assert_eq!(four([1.1 * NEARLY_STRAIGHT, 0.0, 0.0]), Regime::Tension);

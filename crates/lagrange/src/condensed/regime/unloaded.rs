@@ -3,15 +3,12 @@
 
 use crate::condensed::chain::Condensed;
 use crate::condensed::pull::{Pull, Signs};
+use crate::thresholds::CLOSURE_ROUNDING;
 
 /// No force at the bottom: every other bar carries the weights below it, straight up.
 pub(super) fn solve(chain: &Condensed) -> Pull {
     Pull::new(chain, Signs::Unloaded(chain.bottom.group.clone()), [0.0; 2], [0.0; 3], 0)
 }
-
-/// Lengths and a gap that differ by less than this part are equal: the gap is a difference of
-/// heights, rounded, and a length by Pythagoras.
-const EQUAL: f64 = 4.0 * f64::EPSILON;
 
 /// Vectors of bars of the given lengths that lead along `gap` together.
 ///
@@ -24,7 +21,7 @@ pub(in super::super) fn fill(lengths: &[f64], gap: [f64; 2]) -> Vec<[f64; 2]> {
     let way = gap[0].hypot(gap[1]);
     let along = if way > 0.0 { [gap[0] / way, gap[1] / way] } else { [1.0, 0.0] };
     let total = model::sum(lengths.iter().copied());
-    if (total - way).abs() <= EQUAL * total {
+    if (total - way).abs() <= CLOSURE_ROUNDING * total {
         return lengths.iter().map(|length| along.map(|e| length * e)).collect();
     }
     let (middle, before) = middle_bar(lengths, total);

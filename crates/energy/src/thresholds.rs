@@ -1,0 +1,42 @@
+//! Thresholds of more than one module.
+
+/// Rounding of a few sums and products: what is less than this part of its terms is nothing.
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Rounding that a step of Newton's method does not improve.
+pub(crate) const STEP_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Rounding of an energy, or of a force, beside the largest.
+pub(crate) const FORCE_ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Least part of the predicted fall that counts as success.
+pub(crate) const FAIR_PART: f64 = 0.1;
+
+/// Part of the first-order fall of the energy that a step must bring (Armijo's rule).
+pub(crate) const ARMIJO: f64 = 1e-4;
+
+/// Where differences are near rounding, a step must leave at most this part.
+pub(crate) const PROGRESS: f64 = 0.5;
+
+/// Smallest shift worth trying when none failed, in units of the mean gradient: it holds the mean
+/// turn of the bars to a few radians.
+pub(crate) const GRADIENT_PART: f64 = 0.25;
+
+/// Turns, rad, and forces, over the largest, known to this need no word.
+pub(crate) const KNOWN: f64 = 1e-9;
+
+/// Eigenvalues, singular values, and components of a unit vector below this part of the largest are zero.
+pub(crate) const ZERO: f64 = 1e-9;
+
+/// Forces below this part of the largest that acts are none.
+pub(crate) const NO_FORCE: f64 = 1e-9;
+
+/// Diagonal added, over the size of the matrix, where a motion may meet no stiffness: far below what a
+/// mechanism of a real structure has, far above rounding.
+pub(crate) const RIDGE: f64 = 1e-9;
+
+/// A strain, or a load over all of them, that is rounding.
+pub(crate) const NO_STRAIN: f64 = 1e-12;
+
+/// The golden section: its multiples are spread evenly, alike in every run.
+pub(crate) const GOLDEN: f64 = 0.618_033_988_75;
