@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use crate::Failure;
 
 pub const USAGE: &str = "usage: mutants CRATE [--from LIST] [--draw N] [--seed S] [--only FILE] [--also CRATE]
-               [--work DIR] [--target-dir DIR] [--limit SECONDS] [--jobs N] [--out FILE]
+               [--skip WORD] [--work DIR] [--target-dir DIR] [--limit SECONDS] [--jobs N] [--out FILE]
 Run at the top of the workspace.
   --from LIST       cargo: those of `cargo mutants` (else); plausible: those that people make by mistake
   --draw N          changes drawn at random, the first ones that compile; without it all
   --seed S          of the draw
   --only FILE       the changes named in the tables of a result, by file, text and nearest line
-  --also CRATE      shows what survives to the tests of another crate, too
+  --also CRATE      shows what survives to the tests of another crate, too; may be given again
+  --skip WORD       tests of other crates with this in their names are not asked; may be given again
   --work DIR        where the copy of the workspace goes (target/mutants)
   --target-dir DIR  of its builds (target of that folder): a copy of a warm one saves the third-party crates.
                     Its own alone: cargo takes the crates of another tree there for those of this one
@@ -21,7 +22,8 @@ Run at the top of the workspace.
 
 pub struct Options {
     pub krate: String,
-    pub also: Option<String>,
+    pub also: Vec<String>,
+    pub skip: Vec<String>,
     pub plausible: bool,
     pub draw: usize,
     pub seed: u64,
@@ -41,7 +43,8 @@ impl Options {
         let krate = args.next().filter(|name| !name.starts_with('-')).ok_or(USAGE)?;
         let mut options = Self {
             krate,
-            also: None,
+            also: Vec::new(),
+            skip: Vec::new(),
             plausible: false,
             draw: usize::MAX / 2,
             seed: 1,
@@ -61,7 +64,8 @@ impl Options {
                 "--draw" => options.draw = value.parse()?,
                 "--seed" => options.seed = value.parse()?,
                 "--only" => options.only = Some(value.into()),
-                "--also" => options.also = Some(value),
+                "--also" => options.also.push(value),
+                "--skip" => options.skip.push(value),
                 "--work" => options.work = value.into(),
                 "--target-dir" => options.target = value.into(),
                 "--limit" => options.limit = value.parse()?,
@@ -80,6 +84,6 @@ impl Options {
 
     /// The packages whose tests are asked.
     pub fn packages(&self) -> impl Iterator<Item = &str> {
-        std::iter::once(self.krate.as_str()).chain(self.also.as_deref())
+        std::iter::once(self.krate.as_str()).chain(self.also.iter().map(String::as_str))
     }
 }

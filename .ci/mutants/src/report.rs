@@ -51,7 +51,8 @@ pub fn written(
         writeln!(text, "{who}: {count}, {share:.1} % (95 %: {low:.1} to {high:.1} %).")
     };
     count(&mut text, "Unnoticed by the crate's own tests", alive + elsewhere)?;
-    if let Some(also) = &options.also {
+    if !options.also.is_empty() {
+        let also = options.also.join("`, `");
         count(&mut text, &format!("Unnoticed by these and those of `{also}`"), alive)?;
     }
     text.push_str("\n| change | tests that reach it | what became of it |\n|---|---|---|\n");

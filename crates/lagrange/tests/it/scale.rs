@@ -8,6 +8,7 @@ use lagrange::{Settings, solve_from};
 use model::system::{Kind, Support, System};
 use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
 use rand::RngExt;
+use samples::scaled_chain;
 
 use crate::common::{problem, spatial_seed, stream};
 use crate::network_random::random;
@@ -24,19 +25,6 @@ fn bits(vector: Vector, factor: f64) -> [u64; 3] {
 
 fn times(vector: Vector, factor: f64) -> Vector {
     vector.map(|x| x * factor)
-}
-
-fn scaled(problem: &Problem, [length, mass, gravity]: [f64; 3]) -> Problem {
-    let chain = problem.chain();
-    let anchors = chain.anchors();
-    let anchors =
-        Anchors { start_m: times(anchors.start_m, length), end_m: times(anchors.end_m, length) };
-    let bars = chain.bars().iter().map(|bar| {
-        let (length_m, centre_m) = (bar.length_m() * length, bar.centre_m() * length);
-        Bar::new(length_m, bar.mass_kg() * mass, centre_m, [0.0; 3]).unwrap()
-    });
-    let gravity_m_s2 = chain.gravity_m_s2() * gravity;
-    Problem::new(Chain::new("scaled", gravity_m_s2, anchors, bars.collect()).unwrap()).unwrap()
 }
 
 fn assert_scaled(one: &model::Equilibrium, other: &model::Equilibrium, factors: [f64; 3]) {
@@ -67,7 +55,7 @@ fn hanging_chains_scale_without_rounding() {
         };
         let one = condensed::solve(&base, &condensed::Settings::default()).unwrap();
         for factors in LENGTHS {
-            let other = scaled(&base, factors);
+            let other = scaled_chain(&base, factors);
             let other = condensed::solve(&other, &condensed::Settings::default()).unwrap();
             assert_eq!(one.pull.passes(), other.pull.passes());
             assert_scaled(&one.equilibrium, &other.equilibrium, factors);
@@ -84,7 +72,7 @@ fn seeds_scale_without_rounding() {
         let seed = spatial_seed(&mut random, bars);
         let one = solve_from(&base, &seed, &Settings::default());
         for factors in FACTORS {
-            let other = solve_from(&scaled(&base, factors), &seed, &Settings::default());
+            let other = solve_from(&scaled_chain(&base, factors), &seed, &Settings::default());
             match (&one, &other) {
                 (Ok(one), Ok(other)) => {
                     assert_eq!(one.angles_rad, other.angles_rad);
@@ -112,7 +100,7 @@ fn batches_scale_without_rounding() {
         };
         let one = solved(&base);
         for factors in FACTORS {
-            let other = solved(&scaled(&base, factors));
+            let other = solved(&scaled_chain(&base, factors));
             assert_eq!(one.finish, other.finish);
             assert_eq!(one.iterations, other.iterations);
             assert_eq!(one.directions, other.directions);
@@ -172,7 +160,7 @@ fn masses_near_the_end_of_doubles_hang_alike() {
     for k in 0..20 {
         let base = problem(&mut stream(83, k), 2 + k % 9, false);
         let one = condensed::solve(&base, &condensed::Settings::default()).unwrap();
-        let other = condensed::solve(&scaled(&base, tiny), &condensed::Settings::default());
+        let other = condensed::solve(&scaled_chain(&base, tiny), &condensed::Settings::default());
         let other = other.unwrap();
         let total_m = base.chain().total_length_m();
         for (a, b) in one.equilibrium.joints_m.iter().zip(&other.equilibrium.joints_m) {
