@@ -5,6 +5,7 @@ use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed;
 use lagrange::network::{self, Solution};
 use lagrange::{Settings, solve_from};
+use model::cases::Exhibit;
 use model::system::{Kind, Support, System};
 use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
 use rand::RngExt;
@@ -134,9 +135,14 @@ fn assert_system_scaled(one: &Solution, other: &Solution, [length, mass, gravity
 #[test]
 fn systems_scale_without_rounding() {
     let kinds = [Kind::Bar, Kind::Cable, Kind::Strut];
+    let random =
+        (3000..3024).enumerate().map(|(k, seed)| random(seed, &kinds[..=k % 3], k % 2 == 0));
+    let mut systems: Vec<System> = random.collect();
+    systems.extend(model::cases::systems().map(Exhibit::system));
+    systems.extend(samples::ropes().into_iter().map(|sample| sample.system));
+    systems.push(samples::legs([1e-3, 2e-3, 3e-3, 4e-3]));
     let mut answers = 0;
-    for (k, seed) in (3000..3024).enumerate() {
-        let system = random(seed, &kinds[..=k % 3], k % 2 == 0);
+    for system in systems {
         let one = network::solve(&system, &network::Settings::default());
         for factors in FACTORS {
             let other = samples::scaled(&system, factors);
@@ -146,11 +152,11 @@ fn systems_scale_without_rounding() {
                     answers += 1;
                     assert_system_scaled(one, other, factors);
                 }
-                (one, other) => assert_eq!(one.is_ok(), other.is_ok()),
+                (one, other) => assert_eq!(one.is_ok(), other.is_ok(), "{}", system.name()),
             }
         }
     }
-    assert!(answers > 50, "{answers}");
+    assert!(answers > 120, "{answers}");
 }
 
 /// Masses far too small for their cubes: the same shape, digit for digit.
