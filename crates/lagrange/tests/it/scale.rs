@@ -7,7 +7,7 @@ use lagrange::network::{self, Solution};
 use lagrange::{Settings, solve_from};
 use model::cases::Exhibit;
 use model::system::{Kind, Support, System};
-use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
+use model::{Ends, Problem, Vector};
 use rand::RngExt;
 use samples::scaled_chain;
 
