@@ -382,7 +382,7 @@ mod tests {
             Joint::free("R").with_mass(2.0),
             Joint::free("Q").with_mass(1.0),
         ];
-        let body = |length_m| Bar::homogeneous(length_m, 0.1).unwrap();
+        let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
         let members = vec![
             Member::cable(0, 1, body(4.0)).over(vec![2]),
             Member::bar(2, 0, body(2.0)),

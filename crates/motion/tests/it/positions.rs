@@ -103,7 +103,7 @@ fn random_places_are_those_of_trees() {
         let at = random_places(&system, seed);
         let apart =
             |joint: usize| (0..3).map(|k| (at[joint][k] - start[k]).powi(2)).sum::<f64>().sqrt();
-        assert!(at.len() == 5 && at[0] == start && (apart(1) - 0.7).abs() < 1e-14, "{at:?}");
+        assert!(at.len() == 5 && apart(0) <= 0.0 && (apart(1) - 0.7).abs() < 1e-14, "{at:?}");
         let off: f64 = (0..3).map(|k| normal[k] * (at[4][k] - [0.5, -0.25, 2.0][k])).sum();
         assert!(off.abs() < 1e-14, "{at:?}");
         slack[0].push(apart(2) / 1.6);
