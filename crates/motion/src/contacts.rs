@@ -318,6 +318,10 @@ mod tests {
             contacts.accelerations(&mechanism, &state, &acceleration),
             [-8.8125 / 2.0, 9.3125 / 4.0, -3.0]
         );
+        // Multipliers of rows are over the lengths; a strut pushes.
+        contacts.holds = vec![true, true, false];
+        let held = Mechanism::for_motion(&contacts.held().unwrap(), system.reference_m()).unwrap();
+        assert_eq!(contacts.forces(&held, &[3.0, -5.0]), [6.0, 20.0, 0.0]);
         // Below the floor by less than what may be, and by more.
         for (part, held) in [(0.5, false), (2.0, true)] {
             let below = at(-0.25 - part * CLOSED * 6.0);
