@@ -26,13 +26,17 @@ pub struct Built {
 }
 
 impl Built {
-    /// The first ones drawn of those that can be run.
-    pub fn keep(&mut self, count: usize) {
+    /// The first ones drawn of those of each crate that can be run.
+    pub fn keep(&mut self, options: &Options) {
         self.run.sort_by_key(|mutant| mutant.id);
-        self.run.truncate(count);
-        let last = self.run.last().map_or(0, |mutant| mutant.id);
-        self.not_compiled.retain(|mutant| mutant.id < last);
-        self.without_switch.retain(|mutant| mutant.id < last);
+        for krate in &options.krates {
+            let of = |mutant: &Mutant| mutant.krate() == krate;
+            let kept = self.run.iter().filter(|mutant| of(mutant)).take(options.draw);
+            let last = kept.last().map_or(0, |mutant| mutant.id);
+            for list in [&mut self.run, &mut self.not_compiled, &mut self.without_switch] {
+                list.retain(|mutant| !of(mutant) || mutant.id <= last);
+            }
+        }
     }
 }
 

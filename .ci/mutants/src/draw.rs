@@ -18,7 +18,7 @@ pub fn listed(krate: &str) -> Result<Vec<Mutant>, Failure> {
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
-/// `count` of them at random, the same for the same seed, with ids from 1.
+/// `count` of them at random, the same for the same seed.
 pub fn drawn(all: &[Mutant], count: usize, seed: u64) -> Vec<Mutant> {
     let mut left: Vec<&Mutant> = all.iter().collect();
     let mut state = seed;
@@ -28,7 +28,7 @@ pub fn drawn(all: &[Mutant], count: usize, seed: u64) -> Vec<Mutant> {
         left.swap(k, other);
     }
     left.truncate(count);
-    numbered(left)
+    left.into_iter().cloned().collect()
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
@@ -66,7 +66,7 @@ pub fn named(all: &[Mutant], result: &str) -> Vec<Mutant> {
             None => eprintln!("gone: {cell}"),
         }
     }
-    numbered(found)
+    found.into_iter().cloned().collect()
 }
 
 /// `file:line:column: text`.
@@ -77,7 +77,8 @@ fn parts(name: &str) -> Option<(&str, (usize, usize), &str)> {
     Some((file, (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?), text))
 }
 
-fn numbered(mutants: Vec<&Mutant>) -> Vec<Mutant> {
+/// With ids from 1.
+pub fn numbered(mutants: Vec<Mutant>) -> Vec<Mutant> {
     let numbers = 1..;
-    mutants.into_iter().zip(numbers).map(|(mutant, id)| Mutant { id, ..mutant.clone() }).collect()
+    mutants.into_iter().zip(numbers).map(|(mutant, id)| Mutant { id, ..mutant }).collect()
 }

@@ -49,6 +49,13 @@ pub struct Mutant {
     pub genre: String,
 }
 
+impl Mutant {
+    /// The crate that it is a change of.
+    pub fn krate(&self) -> &str {
+        self.file.split('/').nth(1).unwrap_or_default()
+    }
+}
+
 fn main() -> std::process::ExitCode {
     match run() {
         Ok(()) => std::process::ExitCode::SUCCESS,
@@ -61,28 +68,39 @@ fn main() -> std::process::ExitCode {
 
 fn run() -> Result<(), Failure> {
     let options = Options::from_args(std::env::args().skip(1))?;
-    let all = if options.plausible {
-        plausible::proposed(&options.krate)?
-    } else {
-        draw::listed(&options.krate)?
-    };
-    let drawn = match &options.only {
-        Some(file) => draw::named(&all, &std::fs::read_to_string(file)?),
-        // The compiler refuses some.
-        None => draw::drawn(&all, 2 * options.draw, options.seed),
-    };
+    let named = options.only.as_ref().map(std::fs::read_to_string).transpose()?;
+    let (mut all, mut drawn) = (Vec::new(), Vec::new());
+    for krate in &options.krates {
+        let listed =
+            if options.plausible { plausible::proposed(krate)? } else { draw::listed(krate)? };
+        match &named {
+            Some(text) => drawn.extend(draw::named(&listed, text)),
+            // The compiler refuses some.
+            None => drawn.extend(draw::drawn(&listed, 2 * options.draw, options.seed)),
+        }
+        all.extend(listed);
+    }
+    let drawn = draw::numbered(drawn);
     eprintln!("{} of {} changes", drawn.len(), all.len());
     let tree = Tree::copied(&options)?;
     let mut built = compile::built(&tree, &options, drawn)?;
-    built.keep(options.draw);
+    built.keep(&options);
     let tests = tests::traced(&built.programs, &options)?;
     if tests.iter().all(|test| test.reaches.is_empty()) {
         return Err(
             "no test reaches a change: the target folder is also that of another tree".into()
         );
     }
-    let verdicts = judge::judged(&built.run, &tests, &options)?;
-    let text = report::written(&options, all.len(), &built, &tests, &verdicts)?;
+    let mut verdicts = judge::judged(&built.run, &tests, &options)?;
+    written(&options, &report::written(&options, &all, &built, &tests, &verdicts)?)?;
+    if options.packages().count() > 1 {
+        judge::shown_to_others(&mut verdicts, &tests, &options)?;
+        written(&options, &report::written(&options, &all, &built, &tests, &verdicts)?)?;
+    }
+    Ok(())
+}
+
+fn written(options: &Options, text: &str) -> Result<(), Failure> {
     match &options.out {
         Some(file) => std::fs::write(file, text)?,
         None => print!("{text}"),

@@ -3,46 +3,63 @@
 use std::fmt::Write;
 use std::process::Command;
 
-use crate::Failure;
 use crate::compile::Built;
 use crate::judge::Verdict;
 use crate::options::Options;
 use crate::tests::Test;
+use crate::{Failure, Mutant};
 
-/// Counts, the bounds of the share of survivors, and the table of survivors.
+/// Of each crate the counts, the bounds of the share of survivors, and the table of survivors.
 ///
 /// # Errors
 ///
 /// Where git does not say the commit.
 pub fn written(
     options: &Options,
-    all: usize,
+    all: &[Mutant],
     built: &Built,
     tests: &[Test],
     verdicts: &[Verdict],
 ) -> Result<String, Failure> {
     let git = Command::new("git").args(["rev-parse", "--short", "HEAD"]).output()?;
     let commit = String::from_utf8(git.stdout)?;
-    let foreign = |verdict: &Verdict| {
-        verdict.noticed_by.is_some_and(|test| test.program.krate != options.krate)
-    };
+    let mut text = String::new();
+    for krate in &options.krates {
+        writeln!(text, "# {krate}, {}\n", commit.trim())?;
+        of_crate(&mut text, krate, options, all, built, tests, verdicts)?;
+    }
+    Ok(text)
+}
+
+fn of_crate(
+    text: &mut String,
+    krate: &str,
+    options: &Options,
+    all: &[Mutant],
+    built: &Built,
+    tests: &[Test],
+    verdicts: &[Verdict],
+) -> std::fmt::Result {
+    let of = |mutants: &[Mutant]| mutants.iter().filter(|mutant| mutant.krate() == krate).count();
+    let verdicts: Vec<_> = verdicts.iter().filter(|v| v.mutant.krate() == krate).collect();
+    let foreign =
+        |verdict: &Verdict| verdict.noticed_by.is_some_and(|test| test.program.krate != krate);
     let alive = verdicts.iter().filter(|verdict| verdict.noticed_by.is_none()).count();
     let elsewhere = verdicts.iter().filter(|verdict| foreign(verdict)).count();
     let run = verdicts.len();
-    let mut text = format!("# {}, {}\n\n", options.krate, commit.trim());
-    let drawn = run + built.without_switch.len() + built.not_compiled.len();
+    let (unswitched, not_compiled) = (of(&built.without_switch), of(&built.not_compiled));
+    let drawn = run + unswitched + not_compiled;
     let how = if options.only.is_some() {
         "those of an earlier result".to_owned()
     } else {
         format!("seed {}", options.seed)
     };
+    let own = tests.iter().filter(|test| test.program.krate == krate).count();
     writeln!(
         text,
-        "{drawn} of {all} changes ({how}): {} do not compile, {} stand where no switch can, {run} were run.\n\
-         Asked were {} tests of at most {} s.\n",
-        built.not_compiled.len(),
-        built.without_switch.len(),
-        tests.len(),
+        "{drawn} of {} changes ({how}): {not_compiled} do not compile, {unswitched} stand where no switch can, {run} were run.\n\
+         Asked were {own} tests of at most {} s.\n",
+        of(all),
         options.limit,
     )?;
     let count = |text: &mut String, who: &str, count: usize| {
@@ -50,12 +67,14 @@ pub fn written(
         let share = 100.0 * count as f64 / run as f64;
         writeln!(text, "{who}: {count}, {share:.1} % (95 %: {low:.1} to {high:.1} %).")
     };
-    count(&mut text, "Unnoticed by the crate's own tests", alive + elsewhere)?;
-    if let Some(also) = &options.also {
-        count(&mut text, &format!("Unnoticed by these and those of `{also}`"), alive)?;
+    count(text, "Unnoticed by the crate's own tests", alive + elsewhere)?;
+    let others: Vec<&str> = options.packages().filter(|other| *other != krate).collect();
+    if !others.is_empty() {
+        let who = format!("Unnoticed by these and those of `{}`", others.join("`, `"));
+        count(text, &who, alive)?;
     }
     text.push_str("\n| change | tests that reach it | what became of it |\n|---|---|---|\n");
-    let prefix = format!("crates/{}/src/", options.krate);
+    let prefix = format!("crates/{krate}/src/");
     let mut rows: Vec<_> = verdicts
         .iter()
         .filter(|verdict| verdict.noticed_by.is_none() || foreign(verdict))
@@ -69,7 +88,8 @@ pub fn written(
         .collect();
     rows.sort();
     text.extend(rows);
-    Ok(text)
+    text.push('\n');
+    Ok(())
 }
 
 /// Wilson's interval of a share, 95 %, in per cent.

@@ -36,12 +36,18 @@ pub fn traced<'a>(programs: &'a [Program], options: &Options) -> Result<Vec<Test
         let list = command(program).args(["--list", "--format", "terse"]).output()?;
         let list = String::from_utf8(list.stdout)?;
         let tests = list.lines().filter_map(|line| line.strip_suffix(": test"));
-        names.extend(tests.map(|name| (program, name.to_owned())));
+        let skipped = |name: &&str| {
+            !options.krates.contains(&program.krate)
+                && options.skip.iter().any(|word| name.contains(word))
+        };
+        names.extend(tests.filter(|name| !skipped(name)).map(|name| (program, name.to_owned())));
     }
     eprintln!("{} tests", names.len());
     let tests = parallel(options.jobs, &names, |k, (program, name)| {
+        let own = options.krates.contains(&program.krate);
+        let limit = if own { options.limit } else { options.also_limit };
         let file = options.work.join(format!("trace-{k}"));
-        let test = trace(program, name, &file, options.limit);
+        let test = trace(program, name, &file, limit);
         let _ = std::fs::remove_file(&file);
         test
     })?;

@@ -13,7 +13,8 @@ const SWITCH: &str = include_str!("../switch.rs");
 
 pub struct Tree {
     pub root: PathBuf,
-    krate: PathBuf,
+    /// The folders of the crates with changes.
+    krates: Vec<PathBuf>,
 }
 
 impl Tree {
@@ -24,11 +25,13 @@ impl Tree {
             .output()?;
         let names = String::from_utf8(output.stdout)?;
         let root = options.work.join("tree");
-        let krate = Path::new("crates").join(&options.krate);
+        let krates: Vec<PathBuf> =
+            options.krates.iter().map(|krate| Path::new("crates").join(krate)).collect();
         for name in names.split('\0') {
             let path = Path::new(name);
             // These are written with their switches.
-            if path.starts_with(krate.join("src")) && name.ends_with(".rs") {
+            let is_changed = krates.iter().any(|krate| path.starts_with(krate.join("src")));
+            if is_changed && name.ends_with(".rs") {
                 continue;
             }
             if path.is_symlink() {
@@ -37,14 +40,18 @@ impl Tree {
                 write(&root.join(path), &std::fs::read(path)?)?;
             }
         }
-        write(&root.join(&krate).join("src/mx.rs"), SWITCH.as_bytes())?;
-        Ok(Self { root, krate })
+        for krate in &krates {
+            write(&root.join(krate).join("src/mx.rs"), SWITCH.as_bytes())?;
+        }
+        Ok(Self { root, krates })
     }
 
     /// The crate's files with the switches of these changes; returns those that found their place.
     pub fn place(&self, mutants: &[Mutant]) -> Result<Vec<Mutant>, Failure> {
-        let mut files: BTreeMap<PathBuf, Vec<Mutant>> =
-            sources(&self.krate.join("src"))?.into_iter().map(|file| (file, Vec::new())).collect();
+        let mut files: BTreeMap<PathBuf, Vec<Mutant>> = BTreeMap::new();
+        for krate in &self.krates {
+            files.extend(sources(&krate.join("src"))?.into_iter().map(|file| (file, Vec::new())));
+        }
         for mutant in mutants {
             files.entry(PathBuf::from(&mutant.file)).or_default().push(mutant.clone());
         }
@@ -56,7 +63,7 @@ impl Tree {
                 let line = text.lines().nth(error.span().start().line - 1).unwrap_or_default();
                 format!("{}: {error} in\n{line}", file.display())
             })?;
-            if *file == self.krate.join("src/lib.rs") {
+            if self.krates.iter().any(|krate| *file == krate.join("src/lib.rs")) {
                 text.push_str("\n#[doc(hidden)]\npub mod mx;\n");
             }
             write(&self.root.join(file), text.as_bytes())?;

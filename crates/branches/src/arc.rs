@@ -233,6 +233,40 @@ mod tests {
         ArcPoint { y: DVector::from_element(1, position), seen, happens }
     }
 
+    /// An end shows the indices of the arc beside it: in a turn that in the plane, where the chain is degenerate or
+    /// straight also that in space, at a border only where it is degenerate.
+    #[test]
+    fn ends_without_indices_of_their_own_show_those_of_their_arc() {
+        let (turn, border) = (ArcEnd::Turn(0), ArcEnd::Border);
+        for (end, singular, bent, wanted) in [
+            (turn, 1.0, 1.0, [3, 7]),
+            (turn, 0.0, 1.0, [3, 7]),
+            (turn, 1.0, 0.0, [3, 4]),
+            (border, 1.0, 1.0, [5, 7]),
+            (border, 1.0, 0.0, [5, 7]),
+            (border, 0.0, 1.0, [3, 4]),
+        ] {
+            let indices = |[in_plane, out_of_plane]: [usize; 2], singular: f64, bent: f64| {
+                let mut point = point(0.0, None);
+                (point.seen.index_in_plane, point.seen.index_out_of_plane) =
+                    (in_plane, out_of_plane);
+                (point.seen.singular, point.seen.bent) = (singular, bent);
+                point
+            };
+            let seen =
+                |point: &ArcPoint| [point.seen.index_in_plane, point.seen.index_out_of_plane];
+            let last = indices([5, 7], singular, bent);
+            let mut along = vec![indices([1, 2], 1.0, 1.0), indices([3, 4], 1.0, 1.0), last];
+            borrow_indices(&mut along, [border, end]);
+            assert_eq!(seen(&along[2]), wanted, "{end:?} {singular} {bent}");
+            along.reverse();
+            along[0] = indices([5, 7], singular, bent);
+            borrow_indices(&mut along, [end, border]);
+            assert_eq!(seen(&along[0]), wanted, "{end:?} {singular} {bent}");
+            assert_eq!((seen(&along[1]), seen(&along[2])), ([3, 4], [1, 2]));
+        }
+    }
+
     /// Beyond the ends of an arc nothing is left but what happens there.
     #[test]
     fn points_that_rounding_has_beyond_a_turn_go() {

@@ -318,6 +318,10 @@ mod tests {
             contacts.accelerations(&mechanism, &state, &acceleration),
             [-8.8125 / 2.0, 9.3125 / 4.0, -3.0]
         );
+        // Multipliers of rows are over the lengths; a strut pushes.
+        contacts.holds = vec![true, true, false];
+        let held = Mechanism::for_motion(&contacts.held().unwrap(), system.reference_m()).unwrap();
+        assert_eq!(contacts.forces(&held, &[3.0, -5.0]), [6.0, 20.0, 0.0]);
         // Below the floor by less than what may be, and by more.
         for (part, held) in [(0.5, false), (2.0, true)] {
             let below = at(-0.25 - part * CLOSED * 6.0);
@@ -325,6 +329,31 @@ mod tests {
             contacts.holds = vec![true, true, false];
             assert_eq!(contacts.hold_negative(&below), held, "{part}");
             assert_eq!(contacts.holds[2], held);
+        }
+    }
+
+    /// With a cable of 2 m and a floor 1.8 m below its anchor: what begins closed is held, what is violated by more than
+    /// rounded digits is told with its size.
+    #[test]
+    fn violated_contacts_are_no_beginning() {
+        let joints = vec![Joint::anchor("A", [0.0, 0.0, 2.5]), Joint::free("P").with_mass(1.0)];
+        let members = vec![Member::cable(0, 1, Bar::homogeneous(2.0, 0.0).unwrap())];
+        let system = System::new("floor", 10.0, joints, members).unwrap().with_floor(0.7).unwrap();
+        let mut contacts = Contacts::of(&system).unwrap();
+        let anchor = [0.0, 0.0, 2.5];
+        for (place, holds) in [
+            ([0.0, 0.0, 1.0], [false, false]),
+            ([2.0 + 1e-6, 0.0, 2.5], [true, false]),
+            ([0.5, 0.0, 0.7 - 1e-6], [false, true]),
+        ] {
+            contacts.begin(&[anchor, place]).unwrap();
+            assert_eq!(contacts.holds, holds, "{place:?}");
+        }
+        // (2.1² - 2²) / (2 · 2²), and 0.1 of a whole length of 2.
+        for (place, wanted) in [([0.0, 2.1, 2.5], 0.05125), ([0.0, 0.5, 0.6], 0.05)] {
+            let told = contacts.begin(&[anchor, place]);
+            let Err(MotionError::NotClosed { off, .. }) = told else { panic!("{told:?}") };
+            assert!((off - wanted).abs() < 1e-14, "{off}");
         }
     }
 }

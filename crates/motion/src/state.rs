@@ -134,3 +134,32 @@ pub(crate) fn curvature(spans: impl Iterator<Item = [Vector; 2]> + Clone) -> f64
 pub(crate) fn half_excess(squared: f64, length: f64) -> f64 {
     0.5 * (squared - length * length) / (length * length)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use numerics::vector::add_times;
+
+    /// Spans that change evenly, alone and together: the differences of half the square of their length.
+    #[test]
+    fn rates_and_curvatures_are_differences_of_half_the_square() {
+        let spans = [
+            [[1.0, 2.0, -0.5], [0.3, -0.7, 1.1]],
+            [[-0.2, 0.6, 0.9], [1.9, 0.4, -0.15]],
+            [[0.35, -0.1, 0.05], [-0.6, 0.25, 0.8]],
+        ];
+        for count in 1..=spans.len() {
+            let spans = &spans[..count];
+            let half_square = |t: f64| {
+                let length: f64 = spans.iter().map(|[d, w]| norm(add_times(*d, t, *w))).sum();
+                0.5 * length * length
+            };
+            let [less, here, more] = [-1e-4, 0.0, 1e-4].map(half_square);
+            let rate = rate(spans.iter().copied());
+            assert!((rate - (more - less) / 2e-4).abs() < 1e-6, "{count}: {rate}");
+            let curvature = curvature(spans.iter().copied());
+            let wanted = (more - 2.0 * here + less) / 1e-8;
+            assert!((curvature - wanted).abs() < 1e-5, "{count}: {curvature} {wanted}");
+        }
+    }
+}

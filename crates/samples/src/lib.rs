@@ -19,7 +19,7 @@
 //! | of bars written down as numbers | [`chain`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system in other units, [`root`] what closed forms need.
+//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -46,6 +46,6 @@ pub use general::{General, Line};
 pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs, parsed};
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, ropes};
-pub use scaled::scaled;
+pub use scaled::{scaled, scaled_chain};
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

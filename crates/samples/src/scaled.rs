@@ -1,7 +1,30 @@
-//! The same system in other units.
+//! The same system or chain in other units.
 
 use model::system::{Joint, PointLoad, Support, System};
-use model::{Bar, Vector};
+use model::{Anchors, Bar, Chain, Problem, Vector};
+
+fn times(vector: Vector, factor: f64) -> Vector {
+    vector.map(|x| x * factor)
+}
+
+/// A chain with its lengths, masses and gravity times these factors, as [`scaled`]; without moments of inertia.
+///
+/// # Panics
+///
+/// Where the factors make no chain of it.
+#[must_use]
+pub fn scaled_chain(problem: &Problem, [length, mass, gravity]: [f64; 3]) -> Problem {
+    let chain = problem.chain();
+    let anchors = chain.anchors();
+    let anchors =
+        Anchors { start_m: times(anchors.start_m, length), end_m: times(anchors.end_m, length) };
+    let bars = chain.bars().iter().map(|bar| {
+        let (length_m, centre_m) = (bar.length_m() * length, bar.centre_m() * length);
+        Bar::new(length_m, bar.mass_kg() * mass, centre_m, [0.0; 3]).expect("a bar in other units")
+    });
+    let chain = Chain::new("scaled", chain.gravity_m_s2() * gravity, anchors, bars.collect());
+    Problem::new(chain.expect("a chain in other units")).expect("a problem in other units")
+}
 
 /// A system with its lengths, masses and gravity times these factors: where they are powers of two, not a digit
 /// of its answers changes but by them. So a number in some unit that is added to one in another is noticed,
@@ -25,7 +48,6 @@ use model::{Bar, Vector};
 pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
     let force = mass * gravity;
     let given = |within: f64| (within > 0.0).then_some(within);
-    let times = |vector: Vector, factor: f64| vector.map(|x| x * factor);
     let joints = system.joints().iter().map(|joint| {
         let mut support = joint.support;
         match &mut support {

@@ -524,4 +524,28 @@ mod tests {
         assert!(!number("bars.1-3.length_m").overlaps(&number("bars.4.length_m")));
         assert!(number("gravity_m_s2").overlaps(&number("gravity_m_s2")));
     }
+
+    /// Stretching bars, loads aside and floors make other systems of rows.
+    #[test]
+    fn rows_are_kept_by_what_stays_rigid_and_upright() {
+        for (text, keeps) in [
+            ("bars.1.length_m", true),
+            ("bars.*.mass_kg", true),
+            ("bars.A-P.count", true),
+            ("bars.1.stiffness_n", false),
+            ("bars.A-P.*.prestress_n", false),
+            ("bars.2.length_tolerance_m", false),
+            ("joints.P.mass_kg", true),
+            ("joints.P.force_n.x", false),
+            ("joints.P.force_n.y", false),
+            ("joints.P.force_n.z", true),
+            ("joints.P.at_m.x", true),
+            ("floor_m", false),
+            ("gravity_m_s2", true),
+            ("anchors.end_m.z", true),
+        ] {
+            let number = Number::parse(text, text.len()).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert_eq!(number.keeps_rows(), keeps, "{text}");
+        }
+    }
 }

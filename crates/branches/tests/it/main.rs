@@ -8,6 +8,7 @@ mod diagram;
 mod load;
 mod parameters;
 mod random_chains;
+mod scale;
 mod stops;
 mod systems;
 mod work;

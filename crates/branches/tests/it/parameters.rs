@@ -193,6 +193,30 @@ fn paths_reach_the_bars_of_a_system() {
     }
 }
 
+/// Loads of anchors would rest on the ground, and free joints have no place that a file names.
+#[test]
+fn numbers_that_a_joint_does_not_have_are_refused() {
+    let system = System::from(&paper());
+    let names: Vec<String> = system.joints().iter().map(|joint| joint.name.to_string()).collect();
+    for (joint, key, what) in [
+        (0, "mass_kg", "is an anchor"),
+        (3, "force_n.y", "is an anchor"),
+        (1, "at_m.x", "is free and has no `at_m`"),
+        (2, "mass_kg", ""),
+        (1, "force_n.z", ""),
+        (3, "at_m.y", ""),
+    ] {
+        let path = vary(&format!("joints.{}.{key}=0.5", names[joint]));
+        match Variation::new(system.clone(), &[path], Combine::Product) {
+            Ok(_) => assert_eq!(what, "", "{joint} {key}"),
+            Err(error) => {
+                let said = error.to_string();
+                assert!(!what.is_empty() && said.contains(what), "{joint} {key}: {said}");
+            }
+        }
+    }
+}
+
 /// The anchors of a chain as a system are its first and its last joint.
 #[test]
 fn the_anchors_of_a_row_of_joints_move() {

@@ -363,3 +363,33 @@ fn beside_strands(rods: &mut [Rod]) {
 fn stiffest_n(system: &System) -> Option<f64> {
     system.members().iter().filter_map(|member| member.stiffness_n).reduce(f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::Joint;
+
+    use super::*;
+
+    /// A bar and a strut beside the two strands of a rope, which have corners of their own; a bar elsewhere.
+    #[test]
+    fn what_keeps_the_ends_of_a_strand_apart_has_their_corner() {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [3.0, 0.0, 0.5]),
+            Joint::free("R").with_mass(2.0),
+            Joint::free("Q").with_mass(1.0),
+        ];
+        let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let members = vec![
+            Member::cable(0, 1, body(4.0)).over(vec![2]),
+            Member::bar(2, 0, body(2.0)),
+            Member::bar(1, 2, body(1.5)).of_kind(Kind::Strut),
+            Member::bar(2, 3, body(0.5)),
+        ];
+        let frame = Frame::new(&System::new("strands", 9.81, joints, members).unwrap()).unwrap();
+        let found: Vec<_> = frame.rods.iter().map(|rod| (rod.from, rod.to, rod.linear)).collect();
+        let wanted = [(0, 2, false), (2, 0, true), (1, 2, true), (2, 3, false), (2, 1, false)];
+        assert_eq!(found, wanted);
+    }
+}

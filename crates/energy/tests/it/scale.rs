@@ -1,13 +1,17 @@
 //! Lengths, masses and gravity times powers of two: not a digit of an answer changes.
 
+use energy::batch::{Batch, BatchSettings};
 use energy::network::{Settings, critical, minimise};
-use model::Vector;
+use energy::{Motion, minimise_from};
+use model::cases::Exhibit;
 use model::system::{Kind, System};
-use rand::SeedableRng;
+use model::{Ends, Evidence, Problem, Vector};
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use samples::scaled;
+use samples::{General, scaled, scaled_chain};
 
 use crate::network_random::{bridle, net, ring, tree};
+use crate::support::{random_seed, rng};
 
 /// Of lengths, masses and gravity.
 const FACTORS: [[f64; 3]; 3] = [[1024.0, 1.0, 1.0], [1.0, 0.0625, 1.0], [0.125, 64.0, 0.25]];
@@ -30,43 +34,130 @@ fn mixed(system: &System) -> System {
         .expect("a system")
 }
 
-#[test]
-fn systems_scale_without_rounding() {
-    let mut answers = 0;
+/// Random ones, those of the gallery, with ropes, and a frame whose lengths do not fit.
+fn systems() -> Vec<System> {
+    let mut all: Vec<System> = model::cases::systems().map(Exhibit::system).collect();
+    all.extend(samples::ropes().into_iter().map(|sample| sample.system));
+    all.push(samples::legs([1e-3, 2e-3, 3e-3, 4e-3]));
     for seed in 0..8_u32 {
         for (k, make) in
             [bridle, ring, tree, |rng: &mut ChaCha8Rng| net(rng, 0.6)].iter().enumerate()
         {
             let system = make(&mut ChaCha8Rng::seed_from_u64(4000 + u64::from(seed)));
-            let system =
-                if k.is_multiple_of(2) == seed.is_multiple_of(2) { mixed(&system) } else { system };
-            let one = minimise(&system, &Settings::default());
-            for factors in FACTORS {
-                let [length, mass, gravity] = factors;
-                let force = mass * gravity;
-                let other = scaled(&system, factors);
-                let there = minimise(&other, &Settings::default());
-                let (Ok(one), Ok(there)) = (&one, &there) else {
-                    assert_eq!(one.is_ok(), there.is_ok());
-                    continue;
-                };
-                answers += 1;
-                assert_eq!(one.work, there.work, "{seed} {k} {factors:?}");
-                assert_eq!(one.forces, there.forces);
-                let (one, there) = (&one.equilibrium, &there.equilibrium);
-                assert_eq!(times(&one.joints_m, length), there.joints_m);
-                assert_eq!(times(&one.reactions_n, force), there.reactions_n);
-                assert_eq!(times(&one.start_forces_n, force), there.start_forces_n);
-                let axial: Vec<f64> = one.axial_n.iter().map(|n| n * force).collect();
-                assert_eq!(axial, there.axial_n);
-                assert_eq!(one.stability, there.stability);
-                let energy = [one.energy_j * force * length, there.energy_j].map(f64::to_bits);
-                assert_eq!(energy[0], energy[1]);
-                let [a, b] = [(&system, one), (&other, there)]
-                    .map(|(system, found)| critical(system, &found.joints_m).unwrap());
-                assert_eq!(a, b);
+            let plain = k.is_multiple_of(2) != seed.is_multiple_of(2);
+            all.push(if plain { system } else { mixed(&system) });
+        }
+    }
+    all
+}
+
+#[test]
+fn systems_scale_without_rounding() {
+    let mut answers = 0;
+    for (k, system) in systems().iter().enumerate() {
+        let name = format!("{k} {}", system.name());
+        let one = minimise(system, &Settings::default());
+        for factors in FACTORS {
+            let [length, mass, gravity] = factors;
+            let force = mass * gravity;
+            let other = scaled(system, factors);
+            let there = minimise(&other, &Settings::default());
+            let (Ok(one), Ok(there)) = (&one, &there) else {
+                assert_eq!(one.is_ok(), there.is_ok(), "{name}");
+                continue;
+            };
+            answers += 1;
+            assert_eq!(one.work, there.work, "{name} {factors:?}");
+            assert_eq!(one.forces, there.forces, "{name}");
+            let (one, there) = (&one.equilibrium, &there.equilibrium);
+            assert_eq!(times(&one.joints_m, length), there.joints_m, "{name}");
+            assert_eq!(times(&one.reactions_n, force), there.reactions_n, "{name}");
+            assert_eq!(times(&one.start_forces_n, force), there.start_forces_n, "{name}");
+            let axial: Vec<f64> = one.axial_n.iter().map(|n| n * force).collect();
+            assert_eq!(axial, there.axial_n, "{name}");
+            assert_eq!(one.stability, there.stability, "{name}");
+            let energy = [one.energy_j * force * length, there.energy_j].map(f64::to_bits);
+            assert_eq!(energy[0], energy[1], "{name}");
+            let [a, b] = [(system, one), (&other, there)].map(|(system, found)| {
+                critical(system, &found.joints_m).map_err(|e| e.to_string())
+            });
+            assert_eq!(a.is_ok(), b.is_ok(), "{name}");
+            if let (Ok(a), Ok(b)) = (a, b) {
+                assert_eq!(a, b, "{name}");
             }
         }
     }
-    assert!(answers > 60, "{answers}");
+    assert!(answers > 150, "{answers}");
+}
+
+/// Chains of every shape, guessed, from a seed of their own, and in their plane.
+#[test]
+fn chains_scale_without_rounding() {
+    let mut answers = 0;
+    for seed in 0..110 {
+        let (_, base) = samples::random_chain(2_000 + seed);
+        let motion = if seed % 3 == 2 { Motion::Plane } else { Motion::Space };
+        let settings = energy::Settings { motion, ..energy::Settings::default() };
+        let start = random_seed(&base, &mut rng(seed));
+        let solved = |problem: &Problem| match seed % 3 {
+            0 => minimise_from(problem, &start, &settings),
+            _ => energy::minimise(problem, &settings),
+        };
+        let one = solved(&base);
+        for factors in FACTORS {
+            let [length, mass, gravity] = factors;
+            let force = mass * gravity;
+            let scaled = scaled_chain(&base, factors);
+            let there = solved(&scaled);
+            let (Ok(one), Ok(there)) = (&one, &there) else {
+                assert_eq!(one.as_ref().err(), there.as_ref().err());
+                continue;
+            };
+            answers += 1;
+            assert_eq!(one.work, there.work, "{seed} {factors:?}");
+            assert_eq!(one.directions, there.directions);
+            let (one, there) = (&one.equilibrium, &there.equilibrium);
+            assert_eq!(times(&one.joints_m, length), there.joints_m);
+            assert_eq!(times(&one.multipliers_n, force), there.multipliers_n);
+            let axial: Vec<f64> = one.axial_n.iter().map(|n| n * force).collect();
+            assert_eq!(axial, there.axial_n);
+            assert_eq!((one.energy_j * force * length).to_bits(), there.energy_j.to_bits());
+            let timeless = |evidence: &Evidence| Evidence { solve_s: 0.0, ..evidence.clone() };
+            assert_eq!(timeless(&one.evidence), timeless(&there.evidence));
+            assert_eq!(one.stability, there.stability);
+        }
+    }
+    assert!(answers > 300, "{answers}");
+}
+
+#[test]
+fn batches_scale_without_rounding() {
+    for bars in [2, 3, 6, 9, 16] {
+        let base = General::default().problem(&mut rng(90 + bars as u64), bars);
+        let mut random = rng(91);
+        let angles: Vec<f64> =
+            (0..24 * bars).map(|_| random.random_range(0.0..std::f64::consts::TAU)).collect();
+        let solved = |problem: &Problem| {
+            let mut ends = Ends::default();
+            let settings = BatchSettings { max_iterations: 60, ..BatchSettings::default() };
+            Batch::new(problem, settings).unwrap().minimise(&angles, &mut ends);
+            ends
+        };
+        let one = solved(&base);
+        for factors in FACTORS {
+            let [length, mass, gravity] = factors;
+            let other = solved(&scaled_chain(&base, factors));
+            let energy = one.energy_j.iter().map(|j| (j * mass * gravity * length).to_bits());
+            assert_eq!(
+                energy.collect::<Vec<_>>(),
+                other.energy_j.iter().map(|j| j.to_bits()).collect::<Vec<_>>()
+            );
+            let residual = [&one, &other]
+                .map(|ends| ends.residual.iter().map(|r| r.to_bits()).collect::<Vec<_>>());
+            assert_eq!(residual[0], residual[1]);
+            assert_eq!(one.finish, other.finish);
+            assert_eq!(one.iterations, other.iterations);
+            assert_eq!(one.directions, other.directions);
+        }
+    }
 }

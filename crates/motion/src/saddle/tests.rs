@@ -127,6 +127,19 @@ fn a_row_that_stands_twice_is_told() {
     assert_eq!(Sparse::new(&layout).factor(&vectors).unwrap_err().slot, 1);
 }
 
+/// A bar between joints in one place, a support without a normal.
+#[test]
+fn a_row_without_a_direction_is_told() {
+    let layout = tree();
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    for row in 0..layout.rows() {
+        let mut vectors: Vec<Vector> = (0..layout.rows()).map(|_| random(&mut rng)).collect();
+        vectors[row] = [0.0; 3];
+        assert!(Forest::new(&layout).factor(&vectors).is_err(), "{row}");
+        assert!(Sparse::new(&layout).factor(&vectors).is_err(), "{row}");
+    }
+}
+
 /// A chain between anchors whose bars lie on one line but for small angles.
 #[test]
 fn rows_that_nearly_depend_on_each_other_keep_their_digits() {

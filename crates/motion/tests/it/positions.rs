@@ -1,8 +1,8 @@
 //! Positions that meet the constraints.
 
 use model::Bar;
-use model::system::{Joint, Member, Support, System};
-use motion::{Settings, Simulation, random_position};
+use model::system::{Joint, Kind, Member, Support, System};
+use motion::{Settings, Simulation, random_places, random_position};
 
 use crate::common::paper;
 
@@ -74,4 +74,48 @@ fn joints_in_a_plane_begin_anywhere_in_it() {
         ways[usize::from(at[2] > 0.0)] += 1;
     }
     assert!(ways[0] > 3 && ways[1] > 3, "{ways:?}");
+}
+
+/// Before loops are closed: a rod at its length from an anchor, a cable and a strut slack by any part of theirs, the
+/// next joint in its plane.
+#[test]
+fn random_places_are_those_of_trees() {
+    let normal = [0.36, -0.48, 0.8];
+    let support = Support::Plane { at_m: [0.5, -0.25, 2.0], normal };
+    let start = [3.0, -1.0, 0.5];
+    let joints = vec![
+        Joint::anchor("A", start),
+        Joint::free("P").with_mass(1.0),
+        Joint::free("Q").with_mass(1.0),
+        Joint::free("R").with_mass(1.0),
+        Joint::free("S").with_mass(1.0).held_by(support),
+    ];
+    let body = |length_m| Bar::homogeneous(length_m, 0.1).unwrap();
+    let members = vec![
+        Member::bar(0, 1, body(0.7)),
+        Member::cable(0, 2, body(1.6)),
+        Member::bar(0, 3, body(2.5)).of_kind(Kind::Strut),
+        Member::bar(1, 4, body(0.4)),
+    ];
+    let system = System::new("tree", 9.81, joints, members).unwrap();
+    let mut slack = [Vec::new(), Vec::new()];
+    for seed in 0..200 {
+        let at = random_places(&system, seed);
+        let apart =
+            |joint: usize| (0..3).map(|k| (at[joint][k] - start[k]).powi(2)).sum::<f64>().sqrt();
+        assert!(at.len() == 5 && apart(0) <= 0.0 && (apart(1) - 0.7).abs() < 1e-14, "{at:?}");
+        let off: f64 = (0..3).map(|k| normal[k] * (at[4][k] - [0.5, -0.25, 2.0][k])).sum();
+        assert!(off.abs() < 1e-14, "{at:?}");
+        slack[0].push(apart(2) / 1.6);
+        slack[1].push(apart(3) / 2.5 - 1.0);
+    }
+    for slack in slack {
+        assert!(slack.iter().all(|part| (0.0..1.0).contains(part)), "{slack:?}");
+        let mean = slack.iter().sum::<f64>() / 200.0;
+        // Five standard deviations of the mean of 200 even parts.
+        assert!((mean - 0.5).abs() < 5.0 / (12.0 * 200.0_f64).sqrt(), "{mean}");
+        // Of 200 parts none is in a tenth at an end once in 10⁹ times.
+        let near = |end: f64| slack.iter().any(|part| (part - end).abs() < 0.1);
+        assert!(near(0.0) && near(1.0), "{slack:?}");
+    }
 }

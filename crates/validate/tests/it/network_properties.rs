@@ -1,6 +1,7 @@
 //! What must not matter to a system of mixed members, and what elastic ones tend to.
 
 use model::Bar;
+use model::cases::Exhibit;
 use model::system::{Member, PointLoad, System, SystemEquilibrium};
 use validate::Solvers;
 use validate::systems::ask;
@@ -106,10 +107,24 @@ fn numbers(found: &serde_json::Value, key: &str, units: [f64; 3], all: &mut Vec<
 /// they are from each other and from balance.
 #[test]
 fn answers_scale_without_rounding() {
-    for (system, _) in systems() {
+    assert_scaled(systems().into_iter().map(|(system, _)| system));
+}
+
+#[test]
+fn answers_of_ropes_scale_without_rounding() {
+    assert_scaled(samples::ropes().into_iter().map(|sample| sample.system));
+}
+
+#[test]
+fn answers_of_the_gallery_scale_without_rounding() {
+    assert_scaled(model::cases::systems().map(Exhibit::system));
+}
+
+fn assert_scaled(systems: impl Iterator<Item = System>) {
+    for system in systems {
         let found = |units: [f64; 3]| {
             let answer = ask(&samples::scaled(&system, units), Solvers::Both, &|_| {});
-            assert!(answer.agrees(), "{units:?}");
+            assert!(answer.agrees(), "{} {units:?}", system.name());
             let mut all = vec![];
             let equilibria = answer.equilibria.iter().map(|found| {
                 serde_json::json!({
@@ -127,9 +142,7 @@ fn answers_scale_without_rounding() {
         let one = found([1.0; 3]);
         assert!(one.len() > 100, "{}", one.len());
         for units in [[0.125, 1.0, 1.0], [1.0, 256.0, 0.5], [1024.0, 0.03125, 4.0]] {
-            for (one, other) in one.iter().zip(found(units)) {
-                assert_eq!(*one, other, "{} {units:?}", system.name());
-            }
+            assert_eq!(one, found(units), "{} {units:?}", system.name());
         }
     }
 }

@@ -66,3 +66,37 @@ fn sums_over_a_run_are_those_of_its_members() {
         - Matrix3::new(1.08, 0.0, 0.48, 0.0, 0.0, 0.0, 0.48, 0.0, 1.92) * (1.0 - ALONG);
     assert!((law.stiffness * compliance - Matrix3::identity()).norm() < 1e-13);
 }
+
+/// Two runs between the same anchors, one loaded: forces have a direction where they are more than a millionth of the
+/// largest of their run, and more than 1e-9 of the largest of all.
+#[test]
+fn forces_are_clear_in_their_run_and_in_the_whole() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("C", [1.1, 0.0, 0.0]),
+        Joint::free("B").with_mass(1.0),
+        Joint::free("E"),
+    ];
+    let bar = Bar::homogeneous(1.0, 0.0).unwrap();
+    let members = [(0, 2), (2, 1), (0, 3), (3, 1)].map(|(a, b)| Member::bar(a, b, bar));
+    let framework = Framework::new(&System::new("two", 9.81, joints, members.to_vec()).unwrap());
+    let runs = Runs::new(&framework).unwrap();
+    let load = -framework.nodes[2].load.z;
+    let loaded = runs.steps[runs.elements[0].steps.clone()].iter().any(|step| step.member < 2);
+    for (heavy, light, clear) in [
+        // The first member of the loaded run pulls with so much of the load, the unloaded run with so much.
+        (0.5, 1e-3, true),
+        (0.5, 1e-8, true),
+        (0.5, 1e-10, false),
+        (1e-5, 1e-3, true),
+        (1e-7, 1e-3, false),
+    ] {
+        let [heavy, light] = [heavy, light].map(|part| Vector3::new(0.0, 0.0, -part * load));
+        let start = Start {
+            places: runs.nodes.iter().map(|node| node.base).collect(),
+            pulls: if loaded { vec![heavy, light] } else { vec![light, heavy] },
+            factorisations: 0,
+        };
+        assert_eq!(Shape::new(&framework, &runs, start).clear(), clear, "{heavy} {light}");
+    }
+}

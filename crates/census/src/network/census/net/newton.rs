@@ -109,3 +109,31 @@ pub(in crate::network::census) fn step(
         whole.iter().zip(off).map(|(part, off)| part.intersect(Interval::point(part.mid()) + off));
     Some(Newton { left: narrowed.collect(), single })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Boxes of width 2 and 1: a zero may be 1.5 and 0.75 outside; what is proved reaches an eighth further.
+    #[test]
+    fn a_zero_may_be_three_quarters_of_its_box_outside() {
+        let at = [Interval::new(1.0, 3.0), Interval::new(-2.0, -1.0)];
+        for (zero, widths) in [
+            ([2.0, -1.5], Some([2.0, 1.0])),
+            ([4.4, -1.5], Some([3.4, 1.0])),
+            ([-0.4, -1.5], Some([3.4, 1.0])),
+            ([2.0, -0.3], Some([2.0, 1.7])),
+            ([2.0, -2.7], Some([2.0, 1.7])),
+            ([4.6, -1.5], None),
+            ([-0.6, -1.5], None),
+            ([2.0, -0.2], None),
+            ([2.0, -2.8], None),
+        ] {
+            let found = around(&at, &zero).map(|found| [0, 1].map(|k| found[k].width()));
+            assert_eq!(found.is_some(), widths.is_some(), "{zero:?}");
+            for (found, width) in found.into_iter().flatten().zip(widths.into_iter().flatten()) {
+                assert!((found - 1.25 * width).abs() < 1e-8, "{zero:?}: {found}");
+            }
+        }
+    }
+}
