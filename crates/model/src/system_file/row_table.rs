@@ -74,6 +74,8 @@ impl<'t> RowTable<'t> {
 impl Rows for RowTable<'_> {
     fn names(&mut self, names: &[&str]) -> bool {
         let Known { columns, needed } = self.known;
+        // An empty file has one name, which is empty.
+        let names = if *names == [""] { &[] } else { names };
         for (k, name) in names.iter().enumerate() {
             let here = Some((k, (*name).to_owned()));
             match columns.iter().position(|known| known == name) {

@@ -29,8 +29,8 @@ fn check(text: &str, message: &str, marked: &str) {
 
 #[test]
 fn headers_that_are_wrong() {
-    check("", "b:1:1: unknown key ``", "");
-    check("\n\n", "b:1:1: unknown key ``", "");
+    check("", "b:1:1: the key `length_m` is missing", "");
+    check("\n\n", "b:1:1: the key `length_m` is missing", "");
     check("length_m\n1\n", "b:1:1: the key `mass_kg` is missing", "length_m");
     check("mass_kg , x\n", "b:1:11: x: unknown key `x`", "x");
     check("length_m,mass_kg,\n1,1,\n", "b:1:18: unknown key ``", "");
