@@ -184,7 +184,9 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         agreement = Some(one);
         failures.clear();
         near = drawing_m.map(|at| Near::of(system, at, &equilibria[0]));
-        asked_again.push(solver);
+        if !asked_again.contains(&solver) {
+            asked_again.push(solver);
+        }
     }
     if census == UseCensus::Never {
         for answer in &mut equilibria {
