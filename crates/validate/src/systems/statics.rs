@@ -12,13 +12,19 @@
 //! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is
 //! slack.
 
+mod units;
+
+use std::collections::BTreeMap;
+
 use model::system::{Kind, Member, Row, Support, System, SystemEquilibrium};
 use model::{Equilibrium, Place, Problem, Sum, Vector, sum};
 use serde::Serialize;
 
+pub(crate) use self::units::STORED_ULPS;
+pub(super) use self::units::rounding_m;
+use self::units::{BORNE, Local, Units};
 use super::family::Family;
 use super::floor::{push_n, rising};
-use super::free::free_joints;
 use super::scale::{MOST_FORCE, MOST_ROUNDING, Scale, stored_n};
 use super::spans::{self, span_forces};
 use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
@@ -59,54 +65,9 @@ pub struct SystemStatics {
     pub worst: Place,
 }
 
-/// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded
-/// when it is stored, and two of them are subtracted.
-pub(crate) const STORED_ULPS: f64 = 8.0;
-
-/// Forces left over are measured by the forces that they are left from, but by no more than this
-/// times what acts there. With the budget of 1e-11 the balance of every joint holds to 1e-9 of what
-/// acts on it, whatever its members bear.
-const BORNE: f64 = 100.0;
-
 /// A joint's balance is measured by no less than this times what acts there: one that bears nothing is
 /// out of balance by the rounding of the loads elsewhere, which is a part of no force of its own.
 const IDLE: f64 = 1e-2;
-
-/// What the violations of one answer are measured by.
-struct Units {
-    /// Rounding of a coordinate or length, m.
-    rounding_m: f64,
-    /// Rounding of the largest force, N.
-    rounding_n: f64,
-    /// Rounding of the energy, J.
-    rounding_j: f64,
-    /// Size of the system, m.
-    size_m: f64,
-    /// Largest force on a member or of the ground, N.
-    largest_n: f64,
-    /// What acts at each joint, N.
-    acts_n: Vec<f64>,
-    /// Sum of the forces at each joint, N.
-    meet_n: Vec<f64>,
-    /// All loads together, N.
-    load_n: f64,
-    /// What acts on the whole, N.
-    total_n: f64,
-    /// Joints on which and on whose members nothing acts: see [`free_joints`].
-    free: Vec<bool>,
-}
-
-/// What a force left over somewhere is measured by.
-#[derive(Clone, Copy)]
-#[expect(clippy::struct_field_names, reason = "the unit of each")]
-struct Local {
-    /// What rounding explains of it, N.
-    rounding_n: f64,
-    /// The most that it is measured by, N.
-    most_n: f64,
-    /// The least that it is measured by, N: what acts on the whole where nothing acts there.
-    least_n: f64,
-}
 
 impl SystemStatics {
     /// Nothing is violated.
@@ -195,90 +156,6 @@ pub fn judge_chain(problem: &Problem, found: &Equilibrium) -> SystemStatics {
     }
     let answer = Row::from(problem).equilibrium(found.clone());
     judge(&System::from(problem.chain()), &answer)
-}
-
-/// Rounding of the coordinates of an answer and of the lengths, m.
-pub(super) fn rounding_m(system: &System, answer: &SystemEquilibrium) -> f64 {
-    let coordinates = answer.joints_m.iter().flatten();
-    let far_m = coordinates.fold(0.0, |most: f64, x| worse(most, x.abs()));
-    let longest_m = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
-    STORED_ULPS * f64::EPSILON * far_m.max(longest_m)
-}
-
-impl Units {
-    fn new(system: &System, answer: &SystemEquilibrium, scale: Scale) -> Self {
-        let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
-        let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
-        let mut meet_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
-        for (k, member) in system.members().iter().enumerate() {
-            for (joints, forces) in span_forces(member, k, answer) {
-                for (joint, force) in joints.into_iter().zip(forces) {
-                    meet_n[joint] += norm(force);
-                }
-            }
-        }
-        for (meet_n, acts_n) in meet_n.iter_mut().zip(&scale.joint_n) {
-            *meet_n = worse(*meet_n, *acts_n);
-        }
-        Self {
-            rounding_m: rounding_m(system, answer),
-            rounding_n: STORED_ULPS * f64::EPSILON * largest_n,
-            rounding_j: scale.stored_j,
-            size_m: scale.size_m,
-            largest_n,
-            load_n: scale.load_n,
-            total_n: if scale.total_n > 0.0 { scale.total_n } else { f64::INFINITY },
-            acts_n: scale.joint_n,
-            meet_n,
-            // Without loads the prestress of springs acts everywhere.
-            free: if scale.load_n > 0.0 {
-                free_joints(system, std::slice::from_ref(answer))
-            } else {
-                vec![]
-            },
-        }
-    }
-
-    /// What a force left over at some joints, or between them, is measured by.
-    fn at(&self, joints: &[usize]) -> Local {
-        self.along(joints, 0.0)
-    }
-
-    /// The same where forces follow directions of stored places, which rounding turns by `turned_n`.
-    fn along(&self, joints: &[usize], turned_n: f64) -> Local {
-        let most = |of: &[f64]| joints.iter().filter_map(|k| of.get(*k)).copied().reduce(worse);
-        let acts_n = most(&self.acts_n).unwrap_or(f64::INFINITY);
-        let meet_n = most(&self.meet_n).unwrap_or(f64::INFINITY);
-        // Small forces in a long row are differences of what acts on all of it.
-        let whole_n = if self.total_n.is_finite() { self.total_n } else { 0.0 };
-        let rounding_n = STORED_ULPS * f64::EPSILON * worse(meet_n, whole_n);
-        let rounding_n = rounding_n.min(self.rounding_n) + turned_n;
-        let rounding_n = rounding_n.min(MOST_ROUNDING * acts_n);
-        // Members that bear nothing have no size of their own.
-        let idle = joints.iter().any(|k| self.free.get(*k) == Some(&true));
-        let least_n = if idle { whole_n } else { 0.0 };
-        Local { rounding_n, most_n: worse(BORNE * acts_n, least_n), least_n }
-    }
-
-    /// How far the rounding of stored places turns the pull along a span, N.
-    fn turned_n(&self, pull_n: f64, [a, b]: [usize; 2], answer: &SystemEquilibrium) -> f64 {
-        let span_m = norm(minus(answer.joints_m[b], answer.joints_m[a]));
-        pull_n * (self.rounding_m / span_m.max(self.rounding_m))
-    }
-}
-
-impl Local {
-    /// What of a force left over rounding does not explain, in units of the largest of the forces
-    /// that it is left from.
-    fn part(&self, left_n: f64, largest_n: f64) -> f64 {
-        let excess = beyond(left_n, self.rounding_n);
-        // No forces, and none left over.
-        if excess <= 0.0 { 0.0 } else { excess / self.unit_n(largest_n) }
-    }
-
-    fn unit_n(&self, largest_n: f64) -> f64 {
-        if largest_n.is_nan() { largest_n } else { largest_n.max(self.least_n).min(self.most_n) }
-    }
 }
 
 /// The distance of the ends of each member, and by how much too much of a misfit that no other shape
@@ -466,20 +343,22 @@ fn joint_balances(
         })
         .collect();
     // Along the spans of a rope the forces are those of the stored places.
-    let mut turned_n = vec![0.0; joints.len()];
+    let mut turned_n: BTreeMap<usize, f64> = BTreeMap::new();
     for (k, member) in system.members().iter().enumerate() {
         for (joints, forces) in span_forces(member, k, answer) {
             for (joint, force) in joints.into_iter().zip(forces) {
                 left[joint] = minus(left[joint], force);
                 unit_n[joint] = worse(unit_n[joint], norm(force));
                 if member.rope.is_some() {
-                    turned_n[joint] += units.turned_n(norm(force), joints, answer);
+                    *turned_n.entry(joint).or_default() +=
+                        units.turned_n(norm(force), joints, answer);
                 }
             }
         }
     }
-    let all = left.into_iter().zip(unit_n).zip(turned_n).enumerate();
-    all.map(move |(k, ((left, unit_n), turned_n))| {
+    let all = left.into_iter().zip(unit_n).enumerate();
+    all.map(move |(k, (left, unit_n))| {
+        let turned_n = turned_n.get(&k).copied().unwrap_or_default();
         // Where nothing acts anywhere there is no size but that of the forces.
         let acts_n = units.acts_n.get(k).copied().filter(|acts_n| acts_n.is_finite());
         let least_n = IDLE * acts_n.unwrap_or_default();
