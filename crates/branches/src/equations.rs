@@ -1,5 +1,6 @@
 //! The equations of equilibrium along a path, with derivatives.
 
+use matrices::dense::complement;
 use nalgebra::{DMatrix, DVector};
 
 use crate::path::{Path, PlanarChain};
@@ -130,8 +131,8 @@ pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     let n = path.bars();
     let j = jacobian(path, &path.plane(y[n + 3]), y);
     let by_unknowns = j.view((0, 0), (n + 3, n + 3)).into_owned();
-    let Some(left) = by_unknowns.svd(true, false).u else { return f64::INFINITY };
-    let psi = left.column(n + 2);
+    let left = complement(&by_unknowns, n + 2);
+    let psi = left.column(0);
     let slope = psi.dot(&j.view((0, n + 3), (n + 3, 1)).column(0));
     let rounding = ROUNDING * psi.iter().map(|part| part.abs()).sum::<f64>();
     // Twice: of two folds that touch, the slope falls to nothing on the way.

@@ -60,9 +60,9 @@ impl Sag {
     }
 }
 
-/// The larger of two, of equal ones the first.
+/// The larger of two; of those that are equal to rounding the first.
 fn deeper(a: Sag, b: Sag) -> Sag {
-    if b.depth_m > a.depth_m { b } else { a }
+    if b.depth_m > a.depth_m + LEVEL * a.depth_m.abs() { b } else { a }
 }
 
 /// Whether the support of a joint takes an upright force.

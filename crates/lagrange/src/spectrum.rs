@@ -1,5 +1,6 @@
 //! Singular values of the Jacobian: how singular the system is at a solution.
 
+use matrices::dense::singular_values;
 use model::Chain;
 use nalgebra::{DMatrix, DVector};
 
@@ -11,9 +12,6 @@ use crate::stability::neutral_motions;
 use crate::step::Matrix;
 use crate::system::jacobian_of;
 use crate::thresholds::ZERO_SINGULAR_VALUE;
-
-/// Steps of the iteration behind a singular value decomposition, per row; a few are usual.
-const SVD_STEPS: usize = 100;
 
 /// Up to this number of bars the full Jacobian is decomposed, above the reduced one, which has the same
 /// nullity and is smaller, ...
@@ -69,15 +67,14 @@ pub fn spectrum(
         if row % PER_BAR < 3 { value / units.length } else { *value }
     };
     let q = DVector::from_iterator(q.len(), q.iter().enumerate().map(scale));
-    Spectrum::of(jacobian_of(&Mechanism::scaled(chain, units), &q, &(lambda / units.weight)))
+    Spectrum::of(&jacobian_of(&Mechanism::scaled(chain, units), &q, &(lambda / units.weight)))
 }
 
 impl Spectrum {
-    fn of(jacobian: DMatrix<f64>) -> Result<Self, SolveError> {
+    fn of(jacobian: &DMatrix<f64>) -> Result<Self, SolveError> {
         let size = jacobian.nrows();
-        let svd = jacobian.try_svd(false, false, f64::EPSILON, SVD_STEPS * size);
-        let singular_values = svd.ok_or(SolveError::Spectrum { size })?.singular_values;
-        let singular_values: Vec<f64> = singular_values.iter().copied().collect();
+        let found = singular_values(jacobian);
+        let singular_values = found.ok_or(SolveError::Spectrum { size })?;
         let largest = singular_values.first().copied().unwrap_or(0.0);
         let regular =
             singular_values.iter().filter(|value| **value > ZERO_SINGULAR_VALUE * largest).count();
@@ -97,7 +94,7 @@ impl Spectrum {
             jacobian.fixed_view_mut::<3, 3>(angles, at).copy_from(&columns);
             jacobian.fixed_view_mut::<3, 3>(at, angles).copy_from(&columns.transpose());
         }
-        Self::of(jacobian)
+        Self::of(&jacobian)
     }
 
     /// Nullity by geometry and condition by estimate, without any singular value: for chains so

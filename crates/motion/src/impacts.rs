@@ -42,7 +42,7 @@ const MOST_ATTEMPTS: usize = 100;
 /// rounding of zero.
 const NOTHING: f64 = 1e-12;
 
-/// Speeds and accelerations of gaps that are less than this, in units of the largest of joints, are
+/// Speeds and accelerations of gaps that are less than this, in units of the largest of joints or of their free fall, are
 /// what the velocities and constraints of a step leave.
 const STILL: f64 = 1e-10;
 
@@ -187,7 +187,7 @@ impl Simulation {
         }
         let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
         let push = push.unwrap_or(&nothing);
-        let before = self.state.velocity.clone();
+        let (before, speed) = (self.state.velocity.clone(), self.state.largest_speed());
         // One goes or comes at a time: each choice of what bears is seen once if the impulses are
         // determined at all.
         for _ in 0..=4 * held.len() {
@@ -201,7 +201,8 @@ impl Simulation {
             let pushed = self.stepper.push(&self.mechanism, &mut self.state, push);
             pushed.map_err(|failure| at_the_beginning(&self.mechanism, failure))?;
             let rates = contacts.rates(&self.mechanism, &self.state);
-            let least = -NOTHING * self.state.largest_speed();
+            // What an impact stops is left with the rounding of its speed.
+            let least = -NOTHING * speed.max(self.state.largest_speed());
             let back = (0..held.len())
                 .filter(|&k| closed(k) && !contacts.holds[k] && rates[k] < least)
                 .min_by(|&i, &j| rates[i].total_cmp(&rates[j]));
@@ -234,6 +235,9 @@ impl Simulation {
         let rates = contacts.rates(&self.mechanism, &self.state);
         let (gap, rate) = if in_turn { (HARDLY_OPEN, HARDLY_MOVES) } else { (CLOSED, STILL) };
         let still = rate * self.state.largest_speed();
+        let fall = self.mechanism.load.iter().zip(&self.mechanism.mass);
+        let fall = fall.filter(|(_, mass)| **mass > 0.0).map(|(load, mass)| norm(*load) / mass);
+        let fall = fall.fold(0.0, f64::max);
         let stays = |k: usize| gaps[k] <= gap && rates[k].abs() <= still;
         let closed: Vec<bool> = (0..gaps.len()).map(|k| contacts.holds[k] || stays(k)).collect();
         for _ in 0..=4 * closed.len() {
@@ -250,7 +254,8 @@ impl Simulation {
                 self.hold(contacts)?;
                 continue;
             }
-            let largest = acceleration.iter().map(|a| norm(*a)).fold(0.0, worse);
+            // What is held still has the rounding of its free fall.
+            let largest = acceleration.iter().map(|a| norm(*a)).fold(fall, worse);
             let opening = contacts.accelerations(&self.mechanism, &self.state, &acceleration);
             let back = (0..closed.len())
                 .filter(|&k| closed[k] && !contacts.holds[k] && opening[k] < -STILL * largest)

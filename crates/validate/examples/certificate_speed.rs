@@ -27,9 +27,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
+use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
 use model::{Bar, Evidence, InSpace, SolverName, Vector, sum};
 use validate::systems::certify;
@@ -86,31 +84,36 @@ fn places(plan: &Plan, densities: &[f64], loads_n: &[f64]) -> Result<Vec<Vector>
             size += 1;
         }
     }
-    let mut right = Mat::<f64>::zeros(size, 3);
+    let mut right = vec![0.0; 3 * size];
     let mut entries = Vec::new();
     for (joint, load_n) in loads_n.iter().enumerate().filter(|(joint, _)| rows[*joint] < size) {
-        right[(rows[joint], 2)] -= load_n;
+        right[2 * size + rows[joint]] -= load_n;
     }
     for (&(from, to), density) in plan.members.iter().zip(densities) {
         for (here, there) in [(from, to), (to, from)] {
             if rows[here] < size {
-                entries.push(Triplet::new(rows[here], rows[here], *density));
+                entries.push((rows[here], rows[here], *density));
                 if let Some(at_m) = plan.held[there] {
                     for (axis, x) in at_m.iter().enumerate() {
-                        right[(rows[here], axis)] += density * x;
+                        right[axis * size + rows[here]] += density * x;
                     }
                 }
             }
         }
         let (a, b) = (rows[from], rows[to]);
         if a < size && b < size {
-            entries.push(Triplet::new(a.max(b), a.min(b), -density));
+            entries.push((a.max(b), a.min(b), -density));
         }
     }
-    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries)?;
-    let solution = matrix.sp_cholesky(Side::Lower)?.solve(&right);
+    let matrix = Entries::new(size, &entries);
+    let order = minimum_degree(&matrix.starts, &matrix.rows).ok_or("no order")?;
+    let mut factor = Ldlt::new(&matrix.starts, &matrix.rows, &order).ok_or("no memory")?;
+    if !factor.factorise(&matrix.values, Pivots::Positive) {
+        return Err("not positive definite".into());
+    }
+    factor.solve(&mut right);
     let place = |(row, held): (&usize, &Option<Vector>)| {
-        held.unwrap_or_else(|| std::array::from_fn(|axis| solution[(*row, axis)]))
+        held.unwrap_or_else(|| std::array::from_fn(|axis| right[axis * size + *row]))
     };
     Ok(rows.iter().zip(&plan.held).map(place).collect())
 }

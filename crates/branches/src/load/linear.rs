@@ -7,6 +7,7 @@
 //!
 //! The largest positive eigenvalue $1/t$ of this operator is found in a Krylov space (Arnoldi).
 
+use matrices::dense::complement;
 use nalgebra::{DMatrix, DVector};
 
 use super::bordered::Row;
@@ -115,8 +116,7 @@ fn largest(small: &DMatrix<f64>) -> Option<f64> {
         .map(|value| value.re)
         .fold(None, |m: Option<f64>, x| Some(m.map_or(x, |m| m.max(x))))?;
     let shifted = &square - DMatrix::identity(size, size) * value;
-    let svd = shifted.svd(false, true);
-    let vector = svd.v_t?.row(size - 1).transpose();
+    let vector = complement(&shifted.transpose(), size - 1);
     let left = small[(size, size - 1)] * vector[size - 1].abs();
     (left <= CONVERGED * value).then_some(value)
 }

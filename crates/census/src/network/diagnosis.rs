@@ -1,7 +1,8 @@
 //! Why there is no box: what double precision says of the derivative. No proof.
 
-use faer::Mat;
+use matrices::dense::singular_values;
 use model::NoBox;
+use nalgebra::DMatrix;
 use numerics::Interval;
 
 use super::equations::Equations;
@@ -21,7 +22,7 @@ pub(super) fn diagnosed(equations: &Equations, at: &[f64], failure: NoBox) -> No
         .map(|acting| acting.force)
         .collect();
     let moving = equations.joints.iter().map(|joint| joint.axes.len()).sum();
-    let mut rigidity = Mat::zeros(rigid.len(), moving);
+    let mut rigidity = DMatrix::zeros(rigid.len(), moving);
     for (row, column, value) in &entries {
         if let (Ok(row), true) = (rigid.binary_search(row), *column < moving) {
             rigidity[(row, *column)] += value.mid();
@@ -37,8 +38,8 @@ pub(super) fn diagnosed(equations: &Equations, at: &[f64], failure: NoBox) -> No
 }
 
 /// How many rows depend on others, if some do.
-fn deficiency(matrix: &Mat<f64>) -> Option<usize> {
-    let values = matrix.singular_values().ok()?;
+fn deficiency(matrix: &DMatrix<f64>) -> Option<usize> {
+    let values = singular_values(matrix)?;
     let largest = values.iter().copied().fold(0.0, f64::max);
     let rank = values.iter().filter(|value| **value > RANK * largest).count();
     matrix.nrows().checked_sub(rank).filter(|missing| *missing > 0)

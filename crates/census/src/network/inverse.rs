@@ -45,9 +45,9 @@ pub(super) struct Defect {
 impl Inverse {
     /// Of the middle of a matrix, if double precision has one.
     pub(super) fn of(size: usize, entries: &[Entry]) -> Option<Self> {
-        use faer::linalg::solvers::DenseSolveCore;
-        let inverse = dense(size, entries).transpose().partial_piv_lu().inverse();
-        let rows: Vec<f64> = (0..size * size).map(|k| inverse[(k % size, k / size)]).collect();
+        // Of the transpose by columns, which are the rows of the inverse.
+        let inverse = dense(size, entries).transpose().lu().try_inverse()?;
+        let rows = inverse.as_slice().to_vec();
         rows.iter().all(|x| x.is_finite()).then_some(Self { size, rows })
     }
 

@@ -1,8 +1,8 @@
 //! Newton's method on the equations, in double precision: from an answer to the zero next to it. No
 //! proof.
 
-use faer::Mat;
 use model::NoBox;
+use nalgebra::DMatrix;
 use numerics::Interval;
 
 use super::equations::{Entry, Equations};
@@ -69,8 +69,8 @@ pub(super) fn refine_within(
 }
 
 /// The middle of a matrix of intervals.
-pub(super) fn dense(size: usize, entries: &[Entry]) -> Mat<f64> {
-    let mut matrix = Mat::zeros(size, size);
+pub(super) fn dense(size: usize, entries: &[Entry]) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(size, size);
     for (row, column, value) in entries {
         matrix[(*row, *column)] += value.mid();
     }

@@ -1,10 +1,9 @@
 //! Ropes and cables beside bars and struts: lists against closed forms, scans of one variable, and Newton's method
 //! on equations written here.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, NoCensus, Vector};
+use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -406,7 +405,7 @@ impl<'a> Acting<'a> {
             if here.iter().all(|x| x.abs() < 1e-11) {
                 return Some(at);
             }
-            let mut slope = Mat::<f64>::zeros(n, n);
+            let mut slope = DMatrix::zeros(n, n);
             for column in 0..n {
                 let (mut more, mut less) = (at.clone(), at.clone());
                 more[column] += 1e-6;
@@ -416,13 +415,13 @@ impl<'a> Acting<'a> {
                     slope[(row, column)] = (more[row] - less[row]) / 2e-6;
                 }
             }
-            let step = slope.partial_piv_lu().solve(Mat::from_fn(n, 1, |row, _| here[row]));
-            let far = (0..n).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);
+            let step = slope.lu().solve(&DVector::from_vec(here))?;
+            let far = (0..n).map(|k| step[k].abs()).fold(0.0, f64::max);
             if !far.is_finite() {
                 return None;
             }
             let part = (STEP / far).min(1.0);
-            (0..n).for_each(|k| at[k] -= part * step[(k, 0)]);
+            (0..n).for_each(|k| at[k] -= part * step[k]);
         }
         None
     }

@@ -1,9 +1,8 @@
 //! Lists of equilibria of nets against closed forms, topology, and Newton's method.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, NoCensus, Reason, Status, Vector};
+use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -187,27 +186,26 @@ impl<'a> Newton<'a> {
         self.moving.iter().position(|k| *k == joint).map(|k| 3 * k)
     }
 
-    fn equations(&self) -> (Mat<f64>, Mat<f64>) {
+    fn equations(&self) -> (DMatrix<f64>, DVector<f64>) {
         let first = 3 * self.moving.len();
         let size = first + self.densities.len();
-        let (mut slope, mut value) = (Mat::<f64>::zeros(size, size), Mat::<f64>::zeros(size, 1));
+        let (mut slope, mut value) = (DMatrix::zeros(size, size), DVector::zeros(size));
         for (k, joint) in self.moving.iter().enumerate() {
             let joint = &self.system.joints()[*joint];
             for (i, force) in joint.force_n.into_iter().enumerate() {
-                value[(3 * k + i, 0)] = force;
+                value[3 * k + i] = force;
             }
-            value[(3 * k + 2, 0)] -= joint.mass_kg * G;
+            value[3 * k + 2] -= joint.mass_kg * G;
         }
         for (e, member) in self.system.members().iter().enumerate() {
             let (a, b, w) = (member.from, member.to, self.densities[e]);
             let span: Vector = std::array::from_fn(|i| self.places[b][i] - self.places[a][i]);
             let length = member.body.length_m();
-            value[(first + e, 0)] =
-                0.5 * (span.iter().map(|x| x * x).sum::<f64>() - length * length);
+            value[first + e] = 0.5 * (span.iter().map(|x| x * x).sum::<f64>() - length * length);
             for (here, there, sign) in [(a, b, 1.0), (b, a, -1.0)] {
                 let Some(row) = self.row(here) else { continue };
                 for i in 0..3 {
-                    value[(row + i, 0)] += sign * w * span[i];
+                    value[row + i] += sign * w * span[i];
                     slope[(row + i, row + i)] -= w;
                     slope[(row + i, first + e)] += sign * span[i];
                     slope[(first + e, row + i)] -= sign * span[i];
@@ -224,13 +222,13 @@ impl<'a> Newton<'a> {
     fn run(mut self) -> Option<Vec<Vector>> {
         for _ in 0..60 {
             let (slope, value) = self.equations();
-            let step = slope.partial_piv_lu().solve(&value);
+            let step = slope.lu().solve(&value)?;
             let first = 3 * self.moving.len();
-            let far = (0..first).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);
+            let far = (0..first).map(|k| step[k].abs()).fold(0.0, f64::max);
             if !far.is_finite() {
                 return None;
             }
-            if value.norm_max() < 1e-12 {
+            if value.amax() < 1e-12 {
                 return Some(self.places);
             }
             let part = (1.0 / far).min(1.0);

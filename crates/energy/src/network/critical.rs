@@ -4,8 +4,10 @@
 //! Elastic members bear what their lengths say. The forces of the others, and the pushes of the
 //! floor, are the multipliers of their lengths: those that leave least of the gradient.
 
+use matrices::dense::least_squares;
 use model::Vector;
 use model::system::{Kind, System};
+use nalgebra::DVector;
 
 use crate::network::error::Error;
 use crate::network::factor::Factor;
@@ -119,17 +121,11 @@ fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
     for _ in 0..ROUNDS {
         shape.force.clone_from(&elastic);
         let gradient = frame.gradient(|e| scaled(elastic[e], excess[e].gradient));
-        let Ok(svd) = rows(frame, &excess, &taut).svd() else { return };
-        let most = svd.S().column_vector().iter().copied().fold(0.0, f64::max);
-        for k in 0..svd.S().column_vector().nrows() {
-            let size = svd.S()[k];
-            if size <= ZERO * most {
-                continue;
-            }
-            let part: f64 = (0..gradient.len()).map(|row| svd.V()[(row, k)] * gradient[row]).sum();
-            for (row, e) in taut.iter().enumerate() {
-                shape.force[*e] -= svd.U()[(row, k)] * part / size;
-            }
+        let balance = rows(frame, &excess, &taut).transpose();
+        let gradient = DVector::from_vec(gradient);
+        let Some(forces) = least_squares(&balance, &-gradient, ZERO) else { return };
+        for (e, force) in taut.iter().zip(&forces) {
+            shape.force[*e] += force;
         }
         frame.spread(&mut shape.force);
         let zero = MET * largest(&shape.force);

@@ -2,17 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::amd;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
-    SymmetricOrdering, factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use matrices::sparse::{Ldlt, Pivots, minimum_degree};
 use model::Vector;
 
 use crate::network::error::Error;
@@ -70,31 +60,21 @@ impl Block {
     }
 }
 
-/// Which factorisation is at hand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kept {
-    Nothing,
-    Cholesky,
-    Signed,
-}
-
 /// A symmetric matrix with a block for each joint and each pair of joints that a member connects,
 /// and its factorisation.
 ///
 /// The order of elimination is one of joints (approximate minimum degree): trees and chains are
 /// eliminated without fill-in, plane nets of *n* joints in about `n^1.5` operations.
 pub(super) struct Factor {
-    pattern: SymbolicSparseColMat<usize>,
-    symbolic: SymbolicCholesky<usize>,
+    /// Where each column of the lower triangle starts.
+    starts: Vec<usize>,
     /// For each member the joint that comes first in the matrix, the other one, and how many rows
     /// of the first one's columns stand between the diagonal block and theirs; nothing for a
     /// support that is fixed.
     pairs: Vec<Option<(usize, usize, usize)>>,
     ties: Vec<Tie>,
     values: Vec<f64>,
-    lower: Vec<f64>,
-    memory: MemBuffer,
-    kept: Kept,
+    ldlt: Ldlt,
     meter: Meter,
     /// Factorisations made.
     pub(super) count: u64,
@@ -130,23 +110,13 @@ fn order(spots: &[Spot], columns: &[Vec<usize>]) -> Result<Vec<usize>, Error> {
         rows.extend(columns[j].iter().map(|&i| number[i]));
         starts.push(rows.len());
     }
-    let n = moving.len();
-    let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
-    let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<usize>(n, rows.len()));
-    let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-    amd::order_maybe_unsorted(
-        &mut forward,
-        &mut inverse,
-        pattern.as_ref(),
-        amd::Control::default(),
-        MemStack::new(&mut memory),
-    )
-    .map_err(|_| Error::Memory { coordinates: n })?;
+    let order =
+        minimum_degree(&starts, &rows).ok_or(Error::Memory { coordinates: moving.len() })?;
     let coordinates = |k: usize| {
         let spot = spots[moving[k]];
         spot.first..spot.first + spot.freedom
     };
-    Ok(forward.into_iter().flat_map(coordinates).collect())
+    Ok(order.into_iter().flat_map(coordinates).collect())
 }
 
 /// The lower triangle's pattern, column by column.
@@ -168,23 +138,10 @@ impl Factor {
     /// Choose the order of elimination and find the pattern of the factor.
     pub(super) fn new(spots: &[Spot], rods: &[Rod], meter: &Meter) -> Result<Self, Error> {
         let columns = neighbours(spots, rods);
-        let forward = order(spots, &columns)?;
-        let n = forward.len();
-        let out_of_memory = || Error::Memory { coordinates: n };
-        let mut inverse = vec![0; n];
-        for (k, &p) in forward.iter().enumerate() {
-            inverse[p] = k;
-        }
+        let order = order(spots, &columns)?;
         let (starts, rows) = lower_pattern(spots, &columns);
-        let entries = rows.len();
-        let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-        let symbolic = factorize_symbolic_cholesky(
-            pattern.as_ref(),
-            Side::Lower,
-            SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| out_of_memory())?;
+        let ldlt =
+            Ldlt::new(&starts, &rows, &order).ok_or(Error::Memory { coordinates: order.len() })?;
         let place = |(a, b): (usize, usize)| {
             let (first, second) = (a.min(b), a.max(b));
             let column = &columns[first];
@@ -198,28 +155,14 @@ impl Factor {
             Tie { pairs: couples(&joints).map(place).collect(), strands, joints }
         };
         let ties = strands(rods).into_iter().map(tie).collect();
-        let scratch = StackReq::any_of(&[
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
-            symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default()),
-            symbolic.solve_in_place_scratch::<f64>(3, Par::Seq),
-        ]);
-        Ok(Self {
-            pairs: pairs.collect(),
-            ties,
-            values: vec![0.0; entries],
-            lower: vec![0.0; symbolic.len_val()],
-            memory: MemBuffer::try_new(scratch).map_err(|_| out_of_memory())?,
-            pattern,
-            symbolic,
-            kept: Kept::Nothing,
-            meter: meter.clone(),
-            count: 0,
-        })
+        let values = vec![0.0; rows.len()];
+        let meter = meter.clone();
+        Ok(Self { starts, pairs: pairs.collect(), ties, values, ldlt, meter, count: 0 })
     }
 
     /// Size of the matrix.
     pub(super) fn size(&self) -> usize {
-        self.symbolic.nrows()
+        self.ldlt.size()
     }
 
     /// Put the matrix together: the block of each member on the difference of its ends, and
@@ -231,7 +174,7 @@ impl Factor {
         block: impl Fn(usize) -> Block,
         shift: impl Fn(usize) -> f64,
     ) {
-        let starts = self.pattern.col_ptr();
+        let starts = &self.starts;
         self.values.fill(0.0);
         for (j, spot) in spots.iter().enumerate() {
             for k in 0..spot.freedom {
@@ -293,95 +236,25 @@ impl Factor {
 
     /// Whether there is work left for a factorisation; without it the last one stays.
     fn may(&mut self) -> bool {
-        let may = self.meter.take(self.lower.len());
+        let may = self.meter.take(self.ldlt.entries());
         self.count += u64::from(may);
         may
     }
 
-    /// Cholesky's factorisation of the matrix; whether the matrix is positive definite, as far as the
-    /// work allows to tell.
-    pub(super) fn cholesky(&mut self) -> bool {
-        if !self.may() {
-            return false;
-        }
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
-        let done = self.symbolic.factorize_numeric_llt(
-            &mut self.lower,
-            matrix,
-            Side::Lower,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        // A pivot that is no number passes for a positive one; whatever is none ends up in a later
-        // pivot.
-        let definite = done.is_ok() && self.pivots().iter().all(|value| value.is_finite());
-        self.kept = if definite { Kept::Cholesky } else { Kept::Nothing };
-        definite
+    /// Factorise the matrix; whether it is positive definite, as far as the work allows to tell.
+    pub(super) fn definite(&mut self) -> bool {
+        self.may() && self.ldlt.factorise(&self.values, Pivots::Positive)
     }
 
-    /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of
-    /// negative eigenvalues. Nothing where a pivot vanishes, or no work is left.
+    /// Factorise the matrix and count the negative pivots: by Sylvester's law of inertia that is
+    /// the number of negative eigenvalues. Nothing where a pivot vanishes, or no work is left.
     pub(super) fn negative_pivots(&mut self) -> Option<usize> {
-        if !self.may() {
-            return None;
-        }
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
-        let done = self.symbolic.factorize_numeric_ldlt(
-            &mut self.lower,
-            matrix,
-            Side::Lower,
-            LdltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        self.kept = Kept::Nothing;
-        if done.is_err() {
-            return None;
-        }
-        let pivots = self.pivots();
-        if !pivots.iter().all(|value| value.is_finite()) {
-            return None;
-        }
-        self.kept = Kept::Signed;
-        Some(pivots.into_iter().filter(|pivot| *pivot < 0.0).count())
-    }
-
-    /// The diagonal of the factor.
-    fn pivots(&self) -> Vec<f64> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(simplicial) => {
-                let starts = simplicial.col_ptr();
-                (0..self.size()).map(|k| self.lower[starts[k]]).collect()
-            }
-            SymbolicCholeskyRaw::Supernodal(supernodal) => {
-                let factor = SupernodalLdltRef::<usize, f64>::new(supernodal, &self.lower);
-                let diagonal = |s| {
-                    let values = factor.supernode(s).val();
-                    (0..values.ncols()).map(move |k| values[(k, k)])
-                };
-                (0..supernodal.n_supernodes()).flat_map(diagonal).collect()
-            }
-        }
+        let done = self.may() && self.ldlt.factorise(&self.values, Pivots::Signed);
+        done.then(|| self.ldlt.pivots().iter().filter(|pivot| **pivot < 0.0).count())
     }
 
     /// Solve with the factorisation made last, one right side after the other.
-    pub(super) fn solve(&mut self, right: &mut [f64]) {
-        let n = self.size();
-        if n == 0 {
-            return;
-        }
-        let columns = right.len() / n;
-        let right = MatMut::from_column_major_slice_mut(right, n, columns);
-        let stack = MemStack::new(&mut self.memory);
-        match self.kept {
-            Kept::Cholesky => LltRef::<usize, f64>::new(&self.symbolic, &self.lower)
-                .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
-            Kept::Signed => LdltRef::<usize, f64>::new(&self.symbolic, &self.lower)
-                .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
-            Kept::Nothing => unreachable!("no factorisation to solve with"),
-        }
+    pub(super) fn solve(&self, right: &mut [f64]) {
+        self.ldlt.solve(right);
     }
 }

@@ -141,7 +141,7 @@ impl Interior {
             |e: usize| shape.force[e] / (slack[e] + frame.rods[e].flexibility * shape.force[e]);
         let block = |e: usize| excess[e].block(shape.force[e], stiffness(e));
         frame.fill(&mut self.factor, block, |joint| SHIFT * sizes[joint]);
-        if !self.factor.cholesky() {
+        if !self.factor.definite() {
             return None;
         }
         let zero = vec![0.0; frame.rods.len()];

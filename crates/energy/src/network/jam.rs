@@ -5,9 +5,10 @@
 //! pull with no more than their tensions balance that. Along, with both joints as one, it is an energy like any
 //! other, and that is minimised.
 
-use faer::Mat;
+use matrices::dense::least_squares;
 use model::system::{Joined, System};
 use model::{Jam, Vector};
+use nalgebra::{DMatrix, DVector};
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, end_loads_n, free_axes, loads_n};
@@ -183,29 +184,20 @@ fn shared(
     let level: Vec<(&Tip, Vector)> =
         tips.iter().flat_map(|tip| tip.level().into_iter().map(move |axis| (tip, axis))).collect();
     let (rows, columns) = (level.len(), 3 * spans.len());
-    let balance = Mat::from_fn(rows, columns, |row, column| {
+    let balance = DMatrix::from_fn(rows, columns, |row, column| {
         let (tip, axis) = level[row];
         let [a, b] = spans[column / 3].2;
         let sign = f64::from(u8::from(a == tip.joint)) - f64::from(u8::from(b == tip.joint));
         sign * root(column / 3) * axis[column % 3]
     });
-    let wanted = Mat::from_fn(rows, 1, |row, _| -dot(level[row].0.force, level[row].1));
-    let mut parts = Mat::<f64>::zeros(columns, 1);
-    if rows > 0 && columns > 0 {
-        let svd = balance.svd().ok()?;
-        let largest = svd.S()[0];
-        for k in (0..rows.min(columns)).filter(|k| svd.S()[*k] > ZERO * largest) {
-            let (u, v) = (svd.U().col(k), svd.V().col(k));
-            let part = u.transpose() * wanted.col(0) / svd.S()[k];
-            (0..columns).for_each(|row| parts[(row, 0)] += part * v[row]);
-        }
-    }
-    let off = &balance * &parts - &wanted;
-    if (0..rows).any(|row| off[(row, 0)].abs() > most) {
+    let wanted = level.iter().map(|(tip, axis)| -dot(tip.force, *axis));
+    let wanted = DVector::from_iterator(rows, wanted);
+    let parts = least_squares(&balance, &wanted, ZERO)?;
+    if (&balance * &parts - &wanted).iter().any(|off| off.abs() > most) {
         return None;
     }
     let jam = |(k, (member, span, joints)): (usize, &(usize, usize, [usize; 2]))| {
-        let pull_n = std::array::from_fn(|axis| root(k) * parts[(3 * k + axis, 0)]);
+        let pull_n = std::array::from_fn(|axis| root(k) * parts[3 * k + axis]);
         let holds = norm(pull_n) <= axial_n[*member];
         holds.then_some((Jam { member: *member, span: *span, pull_n }, *joints))
     };

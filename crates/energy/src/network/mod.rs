@@ -31,7 +31,7 @@
 //!
 //! All four use one matrix: a block for every joint and for every pair of joints that a member
 //! connects, symmetric and positive definite wherever it is used, with no rows for the multipliers.
-//! It is eliminated with the joints in an order of least fill-in by faer: O(n) for chains and
+//! It is eliminated with the joints in an order of little fill-in: O(n) for chains and
 //! trees, about `n^1.5` for plane nets. The alternative, a matrix with a row for each multiplier,
 //! is indefinite, a third larger for nets, and its factorisation must count signs; here positive
 //! definite means stable.

@@ -45,7 +45,7 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape
     };
     let ridge = RIDGE * stiffest.max(rigid);
     frame.fill(factor, |e| excess[e].block(0.0, stiffness(e)), |_| ridge);
-    if !factor.cholesky() {
+    if !factor.definite() {
         return drawn.clone();
     }
     let mut moves = frame.gradient(|e| scaled(strained(e), excess[e].gradient));

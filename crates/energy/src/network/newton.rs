@@ -193,7 +193,7 @@ impl Newton {
         let sizes = self.frame.sizes(|e| local.soft[e].force.abs().max(typical));
         let block = |e: usize| local.excess[e].block(local.soft[e].force, local.soft[e].stiffness);
         self.frame.fill(&mut self.factor, block, |joint| shift * sizes[joint]);
-        self.factor.cholesky()
+        self.factor.definite()
     }
 
     /// Rounding of the augmented Lagrangian.

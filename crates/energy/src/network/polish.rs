@@ -195,7 +195,7 @@ impl Newton {
         frame.fill(&mut self.factor, block, |joint| {
             neutral * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
         });
-        self.factor.cholesky()
+        self.factor.definite()
     }
 
     /// One step with the factorisation at hand.

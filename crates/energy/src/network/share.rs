@@ -85,7 +85,7 @@ impl Share {
             |e| blocks[e],
             |joint| softness * if sizes[joint] > 0.0 { sizes[joint] } else { 1.0 },
         );
-        self.factor.cholesky()
+        self.factor.definite()
     }
 
     /// Stiffness of a member's spring.

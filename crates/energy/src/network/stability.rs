@@ -5,8 +5,9 @@
 //! derivative in that basis. Large ones: the signs of the pivots of the sparse matrix with stiff
 //! springs for the lengths.
 
-use faer::{Mat, Side};
+use matrices::dense::{Kernels, eigenvalues};
 use model::{Rigidity, Vector};
+use nalgebra::DMatrix;
 
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Spot};
@@ -180,15 +181,15 @@ pub(super) fn below(
     let sizes = frame.sizes(|_| force);
     frame.fill(factor, block, |joint| shift * sizes[joint]);
     // The rule, and the cheaper factorisation.
-    if factor.cholesky() {
+    if factor.definite() {
         return 0;
     }
     factor.negative_pivots().unwrap_or(0)
 }
 
 /// The derivatives of the lengths of some members by the coordinates, a row each.
-pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> Mat<f64> {
-    let mut rows = Mat::<f64>::zeros(taut.len(), frame.freedom);
+pub(super) fn rows(frame: &Frame, excess: &[Excess], taut: &[usize]) -> DMatrix<f64> {
+    let mut rows = DMatrix::<f64>::zeros(taut.len(), frame.freedom);
     for (row, e) in taut.iter().enumerate() {
         let strands = match frame.rods[*e].rope {
             0 => std::slice::from_ref(e),
@@ -223,11 +224,11 @@ pub(super) struct Count {
 /// Dense matrices at an equilibrium.
 pub(super) struct Dense {
     /// The second derivative on the motions that keep the lengths.
-    hessian: Mat<f64>,
+    hessian: DMatrix<f64>,
     /// Size of the second derivative.
     size: f64,
     /// Basis of the self-stresses by rows, one column for each inextensible member that resists.
-    stresses: Mat<f64>,
+    stresses: DMatrix<f64>,
     /// Those members.
     taut: Vec<usize>,
     rigidity: Rigidity,
@@ -247,7 +248,7 @@ impl Dense {
         let (springs, taut): (Vec<usize>, Vec<usize>) =
             (0..frame.rods.len()).filter(once).partition(|&e| frame.rods[e].elastic());
         let rigidity = rows(frame, &excess, &taut);
-        let mut hessian = Mat::<f64>::zeros(n, n);
+        let mut hessian = DMatrix::<f64>::zeros(n, n);
         for (e, rod) in frame.rods.iter().enumerate() {
             let elastic = rod.elastic() && rod.rope == 0 && resists(frame, shape, e);
             let block =
@@ -266,7 +267,7 @@ impl Dense {
         }
         let springs: Vec<usize> = springs.into_iter().filter(|e| frame.rods[*e].rope > 0).collect();
         let stretch = rows(frame, &excess, &springs);
-        let stiff = Mat::from_fn(springs.len(), n, |row, column| {
+        let stiff = DMatrix::from_fn(springs.len(), n, |row, column| {
             stretch[(row, column)] / frame.rods[springs[row]].flexibility
         });
         hessian += stretch.transpose() * stiff;
@@ -285,7 +286,7 @@ impl Dense {
         if self.hessian.nrows() == 0 {
             return none;
         }
-        let Ok(values) = self.hessian.self_adjoint_eigenvalues(Side::Lower) else { return none };
+        let Some(values) = eigenvalues(&self.hessian) else { return none };
         let zero = ZERO * largest(&values).max(self.size);
         let others = values.iter().map(|value| value.abs()).filter(|value| *value > zero);
         let smallest = others.fold(f64::INFINITY, f64::min);
@@ -302,9 +303,9 @@ impl Dense {
         let stresses = self.stresses.ncols();
         // What keeps joints above the floor stands behind the members.
         let members = self.taut.partition_point(|e| *e < frame.members);
-        let mut basis = self.stresses.subrows(0, members).to_owned();
+        let mut basis = self.stresses.rows(0, members).into_owned();
         if members < self.taut.len() && stresses > 0 {
-            basis = basis.qr().compute_thin_Q();
+            basis = basis.qr().q();
         }
         let stress = |k| {
             let mut stress = vec![0.0; frame.members];
@@ -318,26 +319,15 @@ impl Dense {
 }
 
 /// Orthonormal bases of the motions that keep the lengths and of the self-stresses.
-fn kernels(rigidity: &Mat<f64>, zero: f64) -> (Mat<f64>, Mat<f64>, Rigidity) {
+fn kernels(rigidity: &DMatrix<f64>, zero: f64) -> (DMatrix<f64>, DMatrix<f64>, Rigidity) {
     let (m, n) = (rigidity.nrows(), rigidity.ncols());
     let unsolved =
         |rank| Rigidity { rank, self_stresses: m - rank, mechanisms: n - rank, gap: [1.0, 0.0] };
-    if m == 0 || n == 0 {
-        return (Mat::identity(n, n), Mat::identity(m, m), unsolved(0));
-    }
-    let Ok(svd) = rigidity.svd() else {
-        return (Mat::identity(n, n), Mat::zeros(m, 0), unsolved(0));
+    let Some(found) = Kernels::new(rigidity, zero) else {
+        return (DMatrix::identity(n, n), DMatrix::zeros(m, 0), unsolved(0));
     };
-    let values: Vec<f64> = (0..m.min(n)).map(|k| svd.S()[k]).collect();
-    let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let rank = values.iter().filter(|value| **value > zero * most).count();
-    let gap = [
-        if rank > 0 { values[rank - 1] / most } else { 1.0 },
-        values.get(rank).map_or(0.0, |value| value / most),
-    ];
-    let motions = svd.V().get(.., rank..).to_owned();
-    let stresses = svd.U().get(.., rank..).to_owned();
-    (motions, stresses, Rigidity { gap, ..unsolved(rank) })
+    let counted = Rigidity { gap: found.gap, ..unsolved(found.rank) };
+    (found.right, found.left, counted)
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl Densities {
         let block = |e: usize| Block { isotropic: density[e], ..Block::default() };
         for shift in [0.0, RIDGE] {
             self.factor.fill(&self.spots, &frame.rods, block, |joint| shift * sizes[joint]);
-            if self.factor.cholesky() {
+            if self.factor.definite() {
                 return Ok(self.solve(frame, density));
             }
         }

@@ -101,7 +101,7 @@ pub(super) fn settled(
     }
     let neutral = NEUTRAL * frame.largest_force(&shape.force);
     frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
-    if !factor.cholesky() {
+    if !factor.definite() {
         return Settled::as_is(frame, shape);
     }
     for _ in 0..STEPS {

@@ -1,7 +1,7 @@
 //! The condition of the second derivative, against eigenvalues of dense matrices.
 
 use energy::{Seed, Settings, minimise, second_order};
-use faer::{Mat, Side};
+use nalgebra::DMatrix;
 use samples::General;
 
 use crate::support::rng;
@@ -28,11 +28,11 @@ fn smallest(force: &[f64], mut rows: Vec<Vec<f64>>) -> f64 {
         f64::from(u8::from(i == k)) - rows.iter().map(|row| row[i] * row[k]).sum::<f64>()
     };
     // P diag(N) P, with the kernel of P moved far up.
-    let matrix = Mat::from_fn(n, n, |i, k| {
+    let matrix = DMatrix::from_fn(n, n, |i, k| {
         let inside: f64 = (0..n).map(|j| away(i, j) * force[j] * away(j, k)).sum();
         inside + 10.0 * most * rows.iter().map(|row| row[i] * row[k]).sum::<f64>()
     });
-    matrix.self_adjoint_eigenvalues(Side::Lower).expect("converges")[0]
+    matrix.symmetric_eigenvalues().min()
 }
 
 /// In the metric `sum l_i |du_i|²` the second derivative is the axial force of each bar, for the

@@ -4,9 +4,10 @@
 //! `FRAMES=520 cargo test --release -p energy --test it overdetermined` tries more of them.
 
 use energy::network::{Error, Settings, Solution, minimise, minimise_from};
-use faer::Mat;
+use matrices::dense::{Kernels, least_squares};
 use model::system::{Joint, Kind, Support, System};
 use model::{ForceChoice, Vector};
+use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -48,7 +49,7 @@ fn loads(system: &System) -> Vec<Vector> {
 /// rows, over the square root of the length, and the loads less what elastic members bear.
 struct Oracle {
     rigid: Vec<usize>,
-    rows: Mat<f64>,
+    rows: DMatrix<f64>,
     right: Vec<f64>,
     load: f64,
 }
@@ -70,7 +71,7 @@ impl Oracle {
         let rigid: Vec<usize> = (0..system.members().len())
             .filter(|&e| system.members()[e].stiffness_n.is_none())
             .collect();
-        let mut rows = Mat::zeros(rigid.len(), n);
+        let mut rows = DMatrix::zeros(rigid.len(), n);
         let mut right = vec![0.0; n];
         for (joint, first) in first.iter().enumerate() {
             for k in 0..3 {
@@ -115,22 +116,14 @@ impl Oracle {
 
     /// Forces with the least `sum t² l`, the condition, and the number of self-stresses.
     fn forces(&self, system: &System) -> (Vec<f64>, f64, usize) {
-        let svd = self.rows.svd().expect("singular values");
-        let values: Vec<f64> =
-            (0..self.rows.nrows().min(self.rows.ncols())).map(|k| svd.S()[k]).collect();
-        let rank = values.iter().filter(|value| **value > RANK * values[0]).count();
-        let mut forces = vec![0.0; self.rigid.len()];
-        for (k, value) in values.iter().enumerate().take(rank) {
-            let part: f64 =
-                (0..self.right.len()).map(|j| svd.V()[(j, k)] * self.right[j]).sum::<f64>() / value;
-            for (row, force) in forces.iter_mut().enumerate() {
-                *force += part * svd.U()[(row, k)];
-            }
-        }
+        let kernels = Kernels::new(&self.rows, RANK).expect("singular values");
+        let right = DVector::from_vec(self.right.clone());
+        let forces = least_squares(&self.rows.transpose(), &right, RANK).expect("a solution");
+        let mut forces = forces.as_slice().to_vec();
         for (force, &e) in forces.iter_mut().zip(&self.rigid) {
             *force /= system.members()[e].body.length_m().sqrt();
         }
-        (forces, values[0] / values[rank - 1], self.rigid.len() - rank)
+        (forces, kernels.gap[0].recip(), self.rigid.len() - kernels.rank)
     }
 }
 

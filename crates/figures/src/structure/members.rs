@@ -123,12 +123,14 @@ fn grained(line: [[f64; 2]; 2], seen: &mut BTreeSet<[[i32; 2]; 2]>) -> Option<[[
     fresh.then(|| cells.map(|point| point.map(|x| f64::from(x) * GRAIN)))
 }
 
-/// The forces beside the members, the largest first.
+/// The forces beside the members, the largest first; of those that are equal to rounding the first in the file.
 pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labels: &mut Labels) {
     /// Between the member and its label, px.
     const BESIDE: f64 = 4.0;
     /// Least length of a member with a label, px.
     const LEAST: f64 = 20.0;
+    /// What is equal to this part of the largest force.
+    const ROUNDED: f64 = 1e9;
     if scene.detail < 1.0 {
         return;
     }
@@ -138,7 +140,9 @@ pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, la
         .filter(|m| !m.unlabelled)
         .filter_map(|m| Some((m.axial_n?, m)))
         .collect();
-    known.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+    let largest = known.iter().map(|(force, _)| force.abs()).fold(0.0, f64::max);
+    let size = |force: f64| (ROUNDED * force.abs() / largest).round();
+    known.sort_by(|a, b| size(b.0).total_cmp(&size(a.0)));
     for (force, &Member { joints, used, .. }) in known {
         if labels.full() {
             return;

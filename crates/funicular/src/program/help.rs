@@ -3,8 +3,9 @@
 use std::ffi::OsString;
 use std::io::Write as _;
 
+use clap::builder::Resettable;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Command, CommandFactory, FromArgMatches};
+use clap::{Command, CommandFactory, FromArgMatches, Id};
 
 use crate::args::Cli;
 use crate::exit::Exit;
@@ -62,8 +63,19 @@ pub fn parse() -> Result<Cli, Exit> {
         return Err(Exit::BadInput);
     }
     let command = with_chapters(grouped(Cli::command()));
-    let matches = command.try_get_matches_from(asked()).map_err(|error| explained(&error))?;
+    let matches =
+        command.clone().try_get_matches_from(asked()).map_err(|error| explained(&error))?;
+    // An option may need one that another option excludes: clap then asks for it no longer.
+    let needs = without_conflicts(command).try_get_matches_from(asked());
+    needs.map_err(|error| explained(&error))?;
     Cli::from_arg_matches(&matches).map_err(|error| explained(&error))
+}
+
+/// The commands, with options that exclude none.
+fn without_conflicts(command: Command) -> Command {
+    command
+        .mut_args(|arg| arg.conflicts_with(Resettable::<Id>::Reset))
+        .mut_subcommands(without_conflicts)
 }
 
 /// The words of the command line. The help of the file format is its page, as it stands: clap would wrap it.
@@ -133,7 +145,9 @@ fn explained(error: &clap::Error) -> Exit {
         say(&format!("\n{meant}"));
     }
     let missing = match error.get(ContextKind::InvalidArg) {
-        Some(ContextValue::Strings(names)) => names.iter().any(|name| name.contains("FILE")),
+        Some(ContextValue::Strings(names)) => {
+            names.iter().any(|name| name.contains("FILE") && !name.starts_with('-'))
+        }
         _ => false,
     };
     if error.kind() == ErrorKind::MissingRequiredArgument && missing {

@@ -87,6 +87,32 @@ fn threads_are_capped_wherever_they_are_asked_for() {
     good(".", &["census", "--case", "two-bars", "--threads", "0"]);
 }
 
+/// Options that need one which another of the options excludes: the parser of the command line forgets
+/// such a need.
+#[test]
+fn options_without_what_they_need_are_refused() {
+    let simulate = ["simulate", "--case", "two-bars", "--from", "rest"];
+    for row in [&["--json"][..], &["--resume"], &["--seed", "2"], &["--format", "parquet"]] {
+        refused(".", &simulate, &[(row, "--seeds <N>")]);
+    }
+    let random = ["--monte-carlo", "10"];
+    let solve = ["solve", "--case", "two-bars"];
+    for row in [&["--summary"][..], &["--evidence"], &["--svg", "x.svg"], &["--load-case", "x"]] {
+        refused(".", &solve, &[(&[row, &random[..]].concat(), "not provided: --tolerances")]);
+    }
+    refused(
+        ".",
+        &["solve"],
+        &[
+            (&["--case", "two-bars", "--seed", "2"], "--monte-carlo <N>"),
+            (&["--batch", "-", "--view", "top"], "--svg <FILE>"),
+            (&["--case", "two-bars", "--columns", "--csv", "x.csv"], "not provided: --json"),
+        ],
+    );
+    let sensitivity = ["derivatives", "--case", "two-bars", "--by", "bars.length_m"];
+    refused(".", &sensitivity, &[(&["--csv", "x.csv"], "--of <NUMBER>")]);
+}
+
 #[test]
 fn every_command_has_a_manual_page() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");

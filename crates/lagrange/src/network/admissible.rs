@@ -6,6 +6,7 @@
 //! unknowns that are not negative: with $E = [G\ h]^T$ and $f = (0, \dots, 0, 1)$ the residual $r =
 //! f - E u$ of the best $u \ge 0$ has $z = -r_z/r_h$ (Lawson and Hanson 1974, chapter 23).
 
+use matrices::dense::least_squares;
 use nalgebra::{DMatrix, DVector};
 
 /// Exchanges of the least squares, in units of the conditions.
@@ -43,7 +44,7 @@ fn not_negative(e: &DMatrix<f64>, f: &DVector<f64>) -> Option<DVector<f64>> {
         };
         open.push(next);
         while !open.is_empty() {
-            let best = e.select_columns(&open).svd(true, true).solve(f, ROUNDING).ok()?;
+            let best = least_squares(&e.select_columns(&open), f, ROUNDING)?;
             // As far towards the best as nothing gets negative.
             let ways = open.iter().zip(best.iter()).filter(|(_, b)| **b <= 0.0);
             let way = ways.map(|(k, b)| u[*k] / (u[*k] - b)).fold(1.0, f64::min);

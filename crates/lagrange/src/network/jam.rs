@@ -5,6 +5,7 @@
 //! spans bear as $T s$. It is an equilibrium if that is no more than the tension. Where several spans may bear
 //! it, it is shared with the least $\sum T |s|^2$.
 
+use matrices::dense::least_squares;
 use model::Jam;
 use model::system::{Joined, System};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -153,11 +154,7 @@ fn pulls(
         let sign = f64::from(u8::from(link.from == at)) - f64::from(u8::from(link.to == at));
         sign * weights[column / 3] * along[column % 3]
     });
-    let parts = if rows.is_empty() || spans.is_empty() {
-        DVector::zeros(3 * spans.len())
-    } else {
-        balance.clone().svd(true, true).solve(&wanted, ROUNDING * balance.amax()).ok()?
-    };
+    let parts = least_squares(&balance, &wanted, ROUNDING)?;
     let off = (&balance * &parts - wanted).amax();
     let pull = |(k, weight): (usize, &f64)| {
         Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight

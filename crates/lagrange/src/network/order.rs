@@ -5,9 +5,7 @@
 //! ordered by minimum degree among themselves: 2.2 against 3.4 million entries at 100, 11.8 against
 //! 16.6 at 200).
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
+use matrices::sparse::minimum_degree;
 
 use super::framework::Framework;
 use super::stiffness::couples;
@@ -28,12 +26,9 @@ pub(super) fn by_degree(framework: &Framework) -> Option<Vec<usize>> {
         rows.extend_from_slice(list);
         columns.push(rows.len());
     }
-    let graph = SymbolicSparseColMatRef::new_checked(joints, joints, &columns, None, &rows);
-    let (mut order, mut rank) = (vec![0; joints], vec![0; joints]);
-    let scratch = amd::order_maybe_unsorted_scratch::<usize>(joints, rows.len());
-    let mut memory = MemBuffer::try_new(scratch).ok()?;
-    let stack = MemStack::new(&mut memory);
-    let control = amd::Control::default();
-    amd::order_maybe_unsorted(&mut order, &mut rank, graph, control, stack).ok()?;
+    let mut rank = vec![0; joints];
+    for (place, joint) in minimum_degree(&columns, &rows)?.into_iter().enumerate() {
+        rank[joint] = place;
+    }
     Some(rank)
 }

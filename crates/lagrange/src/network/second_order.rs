@@ -5,9 +5,9 @@
 //! transpose (self-stresses). The energy's second derivative among such motions is
 //! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
 
-use faer::{Mat, Side};
+use matrices::dense::{Kernels, eigen, eigenvalues};
 use model::system::Kind;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::decided::SHARP;
 use super::directions::Directions;
@@ -161,8 +161,8 @@ fn gradients(
     links: &[Link],
     first_unknown: &[usize],
     members: &[usize],
-) -> Mat<f64> {
-    let mut rows = Mat::<f64>::zeros(members.len(), framework.freedoms());
+) -> DMatrix<f64> {
+    let mut rows = DMatrix::<f64>::zeros(members.len(), framework.freedoms());
     for (row, &member) in members.iter().enumerate() {
         let spans = framework.rope(&framework.links[member]).map(|rope| rope.spans.as_slice());
         for &k in spans.unwrap_or(&[member]) {
@@ -189,8 +189,14 @@ impl Dense {
         let rigid: Vec<usize> =
             members.filter(|&k| links[k].taut && links[k].along.is_none()).collect();
         let rows = gradients(framework, &links, &first_unknown, &rigid);
-        let Kernels { motions, stresses, gap: rank_gap } = kernels(&rows);
-        let mut hessian = Mat::<f64>::zeros(size, size);
+        // A decomposition that fails says nothing: every direction counts as one that is free, and neutral.
+        let kernels = Kernels::new(&rows, SHARP);
+        let rank_gap = kernels.as_ref().map_or([1.0, 0.0], |kernels| kernels.gap);
+        let (motions, stresses) = kernels.map_or_else(
+            || (DMatrix::identity(size, size), DMatrix::zeros(rigid.len(), 0)),
+            |kernels| (kernels.right, kernels.left),
+        );
+        let mut hessian = DMatrix::<f64>::zeros(size, size);
         let is_rope = |k: usize| framework.links[k].rope.is_some();
         for (k, link) in links.iter().enumerate() {
             let along = link.along.filter(|_| link.taut && !is_rope(k)).unwrap_or(0.0);
@@ -206,7 +212,7 @@ impl Dense {
         let springs: Vec<usize> =
             springs.into_iter().filter(|k| links[*k].taut && links[*k].along.is_some()).collect();
         let ropes = gradients(framework, &links, &first_unknown, &springs);
-        let stiffness = Mat::from_fn(springs.len(), size, |row, column| {
+        let stiffness = DMatrix::from_fn(springs.len(), size, |row, column| {
             links[springs[row]].along.unwrap_or(0.0) * ropes[(row, column)]
         });
         hessian += ropes.transpose() * stiffness;
@@ -214,7 +220,8 @@ impl Dense {
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
         let flat = (FLAT * largest).max(ROUNDING * stiffest);
         let projected = motions.transpose() * &hessian * &motions;
-        let mut curvatures = eigenvalues(&projected);
+        let mut curvatures =
+            eigenvalues(&projected).unwrap_or_else(|| vec![0.0; projected.nrows()]);
         if stresses.ncols() > 0 && curvatures.iter().any(|c| *c < -flat) {
             let of = (framework, links.as_slice(), first_unknown.as_slice(), rigid.as_slice());
             curvatures = stiffened(of, &motions, &stresses, projected).unwrap_or(curvatures);
@@ -240,9 +247,9 @@ impl Dense {
 /// in the self-stresses. `None` where a self-stress has a member with a sign, or nothing is gained.
 fn stiffened(
     (framework, links, first_unknown, rigid): (&Framework, &[Link], &[usize], &[usize]),
-    motions: &Mat<f64>,
-    stresses: &Mat<f64>,
-    mut projected: Mat<f64>,
+    motions: &DMatrix<f64>,
+    stresses: &DMatrix<f64>,
+    mut projected: DMatrix<f64>,
 ) -> Option<Vec<f64>> {
     let signed = |k: &usize| framework.links[*k].kind != Kind::Bar;
     if rigid.iter().any(signed) || !framework.lying.is_empty() {
@@ -250,7 +257,7 @@ fn stiffened(
     }
     let size = motions.nrows();
     let by_stress = |column: usize| {
-        let mut hessian = Mat::<f64>::zeros(size, size);
+        let mut hessian = DMatrix::<f64>::zeros(size, size);
         for (row, &k) in rigid.iter().enumerate() {
             let (from, to) = (framework.links[k].from, framework.links[k].to);
             if framework.nodes[from].freedom() + framework.nodes[to].freedom() > 0 {
@@ -261,26 +268,25 @@ fn stiffened(
         }
         motions.transpose() * &hessian * motions
     };
-    let changes: Vec<Mat<f64>> = (0..stresses.ncols()).map(by_stress).collect();
+    let changes: Vec<DMatrix<f64>> = (0..stresses.ncols()).map(by_stress).collect();
     for _ in 0..STIFFENING_STEPS {
-        let eigen = projected.self_adjoint_eigen(Side::Lower).ok()?;
-        let (values, vectors) = (eigen.S().column_vector(), eigen.U());
-        let weakest = vectors.col(0);
+        let (values, vectors) = eigen(&projected)?;
+        let weakest = vectors.column(0);
         if values[0] >= 0.0 {
             break;
         }
         let slopes: Vec<f64> =
-            changes.iter().map(|change| weakest.transpose() * change * weakest).collect();
+            changes.iter().map(|change| weakest.dot(&(change * weakest))).collect();
         let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
         if square <= FLAT * FLAT {
             return None;
         }
         // To twice the way at which the weakest one alone were zero.
         for (slope, change) in slopes.iter().zip(&changes) {
-            projected += change * faer::Scale(-2.0 * values[0] * slope / square);
+            projected += change * (-2.0 * values[0] * slope / square);
         }
     }
-    Some(eigenvalues(&projected))
+    eigenvalues(&projected)
 }
 
 /// First unknown of each joint.
@@ -295,50 +301,11 @@ fn first_unknowns(framework: &Framework) -> Vec<usize> {
         .collect()
 }
 
-/// Kernels of a matrix and of its transpose, as columns.
-struct Kernels {
-    motions: Mat<f64>,
-    stresses: Mat<f64>,
-    /// The singular values on both sides of the rank, in units of the largest; 1 and 0 where there
-    /// is none.
-    gap: [f64; 2],
-}
-
-fn kernels(rows: &Mat<f64>) -> Kernels {
-    let (height, width) = (rows.nrows(), rows.ncols());
-    let none = [1.0, 0.0];
-    if height == 0 || width == 0 {
-        let (motions, stresses) = (Mat::identity(width, width), Mat::identity(height, height));
-        return Kernels { motions, stresses, gap: none };
-    }
-    let Ok(svd) = rows.svd() else {
-        let (motions, stresses) = (Mat::identity(width, width), Mat::zeros(height, 0));
-        return Kernels { motions, stresses, gap: none };
-    };
-    let values = svd.S().column_vector();
-    let largest = values[0];
-    let rank = (0..values.nrows()).filter(|&k| values[k] > SHARP * largest).count();
-    let motions = svd.V().subcols(rank, width - rank).to_owned();
-    let stresses = svd.U().subcols(rank, height - rank).to_owned();
-    let beside = |k: usize| if largest > 0.0 { values[k] / largest } else { 0.0 };
-    let counted = if rank > 0 { beside(rank - 1) } else { none[0] };
-    let left = if rank < values.nrows() { beside(rank) } else { none[1] };
-    Kernels { motions, stresses, gap: [counted, left] }
-}
-
-fn eigenvalues(matrix: &Mat<f64>) -> Vec<f64> {
-    if matrix.nrows() == 0 {
-        return Vec::new();
-    }
-    // A decomposition that fails says nothing: every direction is then counted as neutral.
-    matrix.self_adjoint_eigenvalues(Side::Lower).unwrap_or_else(|_| vec![0.0; matrix.nrows()])
-}
-
 /// Add the block of a member to a dense matrix.
 fn add(
     framework: &Framework,
     first_unknown: &[usize],
-    matrix: &mut Mat<f64>,
+    matrix: &mut DMatrix<f64>,
     member: usize,
     block: &Matrix3<f64>,
 ) {

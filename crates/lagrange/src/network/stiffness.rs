@@ -7,15 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use matrices::sparse::{Ldlt, Pivots};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
@@ -57,12 +49,9 @@ pub(super) struct Stiffness {
     /// Those of each two joints of each rope.
     ties: Vec<Vec<Place>>,
     columns: Vec<usize>,
-    rows: Vec<usize>,
     values: Vec<f64>,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
+    factor: Ldlt,
     work: Work,
-    memory: MemBuffer,
 }
 
 impl Stiffness {
@@ -89,24 +78,11 @@ impl Stiffness {
             between.by_ref().take(joints * (joints - 1) / 2).collect()
         });
         let ties = ties.collect();
-        let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
-        // The joints are in their order already; this says so to a routine that turns the lower
-        // triangle over only where it permutes.
-        let same: Vec<usize> = (0..size).collect();
-        let symbolic = factorize_symbolic_cholesky(
-            matrix,
-            Side::Lower,
-            SymmetricOrdering::Custom(PermRef::new_checked(&same, &same, size)),
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| lost())?;
-        let scratch = symbolic
-            .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(3, Par::Seq));
-        let memory = MemBuffer::try_new(scratch).map_err(|_| lost())?;
-        let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
-        let work = framework.work.clone();
-        Ok(Self { unknowns, places, ties, columns, rows, values, symbolic, factor, work, memory })
+        // The joints are in their order already.
+        let order: Vec<usize> = (0..size).collect();
+        let factor = Ldlt::new(&columns, &rows, &order).ok_or_else(lost)?;
+        let (values, work) = (vec![0.0; rows.len()], framework.work.clone());
+        Ok(Self { unknowns, places, ties, columns, values, factor, work })
     }
 
     /// Number of unknowns.
@@ -229,92 +205,57 @@ impl Stiffness {
     /// Factorise a matrix that ought to be positive definite; directions without stiffness, or with
     /// a negative one, are left out of later solves.
     pub fn factorise_definite(&mut self) {
-        let signs = vec![1; self.size()];
-        self.factorise(Some(&signs), NO_PIVOT, NO_PIVOT.recip());
+        self.raised(NO_PIVOT);
     }
 
     /// The same where soft directions beside very stiff ones count.
     pub fn factorise_stiff(&mut self) {
-        let signs = vec![1; self.size()];
-        self.factorise(Some(&signs), NO_STIFF_PIVOT, NO_STIFF_PIVOT.recip());
+        self.raised(NO_STIFF_PIVOT);
+    }
+
+    fn raised(&mut self, part: f64) {
+        let (least, instead) = self.least(part, part.recip());
+        self.factorise(Pivots::Raised { least, instead });
     }
 
     /// Factorise a matrix as it is, positive and negative pivots alike; directions without
     /// stiffness are left out of later solves. Whether all came out finite.
     pub fn factorise_indefinite(&mut self) -> bool {
-        self.factorise(None, NO_PIVOT, NO_PIVOT.recip())
+        let (least, instead) = self.least(NO_PIVOT, NO_PIVOT.recip());
+        self.factorise(Pivots::Replaced { least, instead })
     }
 
     /// The same with a tiny stiffness where there is none: a bordered matrix is solved through a
     /// singular one.
     pub fn factorise_bordered(&mut self) -> bool {
-        self.factorise(None, NO_PIVOT, NO_PIVOT)
+        let (least, instead) = self.least(NO_PIVOT, NO_PIVOT);
+        self.factorise(Pivots::Replaced { least, instead })
     }
 
-    /// With pivots below `least` replaced by `instead`, both in units of the largest entry: a large one
-    /// leaves the direction out of solutions.
-    fn factorise(&mut self, signs: Option<&[i8]>, least: f64, instead: f64) -> bool {
-        if !self.work.spend(self.factor.len()) {
-            return false;
-        }
-        let (size, largest) = (self.size(), self.largest());
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);
-        let regularisation = LdltRegularization {
-            dynamic_regularization_signs: signs,
-            dynamic_regularization_delta: if largest > 0.0 { largest * instead } else { 1.0 },
-            dynamic_regularization_epsilon: if largest > 0.0 { least * largest } else { 1.0 },
-        };
-        let factored = self.symbolic.factorize_numeric_ldlt(
-            &mut self.factor,
-            SparseColMatRef::new(pattern, &self.values),
-            Side::Lower,
-            regularisation,
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        factored.is_ok() && self.pivots().all(f64::is_finite)
+    /// The least pivot and what is in the place of smaller ones, given in units of the largest
+    /// entry: a large one leaves its direction out of solutions.
+    fn least(&self, least: f64, instead: f64) -> (f64, f64) {
+        let largest = self.largest();
+        if largest > 0.0 { (least * largest, instead * largest) } else { (1.0, 1.0) }
+    }
+
+    fn factorise(&mut self, pivots: Pivots) -> bool {
+        self.work.spend(self.factor.entries()) && self.factor.factorise(&self.values, pivots)
     }
 
     /// Number of negative pivots of the factor.
     pub fn negative_pivots(&self) -> usize {
-        self.pivots().filter(|pivot| *pivot < 0.0).count()
-    }
-
-    fn pivots(&self) -> Box<dyn Iterator<Item = f64> + '_> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                let columns = &symbolic.col_ptr()[..self.size()];
-                Box::new(columns.iter().map(|&start| self.factor[start]))
-            }
-            SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                let (begins, ends) = (symbolic.supernode_begin(), symbolic.supernode_end());
-                let starts = symbolic.col_ptr_for_val();
-                Box::new((0..symbolic.n_supernodes()).flat_map(move |s| {
-                    let width = ends[s] - begins[s];
-                    let height = (starts[s + 1] - starts[s]) / width.max(1);
-                    (0..width).map(move |k| self.factor[starts[s] + k * height + k])
-                }))
-            }
-        }
+        self.factor.pivots().iter().filter(|pivot| **pivot < 0.0).count()
     }
 
     /// Solve with the factor, in place; several right-hand sides one after another. Without work there
     /// is no step.
-    pub fn solve(&mut self, right: &mut [f64]) {
-        let size = self.size();
-        if size == 0 || self.work.is_refused() {
+    pub fn solve(&self, right: &mut [f64]) {
+        if self.work.is_refused() {
             right.fill(0.0);
-            return;
+        } else {
+            self.factor.solve(right);
         }
-        let sides = right.len() / size;
-        LdltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(right, size, sides),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-        );
     }
 
     /// The components of forces at the joints along their free directions.

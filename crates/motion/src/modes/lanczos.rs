@@ -1,7 +1,5 @@
-//! Lanczos' method with full orthogonalisation.
-//!
-//! Not the partial eigensolver of `faer`: that does not end where the Krylov space is exhausted, as
-//! with many equal pendulums.
+//! Lanczos' method with full orthogonalisation. It ends where the Krylov space is exhausted, as with
+//! many equal pendulums.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 

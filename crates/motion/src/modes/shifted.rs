@@ -8,15 +8,7 @@
 //! is definite for shifts below all `ω²`, as the elimination without pivoting asks for. The rows of
 //! the constraints are eliminated after their joints.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use matrices::sparse::{self, Ldlt, Pivots};
 
 use super::stiffness::{Entries, Entry};
 
@@ -37,9 +29,8 @@ pub(super) struct Shifted {
     coordinate_at: Vec<usize>,
     /// Scale of each unknown: all diagonals become of the order of one.
     scale: Vec<f64>,
-    matrix: SparseColMat<usize, f64>,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
+    matrix: sparse::Entries,
+    factor: Ldlt,
     /// Number of constraints that do not depend on others.
     pub independent: usize,
     /// Number of `ω²` below the shift; none where the shift is on one of them.
@@ -52,35 +43,14 @@ impl Shifted {
         let order = Order::new(entries, axes);
         let unknowns = order.unknowns;
         let (scale, triplets) = order.triplets(entries, shift);
-        let matrix = SparseColMat::try_new_from_triplets(unknowns, unknowns, &triplets).ok()?;
+        let matrix = sparse::Entries::new(unknowns, &triplets);
         // The unknowns are in their order already.
         let same: Vec<usize> = (0..unknowns).collect();
-        let symbolic = factorize_symbolic_cholesky(
-            matrix.symbolic(),
-            Side::Lower,
-            SymmetricOrdering::Custom(PermRef::new_checked(&same, &same, unknowns)),
-            CholeskySymbolicParams::default(),
-        )
-        .ok()?;
-        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).ok()?;
-        let mut factor = vec![0.0; symbolic.len_val()];
-        let no_pivots = LdltRegularization {
-            dynamic_regularization_signs: None,
-            dynamic_regularization_delta: 1.0 / NO_PIVOT,
-            dynamic_regularization_epsilon: NO_PIVOT,
-        };
-        symbolic
-            .factorize_numeric_ldlt(
-                &mut factor,
-                matrix.as_ref(),
-                Side::Lower,
-                no_pivots,
-                Par::Seq,
-                MemStack::new(&mut memory),
-                Spec::default(),
-            )
-            .ok()?;
+        let mut factor = Ldlt::new(&matrix.starts, &matrix.rows, &same)?;
+        let no_pivots = Pivots::Replaced { least: NO_PIVOT, instead: NO_PIVOT.recip() };
+        if !factor.factorise(&matrix.values, no_pivots) {
+            return None;
+        }
         let mut is_row = vec![true; unknowns];
         for &at in &order.coordinate_at {
             is_row[at] = false;
@@ -89,52 +59,28 @@ impl Shifted {
             coordinate_at: order.coordinate_at,
             scale,
             matrix,
-            symbolic,
             factor,
             independent: 0,
             below: None,
         };
-        found.count(&is_row)?;
+        found.count(&is_row);
         Some(found)
     }
 
     /// Count the signs of the pivots.
-    fn count(&mut self, is_row: &[bool]) -> Option<()> {
+    fn count(&mut self, is_row: &[bool]) {
         let (mut negative, mut dependent, mut on_a_mode) = (0, 0, false);
-        for (pivot, &is_row) in self.pivots().into_iter().zip(is_row) {
-            if !pivot.is_finite() {
-                return None;
-            }
+        for (pivot, &is_row) in self.factor.pivots().iter().zip(is_row) {
             if pivot.abs() >= 0.5 / NO_PIVOT {
                 dependent += usize::from(is_row);
                 on_a_mode |= !is_row;
             } else {
-                negative += usize::from(pivot < 0.0);
+                negative += usize::from(*pivot < 0.0);
             }
         }
         let rows = is_row.iter().filter(|&&row| row).count();
         self.independent = rows - dependent;
         self.below = negative.checked_sub(self.independent).filter(|_| !on_a_mode);
-        Some(())
-    }
-
-    fn pivots(&self) -> Vec<f64> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                let columns = &symbolic.col_ptr()[..self.scale.len()];
-                columns.iter().map(|&start| self.factor[start]).collect()
-            }
-            SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                let (begins, ends) = (symbolic.supernode_begin(), symbolic.supernode_end());
-                let starts = symbolic.col_ptr_for_val();
-                let nodes = (0..symbolic.n_supernodes()).flat_map(|s| {
-                    let width = ends[s] - begins[s];
-                    let height = (starts[s + 1] - starts[s]) / width.max(1);
-                    (0..width).map(move |k| starts[s] + k * height + k)
-                });
-                nodes.map(|at| self.factor[at]).collect()
-            }
-        }
     }
 
     /// The displacements `y` with `K y − σ M y + Rᵀ μ = f` and `R y = 0`.
@@ -144,17 +90,10 @@ impl Shifted {
         for (f, &at) in f.iter().zip(&self.coordinate_at) {
             right[at] = f * self.scale[at];
         }
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
-        let mut memory = MemBuffer::new(scratch);
         let mut x = vec![0.0; unknowns];
         let mut left = right.clone();
         for _ in 0..=REFINEMENTS {
-            LdltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-                Conj::No,
-                MatMut::from_column_major_slice_mut(&mut left, unknowns, 1),
-                Par::Seq,
-                MemStack::new(&mut memory),
-            );
+            self.factor.solve(&mut left);
             for (x, by) in x.iter_mut().zip(&left) {
                 *x += by;
             }
@@ -167,15 +106,11 @@ impl Shifted {
 
     /// Take the matrix times `x` from `left`.
     fn subtract_product(&self, x: &[f64], left: &mut [f64]) {
-        let (columns, rows) = (self.matrix.col_ptr(), self.matrix.row_idx());
-        let values = self.matrix.val();
-        for column in 0..x.len() {
-            for at in columns[column]..columns[column + 1] {
-                let row = rows[at];
-                left[row] -= values[at] * x[column];
-                if row != column {
-                    left[column] -= values[at] * x[row];
-                }
+        for (row, column, at) in self.matrix.places() {
+            let value = self.matrix.values[at];
+            left[row] -= value * x[column];
+            if row != column {
+                left[column] -= value * x[row];
             }
         }
     }
@@ -220,11 +155,7 @@ impl Order {
     }
 
     /// The scales, and the entries on and below the diagonal, scaled.
-    fn triplets(
-        &self,
-        entries: &Entries,
-        shift: f64,
-    ) -> (Vec<f64>, Vec<Triplet<usize, usize, f64>>) {
+    fn triplets(&self, entries: &Entries, shift: f64) -> (Vec<f64>, Vec<Entry>) {
         let mut all: Vec<Entry> = Vec::new();
         let mut around = vec![0.0; entries.size];
         for &(row, column, value) in &entries.stiffness {
@@ -256,10 +187,10 @@ impl Order {
         for (row, column, value) in all {
             // A row of the constraints stands below its coordinates.
             if row >= column {
-                triplets.push(Triplet::new(row, column, value * scale[row] * scale[column]));
+                triplets.push((row, column, value * scale[row] * scale[column]));
             }
         }
-        triplets.extend(self.row_at.iter().flatten().map(|&at| Triplet::new(at, at, 0.0)));
+        triplets.extend(self.row_at.iter().flatten().map(|&at| (at, at, 0.0)));
         (scale, triplets)
     }
 

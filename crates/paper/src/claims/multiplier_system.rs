@@ -1,6 +1,7 @@
 //! Does (40) have a solution at a given position? Twelve multipliers, eighteen equations.
 
 use lagrange::{Seed, constraint_matrix, load_vector};
+use matrices::dense::least_squares;
 use model::Problem;
 use nalgebra::DVector;
 
@@ -15,12 +16,8 @@ pub struct Misfit {
     pub largest: f64,
 }
 
-/// Singular values below this part of the largest are zero: rounding is 1e-16, the smallest other
-/// 0.1.
+/// Pivots below this part of the largest are zero: rounding is 1e-16, the smallest other 0.1.
 const RANK: f64 = 1e-12;
-
-/// Steps of the iteration behind the singular values; a few dozen are usual for 18 x 12.
-const SVD_STEPS: usize = 10_000;
 
 /// The misfit of (40) at the paper's planar position `phi` (psi = 0, theta = pi/2), rad, for the
 /// best multipliers in the sense of least squares.
@@ -40,13 +37,9 @@ pub fn misfit(problem: &Problem, units: PaperUnits, phi: &[f64; 3]) -> Misfit {
         matrix.row_mut(row).scale_mut(1.0 / units.l_m);
         right[row] /= units.l_m;
     }
-    // A failure of the decomposition leaves NaN, which supports no verdict; on NaN it would never
-    // end.
-    let lambda = matrix.clone().try_svd(true, true, f64::EPSILON, SVD_STEPS).and_then(|svd| {
-        let threshold = RANK * svd.singular_values.max();
-        svd.solve(&right, threshold).ok()
-    });
-    let Some(lambda) = lambda else { return Misfit { norm: f64::NAN, largest: f64::NAN } };
+    let Some(lambda) = least_squares(&matrix, &right, RANK) else {
+        return Misfit { norm: f64::NAN, largest: f64::NAN };
+    };
     let left = matrix * lambda - right;
     Misfit { norm: left.norm(), largest: left.amax() }
 }

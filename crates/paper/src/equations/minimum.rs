@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use matrices::dense::least_squares;
 use nalgebra::{DVector, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -85,15 +86,8 @@ fn down_from(axis: Vector3<f64>) -> f64 {
     (weight - axis).largest_entry()
 }
 
-/// Steps of the iteration behind the singular values; a few dozen are usual for 18 x 12.
-const SVD_STEPS: usize = 10_000;
-
 /// Smallest norm that any multipliers leave of (40), in mg; NaN if an angle is.
 fn left_of_40(phi: [f64; 3]) -> f64 {
-    if !phi.iter().all(|angle| angle.is_finite()) {
-        // nalgebra would iterate for ever.
-        return f64::NAN;
-    }
     let q = planar(phi);
     let columns: Vec<_> = (0..12)
         .map(|k| {
@@ -104,12 +98,8 @@ fn left_of_40(phi: [f64; 3]) -> f64 {
         .collect();
     let load = load(true);
     let columns = nalgebra::DMatrix::from_columns(&columns);
-    // Without a bound the iteration would never end on NaN.
-    let Some(svd) = columns.try_svd(true, false, f64::EPSILON, SVD_STEPS) else { return f64::NAN };
-    svd.u.map_or(f64::NAN, |u| {
-        let range = u.columns(0, svd.singular_values.iter().filter(|&&s| s > ROUNDING).count());
-        (&load - range * (range.transpose() * &load)).norm()
-    })
+    let Some(multipliers) = least_squares(&columns, &load, ROUNDING) else { return f64::NAN };
+    (load - columns * multipliers).norm()
 }
 
 /// Difference of two angles in deg, modulo a turn.

@@ -15,9 +15,7 @@
 //!
 //! D. P. Bertsekas, SIAM J. Control Optim. 20 (1982) 221-246, doi:10.1137/0320018.
 
-use faer::linalg::solvers::Solve as _;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Col, Side};
+use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 use model::{Vector, sum};
 
 use numerics::vector::{dot, norm, plus, times};
@@ -194,7 +192,7 @@ impl Problem<'_> {
     fn newton(&self, moving: &[bool], vectors: &[Vector]) -> Option<Vec<Vector>> {
         let size = 3 * vectors.len();
         let mut entries = Vec::with_capacity(15 * moving.len() + size);
-        entries.extend((0..size).map(|k| Triplet::new(k, k, RIDGE)));
+        entries.extend((0..size).map(|k| (k, k, RIDGE)));
         for (column, _) in self.columns.iter().zip(moving).filter(|(_, moving)| **moving) {
             let free =
                 column.pulls.iter().map(|(joint, pull)| (*joint, (self.free)(*joint, *pull)));
@@ -206,15 +204,18 @@ impl Problem<'_> {
                 entries.extend(
                     pairs
                         .filter(|(row, column)| row >= column)
-                        .map(|(row, column)| Triplet::new(row, column, u[row % 3] * v[column % 3])),
+                        .map(|(row, column)| (row, column, u[row % 3] * v[column % 3])),
                 );
             }
         }
-        let matrix =
-            SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).ok()?;
-        let factor = matrix.sp_cholesky(Side::Lower).ok()?;
-        let right = Col::from_fn(size, |k| vectors[k / 3][k % 3]);
-        let solved = factor.solve(&right);
+        let matrix = Entries::new(size, &entries);
+        let order = minimum_degree(&matrix.starts, &matrix.rows)?;
+        let mut factor = Ldlt::new(&matrix.starts, &matrix.rows, &order)?;
+        if !factor.factorise(&matrix.values, Pivots::Positive) {
+            return None;
+        }
+        let mut solved: Vec<f64> = vectors.iter().flatten().copied().collect();
+        factor.solve(&mut solved);
         let moves =
             (0..vectors.len()).map(|j| [solved[3 * j], solved[3 * j + 1], solved[3 * j + 2]]);
         Some(self.freed(moves.collect()))

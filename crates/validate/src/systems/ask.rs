@@ -3,7 +3,7 @@
 use census::network::SystemCensus;
 use lagrange::network::Seed;
 use model::system::{Row, System, SystemEquilibrium};
-use model::{NoAnswer, NoCensus, Reason, Rung, SolverName, Status, Vector};
+use model::{NoAnswer, NoCensus, Quantity, Reason, Rung, SolverName, Status, Vector};
 use numerics::Interval;
 use serde::Serialize;
 
@@ -178,8 +178,15 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     let mut agreement = judged(system, &mut equilibria, &failures);
     let drawing_m = drawing_m.as_deref();
     if !agreement.as_ref().is_some_and(SystemAgreement::agrees)
-        && let Some((solver, one)) =
-            ask_beside(system, drawing_m, question, watch, &mut equilibria, &failures)
+        && let Some((solver, one)) = ask_beside(
+            system,
+            drawing_m,
+            question,
+            watch,
+            agreement.as_ref(),
+            &mut equilibria,
+            &failures,
+        )
     {
         agreement = Some(one);
         failures.clear();
@@ -243,40 +250,52 @@ fn ask_again(
 }
 
 /// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
-/// solver of the higher one again next to the other, or the one that has no answer at all. What is known must be stable,
-/// and next to the drawing, if there is one. If both agree then, the solver and the comparison.
+/// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high first
+/// one, then the other. What is known must be stable, and next to the drawing, if there is one. If both agree then, the
+/// solver and the comparison.
 fn ask_beside(
     system: &System,
     drawing_m: Option<&[Vector]>,
     question: &Question,
     watch: &dyn Fn(&str),
+    agreement: Option<&SystemAgreement>,
     answers: &mut Vec<SystemEquilibrium>,
     failures: &[SystemFailure],
 ) -> Option<(SolverName, SystemAgreement)> {
-    let (known, solver) = match (&answers[..], failures) {
-        ([known], [failure]) if failure.is_astray() => (known, failure.solver()),
-        ([low, high], []) if low.energy_j < high.energy_j => (low, high.solver.clone()),
-        ([high, low], []) => (low, high.solver.clone()),
+    let are_level = agreement.is_some_and(|agreement| {
+        let mut excesses = agreement.disagreement.excesses.iter();
+        !excesses.any(|excess| matches!(excess.what, Quantity::Energy { .. }))
+    });
+    let known: Vec<(&SystemEquilibrium, SolverName)> = match (&answers[..], failures) {
+        ([known], [failure]) if failure.is_astray() => vec![(known, failure.solver())],
+        ([first, second], []) => {
+            let (low, high) =
+                if first.energy_j < second.energy_j { (first, second) } else { (second, first) };
+            let level = are_level.then(|| (high, low.solver.clone()));
+            [(low, high.solver.clone())].into_iter().chain(level).collect()
+        }
         _ => return None,
     };
     let budget = Tolerances::project().statics.value;
     let in_balance = answers.iter().all(|answer| judge(system, answer).passes(budget));
-    let is_next = |at: &[Vector]| Near::of(system, at, known).is_neighbour;
-    let rests = known.stability.index_in_space == 0 && drawing_m.is_none_or(is_next);
-    if !in_balance || !rests || question.equations == Equations::Full {
+    if !in_balance || question.equations == Equations::Full {
         return None;
     }
-    let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;
-    let neutral = known.stability.neutral;
-    let mut both = vec![known.clone(), again];
-    both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
-    let one = compare(system, &mut both, &Tolerances::project());
-    // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
-    let is_placed = neutral <= one.turned_parts + 3 * one.free_joints;
-    (one.agrees() && is_placed).then(|| {
-        *answers = both;
-        (solver, one)
-    })
+    let (both, found) = known.into_iter().find_map(|(known, solver)| {
+        let is_next = |at: &[Vector]| Near::of(system, at, known).is_neighbour;
+        if known.stability.index_in_space > 0 || !drawing_m.is_none_or(is_next) {
+            return None;
+        }
+        let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;
+        let mut both = vec![known.clone(), again];
+        both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
+        let one = compare(system, &mut both, &Tolerances::project());
+        // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
+        let is_placed = known.stability.neutral <= one.turned_parts + 3 * one.free_joints;
+        (one.agrees() && is_placed).then_some((both, (solver, one)))
+    })?;
+    *answers = both;
+    Some(found)
 }
 
 /// What one solver finds next to an equilibrium.

@@ -1,29 +1,29 @@
-//! A proved lower bound of the least eigenvalue of a sparse symmetric matrix, by Cholesky's
-//! factorisation in floating point.
+//! A proved lower bound of the least eigenvalue of a sparse symmetric matrix, by a factorisation in
+//! floating point.
 //!
 //! # The bound
 //!
-//! Let the factorisation of $A - \sigma I$ run to its end with finite numbers, and let $L$ be what
-//! it returns. Every entry was computed from
+//! Let the factorisation of $A - \sigma I$ run to its end with positive pivots $d$, and let
+//! $G = L \sqrt D$. Every entry of $L$ and $D$ was computed from
 //!
-//! $$ a_{ij} = \sum_{k \le j} l_{ik} l_{jk}, \qquad i \ge j, $$
+//! $$ a_{ij} = \sum_{k \le j} l_{ik} d_k l_{jk}, \qquad i \ge j, $$
 //!
-//! solved for $l_{ij}$. A product with a factor zero is exact, and so is adding it; hence only the
+//! solved for $l_{ij}$, or $d_j$. A product with a factor zero is exact, and so is adding it; hence only the
 //! $m_{ij}$ terms with $l_{ik} l_{jk} \ne 0$ round. In whatever order and in whatever groups the
 //! library adds them, with fused operations or without, each term and $a_{ij}$ itself pass through
-//! at most $m_{ij}$ additions that round, and through at most eight operations besides: the
-//! product, the root, the reciprocals of the pivots and the multiplications by these. Hence
-//! $a_{ij}(1 + \theta_0) = \sum_k l_{ik} l_{jk} (1 + \theta_k)$ with all $|\theta| \le
+//! at most $m_{ij}$ additions that round, and through at most eight operations besides: two
+//! products, and quotients by the pivots. Hence
+//! $a_{ij}(1 + \theta_0) = \sum_k l_{ik} d_k l_{jk} (1 + \theta_k)$ with all $|\theta| \le
 //! \gamma_{m_{ij} + 8}$, where $\gamma_m = m u/(1 - m u)$ and $u = 2^{-53}$; divided by
 //! $1 + \theta_0$,
 //!
-//! $$ |E_{ij}| \le \gamma_{2 m_{ij} + 16} \big(|L| |L|^T\big)_{ij}, \qquad
-//!    A - \sigma I + E = L L^T \ge 0. $$
+//! $$ |E_{ij}| \le \gamma_{2 m_{ij} + 16} \big(|G| |G|^T\big)_{ij}, \qquad
+//!    A - \sigma I + E = G G^T \ge 0. $$
 //!
 //! $E$ is symmetric, so its norm is at most its largest row sum, and $m_{ij}$ is at most the number
-//! $k_i$ of entries in row $i$ of $L$ that are not zero:
+//! $k_i$ of entries in row $i$ of $G$ that are not zero:
 //!
-//! $$ \lambda_{\min}(A) \ge \sigma - \max_i \gamma_{2 k_i + 16} \big(|L| (|L|^T 1)\big)_i. $$
+//! $$ \lambda_{\min}(A) \ge \sigma - \max_i \gamma_{2 k_i + 16} \big(|G| (|G|^T 1)\big)_i. $$
 //!
 //! Two passes over the factor give that number. It knows the matrix by the longest row of its
 //! factor and not by its size: in a plane net of $n$ joints a row has some $\sqrt n$ entries, in a
@@ -38,15 +38,7 @@
 //! floating-point Cholesky, and the count of the terms that are not zero); N. J. Higham, Accuracy
 //! and Stability of Numerical Algorithms (2002), lemma 8.4 and theorem 10.3.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 
 /// Roundings of a term besides the additions.
 const OTHER_ROUNDINGS: usize = 8;
@@ -123,59 +115,33 @@ pub(super) fn gamma(operations: usize) -> f64 {
 
 /// The factor of a shifted matrix.
 struct Factor {
-    matrix: SparseColMat<usize, f64>,
-    /// Where the diagonal stands in the values of the matrix.
-    diagonal: Vec<usize>,
-    symbolic: SymbolicCholesky<usize>,
-    values: Vec<f64>,
-    memory: MemBuffer,
+    /// The first entry of a column is that on the diagonal.
+    matrix: Entries,
+    factor: Ldlt,
 }
 
 impl Factor {
     /// The order of elimination, approximate minimum degree, and the pattern of the factor;
     /// nothing without memory for it.
     fn new(matrix: &Symmetric) -> Option<Self> {
-        let size = matrix.size;
-        let entries =
-            matrix.below.iter().map(|&(row, column, value)| Triplet::new(row, column, value));
-        let diagonal = (0..size).map(|k| Triplet::new(k, k, 0.0));
-        let entries: Vec<_> = entries.chain(diagonal).collect();
-        let matrix = SparseColMat::try_new_from_triplets(size, size, &entries).ok()?;
+        let diagonal = (0..matrix.size).map(|k| (k, k, 0.0));
+        let entries: Vec<_> = diagonal.chain(matrix.below.iter().copied()).collect();
+        let matrix = Entries::new(matrix.size, &entries);
         drop(entries);
-        let symbolic = factorize_symbolic_cholesky(
-            matrix.symbolic(),
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
-        )
-        .ok()?;
-        let scratch = symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        let memory = MemBuffer::try_new(scratch).ok()?;
-        // Below the diagonal nothing comes before it in its column.
-        let diagonal = matrix.symbolic().col_ptr()[..size].to_vec();
-        let values = vec![0.0; symbolic.len_val()];
-        Some(Self { matrix, diagonal, symbolic, values, memory })
+        let order = minimum_degree(&matrix.starts, &matrix.rows)?;
+        let factor = Ldlt::new(&matrix.starts, &matrix.rows, &order)?;
+        Some(Self { matrix, factor })
     }
 
     /// A lower bound of the least eigenvalue by the factorisation of the matrix less `shift`;
     /// nothing where that does not run to its end.
     fn bound(&mut self, matrix: &Symmetric, shift: f64) -> Option<f64> {
-        let values = self.matrix.val_mut();
-        for (&at, entry) in self.diagonal.iter().zip(&matrix.diagonal) {
-            values[at] = entry - shift;
+        for (&at, entry) in self.matrix.starts.iter().zip(&matrix.diagonal) {
+            self.matrix.values[at] = entry - shift;
         }
-        let done = self.symbolic.factorize_numeric_llt(
-            &mut self.values,
-            self.matrix.as_ref(),
-            Side::Lower,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        done.ok()?;
+        if !self.factor.factorise(&self.matrix.values, Pivots::Positive) {
+            return None;
+        }
         let largest = matrix.diagonal.iter().fold(shift, |most, d| most.max(d.abs()));
         // Of the entries on the diagonal, and of the difference that is returned.
         let subtracted = 3.0 * gamma(1) * (largest + shift);
@@ -185,7 +151,7 @@ impl Factor {
 
     /// A guess of the least eigenvalue of the matrix that was factorised last, from above: the norm
     /// of a vector over that of the solution with it.
-    fn least_of_factored(&mut self, size: usize) -> f64 {
+    fn least_of_factored(&self, size: usize) -> f64 {
         // The lowest mode of a matrix of pulling members has one sign.
         let mut vector: Vec<f64> =
             (0..size).map(|k| 1.0 + (0.618_034 * k as f64).fract()).collect();
@@ -195,12 +161,7 @@ impl Factor {
             for x in &mut vector {
                 *x /= before;
             }
-            LltRef::<usize, f64>::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-                Conj::No,
-                MatMut::from_column_major_slice_mut(&mut vector, size, 1),
-                Par::Seq,
-                MemStack::new(&mut self.memory),
-            );
+            self.factor.solve(&mut vector);
             length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
         }
         length.recip()
@@ -208,7 +169,7 @@ impl Factor {
 
     /// The bound of the norm of $E$; nothing where an entry of the factor is not finite.
     fn error(&self) -> Option<f64> {
-        let size = self.diagonal.len();
+        let size = self.factor.size();
         let (mut lengths, mut columns) = (vec![0_usize; size], vec![0.0_f64; size]);
         let mut largest = 1.0_f64;
         self.entries(|row, column, entry| {
@@ -233,41 +194,16 @@ impl Factor {
 
     /// The most entries in a row of the factor, padding included.
     fn longest_row(&self) -> usize {
-        let mut lengths = vec![0_usize; self.diagonal.len()];
+        let mut lengths = vec![0_usize; self.factor.size()];
         self.entries(|row, _, _| lengths[row] += 1);
         lengths.into_iter().max().unwrap_or(0)
     }
 
-    /// Row, column and value of every entry of the factor, in the order of elimination.
+    /// Row, column and value of every entry of $G$, in the order of elimination.
     fn entries(&self, mut visit: impl FnMut(usize, usize, f64)) {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(pattern) => {
-                let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
-                for column in 0..pattern.ncols() {
-                    let own = starts[column]..starts[column + 1];
-                    for (&row, &value) in rows[own.clone()].iter().zip(&self.values[own]) {
-                        visit(row, column, value);
-                    }
-                }
-            }
-            SymbolicCholeskyRaw::Supernodal(pattern) => {
-                let factor = SupernodalLltRef::<usize, f64>::new(pattern, &self.values);
-                for number in 0..pattern.n_supernodes() {
-                    let node = factor.supernode(number);
-                    let (start, block) = (node.start(), node.val());
-                    let width = block.ncols();
-                    for k in 0..width {
-                        let values = block.col(k);
-                        for row in k..width {
-                            visit(start + row, start + k, values[row]);
-                        }
-                        for (below, &row) in node.pattern().iter().enumerate() {
-                            visit(row, start + k, values[width + below]);
-                        }
-                    }
-                }
-            }
-        }
+        let roots: Vec<f64> = self.factor.pivots().iter().map(|pivot| pivot.sqrt()).collect();
+        roots.iter().enumerate().for_each(|(k, root)| visit(k, k, *root));
+        self.factor.lower(|row, column, value| visit(row, column, roots[column] * value));
     }
 }
 

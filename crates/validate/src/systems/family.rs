@@ -10,13 +10,14 @@
 
 use std::collections::BTreeMap;
 
-use faer::Mat;
+use matrices::dense::Kernels;
 use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
 use super::spans::{has_corner, length_m, unit as unit_vector};
 use super::statics::rounding_m;
+use nalgebra::DMatrix;
 use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
@@ -118,7 +119,8 @@ impl Family {
         let members = self.along.len();
         let balances: Vec<Vec<f64>> =
             taut.iter().map(|k| self.left_by(system, &unit(*k, members))).collect();
-        let balances = Mat::from_fn(taut.len(), coordinates, |row, column| balances[row][column]);
+        let balances =
+            DMatrix::from_fn(taut.len(), coordinates, |row, column| balances[row][column]);
         let Null { rows, zero, rank, gap } = null_rows(&balances)?;
         self.basis = rows
             .into_iter()
@@ -280,13 +282,14 @@ impl Family {
                 .map(|((at, pull), n)| if at == joint { n * pull[2] } else { 0.0 })
                 .sum()
         };
-        let limits = Mat::from_fn(self.basis.len(), members.len() + joints.len(), |row, column| {
-            let stress = &self.basis[row];
-            members.get(column).map_or_else(
-                || rises(stress, joints[column - members.len()]),
-                |member| stress[*member],
-            )
-        });
+        let limits =
+            DMatrix::from_fn(self.basis.len(), members.len() + joints.len(), |row, column| {
+                let stress = &self.basis[row];
+                members.get(column).map_or_else(
+                    || rises(stress, joints[column - members.len()]),
+                    |member| stress[*member],
+                )
+            });
         let parts = null_rows(&limits)?.rows;
         let sum = |parts: Vec<f64>| {
             let mut whole = vec![0.0; self.along.len()];
@@ -403,21 +406,15 @@ struct Null {
     gap: [f64; 2],
 }
 
-fn null_rows(matrix: &Mat<f64>) -> Option<Null> {
+fn null_rows(matrix: &DMatrix<f64>) -> Option<Null> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     if rows == 0 || columns == 0 {
         let rows = (0..rows).map(|k| unit(k, rows)).collect();
         return Some(Null { rows, zero: 0.0, rank: 0, gap: [1.0, 0.0] });
     }
-    let svd = matrix.svd().ok()?;
-    let values: Vec<f64> = (0..rows.min(columns)).map(|k| svd.S()[k]).collect();
-    let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let zero = RANK * most;
-    let rank = values.iter().filter(|value| **value > zero).count();
-    let least = if rank > 0 { values[rank - 1] / most } else { 1.0 };
-    let gap = [least, values.get(rank).map_or(0.0, |value| value / most)];
-    let stress = |k: usize| (0..rows).map(|row| svd.U()[(row, k)]).collect();
-    Some(Null { rows: (rank..rows).map(stress).collect(), zero, rank, gap })
+    let Kernels { rank, gap, largest, left, .. } = Kernels::new(matrix, RANK)?;
+    let rows = left.column_iter().map(|stress| stress.iter().copied().collect()).collect();
+    Some(Null { rows, zero: RANK * largest, rank, gap })
 }
 
 #[cfg(test)]

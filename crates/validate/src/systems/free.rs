@@ -8,7 +8,7 @@
 //! that its tangents move are free. So are joints that lie on the floor with members that bear
 //! nothing.
 
-use faer::Mat;
+use matrices::dense::Kernels;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
@@ -16,6 +16,7 @@ use super::certificate::{along_supports, joint_loads, largest_force_n, total_loa
 use super::family::motions;
 use super::floor::{push_n, sliding};
 use super::spans::{gradient, length_m};
+use nalgebra::DMatrix;
 use numerics::vector::{cross, dot, norm};
 
 /// Slack by this part of the length: far above the rounding of places, far below what anybody calls
@@ -251,7 +252,7 @@ fn with_room(
     if part.len() > TOGETHER || rank >= coordinates {
         return vec![false; part.len()];
     }
-    let mut rows = Mat::<f64>::zeros(rank, coordinates);
+    let mut rows = DMatrix::<f64>::zeros(rank, coordinates);
     for (row, k) in taut.iter().enumerate() {
         for (joint, pull) in gradient(system.members()[*k].spans(), &answer.joints_m) {
             for (column, (at, axis)) in axes.iter().enumerate() {
@@ -261,15 +262,14 @@ fn with_room(
             }
         }
     }
-    let Ok(svd) = rows.svd() else { return vec![false; part.len()] };
-    let independent = svd.S()[rank - 1] > INDEPENDENT * svd.S()[0];
-    if !independent {
+    let Some(Kernels { right, .. }) =
+        Kernels::new(&rows, INDEPENDENT).filter(|kernels| kernels.rank == rank)
+    else {
         return vec![false; part.len()];
-    }
+    };
     let moves = |at: usize| {
         let own = axes.iter().enumerate().filter(|(_, (joint, _))| *joint == at);
-        let entries = own.flat_map(|(k, _)| (rank..coordinates).map(move |motion| (k, motion)));
-        entries.map(|entry| svd.V()[entry].powi(2)).sum::<f64>().sqrt() > INDEPENDENT
+        own.map(|(k, _)| right.row(k).norm_squared()).sum::<f64>().sqrt() > INDEPENDENT
     };
     (0..part.len()).map(moves).collect()
 }

@@ -19,11 +19,12 @@
 //! doi:10.1007/BF01404753; S. Pellegrino and C. R. Calladine, Int. J. Solids Struct. 22 (1986)
 //! 409-428, doi:10.1016/0020-7683(86)90014-4
 
-use faer::{Mat, Side};
+use matrices::dense::{Kernels, eigen, eigenvalues, singular_values};
 use model::Vector;
 use model::system::{Kind, System};
 
 use super::family::motions;
+use nalgebra::DMatrix;
 use numerics::vector::{cross, dot, minus, norm, times};
 
 /// Coordinates up to which it is decided: dense decompositions.
@@ -193,7 +194,7 @@ impl<'a> Geometry<'a> {
     }
 
     /// Bases of the motions that keep all lengths, by columns, and of the self-stresses.
-    fn kernels(&self) -> Option<(Mat<f64>, Vec<Vec<f64>>)> {
+    fn kernels(&self) -> Option<(DMatrix<f64>, Vec<Vec<f64>>)> {
         let (rows, columns) = (self.members.len(), self.coordinates.len());
         let entry = |row: usize, column: usize| {
             let (joint, axis) = self.coordinates[column];
@@ -201,14 +202,14 @@ impl<'a> Geometry<'a> {
             let spans = self.members[row].iter();
             spans.map(|([a, b], along, _)| dot(*along, axis) * (is(*b) - is(*a))).sum::<f64>()
         };
-        let lengths = Mat::from_fn(rows, columns, entry);
-        let stresses = null_columns(&lengths.transpose().to_owned())?;
-        let stresses = (0..stresses.ncols()).map(|k| (0..rows).map(|e| stresses[(e, k)]).collect());
+        let lengths = DMatrix::from_fn(rows, columns, entry);
+        let stresses = Kernels::new(&lengths, ZERO)?.left;
+        let stresses = stresses.column_iter().map(|stress| stress.iter().copied().collect());
         let body = self.body_motions();
-        let fixed = Mat::from_fn(rows + body.len(), columns, |row, column| {
+        let fixed = DMatrix::from_fn(rows + body.len(), columns, |row, column| {
             if row < rows { entry(row, column) } else { body[row - rows][column] }
         });
-        Some((null_columns(&fixed)?, stresses.collect()))
+        Some((Kernels::new(&fixed, ZERO)?.right, stresses.collect()))
     }
 
     /// Motions of the whole as one body, about its middle, where nothing supports it.
@@ -232,7 +233,7 @@ impl<'a> Geometry<'a> {
     /// Whether the stress matrix of these forces proves that no other shape exists.
     fn super_stable(&self, system: &System, axial: &[f64]) -> Option<bool> {
         let joints = system.joints().len();
-        let mut stress = Mat::<f64>::zeros(joints, joints);
+        let mut stress = DMatrix::<f64>::zeros(joints, joints);
         let mut largest: f64 = 0.0;
         let spans = || self.members.iter().flatten();
         for (([from, to], _, length), axial) in spans().zip(axial) {
@@ -243,15 +244,15 @@ impl<'a> Geometry<'a> {
             stress[(*from, *to)] -= density;
             stress[(*to, *from)] -= density;
         }
-        let values = stress.self_adjoint_eigenvalues(Side::Lower).ok()?;
+        let values = eigenvalues(&stress)?;
         let zero = ZERO * largest;
         let null = values.iter().filter(|value| value.abs() <= zero).count();
         // Affine functions of the places: the constant, and as many as the joints span directions.
-        let places = Mat::from_fn(joints, 3, |k, c| self.joints_m[k][c] - self.joints_m[0][c]);
+        let places = DMatrix::from_fn(joints, 3, |k, c| self.joints_m[k][c] - self.joints_m[0][c]);
         let span = rank(&places)?;
         // An affine motion keeps a length if its quadratic form vanishes on the direction.
         let along: Vec<Vector> = spans().map(|(_, along, _)| *along).collect();
-        let conic = Mat::from_fn(along.len(), FORMS.len(), |row, k| {
+        let conic = DMatrix::from_fn(along.len(), FORMS.len(), |row, k| {
             let (i, j) = FORMS[k];
             along[row][i] * along[row][j]
         });
@@ -265,12 +266,12 @@ impl<'a> Geometry<'a> {
 struct Form {
     motions: usize,
     /// Of each member, the matrix of its |v_b - v_a|² across itself by these motions, over its length.
-    by_force: Vec<Mat<f64>>,
+    by_force: Vec<DMatrix<f64>>,
     lengths: Vec<f64>,
 }
 
 impl Form {
-    fn new(system: &System, geometry: &Geometry<'_>, motions: &Mat<f64>) -> Self {
+    fn new(system: &System, geometry: &Geometry<'_>, motions: &DMatrix<f64>) -> Self {
         let mut moves = vec![vec![[0.0; 3]; motions.ncols()]; system.joints().len()];
         for (row, (joint, axis)) in geometry.coordinates.iter().enumerate() {
             for (k, place) in moves[*joint].iter_mut().enumerate() {
@@ -283,10 +284,10 @@ impl Form {
                 minus(apart, times(dot(apart, *along), *along))
             });
             let across: Vec<Vector> = across.collect();
-            Mat::from_fn(across.len(), across.len(), |i, k| dot(across[i], across[k]) / length)
+            DMatrix::from_fn(across.len(), across.len(), |i, k| dot(across[i], across[k]) / length)
         };
         let by_force = geometry.members.iter().map(|spans| {
-            let zero = Mat::zeros(motions.ncols(), motions.ncols());
+            let zero = DMatrix::zeros(motions.ncols(), motions.ncols());
             spans.iter().map(of_span).fold(zero, |sum, span| sum + span)
         });
         let shortest = |spans: &Vec<([usize; 2], Vector, f64)>| {
@@ -304,18 +305,14 @@ impl Form {
 
     /// The least eigenvalue under these forces and its gradient by them.
     fn softest(&self, axial: &[f64]) -> Option<(f64, Vec<f64>)> {
-        let mut form = Mat::<f64>::zeros(self.motions, self.motions);
+        let mut form = DMatrix::<f64>::zeros(self.motions, self.motions);
         for (by_force, axial) in self.by_force.iter().zip(axial) {
-            form += faer::Scale(*axial) * by_force;
+            form += by_force * *axial;
         }
-        let eigen = form.self_adjoint_eigen(Side::Lower).ok()?;
-        let (values, vectors) = (eigen.S().column_vector(), eigen.U());
-        let softest = (0..self.motions).min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
-        let along = |matrix: &Mat<f64>| {
-            let pairs = (0..self.motions).flat_map(|i| (0..self.motions).map(move |k| (i, k)));
-            pairs.map(|(i, k)| vectors[(i, softest)] * matrix[(i, k)] * vectors[(k, softest)]).sum()
-        };
-        Some((values[softest], self.by_force.iter().map(along).collect()))
+        let (values, vectors) = eigen(&form)?;
+        let softest = vectors.column(0);
+        let along = |matrix: &DMatrix<f64>| softest.dot(&(matrix * softest));
+        Some((*values.first()?, self.by_force.iter().map(along).collect()))
     }
 
     /// A self-stress that the members bear and that resists every motion, the largest force 1: by
@@ -380,22 +377,10 @@ fn unit(vector: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Singular values that count.
-fn rank(matrix: &Mat<f64>) -> Option<usize> {
-    let svd = matrix.svd().ok()?;
-    let values: Vec<f64> = (0..matrix.nrows().min(matrix.ncols())).map(|k| svd.S()[k]).collect();
-    let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+fn rank(matrix: &DMatrix<f64>) -> Option<usize> {
+    let values = singular_values(matrix)?;
+    let most = values.first().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
     Some(values.iter().filter(|value| **value > ZERO * most).count())
-}
-
-/// An orthonormal basis of the kernel, by columns.
-fn null_columns(matrix: &Mat<f64>) -> Option<Mat<f64>> {
-    let columns = matrix.ncols();
-    if matrix.nrows() == 0 {
-        return Some(Mat::identity(columns, columns));
-    }
-    let rank = rank(matrix)?;
-    let svd = matrix.svd().ok()?;
-    Some(svd.V().subcols(rank, columns - rank).to_owned())
 }
 
 #[cfg(test)]

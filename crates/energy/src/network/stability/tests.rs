@@ -102,7 +102,7 @@ fn supports_leave_their_motions_in_the_plane() {
 
 #[test]
 fn ranks_and_gaps_of_matrices_that_are_known() {
-    let wide = Mat::from_fn(2, 3, |row, column| match (row, column) {
+    let wide = DMatrix::from_fn(2, 3, |row, column| match (row, column) {
         (0, 0) => 3.0,
         (1, 1) => 3e-5,
         _ => 0.0,
@@ -111,7 +111,7 @@ fn ranks_and_gaps_of_matrices_that_are_known() {
     assert_eq!((found.rank, found.self_stresses, found.mechanisms), (2, 0, 1));
     assert!((found.gap[0] - 1e-5).abs() < 1e-18 && found.gap[1].abs() <= 0.0);
     assert!((motions[(2, 0)].abs() - 1.0).abs() < 1e-15 && stresses.ncols() == 0);
-    let tall = Mat::from_fn(3, 2, |row, column| match (row, column) {
+    let tall = DMatrix::from_fn(3, 2, |row, column| match (row, column) {
         (0 | 1, 0) => 3.0,
         (2, 1) => 3e-12,
         _ => 0.0,
@@ -178,7 +178,7 @@ fn eigenvalues_count_beside_the_largest() {
         [(5e-7, 1.0, 0, 2), (2e-6, 1.0, 1, 0), (2e-6, 4e3, 0, 2), (5e-6, 4e3, 1, 0)]
     {
         let diagonal = [small, -small, 1e3];
-        dense.hessian = Mat::from_fn(3, 3, |i, j| if i == j { diagonal[i] } else { 0.0 });
+        dense.hessian = DMatrix::from_fn(3, 3, |i, j| if i == j { diagonal[i] } else { 0.0 });
         dense.size = size;
         let found = dense.count();
         assert_eq!((found.index, found.neutral), (index, neutral), "{small} {size}");
@@ -225,7 +225,7 @@ fn planes_may_stand_anywhere() {
 fn ranks_are_relative() {
     for size in [1e3, 1.0, 1e-3] {
         for (lesser, rank) in [(2e-7, 2), (0.5e-7, 1)] {
-            let matrix = Mat::from_fn(2, 3, |row, column| match (row, column) {
+            let matrix = DMatrix::from_fn(2, 3, |row, column| match (row, column) {
                 (0, 0) => size,
                 (1, 1) => lesser * size,
                 _ => 0.0,

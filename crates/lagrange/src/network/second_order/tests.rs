@@ -85,10 +85,10 @@ fn self_stresses_go_twice_as_far_as_the_weakest_needs() {
     framework.links = vec![bar(0, 2.0), bar(1, 1.0)];
     let link = |u| Link { u, across: 0.0, along: None, taut: true };
     let links = [link(Vector3::z()), link(Vector3::x())];
-    let motions = Mat::from_fn(3, 2, |row, column| if row == column { 1.0 } else { 0.0 });
-    let stresses = Mat::from_fn(2, 1, |row, _| [0.6, 0.8][row]);
+    let motions = DMatrix::from_fn(3, 2, |row, column| if row == column { 1.0 } else { 0.0 });
+    let stresses = DMatrix::from_fn(2, 1, |row, _| [0.6, 0.8][row]);
     let projected =
-        Mat::from_fn(2, 2, |row, column| if row == column { [-0.7, -0.2][row] } else { 0.0 });
+        DMatrix::from_fn(2, 2, |row, column| if row == column { [-0.7, -0.2][row] } else { 0.0 });
     let of = (&framework, &links[..], &first_unknowns(&framework)[..], &[0, 1][..]);
     let mut found = stiffened(of, &motions, &stresses, projected).unwrap();
     found.sort_by(f64::total_cmp);

@@ -89,7 +89,7 @@ fn motions_in_a_plane_are_a_right_handed_pair() {
 fn rows_cancel_to_a_billionth_of_the_largest_value() {
     let matrix = |off: f64| {
         let rows = [[1.0, 2.0, 2.0], [2.0, 4.0, 4.0 + off]];
-        Mat::from_fn(2, 3, |row, column| rows[row][column])
+        DMatrix::from_fn(2, 3, |row, column| rows[row][column])
     };
     let Null { rows: stresses, zero, .. } = null_rows(&matrix(0.0)).unwrap();
     assert!((zero / (3.0e-9 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-14);
@@ -99,8 +99,8 @@ fn rows_cancel_to_a_billionth_of_the_largest_value() {
     // Their lesser value is `|off| |(2, -1)/√5 · (0, 1)| |across (1, 2, 2)| = off/√5 · √5/3`.
     assert_eq!(null_rows(&matrix(1.9e-8)).unwrap().rows.len(), 1);
     assert_eq!(null_rows(&matrix(2.2e-8)).unwrap().rows.len(), 0);
-    assert!(null_rows(&Mat::zeros(0, 3)).unwrap().rows.is_empty());
-    let all = null_rows(&Mat::zeros(2, 0)).unwrap();
+    assert!(null_rows(&DMatrix::zeros(0, 3)).unwrap().rows.is_empty());
+    let all = null_rows(&DMatrix::zeros(2, 0)).unwrap();
     assert_eq!(all.rows, [[1.0, 0.0], [0.0, 1.0]]);
 }
 

@@ -11,10 +11,13 @@ use serde_json::Value;
 
 /// Packages that would let mechanics live in `model`.
 const LINEAR_ALGEBRA: &[&str] =
-    &["nalgebra", "argmin", "argmin-math", "clarabel", "faer", "ndarray", "num-dual"];
+    &["nalgebra", "argmin", "argmin-math", "clarabel", MATRICES, "ndarray", "num-dual"];
 
 /// Data that both solvers may use: problems and answers, and the random chains of their tests.
 const DATA: &[&str] = &["model", SAMPLES];
+
+/// Linear algebra, which both solvers may use as they use `nalgebra`: it uses nothing of ours.
+const MATRICES: &str = "matrices";
 
 /// Random chains, for tests alone.
 const SAMPLES: &str = "samples";
@@ -146,9 +149,12 @@ impl Graph {
         }
         for package in &self.workspace {
             for solver in ["lagrange", "energy"] {
-                if package != solver && !DATA.contains(&package.as_str()) {
-                    forbid(solver, package, "of ours a solver uses data alone");
+                if package != solver && package != MATRICES && !DATA.contains(&package.as_str()) {
+                    forbid(solver, package, "of ours a solver uses data and matrices alone");
                 }
+            }
+            if package != MATRICES {
+                forbid(MATRICES, package, "linear algebra, no mechanics");
             }
             if !DATA.contains(&package.as_str()) {
                 forbid(SAMPLES, package, "samples are data");

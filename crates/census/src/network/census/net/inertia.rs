@@ -17,7 +17,8 @@
 //! equality quadratic programming problem", Math. Programming 32 (1985) 90-99,
 //! doi:10.1007/BF01585660
 
-use faer::{Mat, Side};
+use matrices::dense::eigen;
+use nalgebra::DMatrix;
 use numerics::Interval;
 
 use super::dense::Dense;
@@ -36,9 +37,8 @@ pub(in crate::network::census) fn index(
         matrix.add(row, column, if lengths.contains(&row) { value } else { -value });
     }
     let middle = matrix.middle();
-    let symmetric = Mat::from_fn(size, size, |i, j| 0.5 * (middle.at(i, j) + middle.at(j, i)));
-    let decomposition = symmetric.self_adjoint_eigen(Side::Lower).ok()?;
-    let vectors = decomposition.U();
+    let symmetric = DMatrix::from_fn(size, size, |i, j| 0.5 * (middle.at(i, j) + middle.at(j, i)));
+    let (_, vectors) = eigen(&symmetric)?;
     let mut transposed = Dense::filled(size, size, 0.0);
     for i in 0..size {
         for j in 0..size {

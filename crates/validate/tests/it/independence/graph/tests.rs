@@ -76,7 +76,7 @@ fn every_rule_is_told_with_its_path() {
         graph.violations()
     };
     assert_eq!(told(&["lagrange", "energy", "model"], &[("lagrange", "model")], &[]), [""; 0]);
-    let solver = "of ours a solver uses data alone: lagrange -> census";
+    let solver = "of ours a solver uses data and matrices alone: lagrange -> census";
     assert_eq!(told(&["census", "lagrange"], &[("lagrange", "census")], &[]), [solver]);
     // Those that may meet, do; others may reach one solver, and not both.
     let both = [("tool", "lagrange"), ("tool", "energy")];

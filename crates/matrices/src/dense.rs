@@ -1,0 +1,137 @@
+//! Rank, kernels, least squares and eigenvalues of small dense matrices, by `nalgebra`.
+//!
+//! Kernels come of orthogonal triangularisation with exchanges of columns, at a rank that singular values decide. The
+//! singular *vectors* of nalgebra 0.34 are not used: of one matrix in forty without full rank they do not give
+//! the matrix back (random products of two thin factors; its singular values are right).
+
+use nalgebra::linalg::SymmetricEigen;
+use nalgebra::{DMatrix, DVector};
+
+/// Iterations for each row, a multiple of the two or three that are usual. Without a bound nalgebra never ends on a
+/// NaN.
+const ITERATIONS: usize = 100;
+
+/// Rank and kernels of a matrix of *m* rows and *n* columns.
+#[derive(Debug, Clone)]
+pub struct Kernels {
+    /// Singular values that count.
+    pub rank: usize,
+    /// The smallest of them and the largest other one, over the largest: 1 and 0 where there is none.
+    pub gap: [f64; 2],
+    /// The largest singular value.
+    pub largest: f64,
+    /// An orthonormal basis, by columns, of what the matrix takes to zero: *n* rows.
+    pub right: DMatrix<f64>,
+    /// The same of its transpose: *m* rows.
+    pub left: DMatrix<f64>,
+}
+
+impl Kernels {
+    /// Those of a matrix whose singular values below `zero` times the largest count as zero; `None` where an entry is
+    /// not finite.
+    #[must_use]
+    pub fn new(matrix: &DMatrix<f64>, zero: f64) -> Option<Self> {
+        let values = singular_values(matrix)?;
+        let largest = values.first().copied().unwrap_or(0.0);
+        let most = largest.max(f64::MIN_POSITIVE);
+        let rank = values.iter().filter(|value| **value > zero * most).count();
+        let counted = if rank > 0 { values[rank - 1] / most } else { 1.0 };
+        let gap = [counted, values.get(rank).map_or(0.0, |value| value / most)];
+        let right = complement(&matrix.transpose(), rank);
+        Some(Self { rank, gap, largest, right, left: complement(matrix, rank) })
+    }
+}
+
+/// An orthonormal basis, by columns, of what is orthogonal to all columns of a matrix of this rank.
+///
+/// Where the matrix is of a higher rank, what is orthogonal to the first of its columns by size of their pivots: of a
+/// square matrix that is all but singular the vector that it all but takes to zero from the left.
+#[must_use]
+pub fn complement(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
+    let size = matrix.nrows();
+    if rank == 0 || rank == size {
+        return DMatrix::identity(size, size - rank);
+    }
+    // Columns of zeros, for an orthogonal factor that is square.
+    let wide = (matrix / unit(matrix)).resize_horizontally(matrix.ncols().max(size), 0.0);
+    wide.col_piv_qr().q().columns(rank, size - rank).into_owned()
+}
+
+/// Singular values, the largest first; `None` where an entry is not finite.
+#[must_use]
+pub fn singular_values(matrix: &DMatrix<f64>) -> Option<Vec<f64>> {
+    if matrix.is_empty() {
+        return Some(Vec::new());
+    }
+    let steps = ITERATIONS * matrix.nrows().max(matrix.ncols());
+    let finite = finite(matrix)?.clone();
+    Some(finite.try_svd(false, false, f64::EPSILON, steps)?.singular_values.as_slice().to_vec())
+}
+
+/// The shortest of the vectors that leave the least of `right`, by a rank of pivots above `zero` times the largest;
+/// `None` where an entry of either is not finite.
+#[must_use]
+pub fn least_squares(
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+    zero: f64,
+) -> Option<DVector<f64>> {
+    if !right.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    if matrix.is_empty() {
+        return Some(DVector::zeros(matrix.ncols()));
+    }
+    let unit = unit(finite(matrix)?);
+    let factors = (matrix / unit).col_piv_qr();
+    let upper = factors.r();
+    let pivot = |k: usize| upper[(k, k)].abs();
+    let rank = (0..upper.nrows()).take_while(|k| pivot(*k) > zero * pivot(0)).count();
+    if rank == 0 {
+        return Some(DVector::zeros(matrix.ncols()));
+    }
+    let wanted = factors.q().columns(0, rank).tr_mul(right) / unit;
+    // R = T^T Z^T over the rows that count: the shortest is Z T^-T of what is wanted.
+    let across = upper.rows(0, rank).transpose().qr();
+    let short = across.r().tr_solve_upper_triangular(&wanted)?;
+    let mut found = across.q() * short;
+    factors.p().inv_permute_rows(&mut found);
+    Some(found)
+}
+
+/// A power of two near the largest entry: squares of entries over it are in range.
+fn unit(matrix: &DMatrix<f64>) -> f64 {
+    let largest = matrix.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+    if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 }
+}
+
+/// Eigenvalues of a symmetric matrix, ascending; `None` where an entry is not finite.
+#[must_use]
+pub fn eigenvalues(symmetric: &DMatrix<f64>) -> Option<Vec<f64>> {
+    if symmetric.is_empty() {
+        return Some(Vec::new());
+    }
+    let values = finite(symmetric)?.symmetric_eigenvalues();
+    let mut values = values.as_slice().to_vec();
+    values.sort_unstable_by(f64::total_cmp);
+    Some(values)
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors by columns; `None` where an entry is not finite.
+#[must_use]
+pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
+    if symmetric.is_empty() {
+        return Some((Vec::new(), symmetric.clone()));
+    }
+    let steps = ITERATIONS * symmetric.nrows();
+    let found = SymmetricEigen::try_new(finite(symmetric)?.clone(), f64::EPSILON, steps)?;
+    let mut order: Vec<usize> = (0..symmetric.nrows()).collect();
+    order.sort_unstable_by(|a, b| found.eigenvalues[*a].total_cmp(&found.eigenvalues[*b]));
+    let values = order.iter().map(|k| found.eigenvalues[*k]).collect();
+    Some((values, found.eigenvectors.select_columns(&order)))
+}
+
+/// The matrix, if all of it is finite.
+fn finite(matrix: &DMatrix<f64>) -> Option<&DMatrix<f64>> {
+    matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
+}
