@@ -1,4 +1,4 @@
-//! Rank, kernels, least squares and eigenvalues of small dense matrices, by `nalgebra`.
+//! Rank, kernels, least squares, inverses and eigenvalues of small dense matrices, with `nalgebra`.
 //!
 //! Kernels come of orthogonal triangularisation with exchanges of columns, at a rank that singular values decide. The
 //! singular *vectors* of nalgebra 0.34 are not used: of one matrix in forty without full rank they do not give
@@ -11,34 +11,45 @@ use nalgebra::{DMatrix, DVector};
 /// NaN.
 const ITERATIONS: usize = 100;
 
-/// Rank and kernels of a matrix of *m* rows and *n* columns.
+/// Columns that are eliminated one by one before those after them take them together.
+const PANEL: usize = 32;
+
+/// The rank of a matrix, and its kernels.
 #[derive(Debug, Clone)]
-pub struct Kernels {
+pub struct Kernels<'a> {
+    matrix: &'a DMatrix<f64>,
     /// Singular values that count.
     pub rank: usize,
     /// The smallest of them and the largest other one, over the largest: 1 and 0 where there is none.
     pub gap: [f64; 2],
     /// The largest singular value.
     pub largest: f64,
-    /// An orthonormal basis, by columns, of what the matrix takes to zero: *n* rows.
-    pub right: DMatrix<f64>,
-    /// The same of its transpose: *m* rows.
-    pub left: DMatrix<f64>,
 }
 
-impl Kernels {
+impl<'a> Kernels<'a> {
     /// Those of a matrix whose singular values below `zero` times the largest count as zero; `None` where an entry is
     /// not finite.
     #[must_use]
-    pub fn new(matrix: &DMatrix<f64>, zero: f64) -> Option<Self> {
+    pub fn new(matrix: &'a DMatrix<f64>, zero: f64) -> Option<Self> {
         let values = singular_values(matrix)?;
         let largest = values.first().copied().unwrap_or(0.0);
         let most = largest.max(f64::MIN_POSITIVE);
         let rank = values.iter().filter(|value| **value > zero * most).count();
         let counted = if rank > 0 { values[rank - 1] / most } else { 1.0 };
         let gap = [counted, values.get(rank).map_or(0.0, |value| value / most)];
-        let right = complement(&matrix.transpose(), rank);
-        Some(Self { rank, gap, largest, right, left: complement(matrix, rank) })
+        Some(Self { matrix, rank, gap, largest })
+    }
+
+    /// An orthonormal basis, by columns, of what the matrix takes to zero.
+    #[must_use]
+    pub fn right(&self) -> DMatrix<f64> {
+        complement(&self.matrix.transpose(), self.rank)
+    }
+
+    /// The same of its transpose.
+    #[must_use]
+    pub fn left(&self) -> DMatrix<f64> {
+        complement(self.matrix, self.rank)
     }
 }
 
@@ -103,6 +114,65 @@ pub fn least_squares(
 fn unit(matrix: &DMatrix<f64>) -> f64 {
     let largest = matrix.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 }
+}
+
+/// The inverse of a square matrix, by elimination with exchanges of rows, some columns at a time; `None` where an entry
+/// is not finite, or a pivot vanishes.
+///
+/// # Panics
+///
+/// When the matrix is not square.
+#[must_use]
+pub fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let size = matrix.nrows();
+    assert_eq!(size, matrix.ncols(), "a square matrix");
+    // The matrix beside the unit matrix.
+    let mut wide = finite(matrix)?.clone().resize_horizontally(2 * size, 0.0);
+    wide.columns_mut(size, size).fill_with_identity();
+    let panels = (0..size).step_by(PANEL).map(|first| (first, PANEL.min(size - first)));
+    for (first, width) in panels.clone() {
+        triangular(&mut wide, first..first + width)?;
+        let (end, after) = (first + width, 2 * size - first - width);
+        let mut rows = wide.view((first, end), (width, after)).clone_owned();
+        let own = wide.view((first, first), (width, width));
+        own.solve_lower_triangular_with_diag_mut(&mut rows, 1.0);
+        wide.view_mut((first, end), (width, after)).copy_from(&rows);
+        let below = wide.view((end, first), (size - end, width)).clone_owned();
+        wide.view_mut((end, end), (size - end, after)).gemm(-1.0, &below, &rows, 1.0);
+    }
+    let mut found = wide.columns(size, size).clone_owned();
+    for (first, width) in panels.rev() {
+        let mut rows = found.rows(first, width).clone_owned();
+        wide.view((first, first), (width, width)).solve_upper_triangular_mut(&mut rows);
+        found.rows_mut(first, width).copy_from(&rows);
+        let above = wide.view((0, first), (first, width));
+        found.rows_mut(0, first).gemm(-1.0, &above, &rows, 1.0);
+    }
+    Some(found)
+}
+
+/// Eliminate some columns, with exchanges of whole rows; `None` where a pivot vanishes.
+fn triangular(matrix: &mut DMatrix<f64>, columns: std::ops::Range<usize>) -> Option<()> {
+    for column in columns.clone() {
+        let below = matrix.nrows() - column;
+        let pivot = column + matrix.view((column, column), (below, 1)).icamax_full().0;
+        matrix.swap_rows(column, pivot);
+        let pivot = matrix[(column, column)];
+        if pivot.abs() <= 0.0 {
+            return None;
+        }
+        let mut parts = matrix.view_mut((column + 1, column), (below - 1, 1));
+        parts /= pivot;
+        let parts = parts.column(0).clone_owned();
+        for other in column + 1..columns.end {
+            let by = -matrix[(column, other)];
+            matrix
+                .view_mut((column + 1, other), (below - 1, 1))
+                .column_mut(0)
+                .axpy(by, &parts, 1.0);
+        }
+    }
+    Some(())
 }
 
 /// Eigenvalues of a symmetric matrix, ascending; `None` where an entry is not finite.

@@ -9,6 +9,7 @@
 //! S. M. Rump, "Verification methods", Acta Numerica 19 (2010) 287-449,
 //! doi:10.1017/S096249291000005X, section 10.
 
+use matrices::dense::inverse;
 use numerics::{Interval, up};
 use rayon::prelude::*;
 
@@ -46,7 +47,7 @@ impl Inverse {
     /// Of the middle of a matrix, if double precision has one.
     pub(super) fn of(size: usize, entries: &[Entry]) -> Option<Self> {
         // Of the transpose by columns, which are the rows of the inverse.
-        let inverse = dense(size, entries).transpose().lu().try_inverse()?;
+        let inverse = inverse(&dense(size, entries).transpose())?;
         let rows = inverse.as_slice().to_vec();
         rows.iter().all(|x| x.is_finite()).then_some(Self { size, rows })
     }

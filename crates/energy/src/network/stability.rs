@@ -327,7 +327,7 @@ fn kernels(rigidity: &DMatrix<f64>, zero: f64) -> (DMatrix<f64>, DMatrix<f64>, R
         return (DMatrix::identity(n, n), DMatrix::zeros(m, 0), unsolved(0));
     };
     let counted = Rigidity { gap: found.gap, ..unsolved(found.rank) };
-    (found.right, found.left, counted)
+    (found.right(), found.left(), counted)
 }
 
 #[cfg(test)]

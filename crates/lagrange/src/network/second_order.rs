@@ -194,7 +194,7 @@ impl Dense {
         let rank_gap = kernels.as_ref().map_or([1.0, 0.0], |kernels| kernels.gap);
         let (motions, stresses) = kernels.map_or_else(
             || (DMatrix::identity(size, size), DMatrix::zeros(rigid.len(), 0)),
-            |kernels| (kernels.right, kernels.left),
+            |kernels| (kernels.right(), kernels.left()),
         );
         let mut hessian = DMatrix::<f64>::zeros(size, size);
         let is_rope = |k: usize| framework.links[k].rope.is_some();

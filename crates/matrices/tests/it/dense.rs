@@ -1,6 +1,6 @@
 //! Ranks and spectra known beforehand, and what kernels and solutions are to be orthogonal to.
 
-use matrices::dense::{Kernels, eigen, eigenvalues, least_squares, singular_values};
+use matrices::dense::{Kernels, eigen, eigenvalues, inverse, least_squares, singular_values};
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -33,7 +33,9 @@ fn orthonormal(columns: &DMatrix<f64>) -> bool {
 /// Check kernels of a matrix of this rank, and the least squares with them.
 fn check(random: &mut ChaCha8Rng, matrix: &DMatrix<f64>, rank: usize) {
     let (m, n) = matrix.shape();
-    let Kernels { rank: found, gap, largest, right, left } = Kernels::new(matrix, ZERO).unwrap();
+    let kernels = Kernels::new(matrix, ZERO).unwrap();
+    let Kernels { rank: found, gap, largest, .. } = kernels;
+    let (right, left) = (kernels.right(), kernels.left());
     assert_eq!(found, rank, "{matrix} {gap:?}");
     assert_eq!((right.shape(), left.shape()), ((n, n - rank), (m, m - rank)));
     assert!(orthonormal(&right) && orthonormal(&left), "{matrix}");
@@ -125,7 +127,9 @@ fn a_column_of_three_and_four() {
     let matrix = DMatrix::from_row_slice(2, 2, &[3.0, 0.0, 4.0, 0.0]);
     let values = singular_values(&matrix).unwrap();
     assert!((values[0] - 5.0).abs() <= 2e-15 && values[1].abs() <= 2e-15);
-    let Kernels { rank, gap, largest, right, left } = Kernels::new(&matrix, ZERO).unwrap();
+    let kernels = Kernels::new(&matrix, ZERO).unwrap();
+    let Kernels { rank, gap, largest, .. } = kernels;
+    let (right, left) = (kernels.right(), kernels.left());
     assert!(rank == 1 && (gap[0] - 1.0).abs() <= 1e-15 && gap[1] <= 1e-15);
     assert!((largest - 5.0).abs() <= 2e-15);
     assert!((right[1].abs() - 1.0).abs() <= 1e-15 && right[0].abs() <= 1e-15);
@@ -192,4 +196,25 @@ fn what_is_not_finite_gives_nothing() {
             assert!(least_squares(&matrix, &(right * bad), ZERO).is_none());
         }
     }
+}
+
+/// Of products of orthogonal matrices with a diagonal between, whose inverse is known; rows are exchanged throughout.
+#[test]
+fn inverses_of_known_matrices() {
+    let random = &mut ChaCha8Rng::seed_from_u64(11);
+    for size in [0, 1, 2, 3, 7, 31, 32, 33, 64, 65, 150] {
+        let [left, right] = [(); 2].map(|()| orthogonal(random, size));
+        let values =
+            DVector::from_fn(size, |k, _| (if k % 2 == 0 { 4.0 } else { -0.1 }) + 0.01 * k as f64);
+        let matrix = &left * DMatrix::from_diagonal(&values) * right.transpose();
+        let wanted = &right * DMatrix::from_diagonal(&values.map(f64::recip)) * left.transpose();
+        let off =
+            (inverse(&matrix).unwrap() - wanted).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let least = values.iter().fold(f64::INFINITY, |least, x| least.min(x.abs()));
+        assert!(off <= 1e-13 / (least * least), "{size}: {off:e}");
+    }
+    let swap = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 4.0, 0.0]);
+    assert_eq!(inverse(&swap).unwrap(), DMatrix::from_row_slice(2, 2, &[0.0, 0.25, 0.5, 0.0]));
+    assert_eq!(inverse(&DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0])), None);
+    assert_eq!(inverse(&DMatrix::from_element(2, 2, f64::NAN)), None);
 }

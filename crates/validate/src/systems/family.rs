@@ -412,7 +412,9 @@ fn null_rows(matrix: &DMatrix<f64>) -> Option<Null> {
         let rows = (0..rows).map(|k| unit(k, rows)).collect();
         return Some(Null { rows, zero: 0.0, rank: 0, gap: [1.0, 0.0] });
     }
-    let Kernels { rank, gap, largest, left, .. } = Kernels::new(matrix, RANK)?;
+    let kernels = Kernels::new(matrix, RANK)?;
+    let Kernels { rank, gap, largest, .. } = kernels;
+    let left = kernels.left();
     let rows = left.column_iter().map(|stress| stress.iter().copied().collect()).collect();
     Some(Null { rows, zero: RANK * largest, rank, gap })
 }

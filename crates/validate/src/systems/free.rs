@@ -262,9 +262,8 @@ fn with_room(
             }
         }
     }
-    let Some(Kernels { right, .. }) =
-        Kernels::new(&rows, INDEPENDENT).filter(|kernels| kernels.rank == rank)
-    else {
+    let kernels = Kernels::new(&rows, INDEPENDENT).filter(|kernels| kernels.rank == rank);
+    let Some(right) = kernels.map(|kernels| kernels.right()) else {
         return vec![false; part.len()];
     };
     let moves = |at: usize| {

@@ -203,13 +203,13 @@ impl<'a> Geometry<'a> {
             spans.map(|([a, b], along, _)| dot(*along, axis) * (is(*b) - is(*a))).sum::<f64>()
         };
         let lengths = DMatrix::from_fn(rows, columns, entry);
-        let stresses = Kernels::new(&lengths, ZERO)?.left;
+        let stresses = Kernels::new(&lengths, ZERO)?.left();
         let stresses = stresses.column_iter().map(|stress| stress.iter().copied().collect());
         let body = self.body_motions();
         let fixed = DMatrix::from_fn(rows + body.len(), columns, |row, column| {
             if row < rows { entry(row, column) } else { body[row - rows][column] }
         });
-        Some((Kernels::new(&fixed, ZERO)?.right, stresses.collect()))
+        Some((Kernels::new(&fixed, ZERO)?.right(), stresses.collect()))
     }
 
     /// Motions of the whole as one body, about its middle, where nothing supports it.
