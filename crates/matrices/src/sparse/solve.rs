@@ -77,12 +77,20 @@ fn forwards<const SIDES: usize>(
 ) {
     let height = own.len() + below.len();
     for (column, values) in block.chunks_exact(height).enumerate() {
-        let by = own[column];
-        let rest = own[column + 1..].iter_mut().chain(&mut *below);
-        for (x, l) in rest.zip(&values[column + 1..]) {
-            for side in 0..SIDES {
-                x[side] -= l * by[side];
-            }
+        let (before, rest) = own.split_at_mut(column + 1);
+        let (upper, lower) = values[column + 1..].split_at(rest.len());
+        let by = before[column];
+        take_off(rest, upper, by);
+        take_off(below, lower, by);
+    }
+}
+
+/// Take numbers times a vector off vectors.
+#[inline(always)]
+fn take_off<const SIDES: usize>(vectors: &mut [[f64; SIDES]], numbers: &[f64], by: [f64; SIDES]) {
+    for (x, l) in vectors.iter_mut().zip(numbers) {
+        for side in 0..SIDES {
+            x[side] -= l * by[side];
         }
     }
 }
@@ -104,11 +112,17 @@ fn backwards<const SIDES: usize>(block: &[f64], own: &mut [[f64; SIDES]], below:
 #[inline(always)]
 fn dot<const SIDES: usize>(numbers: &[f64], vectors: &[[f64; SIDES]]) -> [f64; SIDES] {
     let mut sums = [[0.0; SIDES]; APART];
-    for (numbers, vectors) in numbers.chunks(APART).zip(vectors.chunks(APART)) {
-        for (sum, (number, vector)) in sums.iter_mut().zip(numbers.iter().zip(vectors)) {
+    let (mut fours, mut vector_fours) = (numbers.chunks_exact(APART), vectors.chunks_exact(APART));
+    for (numbers, vectors) in (&mut fours).zip(&mut vector_fours) {
+        for k in 0..APART {
             for side in 0..SIDES {
-                sum[side] += number * vector[side];
+                sums[k][side] += numbers[k] * vectors[k][side];
             }
+        }
+    }
+    for (number, vector) in fours.remainder().iter().zip(vector_fours.remainder()) {
+        for side in 0..SIDES {
+            sums[0][side] += number * vector[side];
         }
     }
     std::array::from_fn(|side| sums.iter().map(|sum| sum[side]).sum())
