@@ -4,6 +4,8 @@
 //! singular *vectors* of nalgebra 0.34 are not used: of one matrix in forty without full rank they do not give
 //! the matrix back (random products of two thin factors; its singular values are right).
 
+use std::ops::Range;
+
 use nalgebra::linalg::SymmetricEigen;
 use nalgebra::{DMatrix, DVector};
 
@@ -126,50 +128,69 @@ fn unit(matrix: &DMatrix<f64>) -> f64 {
 pub fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let size = matrix.nrows();
     assert_eq!(size, matrix.ncols(), "a square matrix");
-    // The matrix beside the unit matrix.
-    let mut wide = finite(matrix)?.clone().resize_horizontally(2 * size, 0.0);
-    wide.columns_mut(size, size).fill_with_identity();
+    let (mut factors, mut found) = (finite(matrix)?.clone(), DMatrix::identity(size, size));
     let panels = (0..size).step_by(PANEL).map(|first| (first, PANEL.min(size - first)));
+    let mut exchanges = Vec::with_capacity(size);
+    let panel = |factors: &DMatrix<f64>, first: usize, width: usize| {
+        factors.view((first, first), (size - first, width)).clone_owned()
+    };
     for (first, width) in panels.clone() {
-        triangular(&mut wide, first..first + width)?;
-        let (end, after) = (first + width, 2 * size - first - width);
-        let mut rows = wide.view((first, end), (width, after)).clone_owned();
-        let own = wide.view((first, first), (width, width));
-        own.solve_lower_triangular_with_diag_mut(&mut rows, 1.0);
-        wide.view_mut((first, end), (width, after)).copy_from(&rows);
-        let below = wide.view((end, first), (size - end, width)).clone_owned();
-        wide.view_mut((end, end), (size - end, after)).gemm(-1.0, &below, &rows, 1.0);
+        triangular(&mut factors, first..first + width, &mut exchanges)?;
+        let panel = panel(&factors, first, width);
+        take_off(&panel, &mut factors, first, first + width..size);
     }
-    let mut found = wide.columns(size, size).clone_owned();
+    // The inverse of a triangle is one.
+    for (first, width) in panels.clone() {
+        take_off(&panel(&factors, first, width), &mut found, first, 0..first + width);
+    }
     for (first, width) in panels.rev() {
         let mut rows = found.rows(first, width).clone_owned();
-        wide.view((first, first), (width, width)).solve_upper_triangular_mut(&mut rows);
+        factors.view((first, first), (width, width)).solve_upper_triangular_mut(&mut rows);
         found.rows_mut(first, width).copy_from(&rows);
-        let above = wide.view((0, first), (first, width));
+        let above = factors.view((0, first), (first, width));
         found.rows_mut(0, first).gemm(-1.0, &above, &rows, 1.0);
+    }
+    for (row, other) in exchanges.into_iter().rev() {
+        found.swap_columns(row, other);
     }
     Some(found)
 }
 
+/// Solve with the triangle, with ones on its diagonal, at the head of some columns of a factor, in the rows from `first` on
+/// of a matrix, and take what is below the triangle off the rows below.
+fn take_off(panel: &DMatrix<f64>, matrix: &mut DMatrix<f64>, first: usize, columns: Range<usize>) {
+    let (width, below, from) = (panel.ncols(), panel.nrows() - panel.ncols(), columns.start);
+    let mut rows = matrix.view((first, from), (width, columns.len())).clone_owned();
+    panel.rows(0, width).solve_lower_triangular_with_diag_mut(&mut rows, 1.0);
+    matrix.view_mut((first, from), rows.shape()).copy_from(&rows);
+    let mut rest = matrix.view_mut((first + width, from), (below, columns.len()));
+    rest.gemm(-1.0, &panel.rows(width, below), &rows, 1.0);
+}
+
 /// Eliminate some columns, with exchanges of whole rows; `None` where a pivot vanishes.
-fn triangular(matrix: &mut DMatrix<f64>, columns: std::ops::Range<usize>) -> Option<()> {
+fn triangular(
+    matrix: &mut DMatrix<f64>,
+    columns: Range<usize>,
+    exchanges: &mut Vec<(usize, usize)>,
+) -> Option<()> {
     for column in columns.clone() {
         let below = matrix.nrows() - column;
         let pivot = column + matrix.view((column, column), (below, 1)).icamax_full().0;
         matrix.swap_rows(column, pivot);
-        let pivot = matrix[(column, column)];
+        exchanges.push((column, pivot));
+        let rows = matrix.nrows();
+        let (before, after) = matrix.as_mut_slice().split_at_mut((column + 1) * rows);
+        let values = &mut before[column * rows..];
+        let pivot = values[column];
         if pivot.abs() <= 0.0 {
             return None;
         }
-        let mut parts = matrix.view_mut((column + 1, column), (below - 1, 1));
-        parts /= pivot;
-        let parts = parts.column(0).clone_owned();
-        for other in column + 1..columns.end {
-            let by = -matrix[(column, other)];
-            matrix
-                .view_mut((column + 1, other), (below - 1, 1))
-                .column_mut(0)
-                .axpy(by, &parts, 1.0);
+        values[column + 1..].iter_mut().for_each(|value| *value /= pivot);
+        for other in after.chunks_exact_mut(rows).take(columns.end - column - 1) {
+            let by = other[column];
+            for (x, l) in other[column + 1..].iter_mut().zip(&values[column + 1..]) {
+                *x -= l * by;
+            }
         }
     }
     Some(())
