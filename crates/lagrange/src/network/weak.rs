@@ -19,8 +19,9 @@ use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
 
-/// Forces that are right to this part of the largest need nothing more.
-const SETTLED: f64 = 1e-10;
+/// Forces that are right to this part of the largest need nothing more: those of members that bear little are judged by what these
+/// bear.
+const SETTLED: f64 = 1e-13;
 
 /// Steps at most; two or three are enough.
 const ROUNDS: usize = 8;

@@ -421,3 +421,45 @@ fn what_has_snapped_through_is_no_neighbour() {
     // Less the 4 m that the load has sunk there.
     assert!((near.barrier_j.unwrap() - (800.0 - 4e-3)).abs() < 1e-9, "{near:?}");
 }
+
+/// Towers that leave no freedom, each with a brace that has the length of the drawing: it bears nothing but its weight, and
+/// the rigid bars bear what they would without it. Its force is judged by what it bears, far less than what the others do.
+#[test]
+fn a_brace_of_the_length_that_is_drawn_bears_nothing() {
+    for levels in 2..6 {
+        let place = |level: usize, corner: usize| {
+            let [x, y] = [[0.0, 0.0], [2.0, 0.0], [1.0, 2.0]][corner];
+            [x + 0.1 * level as f64, y, 2.0 * level as f64]
+        };
+        let at = |level: usize, corner: usize| 3 * level + corner % 3;
+        let corners = (0..=levels).flat_map(|level| (0..3).map(move |corner| (level, corner)));
+        let joints = corners.map(|(level, corner)| {
+            let (name, at_m) = (format!("{level}{corner}"), place(level, corner));
+            let load_n = [20.0 * (corner % 2) as f64, 0.0, -30.0 - corner as f64];
+            let joint = Joint::free(name.as_str()).with_mass(5.0).with_force(load_n).near(at_m);
+            if level == 0 { Joint::anchor(name, at_m) } else { joint }
+        });
+        let bar = |from: usize, to: usize| {
+            let [a, b] = [from, to].map(|k| Vector3::from(place(k / 3, k % 3)));
+            Member::bar(from, to, Bar::homogeneous((b - a).norm(), 1.0).unwrap())
+        };
+        let mut members: Vec<Member> = (1..=levels)
+            .flat_map(|level| {
+                (0..3).flat_map(move |corner| {
+                    let here = at(level, corner);
+                    let others =
+                        [at(level - 1, corner), at(level - 1, corner + 1), at(level, corner + 1)];
+                    others.map(|other| (here, other))
+                })
+            })
+            .map(|(here, other)| bar(here, other))
+            .collect();
+        members.push(bar(1, at(levels, 0)).with_stiffness(1e5));
+        let system = System::new("tower", G, joints.collect(), members).unwrap();
+        let answer = neighbour(&system);
+        for found in &answer.equilibria {
+            let force_n = found.axial_n[system.members().len() - 1];
+            assert!(force_n.abs() < 1e-8, "{levels}, {}: {force_n} N", found.solver);
+        }
+    }
+}
