@@ -1,5 +1,5 @@
-//! Linear algebra: the factorisation $L D L^T$ of [sparse](sparse) symmetric matrices, and rank, kernels, least
-//! squares and eigenvalues of small [dense](dense) ones.
+//! Linear algebra: the factorisation $L D L^T$ of [`sparse`] symmetric matrices, and rank, kernels, least
+//! squares and eigenvalues of small [`dense`] ones.
 //!
 //! Arithmetic alone: nothing here knows what a bar is, and both solvers may use it.
 //!
