@@ -1,8 +1,8 @@
 //! Rank, kernels, least squares, inverses and eigenvalues of small dense matrices, with `nalgebra`.
 //!
 //! Kernels come of orthogonal triangularisation with exchanges of columns, at a rank that singular values decide. The
-//! singular *vectors* of nalgebra 0.34 are not used: of one matrix in forty without full rank they do not give
-//! the matrix back (random products of two thin factors; its singular values are right).
+//! singular *vectors* of nalgebra 0.34 are not used: of one random matrix in four hundred without full rank (one in
+//! forty with the tolerance that gives its singular values all their digits) they do not give the matrix back.
 
 use std::ops::Range;
 

@@ -51,6 +51,12 @@ pub enum MotionError {
         /// Its axial force, tension positive, N.
         axial_n: f64,
     },
+    /// Occurs when there is no memory for the factor of the equations of a step.
+    #[error("there is no memory for the equations of {joints} joints")]
+    Memory {
+        /// Joints that move.
+        joints: usize,
+    },
     /// Occurs when impacts follow each other too fast, or when no impulses of the right signs are
     /// found for what closes at one time.
     #[error("at t = {time_s} s there are more than {most} impacts in a step of {step_s} s")]

@@ -103,25 +103,25 @@ impl Saddle {
     ///
     /// # Errors
     ///
-    /// [`MotionError::Massless`] where `M` itself is singular.
+    /// [`MotionError::Massless`] where `M` itself is singular, [`MotionError::Memory`].
     pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
         // Without rows the same elimination tells whether every joint has inertia of its own.
         Self::inertia(mechanism)?;
-        Ok(Self::of(&Layout::new(mechanism), mechanism.is_forest))
+        Self::of(&Layout::new(mechanism), mechanism.is_forest)
     }
 
     /// The matrix `M` alone, factorised.
     ///
     /// # Errors
     ///
-    /// [`MotionError::Massless`] where it is singular.
+    /// [`MotionError::Massless`] where it is singular, [`MotionError::Memory`].
     pub(crate) fn inertia(mechanism: &Mechanism) -> Result<Self, MotionError> {
         let Layout { mass, mut edges, .. } = Layout::new(mechanism);
         for edge in &mut edges {
             edge.row = None;
         }
         let bare = Layout { mass, edges, own: Vec::new() };
-        let mut found = Self::of(&bare, mechanism.is_forest);
+        let mut found = Self::of(&bare, mechanism.is_forest)?;
         found.factor(&[]).map_err(|failed| {
             // A pivot that is no number is one of nothing, as one below zero is.
             let inertia_kg = failed.pivot.max(0.0);
@@ -130,12 +130,12 @@ impl Saddle {
         Ok(found)
     }
 
-    fn of(layout: &Layout, is_forest: bool) -> Self {
+    fn of(layout: &Layout, is_forest: bool) -> Result<Self, MotionError> {
         if is_forest {
-            Self::Forest(Forest::new(layout))
-        } else {
-            Self::Sparse(Sparse::new(layout))
+            return Ok(Self::Forest(Forest::new(layout)));
         }
+        let lost = MotionError::Memory { joints: layout.mass.len() };
+        Sparse::new(layout).map(Self::Sparse).ok_or(lost)
     }
 
     /// Factors for the given vectors of the rows.

@@ -3,9 +3,9 @@
 //! The three coordinates of a joint are eliminated together, and the row of a member right after
 //! the last of its joints. At that point all columns of the row are eliminated, so its pivot is `−(R A⁻¹ Rᵀ)`
 //! of independent rows: negative wherever the constraints are independent, whatever the order of
-//! the joints. The factorisation is Davis' up-looking one (ACM Trans. Math. Software 31 (2005)
-//! 587-591).
+//! the joints.
 
+use matrices::sparse::{Ldlt, Pivots};
 use model::Vector;
 
 use super::{Layout, OwnRow, Singular};
@@ -22,9 +22,8 @@ enum Source {
 
 #[derive(Debug, Clone)]
 pub(crate) struct Sparse {
-    /// Entries of each column on and above the diagonal.
-    begin: Vec<usize>,
-    entries: Vec<(usize, Source)>,
+    /// The entries on and above the diagonal, column by column, and where their values come from.
+    entries: Vec<(usize, usize, Source)>,
     /// Slot that each unknown belongs to.
     slot: Vec<usize>,
     /// `+1` for a coordinate, `−1` for a row.
@@ -32,21 +31,16 @@ pub(crate) struct Sparse {
     /// First unknown of each slot; unknown of each row.
     of_slot: Vec<usize>,
     of_row: Vec<usize>,
-    parent: Vec<usize>,
-    column: Vec<usize>,
-    filled: Vec<usize>,
-    index: Vec<usize>,
-    value: Vec<f64>,
-    d: Vec<f64>,
-    work: Vec<f64>,
-    flag: Vec<usize>,
-    pattern: Vec<usize>,
+    factor: Ldlt,
+    values: Vec<f64>,
+    /// Sums of the magnitudes that a pivot is made of.
+    made_of: Vec<f64>,
+    right: Vec<f64>,
 }
 
-const NONE: usize = usize::MAX;
-
 impl Sparse {
-    pub(super) fn new(layout: &Layout) -> Self {
+    /// `None` where there is no memory for the factor.
+    pub(super) fn new(layout: &Layout) -> Option<Self> {
         let n = layout.mass.len();
         let mut last = vec![None; layout.rows()];
         for edge in &layout.edges {
@@ -74,143 +68,60 @@ impl Sparse {
                 sign.push(-1.0);
             }
         }
-        let columns = columns(layout, slot.len(), &of_slot, &of_row);
-        let mut begin = vec![0];
-        let mut entries = Vec::new();
-        for column in columns {
-            entries.extend(column);
-            begin.push(entries.len());
-        }
         let size = slot.len();
-        let mut found = Self {
-            begin,
-            entries,
-            slot,
-            sign,
-            of_slot,
-            of_row,
-            parent: vec![NONE; size],
-            column: Vec::new(),
-            filled: vec![0; size],
-            index: Vec::new(),
-            value: Vec::new(),
-            d: vec![0.0; size],
-            work: vec![0.0; size],
-            flag: vec![NONE; size],
-            pattern: vec![0; size],
-        };
-        found.analyse();
-        found
-    }
-
-    /// The elimination tree and the number of entries in each column of `L`.
-    fn analyse(&mut self) {
-        let size = self.slot.len();
-        let mut count = vec![0; size];
-        for k in 0..size {
-            self.flag[k] = k;
-            for &(row, _) in &self.entries[self.begin[k]..self.begin[k + 1]] {
-                let mut i = row;
-                while self.flag[i] != k {
-                    if self.parent[i] == NONE {
-                        self.parent[i] = k;
-                    }
-                    count[i] += 1;
-                    self.flag[i] = k;
-                    i = self.parent[i];
-                }
-            }
+        let (mut starts, mut entries) = (vec![0], Vec::new());
+        for (column, of_column) in columns(layout, size, &of_slot, &of_row).into_iter().enumerate()
+        {
+            entries.extend(of_column.into_iter().map(|(row, source)| (row, column, source)));
+            starts.push(entries.len());
         }
-        self.column = vec![0];
-        for entries in count {
-            self.column.push(self.column[self.column.len() - 1] + entries);
-        }
-        self.index = vec![0; self.column[size]];
-        self.value = vec![0.0; self.column[size]];
+        let rows: Vec<usize> = entries.iter().map(|(row, ..)| *row).collect();
+        let order: Vec<usize> = (0..size).collect();
+        let factor = Ldlt::new(&starts, &rows, &order)?;
+        let (values, made_of, right) = (vec![0.0; entries.len()], vec![0.0; size], vec![0.0; size]);
+        Some(Self { entries, slot, sign, of_slot, of_row, factor, values, made_of, right })
     }
 
     pub(super) fn factor(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
-        let size = self.slot.len();
-        self.flag.fill(NONE);
-        self.filled.fill(0);
-        for k in 0..size {
-            let mut top = size;
-            self.flag[k] = k;
-            for &(row, source) in &self.entries[self.begin[k]..self.begin[k + 1]] {
-                self.work[row] += match source {
-                    Source::Inertia(m) => m,
-                    Source::Row { vector, axis, sign } => sign * vectors[vector][axis],
-                };
-                let (mut i, mut length) = (row, 0);
-                while self.flag[i] != k {
-                    self.pattern[length] = i;
-                    length += 1;
-                    self.flag[i] = k;
-                    i = self.parent[i];
-                }
-                while length > 0 {
-                    length -= 1;
-                    top -= 1;
-                    self.pattern[top] = self.pattern[length];
-                }
+        self.made_of.fill(0.0);
+        for (value, &(row, column, source)) in self.values.iter_mut().zip(&self.entries) {
+            *value = match source {
+                Source::Inertia(m) => m,
+                Source::Row { vector, axis, sign } => sign * vectors[vector][axis],
+            };
+            if row == column {
+                self.made_of[row] += value.abs();
             }
-            let mut pivot = self.work[k];
-            let mut made_of = pivot.abs();
-            self.work[k] = 0.0;
-            for at in top..size {
-                let i = self.pattern[at];
-                let y = self.work[i];
-                self.work[i] = 0.0;
-                let (first, end) = (self.column[i], self.column[i] + self.filled[i]);
-                for p in first..end {
-                    self.work[self.index[p]] -= self.value[p] * y;
-                }
-                let l = y / self.d[i];
-                pivot -= l * y;
-                made_of += (l * y).abs();
-                self.index[end] = k;
-                self.value[end] = l;
-                self.filled[i] += 1;
-            }
+        }
+        // Where it ends, the pivots are no numbers.
+        self.factor.factorise(&self.values, Pivots::Signed);
+        let pivots = self.factor.pivots();
+        self.factor.lower(|row, column, l| self.made_of[row] += l * l * pivots[column].abs());
+        for (k, (pivot, made_of)) in pivots.iter().zip(&self.made_of).enumerate() {
             let relative = pivot * self.sign[k] / made_of;
             if relative.is_nan() || relative <= LEAST_PIVOT {
-                self.work.fill(0.0);
                 return Err(Singular { slot: self.slot[k], pivot: relative });
             }
-            self.d[k] = pivot;
         }
         Ok(())
     }
 
     pub(super) fn solve(&mut self, x: &mut [Vector], rows: &mut [f64]) {
-        let b = &mut self.work;
+        let b = &mut self.right;
+        b.fill(0.0);
         for (x, &first) in x.iter().zip(&self.of_slot) {
             b[first..first + 3].copy_from_slice(x);
         }
         for (&right, &at) in rows.iter().zip(&self.of_row) {
             b[at] = right;
         }
-        let size = self.slot.len();
-        for j in 0..size {
-            let y = b[j];
-            for p in self.column[j]..self.column[j + 1] {
-                b[self.index[p]] -= self.value[p] * y;
-            }
-        }
-        for j in (0..size).rev() {
-            let mut y = b[j] / self.d[j];
-            for p in self.column[j]..self.column[j + 1] {
-                y -= self.value[p] * b[self.index[p]];
-            }
-            b[j] = y;
-        }
+        self.factor.solve(b);
         for (x, &first) in x.iter_mut().zip(&self.of_slot) {
             x.copy_from_slice(&b[first..first + 3]);
         }
         for (right, &at) in rows.iter_mut().zip(&self.of_row) {
             *right = b[at];
         }
-        b.fill(0.0);
     }
 }
 
