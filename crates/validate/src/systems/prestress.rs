@@ -19,7 +19,7 @@
 //! doi:10.1007/BF01404753; S. Pellegrino and C. R. Calladine, Int. J. Solids Struct. 22 (1986)
 //! 409-428, doi:10.1016/0020-7683(86)90014-4
 
-use matrices::dense::{Kernels, eigen, eigenvalues, singular_values};
+use matrices::dense::{Kernels, eigen, eigenvalues};
 use model::Vector;
 use model::system::{Kind, System};
 
@@ -249,14 +249,14 @@ impl<'a> Geometry<'a> {
         let null = values.iter().filter(|value| value.abs() <= zero).count();
         // Affine functions of the places: the constant, and as many as the joints span directions.
         let places = DMatrix::from_fn(joints, 3, |k, c| self.joints_m[k][c] - self.joints_m[0][c]);
-        let span = rank(&places)?;
+        let span = Kernels::new(&places, ZERO)?.rank;
         // An affine motion keeps a length if its quadratic form vanishes on the direction.
         let along: Vec<Vector> = spans().map(|(_, along, _)| *along).collect();
         let conic = DMatrix::from_fn(along.len(), FORMS.len(), |row, k| {
             let (i, j) = FORMS[k];
             along[row][i] * along[row][j]
         });
-        let no_affine_motion = rank(&conic)? == span * (span + 1) / 2;
+        let no_affine_motion = Kernels::new(&conic, ZERO)?.rank == span * (span + 1) / 2;
         let semidefinite = values.iter().all(|value| *value >= -zero);
         Some(largest > 0.0 && semidefinite && null == span + 1 && no_affine_motion)
     }
@@ -374,13 +374,6 @@ fn scaled(axial: Vec<f64>) -> Option<Vec<f64>> {
 fn unit(vector: &[f64]) -> Option<Vec<f64>> {
     let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
     (size > 0.0).then(|| vector.iter().map(|x| x / size).collect())
-}
-
-/// Singular values that count.
-fn rank(matrix: &DMatrix<f64>) -> Option<usize> {
-    let values = singular_values(matrix)?;
-    let most = values.first().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-    Some(values.iter().filter(|value| **value > ZERO * most).count())
 }
 
 #[cfg(test)]
