@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
+use numerics::in_parallel;
 use serde::Serialize;
 
 use crate::assemble::{Assembly, Link};
@@ -222,7 +222,7 @@ impl Work<'_> {
             (self.watch)(Progress { done, total: self.total.load(Ordering::Relaxed) });
             census_point
         };
-        let census_points: Vec<_> = wanted.par_iter().map(census_point).collect();
+        let census_points = in_parallel(wanted.len(), 1, |k| census_point(&wanted[k]));
         Ok(census_points.into_iter().collect::<Result<_, _>>()?)
     }
 
@@ -235,10 +235,10 @@ impl Work<'_> {
         let key = |pair: [usize; 2]| pair.map(|k| census_points[k].position.to_bits());
         let is_fresh = |pair: &[usize; 2]| !self.known.contains_key(&key(*pair));
         let fresh: Vec<[usize; 2]> = segments.iter().copied().filter(is_fresh).collect();
-        let found: Vec<Segment> = fresh
-            .par_iter()
-            .map(|[a, b]| Segment::new(self.path, &census_points[*a], &census_points[*b]))
-            .collect();
+        let found = in_parallel(fresh.len(), 1, |k| {
+            let [a, b] = fresh[k].map(|at| &census_points[at]);
+            Segment::new(self.path, a, b)
+        });
         self.known.extend(fresh.into_iter().map(key).zip(found));
         let link = |pair: &[usize; 2]| Link {
             census_points: *pair,

@@ -4,8 +4,7 @@
 //! A batch of tasks at a time, each by itself and in parallel, the results taken in order. So
 //! neither the answer nor the point where a search gives up depends on the number of threads.
 
-use numerics::Interval;
-use rayon::prelude::*;
+use numerics::{Interval, in_parallel};
 
 use crate::search::Progress;
 
@@ -143,12 +142,12 @@ pub(crate) fn worked<T: Sync, R: Send>(
     tasks: &[T],
     tests: usize,
     worth_threads: usize,
-    work: impl Fn(&T) -> R + Sync + Send,
+    work: impl Fn(&T) -> R + Sync,
 ) -> Vec<R> {
     if tests < worth_threads {
         tasks.iter().map(work).collect()
     } else {
-        tasks.par_iter().map(work).collect()
+        in_parallel(tasks.len(), 1, |k| work(&tasks[k]))
     }
 }
 

@@ -1,4 +1,5 @@
-//! Numbers that know their rounding error, what makes a computation a proof, and [`vector`]s of three.
+//! Numbers that know their rounding error, what makes a computation a proof; [`vector`]s of three, and
+//! [work that threads share](in_parallel()).
 //!
 //! ```
 //! use numerics::{Interval, PI, atan2};
@@ -25,6 +26,7 @@ mod double_double;
 mod interval;
 mod interval_sum;
 mod lever;
+mod parallel;
 mod rounding;
 mod sum;
 pub mod vector;
@@ -34,5 +36,6 @@ pub use double_double::DoubleDouble;
 pub use interval::Interval;
 pub use interval_sum::IntervalSum;
 pub use lever::lever;
+pub use parallel::in_parallel;
 pub use rounding::{down, two_sum, up};
 pub use sum::CompensatedSum;

@@ -6,13 +6,13 @@ use std::fmt::Write as _;
 use model::cases::Case;
 use model::system::{Row as Bars, System, SystemEquilibrium};
 use model::{Chain, Rung};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::free::stored_rounding_m;
 use crate::question::{Equations, Question, UseCensus};
 use crate::systems::turn::turned_onto;
 use crate::systems::{SystemAgreement, SystemStatics, ask_with};
+use numerics::in_parallel;
 use numerics::vector::{beyond, norm, worse};
 
 /// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends,
@@ -67,7 +67,7 @@ impl CaseResult {
 /// Both solvers on the given cases, in parallel; the order of the results is that of the cases.
 #[must_use]
 pub fn table(cases: &[Case]) -> Vec<CaseResult> {
-    cases.par_iter().map(run).collect()
+    in_parallel(cases.len(), 1, |k| run(&cases[k]))
 }
 
 fn run(case: &Case) -> CaseResult {

@@ -18,8 +18,7 @@
 use std::borrow::Cow;
 
 use model::{Chain, Problem};
-use numerics::Interval;
-use rayon::prelude::*;
+use numerics::{Interval, in_parallel};
 
 use crate::census::Census;
 use crate::census::by_energy_and_angles;
@@ -196,7 +195,7 @@ impl Census {
             check_one(&precise, &system, number + 1, &stated)?;
             Ok(Told::of(&stated))
         };
-        let told: Vec<_> = (0..count).into_par_iter().map(one).collect();
+        let told = in_parallel(count, 1, one);
         let told = told.into_iter().collect::<Result<Vec<Told>, CheckError>>()?;
         for number in 1..count {
             let by_energy = told[number - 1].energy_j.total_cmp(&told[number].energy_j);

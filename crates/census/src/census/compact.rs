@@ -10,7 +10,6 @@ use std::time::Instant;
 
 use model::{Chain, Equilibrium, Problem};
 use numerics::atan2;
-use rayon::prelude::*;
 
 use crate::branch_and_bound::worked;
 use crate::census::check::CheckError;
@@ -141,7 +140,7 @@ impl CompactCensus {
             },
         };
         let mut compact = Self { system, records: vec![], unloaded, besides };
-        records.par_sort_by(|a, b| {
+        records.sort_by(|a, b| {
             let quickly = a.energy_j.total_cmp(&b.energy_j);
             quickly
                 .then(a.first_angle.total_cmp(&b.first_angle))

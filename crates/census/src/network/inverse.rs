@@ -10,8 +10,7 @@
 //! doi:10.1017/S096249291000005X, section 10.
 
 use matrices::dense::inverse;
-use numerics::{Interval, up};
-use rayon::prelude::*;
+use numerics::{Interval, in_parallel, up};
 
 use super::equations::Entry;
 use super::newton::dense;
@@ -71,8 +70,8 @@ impl Inverse {
     }
 
     /// Something of each row of $R$.
-    pub(super) fn of_rows<T: Send>(&self, of: impl Fn(&[f64]) -> T + Sync + Send) -> Vec<T> {
-        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(of).collect()
+    pub(super) fn of_rows<T: Send>(&self, of: impl Fn(&[f64]) -> T + Sync) -> Vec<T> {
+        in_parallel(self.size, APART, |k| of(row(&self.rows, self.size, k)))
     }
 
     /// $M^{-1} r$ for the middle of a matrix near to the inverted one, in double precision. No proof.
@@ -126,17 +125,18 @@ impl Inverse {
     /// The same where `subtract` takes a row of $R M$ off, given the row of $R$.
     pub(super) fn defect_by(&self, subtract: impl Fn(&[f64], &mut [Interval]) + Sync) -> Defect {
         let size = self.size;
-        let mut bounds = vec![0.0; self.rows.len()];
-        let each = bounds.par_chunks_exact_mut(size.max(1));
-        let each = each.zip(self.rows.par_chunks_exact(size.max(1))).with_min_len(APART);
-        each.enumerate().for_each(|(k, (bounds, row))| {
+        let bounds = in_parallel(size, APART, |k| {
             let mut rest = vec![Interval::ZERO; size];
             rest[k] = Interval::ONE;
-            subtract(row, &mut rest);
-            bounds.iter_mut().zip(rest).for_each(|(bound, rest)| *bound = rest.mag());
+            subtract(row(&self.rows, size, k), &mut rest);
+            rest.iter().map(|rest| rest.mag()).collect::<Vec<f64>>()
         });
-        Defect { size, rows: bounds }
+        Defect { size, rows: bounds.concat() }
     }
+}
+
+fn row(rows: &[f64], size: usize, k: usize) -> &[f64] {
+    &rows[k * size..][..size]
 }
 
 impl Defect {
@@ -176,8 +176,10 @@ impl Defect {
 
     /// $E x$ for $x \ge 0$, from above.
     fn times(&self, x: &[f64]) -> Vec<f64> {
-        let row = |row: &[f64]| row.iter().zip(x).fold(0.0, |all, (e, x)| up(all + up(e * x)));
-        self.rows.par_chunks_exact(self.size.max(1)).with_min_len(APART).map(row).collect()
+        in_parallel(self.size, APART, |k| {
+            let row = row(&self.rows, self.size, k).iter();
+            row.zip(x).fold(0.0, |all, (e, x)| up(all + up(e * x)))
+        })
     }
 }
 

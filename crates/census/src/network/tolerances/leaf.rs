@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use model::NoBox;
-use numerics::{Interval, down, up};
-use rayon::prelude::*;
+use numerics::{Interval, down, in_parallel, up};
 
 use super::super::arithmetic::{product, sum};
 use super::super::equations::Equations;
@@ -224,8 +223,8 @@ impl Leaf {
         outputs: &[Output],
     ) -> Option<Vec<Vec<Interval>>> {
         let left = Change::through(changes, over.equations, &self.inverse);
-        let slopes = numbers.par_iter().zip(left).map(|(number, left)| {
-            let rest = self.defect.enclose(&left)?;
+        let slopes = in_parallel(numbers.len(), 1, |k| {
+            let (number, rest) = (&numbers[k], self.defect.enclose(&left[k])?);
             let steps = self.steps[*number].unknowns.iter().zip(rest);
             let exact = steps.map(|(step, rest)| *step - rest).collect();
             let effect =
@@ -235,7 +234,7 @@ impl Leaf {
             let slopes: Vec<Interval> = outputs.iter().map(slope).collect();
             slopes.iter().all(|slope| slope.mag().is_finite()).then_some(slopes)
         });
-        let slopes: Vec<Vec<Interval>> = slopes.collect::<Option<_>>()?;
+        let slopes: Vec<Vec<Interval>> = slopes.into_iter().collect::<Option<_>>()?;
         let all = 0..outputs.len();
         Some(all.map(|k| slopes.iter().map(|slopes| slopes[k]).collect()).collect())
     }
@@ -332,14 +331,17 @@ impl Leaf {
                 wanted.entry(&corner.at).or_default().push(output);
             }
         }
-        let values = wanted.into_par_iter().map(|(corner, outputs)| {
+        let wanted: Vec<_> = wanted.into_iter().collect();
+        let values = in_parallel(wanted.len(), 1, |k| {
+            let (corner, outputs) = &wanted[k];
             let all = self.outputs(cover, &self.ends(corner))?;
             let values = outputs.iter().map(|k| (*k, all[*k]));
-            Ok((corner, values.collect::<HashMap<_, _>>()))
+            Ok((*corner, values.collect::<HashMap<_, _>>()))
         });
-        let values = values.collect::<Result<HashMap<_, _>, NoBox>>()?;
+        let values = values.into_iter().collect::<Result<HashMap<_, _>, NoBox>>()?;
         let all_outputs = cover.outputs.len() <= cover.most_boxes();
-        let both = |(k, corners): (usize, &[Corner; 2])| {
+        Ok(in_parallel(corners.len(), 1, |k| {
+            let corners = &corners[k];
             let [least, most] =
                 [0, 1].map(|end| corners[end].bound(values[&corners[end].at[..]][&k], SIGNS[end]));
             let width = least.most + most.most;
@@ -352,8 +354,7 @@ impl Leaf {
                 let inner = self.on_face(cover, k, SIGNS[end], &corners[end], enough);
                 inner.map_or(bound, |inner| bound.and(inner))
             })
-        };
-        Ok(corners.par_iter().enumerate().map(both).collect())
+        }))
     }
 
     /// The numbers of a corner.
@@ -440,7 +441,7 @@ impl Cover<'_> {
             let step = inverse.solve(&entries, &right).into_iter().map(Interval::point);
             Step::new(fixed, &effect, step.collect())
         };
-        self.numbers.par_iter().map(step).collect()
+        in_parallel(self.numbers.len(), 1, |k| step(&self.numbers[k]))
     }
 
     /// What each number and its step do to the left-hand sides over a region.
@@ -451,10 +452,9 @@ impl Cover<'_> {
         steps: &[Step],
         numbers: &[usize],
     ) -> Vec<Change> {
-        let change = |number: &usize| {
-            let effect = Effect::new(all, self.system, &self.numbers[*number], region);
-            region.change(all, &effect, &steps[*number])
-        };
-        numbers.par_iter().map(change).collect()
+        in_parallel(numbers.len(), 1, |k| {
+            let effect = Effect::new(all, self.system, &self.numbers[numbers[k]], region);
+            region.change(all, &effect, &steps[numbers[k]])
+        })
     }
 }
