@@ -152,7 +152,6 @@ pub(super) fn taken(
     let layout = laid_out(core, space, settings)?;
     Ok(match layout.coordinates() {
         0..=3 => searched::<3>(core, &layout, settings, watch),
-        4..=6 => searched::<6>(core, &layout, settings, watch),
         _ => searched::<12>(core, &layout, settings, watch),
     })
 }
