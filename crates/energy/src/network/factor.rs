@@ -35,7 +35,7 @@ impl Tie {
     }
 
     /// The gradient of the rope's length at a joint.
-    fn gradient(&self, rods: &[Rod], block: &impl Fn(usize) -> Block, joint: usize) -> Vector {
+    fn gradient(&self, rods: &[Rod], block: &dyn Fn(usize) -> Block, joint: usize) -> Vector {
         self.strands.iter().fold([0.0; 3], |sum, &e| {
             let sign = f64::from(u8::from(rods[e].to == joint))
                 - f64::from(u8::from(rods[e].from == joint));
@@ -171,8 +171,8 @@ impl Factor {
         &mut self,
         spots: &[Spot],
         rods: &[Rod],
-        block: impl Fn(usize) -> Block,
-        shift: impl Fn(usize) -> f64,
+        block: &dyn Fn(usize) -> Block,
+        shift: &dyn Fn(usize) -> f64,
     ) {
         let starts = &self.starts;
         self.values.fill(0.0);
@@ -210,7 +210,7 @@ impl Factor {
                 .joints
                 .iter()
                 .map(|j| {
-                    let gradient = tie.gradient(rods, &block, *j);
+                    let gradient = tie.gradient(rods, block, *j);
                     (*j, spots[*j].axes.map(|axis| dot(axis, gradient)))
                 })
                 .collect();

@@ -109,6 +109,6 @@ impl Frame {
         block: impl Fn(usize) -> Block,
         shift: impl Fn(usize) -> f64,
     ) {
-        factor.fill(&self.spots, &self.rods, block, shift);
+        factor.fill(&self.spots, &self.rods, &block, &shift);
     }
 }

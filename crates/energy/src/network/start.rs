@@ -61,7 +61,7 @@ impl Densities {
         let sizes = frame.sizes(|e| density[e] * frame.rods[e].length);
         let block = |e: usize| Block { isotropic: density[e], ..Block::default() };
         for shift in [0.0, RIDGE] {
-            self.factor.fill(&self.spots, &frame.rods, block, |joint| shift * sizes[joint]);
+            self.factor.fill(&self.spots, &frame.rods, &block, &|joint| shift * sizes[joint]);
             if self.factor.definite() {
                 return Ok(self.solve(frame, density));
             }
