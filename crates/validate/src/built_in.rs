@@ -38,6 +38,12 @@ pub fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
+/// The numbers of several keys, as by [`key`].
+#[must_use]
+pub fn numbers<const N: usize>(table: &Table, keys: [&str; N]) -> [f64; N] {
+    keys.map(|name| key(table, name, number))
+}
+
 /// A number of things.
 #[must_use]
 pub fn count(value: &Value) -> Option<usize> {

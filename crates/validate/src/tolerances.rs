@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use toml::{Table, Value};
 
-use crate::built_in::{key, number, parsed};
+use crate::built_in::{key, numbers, parsed};
 
 /// One budget.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ impl Tolerances {
             let file = file();
             let [joints, forces, energy, statics] = NAMES.map(|name| {
                 let budget = key(&file, name, Value::as_table);
-                let [value, measured] = ["value", "measured"].map(|name| key(budget, name, number));
+                let [value, measured] = numbers(budget, ["value", "measured"]);
                 Budget { value, measured }
             });
             Tolerances { joints, forces, energy, statics }

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::elastic_catenary::{ElasticCatenary, EndForces};
 use super::entry::{BothSolvers, Compared, Entry, HandCheck};
 use super::run_of_members::{end_forces, run_of_members, run_on_floor};
-use crate::built_in::{count, key, number, optional, parsed, tables, texts};
+use crate::built_in::{count, key, number, numbers, optional, parsed, tables, texts};
 use crate::foreign::{ForeignAnswer, judge_foreign};
 use crate::question::Solvers;
 use crate::systems::ask;
@@ -42,7 +42,7 @@ fn moorpy_case(case: &Table, tolerance: f64) -> Entry {
         return Entry::not_judged(title, MOORPY, because);
     }
     let [x_m, z_m, length_m, stiffness_n, weight_n_m] =
-        ["x_m", "z_m", "length_m", "stiffness_n", "weight_n_m"].map(|name| key(case, name, number));
+        numbers(case, ["x_m", "z_m", "length_m", "stiffness_n", "weight_n_m"]);
     // A line lighter than water hangs upwards: the mirror image has the lower end above.
     let upwards = weight_n_m < 0.0;
     let cable = ElasticCatenary { x_m, z_m, length_m, stiffness_n, weight_n_m: weight_n_m.abs() };
@@ -165,7 +165,7 @@ fn square(force_n: f64) -> Result<System, SystemError> {
 
 fn frame(published: &Table) -> Entry {
     let title = "square frame with two stays";
-    let [force_n, tolerance] = ["force_n", "tolerance"].map(|name| key(published, name, number));
+    let [force_n, tolerance] = numbers(published, ["force_n", "tolerance"]);
     // The stay is the diagonal of a square with the force along a side.
     let numbers = [
         ("force of the taut stay / N", "diagonal_n", force_n * std::f64::consts::SQRT_2),

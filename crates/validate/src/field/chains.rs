@@ -4,7 +4,7 @@ use model::{Anchors, Bar, Chain, Problem};
 use toml::{Table, Value};
 
 use super::entry::{BothSolvers, Compared, Entry};
-use crate::built_in::{count, key, number, parsed, tables};
+use crate::built_in::{count, key, numbers, parsed, tables};
 
 const CATENA: &str = "CATENA of CUTEst, github.com/ralna/CUTEst (SIF file by Ph. L. Toint, 1993)";
 const COPS: &str = "E. D. Dolan, J. J. More, T. S. Munson, COPS 3.0, ANL/MCS-TM-273 (2004)";
@@ -53,7 +53,7 @@ fn one(catena: &Table, optimum: &Table) -> Entry {
 /// The chain and its mirror image.
 fn chain(catena: &Table, beams: usize) -> Option<Problem> {
     let [fraction, total_mass_kg, gravity_m_s2] =
-        ["fraction", "total_mass_kg", "gravity_m_s2"].map(|name| key(catena, name, number));
+        numbers(catena, ["fraction", "total_mass_kg", "gravity_m_s2"]);
     let bar = Bar::homogeneous(1.0, total_mass_kg / beams as f64).ok()?;
     let end_m = [2.0 * fraction * beams as f64, 0.0, 0.0];
     let anchors = Anchors { start_m: [0.0; 3], end_m };

@@ -4,7 +4,7 @@
 
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use toml::{Table, Value};
-use validate::built_in::{count, key, number, optional, parsed, tables};
+use validate::built_in::{count, key, numbers, optional, parsed, tables};
 
 use crate::chains_catenary::Catenary;
 
@@ -36,7 +36,7 @@ fn cops() -> Table {
 /// Heights of both ends, span and length.
 fn given(cops: &Table) -> [f64; 4] {
     let problem = key(cops, "problem", Value::as_table);
-    ["start_height", "end_height", "span_x", "length"].map(|name| key(problem, name, number))
+    numbers(problem, ["start_height", "end_height", "span_x", "length"])
 }
 
 /// A number that is written as text, for all its digits.
@@ -90,7 +90,7 @@ const CATENA_VIOLATION: f64 = 3e-8;
 fn cutest_catena_is_half_of_a_chain_between_level_anchors() {
     let catena = parsed(include_str!("../../data/external/cutest-catena.toml"));
     let [fraction, mass_kg, gravity] =
-        ["fraction", "total_mass_kg", "gravity_m_s2"].map(|name| key(&catena, name, number));
+        numbers(&catena, ["fraction", "total_mass_kg", "gravity_m_s2"]);
     for optimum in key(&catena, "published", tables) {
         let beams = key(optimum, "beams", count);
         let length_m = 2.0 * beams as f64;
