@@ -1,24 +1,25 @@
 //! What the paper prints, with the place of each claim: `validation/paper.toml`.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use toml::{Table, Value};
+use validate::built_in::{count, key, optional, parsed, tables, text, texts};
 
 /// Printed claims, and the reference numbers they are held against.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug)]
 pub struct Paper {
     /// Claims in the order of the paper (kind `paper`).
-    #[serde(rename = "claim")]
     pub claims: Vec<Printed>,
-    /// Which equations are expected to fail as printed.
-    pub equations: FailingEquations,
-    /// Numbers established elsewhere (kind `external`).
-    #[serde(rename = "reference")]
-    pub references: Vec<Reference>,
+    /// The rows of the audit of equations that are expected to fail, by the number of the equation,
+    /// in the order of the audit; an equation with two faults stands twice. Those that hold as
+    /// corrected; those that no correction of the print would save; and of the former those with a
+    /// fault of form alone.
+    pub failing: [Vec<String>; 3],
+    /// Numbers established elsewhere (kind `external`), by their names.
+    references: Vec<(String, f64)>,
 }
 
 /// One claim as printed.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Printed {
     /// Its name in this project.
     pub id: String,
@@ -30,10 +31,8 @@ pub struct Printed {
     /// What is printed.
     pub printed: String,
     /// Unit of the number, or of the numbers that decide.
-    #[serde(default)]
     pub unit: Option<String>,
     /// Decimals printed, if a number is.
-    #[serde(default)]
     pub digits: Option<usize>,
     /// The verdict that this project has come to.
     pub expected: Assessment,
@@ -65,7 +64,7 @@ impl Printed {
 }
 
 /// What the numbers say about a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Assessment {
     /// True as printed, to all printed digits.
@@ -81,6 +80,12 @@ pub enum Assessment {
 }
 
 impl Assessment {
+    /// The verdict of this name, of those that can be expected.
+    fn expected(name: &Value) -> Option<Self> {
+        let all = [Self::Confirmed, Self::Explained, Self::Corrected, Self::Refuted];
+        all.into_iter().find(|verdict| Some(verdict.to_string().as_str()) == name.as_str())
+    }
+
     /// This verdict if the numbers bear it out, otherwise [`Assessment::Undecided`].
     #[must_use]
     pub fn if_shown(self, shown: bool) -> Self {
@@ -100,33 +105,6 @@ impl std::fmt::Display for Assessment {
     }
 }
 
-/// The rows of the audit of equations that are expected to fail, by the number of the equation, in
-/// the order of the audit; an equation with two faults stands twice.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FailingEquations {
-    /// Wrong as printed; the corrected form holds.
-    pub corrected: Vec<String>,
-    /// False, and no correction of the print would save it.
-    pub refuted: Vec<String>,
-    /// Of the corrected ones those with a fault of form alone.
-    pub form: Vec<String>,
-}
-
-/// One reference number.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Reference {
-    /// Its name in this project.
-    pub id: String,
-    /// All its digits.
-    pub value: String,
-    /// Its unit.
-    pub unit: String,
-    /// How and by whom it was established.
-    pub source: String,
-}
-
 impl Paper {
     /// The file of this project.
     ///
@@ -135,8 +113,26 @@ impl Paper {
     /// Never: a test reads the file that is compiled in.
     #[must_use]
     pub fn project() -> Self {
-        toml::from_str(include_str!("../data/paper.toml"))
-            .expect("validation/paper.toml is read by a test")
+        let file = file();
+        let claim = |claim: &Table| Printed {
+            id: key(claim, "id", text),
+            says: key(claim, "says", text),
+            place: key(claim, "where", text),
+            printed: key(claim, "printed", text),
+            unit: optional(claim, "unit", text),
+            digits: optional(claim, "digits", count),
+            expected: key(claim, "expected", Assessment::expected),
+        };
+        let reference = |reference: &Table| {
+            let digits = key(reference, "value", Value::as_str);
+            (key(reference, "id", text), digits.parse().unwrap_or(f64::NAN))
+        };
+        let equations = key(&file, "equations", Value::as_table);
+        Self {
+            claims: key(&file, "claim", tables).into_iter().map(claim).collect(),
+            failing: ["corrected", "refuted", "form"].map(|fault| key(equations, fault, texts)),
+            references: key(&file, "reference", tables).into_iter().map(reference).collect(),
+        }
     }
 
     /// The claim of this name.
@@ -149,9 +145,13 @@ impl Paper {
     /// there is none.
     #[must_use]
     pub fn reference(&self, id: &str) -> f64 {
-        let found = self.references.iter().find(|reference| reference.id == id);
-        found.and_then(|reference| reference.value.parse().ok()).unwrap_or(f64::NAN)
+        let found = self.references.iter().find(|(name, _)| name == id);
+        found.map_or(f64::NAN, |(_, value)| *value)
     }
+}
+
+fn file() -> Table {
+    parsed(include_str!("../data/paper.toml"))
 }
 
 #[cfg(test)]
@@ -160,11 +160,13 @@ mod tests {
 
     #[test]
     fn every_number_has_its_source() {
-        let paper = Paper::project();
+        let (paper, file) = (Paper::project(), file());
         let mut ids = Vec::new();
-        for claim in &paper.claims {
+        for (claim, keys) in paper.claims.iter().zip(key(&file, "claim", tables)) {
+            // A key that is not read is a mistake.
+            let read = 5 + usize::from(claim.unit.is_some()) + usize::from(claim.digits.is_some());
+            assert_eq!(keys.len(), read, "{}", claim.id);
             assert!(!claim.says.is_empty() && !claim.place.is_empty() && !claim.printed.is_empty());
-            assert_ne!(claim.expected, Assessment::Undecided, "{}", claim.id);
             if let Some(digits) = claim.digits {
                 // The printed number has the digits that the file says it has.
                 let decimals = claim.printed.split_once('.').map_or(0, |(_, tail)| tail.len());
@@ -173,11 +175,13 @@ mod tests {
             }
             ids.push(format!("claim {}", claim.id));
         }
-        for reference in &paper.references {
-            assert!(paper.reference(&reference.id).is_finite(), "{}", reference.id);
-            assert!(!reference.unit.is_empty() && !reference.source.is_empty());
-            ids.push(format!("reference {}", reference.id));
+        for ((id, value), keys) in paper.references.iter().zip(key(&file, "reference", tables)) {
+            let [unit, source] = ["unit", "source"].map(|told| key(keys, told, text));
+            assert!(value.is_finite() && !unit.is_empty() && !source.is_empty(), "{id}");
+            assert_eq!(keys.len(), 4, "{id}");
+            ids.push(format!("reference {id}"));
         }
+        assert_eq!([file.len(), key(&file, "equations", Value::as_table).len()], [3, 3]);
         ids.sort();
         assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "a name is taken twice");
         assert!(paper.reference("no such number").is_nan());

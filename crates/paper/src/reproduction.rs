@@ -281,9 +281,7 @@ impl Summary {
             equations: equations.len(),
             equations_corrected: corrected.len(),
             equations_refuted: refuted.len(),
-            equations_as_expected: corrected == paper.equations.corrected
-                && refuted == paper.equations.refuted
-                && form == paper.equations.form,
+            equations_as_expected: [corrected, refuted, form] == paper.failing,
             faulty_equations: FaultyEquations::of(equations),
             cases: cases.len(),
             cases_agreed: cases.iter().filter(|case| case.agrees()).count(),

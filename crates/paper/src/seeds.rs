@@ -7,7 +7,7 @@ use model::SolverName;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::example::Example;
 
@@ -26,7 +26,7 @@ const CHUNK: usize = 250;
 const SAME_ENERGY_MGL: f64 = 1e-9;
 
 /// The two kinds of seeds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// The paper's choice: psi = 0, theta = pi/2, in the plane *OYZ*; phi uniform. `energy`
@@ -38,7 +38,7 @@ pub enum Kind {
 }
 
 /// What became of the seeds of one kind with one solver.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Survey {
     /// The solver.
     pub solver: SolverName,
@@ -83,7 +83,7 @@ impl Survey {
 }
 
 /// How many seeds led to one equilibrium (or circle of equilibria).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reached {
     /// Its name in this project.
     pub equilibrium: String,
@@ -94,7 +94,7 @@ pub struct Reached {
 }
 
 /// How many seeds led nowhere for one reason.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Lost {
     /// The reason.
     pub why: String,

@@ -20,6 +20,7 @@
 //! dependency graph that the agreement of the two is worth something. Answers from elsewhere are judged by the
 //! same laws ([`foreign`]).
 
+pub mod built_in;
 pub mod census_checks;
 pub mod certificate;
 pub mod completeness;

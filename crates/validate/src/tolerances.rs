@@ -2,25 +2,21 @@
 
 use std::sync::LazyLock;
 
-use serde::Deserialize;
+use toml::{Table, Value};
+
+use crate::built_in::{key, numbers, parsed};
 
 /// One budget.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy)]
 pub struct Budget {
     /// The largest value allowed.
     pub value: f64,
-    /// Its unit.
-    pub unit: String,
     /// The worst value measured over the registry of cases.
     pub measured: f64,
-    /// Why this much and no more.
-    pub reason: String,
 }
 
 /// All budgets.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy)]
 pub struct Tolerances {
     /// Distance of the joints of two answers.
     pub joints: Budget,
@@ -41,23 +37,41 @@ impl Tolerances {
     #[must_use]
     pub fn project() -> Self {
         static PROJECT: LazyLock<Tolerances> = LazyLock::new(|| {
-            toml::from_str(include_str!("../data/tolerances.toml"))
-                .expect("data/tolerances.toml is read by a test")
+            let file = file();
+            let [joints, forces, energy, statics] = NAMES.map(|name| {
+                let budget = key(&file, name, Value::as_table);
+                let [value, measured] = numbers(budget, ["value", "measured"]);
+                Budget { value, measured }
+            });
+            Tolerances { joints, forces, energy, statics }
         });
-        PROJECT.clone()
+        *PROJECT
     }
+}
+
+/// In the order of [`Tolerances`].
+const NAMES: [&str; 4] = ["joints", "forces", "energy", "statics"];
+
+/// Each budget with its unit and the reason why it is this much and no more.
+fn file() -> Table {
+    parsed(include_str!("../data/tolerances.toml"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Tolerances;
+    use super::*;
 
     #[test]
     fn every_budget_is_above_what_was_measured_and_not_far_above() {
         let Tolerances { joints, forces, energy, statics } = Tolerances::project();
-        for budget in [joints, forces, energy, statics] {
-            assert!(budget.measured <= budget.value, "{budget:?}");
-            assert!(budget.value <= 1e-8 && !budget.reason.trim().is_empty(), "{budget:?}");
+        let file = file();
+        for (name, budget) in NAMES.into_iter().zip([joints, forces, energy, statics]) {
+            assert!(budget.measured <= budget.value && budget.value <= 1e-8, "{budget:?}");
+            // A key that is not read is a mistake.
+            let keys = key(&file, name, Value::as_table);
+            let [unit, reason] = ["unit", "reason"].map(|told| key(keys, told, Value::as_str));
+            assert!(!unit.is_empty() && !reason.trim().is_empty() && keys.len() == 4, "{name}");
         }
+        assert_eq!(file.len(), NAMES.len());
     }
 }

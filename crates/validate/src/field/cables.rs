@@ -2,11 +2,12 @@
 
 use model::system::{Joint, Member, Support, System, SystemError};
 use model::{Bar, SolverName};
-use serde::Deserialize;
+use toml::{Table, Value};
 
 use super::elastic_catenary::{ElasticCatenary, EndForces};
 use super::entry::{BothSolvers, Compared, Entry, HandCheck};
 use super::run_of_members::{end_forces, run_of_members, run_on_floor};
+use crate::built_in::{count, key, number, numbers, optional, parsed, tables, texts};
 use crate::foreign::{ForeignAnswer, judge_foreign};
 use crate::question::Solvers;
 use crate::systems::ask;
@@ -16,40 +17,8 @@ const MOORPY: &str = "NREL MoorPy, tests/test_catenary.py, \
 const HEAVY_CABLE: &str =
     "EDF, code_aster, validation manual V6.02.114 (input) and V6.05.116, section 2.2 (number)";
 const STAYED_FRAME: &str = "EDF, code_aster, validation manual V6.02.105 (SSNL105), section 2";
-/// The force of a nearly taut line loses seven of the sixteen digits of its length.
-const TAUT_DIGITS: usize = 8;
 /// Members of a run for the report.
 const MEMBERS: usize = 100;
-
-#[derive(Deserialize)]
-struct Table {
-    tolerance: f64,
-    case: Vec<Case>,
-}
-
-#[derive(Deserialize)]
-struct Case {
-    index: usize,
-    x_m: f64,
-    z_m: f64,
-    length_m: f64,
-    stiffness_n: f64,
-    weight_n_m: f64,
-    /// Of a floor at the height of the lower end, where there is one.
-    friction: Option<f64>,
-    #[serde(default)]
-    expected: Vec<String>,
-    /// Length that lies on the floor.
-    on_floor_m: Option<String>,
-}
-
-/// A half of the last digit of a number as printed.
-pub(super) fn half_digit(printed: &str) -> f64 {
-    let (digits, exponent) = printed.split_once(['e', 'E']).unwrap_or((printed, "0"));
-    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let exponent = exponent.parse().unwrap_or(0) - i32::try_from(decimals).unwrap_or(0);
-    0.5 * 10.0_f64.powi(exponent)
-}
 
 /// The table of MoorPy's tests.
 ///
@@ -58,28 +27,26 @@ pub(super) fn half_digit(printed: &str) -> f64 {
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn moorpy() -> Vec<Entry> {
-    let table: Table = toml::from_str(include_str!("../../data/external/moorpy-catenary.toml"))
-        .expect("moorpy-catenary.toml is read by a test");
-    table.case.iter().map(|case| moorpy_case(case, table.tolerance)).collect()
+    let file = parsed(include_str!("../../data/external/moorpy-catenary.toml"));
+    let tolerance = key(&file, "tolerance", number);
+    key(&file, "case", tables).into_iter().map(|case| moorpy_case(case, tolerance)).collect()
 }
 
-fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
-    let title = format!("mooring line, index {}", case.index);
-    if case.friction.is_some_and(|friction| friction > 0.0) {
+fn moorpy_case(case: &Table, tolerance: f64) -> Entry {
+    let title = format!("mooring line, index {}", key(case, "index", count));
+    // Of a floor at the height of the lower end, where there is one.
+    let friction = optional(case, "friction", number);
+    if friction.is_some_and(|friction| friction > 0.0) {
         let because =
             "part of the line lies on a floor with friction, which is not part of our systems";
         return Entry::not_judged(title, MOORPY, because);
     }
+    let [x_m, z_m, length_m, stiffness_n, weight_n_m] =
+        numbers(case, ["x_m", "z_m", "length_m", "stiffness_n", "weight_n_m"]);
     // A line lighter than water hangs upwards: the mirror image has the lower end above.
-    let upwards = case.weight_n_m < 0.0;
-    let cable = ElasticCatenary {
-        x_m: case.x_m,
-        z_m: case.z_m,
-        length_m: case.length_m,
-        stiffness_n: case.stiffness_n,
-        weight_n_m: case.weight_n_m.abs(),
-    };
-    let floor = case.friction.and_then(|_| cable.solve_on_floor());
+    let upwards = weight_n_m < 0.0;
+    let cable = ElasticCatenary { x_m, z_m, length_m, stiffness_n, weight_n_m: weight_n_m.abs() };
+    let floor = friction.and_then(|_| cable.solve_on_floor());
     let Some(found) = floor.map(|floor| floor.ends).or_else(|| cable.solve()) else {
         return Entry::not_judged(title, MOORPY, "the closed form was not found");
     };
@@ -93,32 +60,18 @@ fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
     let names = ["H at A / N", "V at A / N", "H at B / N", "V at B / N"];
     let mut numbers: Vec<Compared> = names
         .iter()
-        .zip(&case.expected)
+        .zip(&key(case, "expected", texts))
         .zip(ours)
-        .map(|((what, printed), ours)| {
-            let published = printed.parse().unwrap_or(f64::NAN);
-            let allowed = tolerance * published.abs();
-            let (what, printed) = ((*what).to_owned(), printed.clone());
-            let digits = TAUT_DIGITS;
-            Compared { what, printed, published, ours, allowed, at_most: false, digits }
-        })
+        .map(|((what, printed), ours)| Compared::new(what, printed, ours, Some(tolerance)))
         .collect();
-    let printed = case.on_floor_m.as_ref().zip(floor);
-    numbers.extend(printed.map(|(printed, floor)| {
-        let published = printed.parse().unwrap_or(f64::NAN);
-        Compared {
-            what: "length on the floor / m".to_owned(),
-            printed: printed.clone(),
-            published,
-            ours: floor.lies_m,
-            allowed: tolerance * published.abs(),
-            at_most: false,
-            digits: TAUT_DIGITS,
-        }
-    }));
+    numbers.extend(optional(case, "on_floor_m", Value::as_str).zip(floor).map(
+        |(printed, floor)| {
+            Compared::new("length on the floor / m", printed, floor.lies_m, Some(tolerance))
+        },
+    ));
     // What lies bears on the floor.
     let lies_m = numbers.get(4).map_or(0.0, |number| number.published);
-    let weight_n = case.weight_n_m * (case.length_m - lies_m);
+    let weight_n = weight_n_m * (length_m - lies_m);
     let [a, b] = [1, 3].map(|k| numbers.get(k).map_or(f64::NAN, |number| number.published));
     let by_hand = HandCheck {
         law: "the vertical forces at both ends together are the weight of the line that hangs",
@@ -149,31 +102,6 @@ fn by_both(cable: &ElasticCatenary, closed: &EndForces, on_floor: bool) -> Optio
     Some(BothSolvers::Run { members: MEMBERS, off })
 }
 
-#[derive(Deserialize)]
-struct Aster {
-    heavy_cable: HeavyCable,
-    stayed_frame: StayedFrame,
-}
-
-#[derive(Deserialize)]
-struct HeavyCable {
-    span_m: f64,
-    length_m: f64,
-    area_m2: f64,
-    modulus_pa: f64,
-    density_kg_m3: f64,
-    gravity_m_s2: f64,
-    sag_m: String,
-}
-
-#[derive(Deserialize)]
-struct StayedFrame {
-    force_n: f64,
-    tolerance: f64,
-    diagonal_n: String,
-    bar_n: String,
-}
-
 /// The two tests of code_aster.
 ///
 /// # Panics
@@ -181,33 +109,28 @@ struct StayedFrame {
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn code_aster() -> Vec<Entry> {
-    let Aster { heavy_cable, stayed_frame } =
-        toml::from_str(include_str!("../../data/external/code-aster.toml"))
-            .expect("code-aster.toml is read by a test");
-    vec![heavy(&heavy_cable), frame(&stayed_frame)]
+    let file = parsed(include_str!("../../data/external/code-aster.toml"));
+    let [cable, stays] =
+        ["heavy_cable", "stayed_frame"].map(|name| key(&file, name, Value::as_table));
+    vec![heavy(cable), frame(stays)]
 }
 
-fn heavy(cable: &HeavyCable) -> Entry {
+fn heavy(cable: &Table) -> Entry {
     let title = "cable of 325 m between level ends 325 m apart";
+    let given = |name| key(cable, name, number);
+    let area_m2 = given("area_m2");
     let closed = ElasticCatenary {
-        x_m: cable.span_m,
+        x_m: given("span_m"),
         z_m: 0.0,
-        length_m: cable.length_m,
-        stiffness_n: cable.modulus_pa * cable.area_m2,
-        weight_n_m: cable.density_kg_m3 * cable.area_m2 * cable.gravity_m_s2,
+        length_m: given("length_m"),
+        stiffness_n: given("modulus_pa") * area_m2,
+        weight_n_m: given("density_kg_m3") * area_m2 * given("gravity_m_s2"),
     };
     let Some(found) = closed.solve() else {
         return Entry::not_judged(title, HEAVY_CABLE, "the closed form was not found");
     };
-    let number = Compared {
-        what: "height of the middle / m".to_owned(),
-        printed: cable.sag_m.clone(),
-        published: cable.sag_m.parse().unwrap_or(f64::NAN),
-        ours: -found.sag_m(&closed),
-        allowed: half_digit(&cable.sag_m),
-        at_most: false,
-        digits: TAUT_DIGITS,
-    };
+    let printed = key(cable, "sag_m", Value::as_str);
+    let number = Compared::new("height of the middle / m", printed, -found.sag_m(&closed), None);
     Entry {
         title: title.to_owned(),
         source: HEAVY_CABLE,
@@ -240,43 +163,37 @@ fn square(force_n: f64) -> Result<System, SystemError> {
     System::new("stayed frame", model::STANDARD_GRAVITY_M_S2, joints, members)
 }
 
-fn frame(published: &StayedFrame) -> Entry {
+fn frame(published: &Table) -> Entry {
     let title = "square frame with two stays";
-    let diagonal_n: f64 = published.diagonal_n.parse().unwrap_or(f64::NAN);
-    let bar_n: f64 = published.bar_n.parse().unwrap_or(f64::NAN);
-    let judged = square(published.force_n).ok().and_then(|system| {
+    let [force_n, tolerance] = numbers(published, ["force_n", "tolerance"]);
+    // The stay is the diagonal of a square with the force along a side.
+    let numbers = [
+        ("force of the taut stay / N", "diagonal_n", force_n * std::f64::consts::SQRT_2),
+        ("force of bar 3-4 / N", "bar_n", -force_n),
+    ]
+    .map(|(what, name, ours)| {
+        Compared::new(what, key(published, name, Value::as_str), ours, Some(tolerance))
+    });
+    let [diagonal_n, bar_n] = numbers.each_ref().map(|number| number.published);
+    let judged = square(force_n).ok().and_then(|system| {
         let joints_m = system.joints().iter().filter_map(|joint| joint.support.at_m()).collect();
         let forces = vec![0.0, 0.0, bar_n, 0.0, diagonal_n, 0.0];
         let answer = ForeignAnswer::in_order(&system, "code_aster", joints_m, Some(forces)).ok()?;
-        judge_foreign(&system, &answer, published.tolerance, &|_| {}).ok()
+        judge_foreign(&system, &answer, tolerance, &|_| {}).ok()
     });
     let Some(judged) = judged else {
         return Entry::not_judged(title, STAYED_FRAME, "the frame could not be judged");
     };
-    let number = |what: &str, printed: &String, published_n: f64, ours: f64| Compared {
-        what: what.to_owned(),
-        printed: printed.clone(),
-        published: published_n,
-        ours,
-        allowed: published.tolerance * published_n.abs(),
-        at_most: false,
-        digits: TAUT_DIGITS,
-    };
-    // The stay is the diagonal of a square with the force along a side.
     let half = diagonal_n * std::f64::consts::FRAC_1_SQRT_2;
-    let left_n = (published.force_n - half).hypot(bar_n + half);
-    let diagonal = published.force_n * std::f64::consts::SQRT_2;
+    let left_n = (force_n - half).hypot(bar_n + half);
     Entry {
         title: title.to_owned(),
         source: STAYED_FRAME,
-        numbers: vec![
-            number("force of the taut stay / N", &published.diagonal_n, diagonal_n, diagonal),
-            number("force of bar 3-4 / N", &published.bar_n, bar_n, -published.force_n),
-        ],
+        numbers: numbers.into(),
         by_hand: Some(HandCheck {
             law: "stay, bar and load balance at the corner where they meet",
             broken_n: left_n,
-            allowed_n: published.tolerance * published.force_n,
+            allowed_n: tolerance * force_n,
         }),
         solvers: judged.nearest().map(|nearest| BothSolvers::Judged {
             finding: judged.finding.word(),

@@ -1,27 +1,13 @@
 //! Hanging chains of collections of optimisation problems: CUTEst and COPS.
 
 use model::{Anchors, Bar, Chain, Problem};
-use serde::Deserialize;
+use toml::{Table, Value};
 
-use super::cables::half_digit;
 use super::entry::{BothSolvers, Compared, Entry};
+use crate::built_in::{count, key, numbers, parsed, tables};
 
 const CATENA: &str = "CATENA of CUTEst, github.com/ralna/CUTEst (SIF file by Ph. L. Toint, 1993)";
 const COPS: &str = "E. D. Dolan, J. J. More, T. S. Munson, COPS 3.0, ANL/MCS-TM-273 (2004)";
-
-#[derive(Deserialize)]
-struct Catena {
-    fraction: f64,
-    total_mass_kg: f64,
-    gravity_m_s2: f64,
-    published: Vec<Optimum>,
-}
-
-#[derive(Deserialize)]
-struct Optimum {
-    beams: usize,
-    energy_j: String,
-}
 
 /// The optima of CATENA, each half of a chain between level anchors.
 ///
@@ -30,14 +16,14 @@ struct Optimum {
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn cutest() -> Vec<Entry> {
-    let catena: Catena = toml::from_str(include_str!("../../data/external/cutest-catena.toml"))
-        .expect("cutest-catena.toml is read by a test");
-    catena.published.iter().map(|optimum| one(&catena, optimum)).collect()
+    let catena = parsed(include_str!("../../data/external/cutest-catena.toml"));
+    key(&catena, "published", tables).into_iter().map(|optimum| one(&catena, optimum)).collect()
 }
 
-fn one(catena: &Catena, optimum: &Optimum) -> Entry {
-    let title = format!("half of a chain of {} bars", 2 * optimum.beams);
-    let Some(problem) = chain(catena, optimum.beams) else {
+fn one(catena: &Table, optimum: &Table) -> Entry {
+    let beams = key(optimum, "beams", count);
+    let title = format!("half of a chain of {} bars", 2 * beams);
+    let Some(problem) = chain(catena, beams) else {
         return Entry::not_judged(title, CATENA, "the chain could not be built");
     };
     let first = lagrange::solve(&problem, &lagrange::Settings::default());
@@ -46,15 +32,11 @@ fn one(catena: &Catena, optimum: &Optimum) -> Entry {
         return Entry::not_judged(title, CATENA, "a solver has no answer");
     };
     let energies = [first.equilibrium.energy_j, second.equilibrium.energy_j];
+    let printed = key(optimum, "energy_j", Value::as_str);
     let number = Compared {
-        what: "least energy / J".to_owned(),
-        printed: optimum.energy_j.clone(),
-        published: optimum.energy_j.parse().unwrap_or(f64::NAN),
-        ours: 0.5 * energies[0],
-        allowed: half_digit(&optimum.energy_j),
-        at_most: false,
         // The energy is flat at its minimum, and known to rounding.
         digits: 11,
+        ..Compared::new("least energy / J", printed, 0.5 * energies[0], None)
     };
     let apart_j = 0.5 * (energies[0] - energies[1]).abs();
     let below_j = number.ours - number.published;
@@ -69,12 +51,13 @@ fn one(catena: &Catena, optimum: &Optimum) -> Entry {
 }
 
 /// The chain and its mirror image.
-fn chain(catena: &Catena, beams: usize) -> Option<Problem> {
-    let mass_kg = catena.total_mass_kg / beams as f64;
-    let bar = Bar::homogeneous(1.0, mass_kg).ok()?;
-    let end_m = [2.0 * catena.fraction * beams as f64, 0.0, 0.0];
+fn chain(catena: &Table, beams: usize) -> Option<Problem> {
+    let [fraction, total_mass_kg, gravity_m_s2] =
+        numbers(catena, ["fraction", "total_mass_kg", "gravity_m_s2"]);
+    let bar = Bar::homogeneous(1.0, total_mass_kg / beams as f64).ok()?;
+    let end_m = [2.0 * fraction * beams as f64, 0.0, 0.0];
     let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = Chain::new("CATENA", catena.gravity_m_s2, anchors, vec![bar; 2 * beams]).ok()?;
+    let chain = Chain::new("CATENA", gravity_m_s2, anchors, vec![bar; 2 * beams]).ok()?;
     Problem::new(chain).ok()
 }
 

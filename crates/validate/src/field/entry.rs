@@ -51,6 +51,22 @@ pub struct Compared {
 }
 
 impl Compared {
+    /// A number as printed, which may be off by this part of it, or by half of its last digit.
+    pub(super) fn new(what: &str, printed: &str, ours: f64, tolerance: Option<f64>) -> Self {
+        let published: f64 = printed.parse().unwrap_or(f64::NAN);
+        let part = tolerance.map(|tolerance| tolerance * published.abs());
+        Self {
+            what: what.to_owned(),
+            printed: printed.to_owned(),
+            published,
+            ours,
+            allowed: part.unwrap_or_else(|| half_digit(printed)),
+            at_most: false,
+            // The force of a nearly taut line loses seven of the sixteen digits of its length.
+            digits: 8,
+        }
+    }
+
     /// Whether the published number stands. NaN never does.
     #[must_use]
     pub fn stands(&self) -> bool {
@@ -60,6 +76,14 @@ impl Compared {
             (self.published - self.ours).abs() <= self.allowed
         }
     }
+}
+
+/// A half of the last digit of a number as printed.
+fn half_digit(printed: &str) -> f64 {
+    let (digits, exponent) = printed.split_once(['e', 'E']).unwrap_or((printed, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let exponent = exponent.parse().unwrap_or(0) - i32::try_from(decimals).unwrap_or(0);
+    0.5 * 10.0_f64.powi(exponent)
 }
 
 /// A law that published numbers must keep whatever the rest, for anyone to check.

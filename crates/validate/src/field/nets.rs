@@ -54,14 +54,11 @@ fn net(name: &str, nodes: &str, edges: &str) -> Entry {
         ForcesJudged::Found(best) => best.largest_n,
         ForcesJudged::Given => f64::NAN,
     };
+    let what = "largest unbalanced force of a joint / 10⁻⁶ N";
     let number = Compared {
-        what: "largest unbalanced force of a joint / 10⁻⁶ N".to_owned(),
-        printed: ALLOWED_MICRO_N.to_owned(),
-        published: ALLOWED_MICRO_N.parse().unwrap_or(f64::NAN),
-        ours: MICRO * left_n,
-        allowed: 0.0,
         at_most: true,
         digits: 3,
+        ..Compared::new(what, ALLOWED_MICRO_N, MICRO * left_n, Some(0.0))
     };
     let solvers = judged.nearest().map(|nearest| BothSolvers::Judged {
         finding: judged.finding.word(),

@@ -3,7 +3,8 @@
 //! Both solvers must meet each of them.
 
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
-use serde::Deserialize;
+use toml::{Table, Value};
+use validate::built_in::{count, key, numbers, optional, parsed, tables};
 
 use crate::chains_catenary::Catenary;
 
@@ -28,33 +29,19 @@ fn solved(problem: &Problem) -> [Equilibrium; 2] {
     ]
 }
 
-#[derive(Deserialize)]
-struct Cops {
-    problem: CopsProblem,
-    catenary: CopsCatenary,
-    published: Vec<CopsOptimum>,
-}
-#[derive(Deserialize)]
-struct CopsProblem {
-    start_height: f64,
-    end_height: f64,
-    span_x: f64,
-    length: f64,
-}
-#[derive(Deserialize)]
-struct CopsCatenary {
-    energy: String,
-    horizontal_pull: String,
-}
-#[derive(Deserialize)]
-struct CopsOptimum {
-    intervals: usize,
-    energy: String,
-    recomputed: Option<String>,
+fn cops() -> Table {
+    parsed(include_str!("../../data/external/cops-hanging-chain.toml"))
 }
 
-fn cops() -> Cops {
-    toml::from_str(include_str!("../../data/external/cops-hanging-chain.toml")).unwrap()
+/// Heights of both ends, span and length.
+fn given(cops: &Table) -> [f64; 4] {
+    let problem = key(cops, "problem", Value::as_table);
+    numbers(problem, ["start_height", "end_height", "span_x", "length"])
+}
+
+/// A number that is written as text, for all its digits.
+fn digits(value: &Value) -> Option<f64> {
+    value.as_str()?.parse().ok()
 }
 
 /// Rounding of the closed form in doubles, relative.
@@ -63,11 +50,11 @@ const CLOSED_FORM: f64 = 1e-13;
 #[test]
 fn the_closed_form_of_the_catenary_is_that_of_the_reference_digits() {
     let cops = cops();
-    let rise = cops.problem.end_height - cops.problem.start_height;
-    let catenary = Catenary::new(cops.problem.length, cops.problem.span_x, rise);
-    let energy = catenary.energy() + cops.problem.start_height * cops.problem.length;
-    let reference: f64 = cops.catenary.energy.parse().unwrap();
-    let pull: f64 = cops.catenary.horizontal_pull.parse().unwrap();
+    let [start, end, span, length] = given(&cops);
+    let catenary = Catenary::new(length, span, end - start);
+    let energy = catenary.energy() + start * length;
+    let [reference, pull] = ["energy", "horizontal_pull"]
+        .map(|name| key(key(&cops, "catenary", Value::as_table), name, digits));
     assert!((energy / reference - 1.0).abs() < CLOSED_FORM, "{energy} {reference}");
     assert!((catenary.c / pull - 1.0).abs() < CLOSED_FORM, "{} {pull}", catenary.c);
 }
@@ -75,46 +62,24 @@ fn the_closed_form_of_the_catenary_is_that_of_the_reference_digits() {
 #[test]
 fn the_published_optima_of_cops_tend_to_the_same_catenary() {
     let cops = cops();
-    let rise = cops.problem.end_height - cops.problem.start_height;
-    let lift = cops.problem.start_height * cops.problem.length;
-    let limit: f64 = cops.catenary.energy.parse().unwrap();
-    let distance = |text: &str| text.parse::<f64>().unwrap() - limit;
+    let [start, end, span, length] = given(&cops);
+    let (rise, lift) = (end - start, start * length);
+    let limit = key(key(&cops, "catenary", Value::as_table), "energy", digits);
     let mut previous = f64::INFINITY;
-    for optimum in &cops.published {
-        let published = distance(optimum.recomputed.as_ref().unwrap_or(&optimum.energy));
+    for optimum in key(&cops, "published", tables) {
+        let recomputed = optional(optimum, "recomputed", digits);
+        let published = recomputed.unwrap_or_else(|| key(optimum, "energy", digits)) - limit;
+        let intervals = key(optimum, "intervals", count);
         // COPS's grid is uniform in x; bars of equal length put more of them where the chain is
         // steep.
-        let problem = equal_bars(
-            optimum.intervals,
-            cops.problem.length,
-            cops.problem.length,
-            1.0,
-            [cops.problem.span_x, 0.0, rise],
-        );
+        let problem = equal_bars(intervals, length, length, 1.0, [span, 0.0, rise]);
         for found in solved(&problem) {
             let ours = found.energy_j + lift - limit;
-            assert!(
-                0.0 < ours && ours < published,
-                "{}: {ours:e} {published:e}",
-                optimum.intervals
-            );
+            assert!(0.0 < ours && ours < published, "{intervals}: {ours:e} {published:e}");
         }
         assert!(published < 0.5 * previous);
         previous = published;
     }
-}
-
-#[derive(Deserialize)]
-struct Catena {
-    fraction: f64,
-    total_mass_kg: f64,
-    gravity_m_s2: f64,
-    published: Vec<CatenaOptimum>,
-}
-#[derive(Deserialize)]
-struct CatenaOptimum {
-    beams: usize,
-    energy_j: String,
 }
 
 /// The published optima break their own length constraints a little, and lie lower by this much of
@@ -123,25 +88,18 @@ const CATENA_VIOLATION: f64 = 3e-8;
 
 #[test]
 fn cutest_catena_is_half_of_a_chain_between_level_anchors() {
-    let catena: Catena =
-        toml::from_str(include_str!("../../data/external/cutest-catena.toml")).unwrap();
-    for optimum in &catena.published {
-        let beams = optimum.beams as f64;
-        let problem = equal_bars(
-            2 * optimum.beams,
-            2.0 * beams,
-            2.0 * catena.total_mass_kg,
-            catena.gravity_m_s2,
-            [2.0 * catena.fraction * beams, 0.0, 0.0],
-        );
-        let published: f64 = optimum.energy_j.parse().unwrap();
+    let catena = parsed(include_str!("../../data/external/cutest-catena.toml"));
+    let [fraction, mass_kg, gravity] =
+        numbers(&catena, ["fraction", "total_mass_kg", "gravity_m_s2"]);
+    for optimum in key(&catena, "published", tables) {
+        let beams = key(optimum, "beams", count);
+        let length_m = 2.0 * beams as f64;
+        let end_m = [fraction * length_m, 0.0, 0.0];
+        let problem = equal_bars(2 * beams, length_m, 2.0 * mass_kg, gravity, end_m);
+        let published = key(optimum, "energy_j", digits);
         for found in solved(&problem) {
             let excess = (0.5 * found.energy_j - published) / published.abs();
-            assert!(
-                (0.0..CATENA_VIOLATION).contains(&excess),
-                "{} beams: {excess:e}",
-                optimum.beams
-            );
+            assert!((0.0..CATENA_VIOLATION).contains(&excess), "{beams} beams: {excess:e}");
         }
     }
 }

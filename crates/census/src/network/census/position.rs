@@ -6,7 +6,7 @@ use model::{
     Status, Vector as Point, Verified, VerifiedSystem,
 };
 use numerics::Interval;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::choice::Choice;
 use super::{PartCensus, SystemCensus};
@@ -16,7 +16,7 @@ use crate::network::proven::idle_n;
 
 /// An equilibrium of a system whose existence is proved; every number is an enclosure of the exact
 /// value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SystemPosition {
     /// Places of all joints, world frame, m. Of what turns freely one position is shown.
     pub joints_m: Vec<[Interval; 3]>,

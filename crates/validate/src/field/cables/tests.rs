@@ -7,12 +7,9 @@ use super::*;
 #[test]
 fn the_corner_of_the_frame_is_in_balance() {
     let entry = |bar_n: &str| {
-        frame(&StayedFrame {
-            force_n: 8.0,
-            tolerance: 1.0 / 64.0,
-            diagonal_n: "11.313708498984761".to_owned(),
-            bar_n: bar_n.to_owned(),
-        })
+        frame(&parsed(&format!(
+            "force_n = 8\ntolerance = 0.015625\ndiagonal_n = '11.313708498984761'\nbar_n = '{bar_n}'"
+        )))
     };
     for (bar_n, broken_n) in [("-8.0", 0.0), ("-8.5", 0.5)] {
         let entry = entry(bar_n);
@@ -31,7 +28,8 @@ fn half_a_digit_is_that_of_the_last_one_printed() {
     for (printed, half) in
         [("12", 0.5), ("-8.5", 0.05), ("0.125", 5e-4), ("1.25e3", 5.0), ("2E-3", 5e-4)]
     {
-        assert!((half_digit(printed) / half - 1.0).abs() < 1e-14, "{printed}");
+        let allowed = Compared::new("", printed, 0.0, None).allowed;
+        assert!((allowed / half - 1.0).abs() < 1e-14, "{printed}");
     }
 }
 
@@ -41,16 +39,12 @@ fn half_a_digit_is_that_of_the_last_one_printed() {
 #[test]
 fn a_mooring_line_is_told_with_the_signs_of_its_source() {
     let ln3 = 3.0_f64.ln();
-    let case = |weight_n_m: f64, expected: [&str; 4]| Case {
-        index: 7,
-        x_m: 3.0 + 6.0 * ln3,
-        z_m: 1.5,
-        length_m: 7.0,
-        stiffness_n: 28.0,
-        weight_n_m,
-        friction: None,
-        expected: expected.map(str::to_owned).to_vec(),
-        on_floor_m: None,
+    let case = |weight_n_m: f64, expected: [&str; 4]| {
+        parsed(&format!(
+            "index = 7\nx_m = {}\nz_m = 1.5\nlength_m = 7\nstiffness_n = 28
+            weight_n_m = {weight_n_m}\nexpected = {expected:?}",
+            3.0 + 6.0 * ln3
+        ))
     };
     for (weight_n_m, expected, ours) in [
         (2.0, ["12.0", "-5.0", "-12.0", "-8.5"], [12.0, -5.0, -12.0, -9.0]),
@@ -82,16 +76,12 @@ fn a_mooring_line_is_told_with_the_signs_of_its_source() {
 #[test]
 fn a_line_on_the_floor_is_told_with_what_lies() {
     let (h, v) = (2.0_f64, 3.0_f64);
-    let case = |friction: f64| Case {
-        index: 1,
-        x_m: 7.0 + h * 10.0 / 50.0 + h * (v / h).asinh(),
-        z_m: h.hypot(v) - h + v * v / 100.0,
-        length_m: 10.0,
-        stiffness_n: 50.0,
-        weight_n_m: 1.0,
-        friction: Some(friction),
-        expected: ["2.0", "0.0", "-2.0", "-3.5"].map(str::to_owned).to_vec(),
-        on_floor_m: Some("6.0".to_owned()),
+    let (x_m, z_m) = (7.0 + h * 10.0 / 50.0 + h * (v / h).asinh(), h.hypot(v) - h + v * v / 100.0);
+    let case = |friction: f64| {
+        parsed(&format!(
+            "index = 1\nx_m = {x_m}\nz_m = {z_m}\nlength_m = 10\nstiffness_n = 50\nweight_n_m = 1
+            friction = {friction}\nexpected = ['2.0', '0.0', '-2.0', '-3.5']\non_floor_m = '6.0'"
+        ))
     };
     let entry = moorpy_case(&case(0.0), 0.25);
     let found: Vec<f64> = entry.numbers.iter().map(|number| number.ours).collect();

@@ -6,9 +6,8 @@ use super::*;
 /// half of that, and under 10 m/s² the half of the chain has -8 J.
 #[test]
 fn half_of_two_bars_has_its_closed_form() {
-    let catena =
-        Catena { fraction: 0.6, total_mass_kg: 2.0, gravity_m_s2: 10.0, published: vec![] };
-    let entry = one(&catena, &Optimum { beams: 1, energy_j: "-8.5".to_owned() });
+    let catena = parsed("fraction = 0.6\ntotal_mass_kg = 2\ngravity_m_s2 = 10");
+    let entry = one(&catena, &parsed("beams = 1\nenergy_j = '-8.5'"));
     assert_eq!(entry.title, "half of a chain of 2 bars");
     let [number] = &entry.numbers[..] else { panic!("{entry:?}") };
     assert!((number.ours + 8.0).abs() < 1e-13, "{}", number.ours);

@@ -46,7 +46,7 @@ mod swing;
 
 use model::NoCensus;
 use numerics::Interval;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use self::cell::Cell;
 pub(super) use self::core::Core;
@@ -70,7 +70,7 @@ const MOST_COORDINATES: usize = 12;
 const MOST_SWINGS: usize = 12;
 
 /// The net of a part with what its census took.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NetCensus {
     /// Its joints that move, from 0.
     pub joints: Vec<usize>,
@@ -98,7 +98,7 @@ pub struct NetCensus {
 
 /// A box of places of the knots for which the census does not say how many equilibria it holds,
 /// besides those that are listed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct UndecidedPlaces {
     /// Why.
     pub reason: Open,
@@ -110,7 +110,7 @@ pub struct UndecidedPlaces {
 }
 
 /// Why places of knots are undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Open {
