@@ -44,7 +44,8 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     for (bar, length) in point.bars.iter().zip(&mechanism.lengths) {
         let across = normal.cross(&bar.u);
         let across = Vector2::new(across.dot(&level), across.z);
-        let outer = across * across.transpose();
+        let product = across.x * across.y;
+        let outer = Matrix2::new(across.x * across.x, product, product, across.y * across.y);
         let mut force = bar.force.dot(&bar.u);
         if force.abs() <= least {
             // Counts as barely stretched: with barely compressed the index is the same, since one
@@ -58,7 +59,9 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
         size += (length / force).abs();
     }
     let count = |matrix: &Matrix2<f64>, above: f64| {
-        matrix.symmetric_eigenvalues().iter().filter(|value| **value > above).count()
+        let middle = f64::midpoint(matrix.m11, matrix.m22);
+        let apart = (0.5 * (matrix.m11 - matrix.m22)).hypot(matrix.m12);
+        [middle - apart, middle + apart].iter().filter(|value| **value > above).count()
     };
     // Without compression S is a sum of squares with positive weights, and bars that close a slack
     // chain are not all parallel: no threshold is needed, however taut the chain.
