@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use matrices::dense::least_squares;
+use matrices::dense::{apply, least_squares};
 use nalgebra::{DVector, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -99,7 +99,7 @@ fn left_of_40(phi: [f64; 3]) -> f64 {
     let load = load(true);
     let columns = nalgebra::DMatrix::from_columns(&columns);
     let Some(multipliers) = least_squares(&columns, &load, ROUNDING) else { return f64::NAN };
-    (load - columns * multipliers).norm()
+    (load - apply(&columns, &multipliers)).norm()
 }
 
 /// Difference of two angles in deg, modulo a turn.
