@@ -122,8 +122,11 @@ fn out_of_plane(plane: &PlanarChain, along: &[f64]) -> (usize, f64) {
     }
     let mut values = eigenvalues(&k).unwrap_or_else(|| vec![f64::NAN]);
     if plane.span[0].abs() <= 0.0 {
-        values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        values.remove(0);
+        let size = |k: &usize| values[*k].abs();
+        let least = (0..values.len()).min_by(|a, b| size(a).total_cmp(&size(b)));
+        if let Some(least) = least {
+            values.remove(least);
+        }
     }
     index_and_product(&values)
 }

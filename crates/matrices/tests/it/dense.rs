@@ -260,7 +260,7 @@ fn factors_solve_and_give_their_matrix_back() {
         }
     }
     let turned = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 3.0, 0.0]);
-    assert_eq!(Lu::new(&turned).unwrap().determinant(), -6.0);
+    assert!((Lu::new(&turned).unwrap().determinant() + 6.0).abs() <= 1e-15);
     let found = Lu::new(&turned).unwrap().solve(&DVector::from_vec(vec![4.0, 9.0]));
     assert_eq!(found.as_slice(), [3.0, 2.0]);
     assert!(Cholesky::new(&turned).is_none());
