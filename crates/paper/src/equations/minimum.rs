@@ -82,7 +82,7 @@ fn open(theta: f64, alpha: f64) -> f64 {
 /// Difference of an axis from the direction of the weights in the load vector.
 fn down_from(axis: Vector3<f64>) -> f64 {
     let paper = model::cases::paper();
-    let weight = lagrange::load_vector(paper.chain()).fixed_rows::<3>(0).normalize();
+    let weight = lagrange::load_vector(paper.chain()).fixed_rows::<3>(0).into_owned().normalize();
     (weight - axis).largest_entry()
 }
 

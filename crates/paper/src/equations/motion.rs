@@ -59,7 +59,7 @@ impl ClosedMotion {
         let q = self.coordinates(0.0);
         let lock = q[10].sin().min(q[16].sin());
         // Bars 2 and 3 of length 1 each span at most 2.
-        rest.norm() < 1.7 && rest.xy().norm() > 0.5 && lock > 0.5
+        rest.norm() < 1.7 && rest.x.hypot(rest.y) > 0.5 && lock > 0.5
     }
 
     fn first_direction(&self, t: f64) -> Vector3<f64> {
