@@ -1,6 +1,6 @@
 //! The equations of equilibrium along a path, with derivatives.
 
-use matrices::dense::complement;
+use matrices::dense::{Lu, complement};
 use nalgebra::{DMatrix, DVector};
 
 use crate::path::{Path, PlanarChain};
@@ -83,7 +83,7 @@ pub(crate) fn correct(
         j.row_mut(n + 3).copy_from(&row.transpose());
         let mut right = f.push(row.dot(&(&y - &start)));
         right.neg_mut();
-        let step = j.lu().solve(&right)?;
+        let step = Lu::new(&j)?.solve(&right);
         let size = step.amax();
         y += step;
         if !size.is_finite() {
@@ -116,8 +116,8 @@ pub(crate) fn tangent(path: &Path<'_>, y: &DVector<f64>, along: &DVector<f64>) -
     j.row_mut(n + 3).copy_from(&along.transpose());
     let mut right = DVector::zeros(n + 4);
     right[n + 3] = 1.0;
-    let factors = j.lu();
-    let t = factors.solve(&right)?;
+    let factors = Lu::new(&j)?;
+    let t = factors.solve(&right);
     let size = t.norm();
     // `along` in the last row has the sign that t has there: t is on its side.
     let side = factors.determinant().signum();
@@ -132,8 +132,8 @@ pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     let j = jacobian(path, &path.plane(y[n + 3]), y);
     let by_unknowns = j.view((0, 0), (n + 3, n + 3)).into_owned();
     let left = complement(&by_unknowns, n + 2);
-    let psi = left.column(0);
-    let slope = psi.dot(&j.view((0, n + 3), (n + 3, 1)).column(0));
+    let psi = left.as_slice();
+    let slope: f64 = (0..n + 3).map(|k| psi[k] * j[(k, n + 3)]).sum();
     let rounding = ROUNDING * psi.iter().map(|part| part.abs()).sum::<f64>();
     // Twice: of two folds that touch, the slope falls to nothing on the way.
     (2.0 * rounding / slope.abs()).max(f64::EPSILON)

@@ -1,5 +1,6 @@
 //! What can be seen of an equilibrium: energy, forces, indices.
 
+use matrices::dense::eigenvalues;
 use nalgebra::{DMatrix, DVector};
 
 use crate::path::PlanarChain;
@@ -96,10 +97,11 @@ fn in_plane(plane: &PlanarChain, units: &[[f64; 2]], along: &[f64]) -> (usize, f
             k[(i, n + row)] = -length * slope;
         }
     }
-    let values = k.symmetric_eigenvalues();
-    let negative = values.iter().filter(|value| **value < 0.0).count();
-    let smallest = values.iter().fold(f64::INFINITY, |a, value| a.min(value.abs()));
-    (negative.saturating_sub(2), values.product(), smallest / values.amax())
+    let values = eigenvalues(&k).unwrap_or_else(|| vec![f64::NAN]);
+    let (index, product) = index_and_product(&values);
+    let sizes = || values.iter().map(|value| value.abs());
+    let singular = sizes().fold(f64::INFINITY, f64::min) / sizes().fold(0.0, f64::max);
+    (index.saturating_sub(2), product, singular)
 }
 
 /// Index and determinant of the weighted Laplacian of force densities over the joints between the
@@ -118,11 +120,18 @@ fn out_of_plane(plane: &PlanarChain, along: &[f64]) -> (usize, f64) {
             k[(joint - 1, joint)] = -density(joint);
         }
     }
-    let mut values: Vec<f64> = k.symmetric_eigenvalues().iter().copied().collect();
+    let mut values = eigenvalues(&k).unwrap_or_else(|| vec![f64::NAN]);
     if plane.span[0].abs() <= 0.0 {
-        values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        values.remove(0);
+        let size = |k: &usize| values[*k].abs();
+        let least = (0..values.len()).min_by(|a, b| size(a).total_cmp(&size(b)));
+        if let Some(least) = least {
+            values.remove(least);
+        }
     }
+    index_and_product(&values)
+}
+
+fn index_and_product(values: &[f64]) -> (usize, f64) {
     (values.iter().filter(|value| **value < 0.0).count(), values.iter().product())
 }
 

@@ -1,6 +1,7 @@
 //! All curves between two neighbouring census points.
 
 use nalgebra::DVector;
+use numerics::vector::{cross, norm};
 
 use crate::arc::{Arcs, arcs};
 use crate::census_point::CensusPoint;
@@ -137,8 +138,8 @@ pub(crate) fn distance(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
         let turn = (a[i] - b[i]).rem_euclid(std::f64::consts::TAU);
         turn.min(std::f64::consts::TAU - turn)
     });
-    let [p, q] = [a, b].map(|y| y.fixed_rows::<3>(n).into_owned());
-    angles.fold(p.cross(&q).norm(), f64::max)
+    let [p, q] = [a, b].map(|y| [y[n], y[n + 1], y[n + 2]]);
+    angles.fold(norm(cross(p, q)), f64::max)
 }
 
 #[cfg(test)]

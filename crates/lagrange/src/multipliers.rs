@@ -1,5 +1,6 @@
 //! The multipliers: a first estimate of three of them, and all of them from these three.
 
+use matrices::dense::solve_three;
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use crate::mechanism::Mechanism;
@@ -21,12 +22,11 @@ pub(crate) fn estimate_pull(mechanism: &Mechanism, carried: &[f64], point: &Poin
         matrix += across;
         right -= across.column(2) * *weight;
     }
-    let Some(factor) = (matrix + Matrix3::identity() * REGULARISATION).cholesky() else {
-        return half;
-    };
-    let first = factor.solve(&(right + half * REGULARISATION));
+    let closed = (matrix + Matrix3::identity() * REGULARISATION).into();
+    let solve = |right: Vector3<f64>| solve_three(&closed, right.into()).map(Vector3::from);
+    let Some(first) = solve(right + half * REGULARISATION) else { return half };
     // One refinement takes the preference out again wherever the bars have a say.
-    first + factor.solve(&(right - matrix * first))
+    first + solve(right - matrix * first).unwrap_or_default()
 }
 
 /// All 3(n+1) multipliers from the first three, by the rows of the centres in (40): the force of

@@ -24,7 +24,7 @@
 //! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
 
 use model::{InPlane, InSpace, Stability};
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::Vector3;
 
 use crate::mechanism::Mechanism;
 use crate::point::Point;
@@ -32,19 +32,19 @@ use crate::thresholds::{NO_FORCE, ZERO_EIGENVALUE};
 
 /// Stability of the equilibrium at `point`, a root of the reduced system.
 pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
-    let span = Vector2::new(mechanism.end.x, mechanism.end.y);
-    let pull = Vector2::new(point.pull.x, point.pull.y);
+    let [span, pull] = [mechanism.end, point.pull].map(|v| Vector3::new(v.x, v.y, 0.0));
     let normal = plane_normal(mechanism, &span, &pull);
     let level = Vector3::new(-normal.y, normal.x, 0.0);
     let least = NO_FORCE * point.largest_force(&mechanism.carried_weights());
 
     let mut compressed = 0;
-    let (mut sum, mut size) = (Matrix2::zeros(), 0.0);
-    let (mut unloaded, mut unloaded_sum) = (0, Matrix2::zeros());
+    // Of symmetric matrices of two rows the entries 11, 12 and 22.
+    let (mut sum, mut size) = (Vector3::zeros(), 0.0);
+    let (mut unloaded, mut unloaded_sum) = (0, Vector3::zeros());
     for (bar, length) in point.bars.iter().zip(&mechanism.lengths) {
         let across = normal.cross(&bar.u);
-        let across = Vector2::new(across.dot(&level), across.z);
-        let outer = across * across.transpose();
+        let (x, z) = (across.dot(&level), across.z);
+        let outer = Vector3::new(x * x, x * z, z * z);
         let mut force = bar.force.dot(&bar.u);
         if force.abs() <= least {
             // Counts as barely stretched: with barely compressed the index is the same, since one
@@ -57,8 +57,10 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
         sum += outer * (length / force);
         size += (length / force).abs();
     }
-    let count = |matrix: &Matrix2<f64>, above: f64| {
-        matrix.symmetric_eigenvalues().iter().filter(|value| **value > above).count()
+    let count = |entries: &Vector3<f64>, above: f64| {
+        let middle = f64::midpoint(entries.x, entries.z);
+        let apart = (0.5 * (entries.x - entries.z)).hypot(entries.y);
+        [middle - apart, middle + apart].iter().filter(|value| **value > above).count()
     };
     // Without compression S is a sum of squares with positive weights, and bars that close a slack
     // chain are not all parallel: no threshold is needed, however taut the chain.
@@ -91,11 +93,11 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
 }
 
 /// Unit normal of the vertical plane, horizontal.
-fn plane_normal(mechanism: &Mechanism, span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
+fn plane_normal(mechanism: &Mechanism, span: &Vector3<f64>, pull: &Vector3<f64>) -> Vector3<f64> {
     // The pull lies in the plane too, and serves when the anchors are on one vertical. With
     // neither, all bars are vertical, and any plane is as good as another: the paper's, OYZ.
     let level = if mechanism.on_one_vertical { pull } else { span };
-    let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::y);
+    let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector3::y);
     Vector3::new(level.y, -level.x, 0.0)
 }
 

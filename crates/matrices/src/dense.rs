@@ -1,4 +1,6 @@
-//! Rank, kernels, least squares, inverses and eigenvalues of small dense matrices, with `nalgebra`.
+//! Rank, kernels, least squares, factors, inverses and eigenvalues of small dense matrices, with `nalgebra`.
+//!
+//! Nothing here is generic, not even a product: what is generic is compiled again in each crate that uses it.
 //!
 //! Kernels come of orthogonal triangularisation with exchanges of columns, at a rank that singular values decide. The
 //! singular *vectors* of nalgebra 0.34 are not used: of one random matrix in four hundred without full rank (one in
@@ -6,8 +8,8 @@
 
 use std::ops::Range;
 
-use nalgebra::linalg::SymmetricEigen;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::linalg::{ColPivQR, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn, Matrix3, Vector3};
 
 /// Iterations for each row, a multiple of the two or three that are usual. Without a bound nalgebra never ends on a
 /// NaN.
@@ -65,9 +67,31 @@ pub fn complement(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     if rank == 0 || rank == size {
         return DMatrix::identity(size, size - rank);
     }
-    // Columns of zeros, for an orthogonal factor that is square.
-    let wide = (matrix / unit(matrix)).resize_horizontally(matrix.ncols().max(size), 0.0);
-    wide.col_piv_qr().q().columns(rank, size - rank).into_owned()
+    square(matrix).q().columns(rank, size - rank).into_owned()
+}
+
+/// The same at a rank of pivots above `zero` times the largest.
+#[must_use]
+pub fn across(columns: &DMatrix<f64>, zero: f64) -> DMatrix<f64> {
+    let size = columns.nrows();
+    if columns.is_empty() {
+        return DMatrix::identity(size, size);
+    }
+    let factors = square(columns);
+    let rank = rank(&factors.r(), zero);
+    factors.q().columns(rank, size - rank).into_owned()
+}
+
+/// Factors of which the orthogonal one is square, by columns of zeros.
+fn square(matrix: &DMatrix<f64>) -> ColPivQR<f64, Dyn, Dyn> {
+    let columns = matrix.ncols().max(matrix.nrows());
+    (matrix / unit(matrix)).resize_horizontally(columns, 0.0).col_piv_qr()
+}
+
+/// Pivots above `zero` times the largest.
+fn rank(upper: &DMatrix<f64>, zero: f64) -> usize {
+    let pivot = |k: usize| upper[(k, k)].abs();
+    (0..upper.nrows()).take_while(|k| pivot(*k) > zero * pivot(0)).count()
 }
 
 /// Singular values, the largest first; `None` where an entry is not finite.
@@ -98,8 +122,7 @@ pub fn least_squares(
     let unit = unit(finite(matrix)?);
     let factors = (matrix / unit).col_piv_qr();
     let upper = factors.r();
-    let pivot = |k: usize| upper[(k, k)].abs();
-    let rank = (0..upper.nrows()).take_while(|k| pivot(*k) > zero * pivot(0)).count();
+    let rank = rank(&upper, zero);
     if rank == 0 {
         return Some(DVector::zeros(matrix.ncols()));
     }
@@ -154,6 +177,138 @@ pub fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         found.swap_columns(row, other);
     }
     Some(found)
+}
+
+/// Factors of a square matrix by elimination with exchanges of rows.
+#[derive(Debug, Clone)]
+pub struct Lu {
+    factors: DMatrix<f64>,
+    exchanges: Vec<(usize, usize)>,
+}
+
+impl Lu {
+    /// `None` where an entry is not finite, or a pivot vanishes.
+    ///
+    /// # Panics
+    ///
+    /// When the matrix is not square.
+    #[must_use]
+    pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
+        let size = matrix.nrows();
+        assert_eq!(size, matrix.ncols(), "a square matrix");
+        let (mut factors, mut exchanges) = (finite(matrix)?.clone(), Vec::with_capacity(size));
+        triangular(&mut factors, 0..size, &mut exchanges)?;
+        Some(Self { factors, exchanges })
+    }
+
+    /// What the matrix takes to `right`.
+    #[must_use]
+    pub fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
+        let (size, factors, mut found) = (right.len(), &self.factors, right.clone());
+        self.exchanges.iter().for_each(|(row, other)| found.as_mut_slice().swap(*row, *other));
+        for k in 0..size {
+            (k + 1..size).for_each(|i| found[i] -= factors[(i, k)] * found[k]);
+        }
+        for k in (0..size).rev() {
+            found[k] /= factors[(k, k)];
+            (0..k).for_each(|i| found[i] -= factors[(i, k)] * found[k]);
+        }
+        found
+    }
+
+    /// The determinant.
+    #[must_use]
+    pub fn determinant(&self) -> f64 {
+        let turns = self.exchanges.iter().filter(|(row, other)| row != other).count();
+        self.factors.diagonal().product() * if turns % 2 == 0 { 1.0 } else { -1.0 }
+    }
+}
+
+/// The lower triangle `L` of a positive definite matrix `L L^T`.
+#[derive(Debug, Clone)]
+pub struct Cholesky(DMatrix<f64>);
+
+impl Cholesky {
+    /// Of its lower triangle; `None` where it is not positive definite.
+    #[must_use]
+    pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
+        Some(Self(matrix.clone().cholesky()?.unpack()))
+    }
+
+    /// `L^-1` times a matrix.
+    #[must_use]
+    pub fn solve(&self, mut right: DMatrix<f64>) -> DMatrix<f64> {
+        self.0.solve_lower_triangular_mut(&mut right);
+        right
+    }
+
+    /// `L^-T` times a matrix.
+    #[must_use]
+    pub fn solve_transposed(&self, mut right: DMatrix<f64>) -> DMatrix<f64> {
+        self.0.tr_solve_lower_triangular_mut(&mut right);
+        right
+    }
+}
+
+/// What a positive definite matrix of three rows takes to `right`; `None` where it is not positive definite.
+#[must_use]
+pub fn solve_three(matrix: &[[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
+    let (mut l, mut x) = (*matrix, right);
+    for i in 0..3 {
+        for j in 0..=i {
+            let sum = (0..j).fold(l[i][j], |sum, k| sum - l[i][k] * l[j][k]);
+            if i == j && (sum.is_nan() || sum <= 0.0) {
+                return None;
+            }
+            l[i][j] = if i == j { sum.sqrt() } else { sum / l[j][j] };
+        }
+        x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
+    }
+    for i in (0..3).rev() {
+        x[i] = (i + 1..3).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
+    }
+    Some(x)
+}
+
+/// The triangle `R` of a matrix `Q R` with at least as many rows as columns, and `Q^T` times another one.
+#[must_use]
+pub fn qr(matrix: DMatrix<f64>, mut other: DMatrix<f64>) -> [DMatrix<f64>; 2] {
+    if matrix.is_empty() {
+        return [DMatrix::zeros(0, 0), other];
+    }
+    let factors = matrix.qr();
+    factors.q_tr_mul(&mut other);
+    [factors.unpack_r(), other]
+}
+
+/// The product of two matrices.
+///
+/// # Panics
+///
+/// When they do not fit.
+#[must_use]
+pub fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    left * right
+}
+
+/// A matrix times a vector.
+///
+/// # Panics
+///
+/// When they do not fit.
+#[must_use]
+pub fn apply(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
+    matrix * vector
+}
+
+/// The matrix `B^T A B` of a form in a basis by columns.
+///
+/// # Panics
+///
+/// When they do not fit.
+#[must_use]
+pub fn projected(matrix: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+    basis.transpose() * matrix * basis
 }
 
 /// Solve with the triangle, with ones on its diagonal, at the head of some columns of a factor, in the rows from `first` on
@@ -220,6 +375,27 @@ pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     order.sort_unstable_by(|a, b| found.eigenvalues[*a].total_cmp(&found.eigenvalues[*b]));
     let values = order.iter().map(|k| found.eigenvalues[*k]).collect();
     Some((values, found.eigenvectors.select_columns(&order)))
+}
+
+/// The same of three rows.
+#[must_use]
+pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let (values, vectors) = eigen(&DMatrix::from_column_slice(3, 3, symmetric.as_slice()))?;
+    Some((Vector3::from_column_slice(&values), Matrix3::from_column_slice(vectors.as_slice())))
+}
+
+/// Real and imaginary parts of the eigenvalues of a square matrix; `None` where an entry is not finite.
+///
+/// # Panics
+///
+/// When the matrix is not square.
+#[must_use]
+pub fn complex_eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<[f64; 2]>> {
+    if matrix.is_empty() {
+        return Some(Vec::new());
+    }
+    let values = finite(matrix)?.complex_eigenvalues();
+    Some(values.iter().map(|value| [value.re, value.im]).collect())
 }
 
 /// The matrix, if all of it is finite.

@@ -9,8 +9,8 @@
 //! moments on it cancel: `(Σ P_e) ω_j = Σ ω_e`. A member twists in its joints without friction, so
 //! its spin stays apart.
 
+use matrices::dense::solve_three;
 use model::Vector;
-use nalgebra::{Matrix3, Vector3};
 
 use crate::force::{couple, kinetic_j};
 use crate::mechanism::{Link, Mechanism};
@@ -109,8 +109,8 @@ fn moments(mechanism: &Mechanism, settings: &Settings, state: &State) -> Vec<[Ve
 /// A pin without inertia: `Σ P_e` and `Σ ω_e` of its members.
 #[derive(Clone, Default)]
 struct Pin {
-    resists: Matrix3<f64>,
-    turning: Vector3<f64>,
+    resists: [Vector; 3],
+    turning: Vector,
 }
 
 /// Added to `Σ P_e`, in units of it: members on one line leave the turn about it open, which moves
@@ -120,14 +120,18 @@ const OPEN_TURN: f64 = 1e-14;
 
 impl Pin {
     fn add(&mut self, d: Vector, omega: Vector) {
-        let d = Vector3::from(d);
-        self.resists += Matrix3::identity() - d * d.transpose() / d.norm_squared();
-        self.turning += Vector3::from(omega);
+        for (i, row) in self.resists.iter_mut().enumerate() {
+            row[i] += 1.0;
+            *row = add_times(*row, -d[i] / dot(d, d), d);
+        }
+        self.turning = plus(self.turning, omega);
     }
 
     fn turning(&self) -> Vector {
-        let closed = self.resists + Matrix3::identity() * (OPEN_TURN * self.resists.trace());
-        closed.cholesky().map_or([0.0; 3], |factors| factors.solve(&self.turning).into())
+        let mut closed = self.resists;
+        let trace: f64 = (0..3).map(|k| closed[k][k]).sum();
+        (0..3).for_each(|k| closed[k][k] += OPEN_TURN * trace);
+        solve_three(&closed, self.turning).unwrap_or_default()
     }
 }
 

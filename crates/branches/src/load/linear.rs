@@ -7,7 +7,7 @@
 //!
 //! The largest positive eigenvalue $1/t$ of this operator is found in a Krylov space (Arnoldi).
 
-use matrices::dense::complement;
+use matrices::dense::{complement, complex_eigenvalues};
 use nalgebra::{DMatrix, DVector};
 
 use super::bordered::Row;
@@ -109,14 +109,13 @@ fn arnoldi<E>(
 fn largest(small: &DMatrix<f64>) -> Option<f64> {
     let size = small.ncols();
     let square = small.view((0, 0), (size, size)).into_owned();
-    let values = square.complex_eigenvalues();
-    let most = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    let real = values.iter().filter(|v| v.im.abs() <= REAL * most && v.re > REAL * most);
-    let value = real
-        .map(|value| value.re)
-        .fold(None, |m: Option<f64>, x| Some(m.map_or(x, |m| m.max(x))))?;
-    let shifted = &square - DMatrix::identity(size, size) * value;
-    let vector = complement(&shifted.transpose(), size - 1);
+    let values = complex_eigenvalues(&square)?;
+    let most = values.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
+    let real = values.iter().filter(|[re, im]| im.abs() <= REAL * most && *re > REAL * most);
+    let value = real.map(|[re, _]| *re).max_by(f64::total_cmp)?;
+    let mut shifted = square.transpose();
+    (0..size).for_each(|k| shifted[(k, k)] -= value);
+    let vector = complement(&shifted, size - 1);
     let left = small[(size, size - 1)] * vector[size - 1].abs();
     (left <= CONVERGED * value).then_some(value)
 }

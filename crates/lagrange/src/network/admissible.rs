@@ -6,7 +6,7 @@
 //! unknowns that are not negative: with $E = [G\ h]^T$ and $f = (0, \dots, 0, 1)$ the residual $r =
 //! f - E u$ of the best $u \ge 0$ has $z = -r_z/r_h$ (Lawson and Hanson 1974, chapter 23).
 
-use matrices::dense::least_squares;
+use matrices::dense::{apply, least_squares};
 use nalgebra::{DMatrix, DVector};
 
 /// Exchanges of the least squares, in units of the conditions.
@@ -26,7 +26,7 @@ pub(super) fn shortest(g: &DMatrix<f64>, h: &DVector<f64>) -> Option<DVector<f64
     e.row_mut(size).copy_from(&(h / scale).transpose());
     let mut f = DVector::zeros(size + 1);
     f[size] = 1.0;
-    let rest = &f - &e * not_negative(&e, &f)?;
+    let rest = &f - apply(&e, &not_negative(&e, &f)?);
     // Its last component is its squared size.
     (rest[size] > ROUNDING).then(|| rest.rows(0, size) * (-scale / rest[size]))
 }
@@ -37,7 +37,7 @@ fn not_negative(e: &DMatrix<f64>, f: &DVector<f64>) -> Option<DVector<f64>> {
     let mut u = DVector::<f64>::zeros(count);
     let mut open: Vec<usize> = Vec::new();
     for _ in 0..MOST_EXCHANGES * count.max(1) {
-        let slopes = e.tr_mul(&(f - e * &u));
+        let slopes = apply(&e.transpose(), &(f - apply(e, &u)));
         let closed = (0..count).filter(|k| !open.contains(k) && slopes[*k] > ROUNDING);
         let Some(next) = closed.max_by(|a, b| slopes[*a].total_cmp(&slopes[*b])) else {
             return Some(u);

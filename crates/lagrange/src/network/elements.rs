@@ -13,7 +13,8 @@
 //! that of the branchings. A straight run is stiff along itself; a small part of the compliance
 //! across is added there in the matrix, not in the equations.
 
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use matrices::dense::eigen_of_three;
+use nalgebra::{Matrix3, Vector3};
 
 use super::coarse::{self, Start};
 use super::framework::{Framework, Link};
@@ -148,10 +149,10 @@ impl Sums {
 /// The inverse of a positive definite matrix: along a straight run its value is 10^5 times that
 /// across, and an elimination would lose the smaller one to rounding.
 fn inverse(matrix: &Matrix3<f64>) -> Matrix3<f64> {
-    let eigen = SymmetricEigen::new(*matrix);
-    let largest = eigen.eigenvalues.amax();
-    let values = eigen.eigenvalues.map(|value| value.max(ALONG * ALONG * largest).recip());
-    eigen.eigenvectors * Matrix3::from_diagonal(&values) * eigen.eigenvectors.transpose()
+    let (values, axes) = eigen_of_three(matrix).unwrap_or_default();
+    let largest = values.amax();
+    let values = values.map(|value| value.max(ALONG * ALONG * largest).recip());
+    axes * Matrix3::from_diagonal(&values) * axes.transpose()
 }
 
 /// Pulls of the runs, and the places of the joints where they meet.

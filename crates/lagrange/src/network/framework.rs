@@ -351,7 +351,7 @@ fn node(system: &System, joint: &Joint) -> Node {
 
 /// Two unit vectors normal to a unit vector and to each other.
 pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let first = normal.cross(&Matrix3::identity().column(normal.iamin())).normalize();
+    let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
     [first, normal.cross(&first)]
 }
 

@@ -5,7 +5,7 @@
 //! spans bear as $T s$. It is an equilibrium if that is no more than the tension. Where several spans may bear
 //! it, it is shared with the least $\sum T |s|^2$.
 
-use matrices::dense::least_squares;
+use matrices::dense::{apply, least_squares};
 use model::Jam;
 use model::system::{Joined, System};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -155,7 +155,7 @@ fn pulls(
         sign * weights[column / 3] * along[column % 3]
     });
     let parts = least_squares(&balance, &wanted, ROUNDING)?;
-    let off = (&balance * &parts - wanted).amax();
+    let off = (apply(&balance, &parts) - wanted).amax();
     let pull = |(k, weight): (usize, &f64)| {
         Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight
     };

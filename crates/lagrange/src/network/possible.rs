@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use matrices::dense::eigen_of_three;
 use model::system::{Kind, System};
 use nalgebra::{Matrix3, Vector3};
 
@@ -79,13 +80,10 @@ fn check_held(framework: &Framework) -> Result<(), Error> {
 
 /// The part of a vector in the range of a positive semidefinite matrix.
 fn onto_range(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
-    let eigen = matrix.symmetric_eigen();
-    let held = (0..3).filter(|&k| eigen.eigenvalues[k] > HELD.sqrt());
-    held.map(|k| {
-        let direction = eigen.eigenvectors.column(k);
-        direction * direction.dot(vector)
-    })
-    .sum()
+    let (values, axes) = eigen_of_three(matrix).unwrap_or_default();
+    let mut parts = axes.tr_mul(vector);
+    (0..3).filter(|&k| values[k] <= HELD.sqrt()).for_each(|k| parts[k] = 0.0);
+    axes * parts
 }
 
 /// Sum of the projections onto what the supports of each component hold.
@@ -109,7 +107,8 @@ pub(super) fn translations(framework: &Framework, joins: impl Fn(usize) -> bool)
     let free = |held: &Matrix3<f64>| {
         // Most components have an anchor, which alone holds everything.
         let anchored = held.diagonal().min() >= 1.0;
-        let values = if anchored { held.diagonal() } else { held.symmetric_eigenvalues() };
+        let values =
+            if anchored { held.diagonal() } else { eigen_of_three(held).unwrap_or_default().0 };
         values.iter().filter(|value| **value <= HELD.sqrt()).count()
     };
     supports.iter().map(free).sum()

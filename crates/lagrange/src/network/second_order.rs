@@ -5,7 +5,7 @@
 //! transpose (self-stresses). The energy's second derivative among such motions is
 //! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
 
-use matrices::dense::{Kernels, eigen, eigenvalues};
+use matrices::dense::{Kernels, eigen, eigenvalues, product, projected};
 use model::system::Kind;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -215,16 +215,15 @@ impl Dense {
         let stiffness = DMatrix::from_fn(springs.len(), size, |row, column| {
             links[springs[row]].along.unwrap_or(0.0) * ropes[(row, column)]
         });
-        hessian += ropes.transpose() * stiffness;
+        hessian += product(&ropes.transpose(), &stiffness);
         let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
         let flat = (FLAT * largest).max(ROUNDING * stiffest);
-        let projected = motions.transpose() * &hessian * &motions;
-        let mut curvatures =
-            eigenvalues(&projected).unwrap_or_else(|| vec![0.0; projected.nrows()]);
+        let form = projected(&hessian, &motions);
+        let mut curvatures = eigenvalues(&form).unwrap_or_else(|| vec![0.0; form.nrows()]);
         if stresses.ncols() > 0 && curvatures.iter().any(|c| *c < -flat) {
             let of = (framework, links.as_slice(), first_unknown.as_slice(), rigid.as_slice());
-            curvatures = stiffened(of, &motions, &stresses, projected).unwrap_or(curvatures);
+            curvatures = stiffened(of, &motions, &stresses, form).unwrap_or(curvatures);
         }
         let index = curvatures.iter().filter(|c| **c < -flat).count();
         let neutral = curvatures.iter().filter(|c| c.abs() <= flat).count();
@@ -249,7 +248,7 @@ fn stiffened(
     (framework, links, first_unknown, rigid): (&Framework, &[Link], &[usize], &[usize]),
     motions: &DMatrix<f64>,
     stresses: &DMatrix<f64>,
-    mut projected: DMatrix<f64>,
+    mut form: DMatrix<f64>,
 ) -> Option<Vec<f64>> {
     let signed = |k: &usize| framework.links[*k].kind != Kind::Bar;
     if rigid.iter().any(signed) || !framework.lying.is_empty() {
@@ -266,27 +265,27 @@ fn stiffened(
                 add(framework, first_unknown, &mut hessian, k, &block);
             }
         }
-        motions.transpose() * &hessian * motions
+        projected(&hessian, motions)
     };
     let changes: Vec<DMatrix<f64>> = (0..stresses.ncols()).map(by_stress).collect();
     for _ in 0..STIFFENING_STEPS {
-        let (values, vectors) = eigen(&projected)?;
-        let weakest = vectors.column(0);
+        let (values, vectors) = eigen(&form)?;
+        let weakest = vectors.columns(0, 1).into_owned();
         if values[0] >= 0.0 {
             break;
         }
         let slopes: Vec<f64> =
-            changes.iter().map(|change| weakest.dot(&(change * weakest))).collect();
+            changes.iter().map(|change| projected(change, &weakest)[0]).collect();
         let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
         if square <= FLAT * FLAT {
             return None;
         }
         // To twice the way at which the weakest one alone were zero.
         for (slope, change) in slopes.iter().zip(&changes) {
-            projected += change * (-2.0 * values[0] * slope / square);
+            form += change * (-2.0 * values[0] * slope / square);
         }
     }
-    eigenvalues(&projected)
+    eigenvalues(&form)
 }
 
 /// First unknown of each joint.

@@ -1,7 +1,10 @@
 //! Ranks and spectra known beforehand, and what kernels and solutions are to be orthogonal to.
 
-use matrices::dense::{Kernels, eigen, eigenvalues, inverse, least_squares, singular_values};
-use nalgebra::{DMatrix, DVector};
+use matrices::dense::{
+    Cholesky, Kernels, Lu, across, apply, complex_eigenvalues, eigen, eigen_of_three, eigenvalues,
+    inverse, least_squares, product, projected, qr, singular_values, solve_three,
+};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -217,4 +220,118 @@ fn inverses_of_known_matrices() {
     assert_eq!(inverse(&swap).unwrap(), DMatrix::from_row_slice(2, 2, &[0.0, 0.25, 0.5, 0.0]));
     assert_eq!(inverse(&DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0])), None);
     assert_eq!(inverse(&DMatrix::from_element(2, 2, f64::NAN)), None);
+}
+
+#[test]
+fn factors_solve_and_give_their_matrix_back() {
+    let random = &mut ChaCha8Rng::seed_from_u64(12);
+    for (size, columns) in [(0, 0), (1, 1), (2, 5), (3, 1), (9, 4), (40, 40)] {
+        let spread = DMatrix::from_diagonal(&DVector::from_fn(size, |k, _| 1.0 + k as f64));
+        let near = |a: &DMatrix<f64>, b: &DMatrix<f64>| most(&(a - b)) <= 1e-11;
+        // A reflection and a stretch: the determinant is known, and its sign.
+        let [left, right] = [(); 2].map(|()| orthogonal(random, size));
+        let matrix = &left * &spread * &right;
+        let wanted = DVector::from_fn(size, |_, _| random.random_range(-1.0..1.0));
+        let lu = Lu::new(&matrix).unwrap();
+        assert!((&matrix * lu.solve(&wanted) - wanted).norm() <= 1e-12);
+        let told: f64 = (1..=size).map(|k| k as f64).product();
+        assert!((lu.determinant() / told - 1.0).abs() <= 1e-12, "{size}");
+        // From the triangle of a definite matrix.
+        let definite = &left * &spread * left.transpose();
+        let factor = Cholesky::new(&definite).unwrap();
+        let unit = DMatrix::identity(size, size);
+        let inverse = factor.solve_transposed(factor.solve(unit.clone()));
+        assert!(near(&(&definite * inverse), &unit));
+        assert!(near(&factor.solve(definite.clone()).upper_triangle(), &factor.solve(definite)));
+        // The rows of R are those of the matrix, turned.
+        let tall = any(random, size + columns, columns);
+        let [upper, turned] = qr(tall.clone(), tall.clone());
+        assert!(near(&turned.rows(0, columns).into_owned(), &upper));
+        assert!(most(&turned.rows(columns, size).into_owned()) <= SMALL);
+        assert!(near(&upper.tr_mul(&upper), &tall.tr_mul(&tall)));
+        // By their entries.
+        let found = projected(&matrix, &right.columns(0, size.min(2)).into_owned());
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().filter(|(i, j)| *i.max(j) < size)
+        {
+            let sum: f64 = (0..size * size)
+                .map(|k| right[(k / size, i)] * matrix[(k / size, k % size)] * right[(k % size, j)])
+                .sum();
+            assert!((found[(i, j)] - sum).abs() <= 1e-11);
+        }
+    }
+    let turned = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 3.0, 0.0]);
+    assert!((Lu::new(&turned).unwrap().determinant() + 6.0).abs() <= 1e-15);
+    let found = Lu::new(&turned).unwrap().solve(&DVector::from_vec(vec![4.0, 9.0]));
+    assert_eq!(found.as_slice(), [3.0, 2.0]);
+    assert!(Cholesky::new(&turned).is_none());
+    let lower = Cholesky::new(&DMatrix::from_row_slice(2, 2, &[4.0, 0.0, 2.0, 10.0])).unwrap();
+    let right = || DMatrix::from_column_slice(2, 1, &[6.0, 9.0]);
+    // L = (2, 0; 1, 3).
+    assert_eq!(lower.solve(right()).as_slice(), [3.0, 2.0]);
+    assert_eq!(lower.solve_transposed(right()).as_slice(), [1.5, 3.0]);
+    let two = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 3.0, 4.0]);
+    assert_eq!(product(&two, &turned), DMatrix::from_row_slice(2, 2, &[6.0, 2.0, 12.0, 6.0]));
+    let tall = DMatrix::from_row_slice(3, 2, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    assert_eq!(apply(&tall, &DVector::from_vec(vec![10.0, 1.0])).as_slice(), [12.0, 34.0, 56.0]);
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert!(Lu::new(&DMatrix::from_element(2, 2, bad)).is_none());
+    }
+    assert!(Lu::new(&DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0])).is_none());
+}
+
+/// Of `L L^T` with L = (2, 0, 0; 1, 3, 0; -1, 2, 1), and of diag(3, 1, 2) in other axes.
+#[test]
+fn three_rows() {
+    let matrix = [[4.0, 2.0, -2.0], [2.0, 10.0, 5.0], [-2.0, 5.0, 6.0]];
+    let right = matrix.map(|row| row[0] + 2.0 * row[1] + 3.0 * row[2]);
+    let found = solve_three(&matrix, right).unwrap();
+    assert!((0..3).all(|k| (found[k] - [1.0, 2.0, 3.0][k]).abs() <= 1e-14), "{found:?}");
+    for bad in [0.0, -1.0, f64::NAN] {
+        assert_eq!(solve_three(&[[1.0, 0.0, 0.0], [0.0, bad, 0.0], [0.0, 0.0, 1.0]], right), None);
+    }
+    let (s, c) = (0.6, 0.8);
+    let turn = Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+    let symmetric = turn * Matrix3::from_diagonal(&Vector3::new(3.0, 1.0, 2.0)) * turn.transpose();
+    let (values, vectors) = eigen_of_three(&symmetric).unwrap();
+    for (k, (value, axis)) in [(1.0, 1), (2.0, 2), (3.0, 0)].into_iter().enumerate() {
+        assert!((values[k] - value).abs() <= 1e-14);
+        assert!((vectors.column(k).dot(&turn.column(axis)).abs() - 1.0).abs() <= 1e-14);
+    }
+    assert_eq!(eigen_of_three(&(symmetric * f64::NAN)), None);
+}
+
+/// A turn by 0.3 and a stretch by 2 and by -5, in any basis.
+#[test]
+fn complex_eigenvalues_known_beforehand() {
+    let random = &mut ChaCha8Rng::seed_from_u64(13);
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let entries = [2.0 * cos, -2.0 * sin, 0.0, 2.0 * sin, 2.0 * cos, 0.0, 0.0, 0.0, -5.0];
+    let basis = orthogonal(random, 3);
+    let matrix = &basis * DMatrix::from_row_slice(3, 3, &entries) * basis.transpose();
+    let mut found = complex_eigenvalues(&matrix).unwrap();
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    found[1..].sort_by(|a, b| a[1].total_cmp(&b[1]));
+    let wanted = [[-5.0, 0.0], [2.0 * cos, -2.0 * sin], [2.0 * cos, 2.0 * sin]];
+    for (found, wanted) in found.iter().flatten().zip(wanted.as_flattened()) {
+        assert!((found - wanted).abs() <= 1e-13, "{found} {wanted}");
+    }
+    assert_eq!(complex_eigenvalues(&DMatrix::zeros(0, 0)), Some(Vec::new()));
+    assert_eq!(complex_eigenvalues(&(matrix * f64::INFINITY)), None);
+}
+
+/// Across (3, 4) and the same with a part of (-4, 3): nothing, or what is not counted.
+#[test]
+fn what_is_across_columns_by_their_size() {
+    for (part, count) in [(3e-6, 0), (3e-7, 1)] {
+        let columns = DMatrix::from_column_slice(
+            2,
+            2,
+            &[3.0, 4.0, 3.0 - 4.0 * part, 4.0 + 3.0 * part].map(|x| 1e200 * x),
+        );
+        let found = across(&columns, 1e-6);
+        assert_eq!(found.ncols(), count, "{part}");
+        assert!(found.iter().zip([0.8, 0.6]).all(|(x, size)| (x.abs() - size).abs() <= part));
+    }
+    assert_eq!(across(&DMatrix::zeros(2, 0), 1e-6), DMatrix::identity(2, 2));
+    assert_eq!(across(&DMatrix::zeros(2, 3), 1e-6).ncols(), 2);
 }

@@ -32,9 +32,8 @@ pub(super) fn displacements(
     };
     let squared: DMatrix<Interval> = times(&middle.transpose());
     let dependent = |norm: f64| NotEnclosed::Dependent { norm };
-    let inverse =
-        squared.map(Interval::mid).try_inverse().ok_or_else(|| dependent(f64::INFINITY))?;
-    let inverse = inverse.map(Interval::point);
+    let inverse = matrices::dense::inverse(&squared.map(Interval::mid));
+    let inverse = inverse.ok_or_else(|| dependent(f64::INFINITY))?.map(Interval::point);
     let beta = norm(&less_unit(product(&inverse, &squared)));
     if beta.is_nan() || beta >= 1.0 {
         return Err(dependent(beta));

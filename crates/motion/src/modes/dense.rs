@@ -1,6 +1,7 @@
 //! The projected eigenproblem by dense linear algebra: all modes of a small system.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use matrices::dense::{Cholesky, across, eigen, product, projected};
+use nalgebra::DMatrix;
 
 use super::planes::Sector;
 use super::solved::{Solved, ZERO};
@@ -22,49 +23,48 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
     let inertia = matrix(size, size, &entries.inertia);
     // M = L Lᵀ; in z = Lᵀ y the problem is ordinary: L⁻¹ K L⁻ᵀ z = ω² z with R L⁻ᵀ z = 0.
     let massless = || massless(stiffness, sector, &inertia);
-    let lower = inertia.clone().cholesky().ok_or_else(massless)?.l();
-    let solved = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).ok_or_else(massless);
-    let half = solved(&matrix(size, size, &entries.stiffness))?;
-    let ordinary = solved(&half.transpose())?;
+    let lower = Cholesky::new(&inertia).ok_or_else(massless)?;
+    let half = lower.solve(matrix(size, size, &entries.stiffness));
+    let ordinary = lower.solve(half.transpose());
     let rows = matrix(stiffness.row_count(), size, &entries.rows);
-    let free = null_space(&solved(&rows.transpose())?);
+    let free = across(&lower.solve(rows.transpose()), INDEPENDENT);
     if free.ncols() == 0 {
-        return Ok(Solved::none(size));
+        return Ok(Solved::default());
     }
-    let projected = free.transpose() * &ordinary * &free;
+    let projected = projected(&ordinary, &free);
     let symmetric = 0.5 * (&projected + projected.transpose());
-    let largest = symmetric.norm();
-    let eigen = SymmetricEigen::new(symmetric.clone());
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let residual = |k: usize| {
-        let z = eigen.eigenvectors.column(k);
-        (&symmetric * z - z * eigen.eigenvalues[k]).norm() / z.norm()
+    let (omega2, vectors) = eigen(&symmetric).ok_or_else(massless)?;
+    let images = product(&symmetric, &vectors);
+    let shapes = lower.solve_transposed(product(&free, &vectors));
+    let shapes: Vec<_> = shapes.as_slice().chunks_exact(size).map(<[f64]>::to_vec).collect();
+    let residual = |(k, omega2): (usize, &f64)| {
+        let off = |(image, z): (&f64, &f64)| image - z * omega2;
+        length(images.column(k).iter().zip(&vectors.column(k)).map(off))
     };
-    let ordinary_shapes = &free * &eigen.eigenvectors;
-    let shapes = lower.transpose().solve_upper_triangular(&ordinary_shapes).ok_or_else(massless)?;
-    let columns: Vec<DVector<f64>> = order.iter().map(|&k| shapes.column(k).into_owned()).collect();
-    let omega2: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
-    let rounding = size as f64 * f64::EPSILON * largest;
-    let is_zero = |(omega2, y): (&f64, &DVector<f64>)| {
-        omega2.abs() <= ZERO * stiffness.energy(sector, y.as_slice())[1] + rounding
+    let rounding = size as f64 * f64::EPSILON * length(symmetric.iter().copied());
+    let is_zero = |(omega2, y): (&f64, &Vec<f64>)| {
+        omega2.abs() <= ZERO * stiffness.energy(sector, y)[1] + rounding
     };
-    let zero: Vec<bool> = omega2.iter().zip(&columns).map(is_zero).collect();
+    let zero: Vec<bool> = omega2.iter().zip(&shapes).map(is_zero).collect();
     Ok(Solved {
-        residual: order.iter().map(|&k| residual(k)).collect(),
+        residual: omega2.iter().enumerate().map(residual).collect(),
         total: omega2.len(),
         negative: omega2.iter().zip(&zero).filter(|(o, zero)| **o < 0.0 && !**zero).count(),
         zero,
         omega2,
-        shapes: DMatrix::from_columns(&columns),
+        shapes,
     })
+}
+
+fn length(entries: impl Iterator<Item = f64>) -> f64 {
+    entries.map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The joint that moves no mass of its own: the first one whose inertia, with that of those before
 /// it, is not positive definite.
 fn massless(stiffness: &Stiffness<'_>, sector: &Sector, inertia: &DMatrix<f64>) -> MotionError {
     let definite =
-        |size: &usize| inertia.view((0, 0), (*size, *size)).into_owned().cholesky().is_some();
+        |size: &usize| Cholesky::new(&inertia.clone().resize(*size, *size, 0.0)).is_some();
     let sizes: Vec<usize> = (1..=inertia.nrows()).collect();
     let at = sizes.partition_point(definite).min(inertia.nrows() - 1);
     let joint = stiffness.mechanism.name(at / sector.axes.len());
@@ -77,22 +77,6 @@ fn matrix(rows: usize, columns: usize, entries: &[Entry]) -> DMatrix<f64> {
         matrix[(row, column)] += value;
     }
     matrix
-}
-
-/// An orthonormal basis of what is orthogonal to the columns.
-fn null_space(columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let (size, given) = columns.shape();
-    let mut turned = DMatrix::identity(size, size);
-    if given == 0 {
-        return turned;
-    }
-    let qr = columns.clone().col_piv_qr();
-    let largest = columns.column_iter().map(|column| column.norm()).fold(0.0, f64::max);
-    let r = qr.r();
-    let is_independent = |k: &usize| r[(*k, *k)].abs() > INDEPENDENT * largest;
-    let rank = (0..r.nrows()).take_while(is_independent).count();
-    qr.q_tr_mul(&mut turned);
-    turned.rows(rank, size - rank).transpose()
 }
 
 #[cfg(test)]
@@ -159,7 +143,7 @@ mod tests {
                 let columns = DMatrix::from_fn(3, 2, |row, column| {
                     first[row] + if column == 1 { second[row] } else { 0.0 }
                 });
-                let found = null_space(&columns);
+                let found = across(&columns, INDEPENDENT);
                 assert_eq!(found.ncols(), dimension, "{size} {part}");
                 assert!(
                     (found.transpose() * &found - DMatrix::identity(dimension, dimension)).amax()

@@ -1,7 +1,8 @@
 //! Lanczos' method with full orthogonalisation. It ends where the Krylov space is exhausted, as with
 //! many equal pendulums.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use matrices::dense::eigen;
+use nalgebra::DMatrix;
 
 /// A linear map.
 pub(super) type Map<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
@@ -70,32 +71,25 @@ pub(super) fn across(w: &mut [f64], others: &[Vec<f64>], metric: Map<'_>) -> f64
 }
 
 /// The converged ones of the `count` largest eigenpairs of the tridiagonal matrix.
-fn converged(
-    diagonal: &[f64],
-    beside: &[f64],
-    last: f64,
-    count: usize,
-) -> Vec<(f64, DVector<f64>)> {
+fn converged(diagonal: &[f64], beside: &[f64], last: f64, count: usize) -> Vec<(f64, Vec<f64>)> {
     let steps = diagonal.len();
     let tridiagonal = DMatrix::from_fn(steps, steps, |i, j| match i.abs_diff(j) {
         0 => diagonal[i],
         1 => beside[i.min(j)],
         _ => 0.0,
     });
-    let eigen = SymmetricEigen::new(tridiagonal);
-    let mut order: Vec<usize> = (0..steps).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-    let scale = eigen.eigenvalues.amax();
-    let told = order.into_iter().take(count).filter(|&k| {
-        let residual = last * eigen.eigenvectors[(steps - 1, k)].abs();
-        residual <= CONVERGED * scale && eigen.eigenvalues[k] > NOTHING * scale
+    let Some((values, vectors)) = eigen(&tridiagonal) else { return Vec::new() };
+    let scale = values[0].abs().max(values[steps - 1].abs());
+    let pairs = values.iter().zip(vectors.as_slice().chunks_exact(steps)).rev().take(count);
+    let told = pairs.filter(|(value, vector)| {
+        last * vector[steps - 1].abs() <= CONVERGED * scale && **value > NOTHING * scale
     });
-    told.map(|k| (eigen.eigenvalues[k], eigen.eigenvectors.column(k).into_owned())).collect()
+    told.map(|(value, vector)| (*value, vector.to_vec())).collect()
 }
 
-fn combined(basis: &[Vec<f64>], parts: &DVector<f64>) -> Vec<f64> {
+pub(super) fn combined(basis: &[Vec<f64>], parts: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; basis[0].len()];
-    for (q, part) in basis.iter().zip(parts.iter()) {
+    for (q, part) in basis.iter().zip(parts) {
         sum.iter_mut().zip(q).for_each(|(x, q)| *x += part * q);
     }
     sum

@@ -9,8 +9,6 @@
 //! T. Ericsson, A. Ruhe, Math. Comp. 35 (1980) 1251-1268; R. G. Grimes, J. G. Lewis, H. D. Simon,
 //! SIAM J. Matrix Anal. Appl. 15 (1994) 228-272.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::lanczos::{across, divide, dot, largest};
 use super::planes::Sector;
 use super::shifted::Shifted;
@@ -71,7 +69,7 @@ pub(super) fn solve(
         if lacking == 0 {
             pairs.truncate(count);
             let negative = negative(entries, axes, &pairs)?;
-            return Ok(solved(entries, &pairs, total, negative));
+            return Ok(solved(pairs, total, negative));
         }
         missing = lacking;
     }
@@ -137,19 +135,12 @@ fn negative(entries: &Entries, axes: usize, pairs: &[Pair]) -> Result<usize, Mot
     }
 }
 
-fn solved(entries: &Entries, pairs: &[Pair], total: usize, negative: usize) -> Solved {
-    let columns: Vec<DVector<f64>> =
-        pairs.iter().map(|pair| DVector::from_column_slice(&pair.y)).collect();
-    let shapes = if columns.is_empty() {
-        DMatrix::zeros(entries.size, 0)
-    } else {
-        DMatrix::from_columns(&columns)
-    };
+fn solved(pairs: Vec<Pair>, total: usize, negative: usize) -> Solved {
     Solved {
         omega2: pairs.iter().map(|pair| pair.omega2).collect(),
         zero: pairs.iter().map(|pair| pair.is_zero).collect(),
         residual: pairs.iter().map(|pair| pair.residual).collect(),
-        shapes,
+        shapes: pairs.into_iter().map(|pair| pair.y).collect(),
         total,
         negative,
     }

@@ -31,7 +31,7 @@ mod stiffness;
 
 use model::Vector;
 use model::system::System;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::error::MotionError;
 use crate::force;
@@ -312,23 +312,21 @@ pub(crate) fn approximate_modes(
     let bars = mechanism.bars.iter();
     let densities = bars.map(|bar| axial_n[bar.member] / bar.length_m).collect();
     let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
-    let mut columns = Vec::new();
+    let (rows, mut columns) = (3 * mechanism.moving, Vec::new());
     for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
-        for shape in dense::solve(&stiffness, &sector)?.shapes.column_iter() {
-            let mut column = DVector::zeros(3 * mechanism.moving);
+        for shape in dense::solve(&stiffness, &sector)?.shapes {
+            let first = columns.len();
+            columns.resize(first + rows, 0.0);
             for (at, part) in shape.iter().enumerate() {
                 let (slot, axis) = (at / sector.axes.len(), sector.axes[at % sector.axes.len()]);
                 for k in 0..3 {
-                    column[3 * slot + k] += part * axis[k];
+                    columns[first + 3 * slot + k] += part * axis[k];
                 }
             }
-            columns.push(column);
         }
     }
-    if columns.is_empty() {
-        return Ok(DMatrix::zeros(3 * mechanism.moving, 0));
-    }
-    Ok(DMatrix::from_columns(&columns))
+    let count = columns.len() / rows.max(1);
+    Ok(DMatrix::from_vec(rows, count, columns))
 }
 
 /// Force densities of the rigid bars, N/m.

@@ -1,8 +1,8 @@
 //! Modes with their shapes, and the names of those of `ω² = 0`.
 
 use model::Vector;
-use nalgebra::{DMatrix, DVector};
 
+use super::lanczos::{self, combined, divide};
 use super::planes::Sector;
 use super::solved::Solved;
 use super::stiffness::Stiffness;
@@ -25,9 +25,8 @@ pub(super) fn modes(
     let mut found = Vec::new();
     for (k, &omega2_s2) in solved.omega2.iter().enumerate().filter(|(k, _)| !solved.zero[*k]) {
         let what = if omega2_s2 > 0.0 { What::Oscillation } else { What::Leaving };
-        let column = solved.shapes.column(k).into_owned();
         let of = (omega2_s2, solved.residual[k]);
-        found.push(mode(mechanism, sector, of, &column, what));
+        found.push(mode(mechanism, sector, of, &solved.shapes[k], what));
     }
     let zeros: Vec<usize> = (0..solved.omega2.len()).filter(|&k| solved.zero[k]).collect();
     // What the zeros came out as, and how far that is to be trusted.
@@ -36,49 +35,56 @@ pub(super) fn modes(
     if zeros.is_empty() {
         return found;
     }
-    let columns: Vec<DVector<f64>> =
-        zeros.iter().map(|&k| solved.shapes.column(k).into_owned()).collect();
-    let zero_shapes = DMatrix::from_columns(&columns);
-    let mut named: Vec<DVector<f64>> = Vec::new();
+    let zero_shapes: Vec<_> = zeros.iter().map(|&k| solved.shapes[k].clone()).collect();
+    let mut named: Vec<Vec<f64>> = Vec::new();
     let entries = stiffness.entries(sector);
     for (axis_m, turn) in turns(mechanism, state, sector) {
         // Coefficients in the zero modes, which are orthonormal in the metric of the inertia.
-        let inertial = DVector::from_vec(entries.inertia_times(turn.as_slice()));
-        let size = turn.dot(&inertial).sqrt();
-        let coefficients = zero_shapes.transpose() * inertial / size;
-        if (coefficients.norm() - 1.0).abs() <= IS_A_TURN {
-            named.push(coefficients.normalize());
+        let inertial = entries.inertia_times(&turn);
+        let size = lanczos::dot(&turn, &inertial).sqrt();
+        let along = |shape: &Vec<f64>| lanczos::dot(shape, &inertial) / size;
+        let mut coefficients: Vec<f64> = zero_shapes.iter().map(along).collect();
+        let length = length(&coefficients);
+        if (length - 1.0).abs() <= IS_A_TURN {
+            divide(&mut coefficients, length);
+            named.push(coefficients);
             found.push(mode(mechanism, sector, of_zero, &turn, What::Turn { axis_m }));
         }
     }
     // What is left of the zero modes when the turns are taken out.
-    let mut others: Vec<DVector<f64>> = Vec::new();
+    let mut others: Vec<Vec<f64>> = Vec::new();
     for k in 0..zeros.len() {
-        let mut unit = DVector::zeros(zeros.len());
+        let mut unit = vec![0.0; zeros.len()];
         unit[k] = 1.0;
         for b in named.iter().chain(&others).chain(&named) {
-            let part = unit.dot(b);
-            unit.axpy(-part, b, 1.0);
+            let part = lanczos::dot(&unit, b);
+            unit.iter_mut().zip(b).for_each(|(x, b)| *x -= part * b);
         }
-        if unit.norm() > 1.0 / (2.0 * zeros.len() as f64).sqrt() {
-            others.push(unit.normalize());
+        let length = length(&unit);
+        if length > 1.0 / (2.0 * zeros.len() as f64).sqrt() {
+            divide(&mut unit, length);
+            others.push(unit);
         }
     }
     for other in others {
-        let shape = &zero_shapes * other;
+        let shape = combined(&zero_shapes, &other);
         found.push(mode(mechanism, sector, of_zero, &shape, What::Neutral));
     }
     found
 }
 
+fn length(v: &[f64]) -> f64 {
+    lanczos::dot(v, v).sqrt()
+}
+
 /// Turns of the parts that turn freely about a vertical, in the coordinates of a sector.
-fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2], DVector<f64>)> {
+fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2], Vec<f64>)> {
     let reference = mechanism.reference_m;
     let axes = &sector.axes;
     let mut found = Vec::new();
     for part in mechanism.system.parts() {
         let Some(axis_m) = part.axis_m else { continue };
-        let mut turn = DVector::zeros(mechanism.moving * axes.len());
+        let mut turn = vec![0.0; mechanism.moving * axes.len()];
         for joint in part.joints {
             let slot = mechanism.slot_of[joint];
             if slot < mechanism.moving {
@@ -90,7 +96,7 @@ fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2]
             }
         }
         let length_m = mechanism.system.total_length_m();
-        if turn.amax() > IS_A_TURN * length_m {
+        if turn.iter().any(|x: &f64| x.abs() > IS_A_TURN * length_m) {
             found.push((axis_m, turn));
         }
     }
@@ -102,7 +108,7 @@ fn mode(
     mechanism: &Mechanism,
     sector: &Sector,
     (omega2_s2, residual_s2): (f64, f64),
-    y: &DVector<f64>,
+    y: &[f64],
     what: What,
 ) -> Mode {
     let axes = &sector.axes;
@@ -157,11 +163,7 @@ mod tests {
             omega2: vec![-3.0, 7.0],
             zero: vec![true, false],
             residual: vec![1.0, 0.5],
-            shapes: DMatrix::from_row_slice(
-                6,
-                2,
-                &[0.0, 0.0, 0.0, -0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0],
-            ),
+            shapes: vec![vec![0.0, 0.0, 0.5, 0.0, 0.0, 0.5], vec![0.0, -0.5, 0.0, 0.0, 0.5, 0.0]],
             total: 2,
             negative: 0,
         };

@@ -1,25 +1,45 @@
 //! Stiffness, inertia and constraints about an equilibrium, as entries of sparse matrices.
 
 use model::Vector;
-use nalgebra::{Matrix3, Vector3};
 
 use super::planes::{Direction, FLAT, Sector};
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
 use crate::unequal::{Excess, excesses};
-use numerics::vector::{dot, norm, times};
+use numerics::vector::{add_times, dot, norm, times};
 
 /// Stiffness, inertia and constraints about an equilibrium.
 pub(super) struct Stiffness<'a> {
     pub mechanism: &'a Mechanism,
     vectors: &'a [Vector],
-    /// Each span with the 3 × 3 matrix of its stiffness, N/m.
-    members: Vec<(&'a Link, Matrix3<f64>)>,
+    members: Vec<(&'a Link, Block)>,
     /// What ropes resist in their lengths.
     lengths: Vec<Length>,
     densities: Vec<f64>,
     /// What bars with different moments across have beyond the inertia of the mechanism.
     pub excesses: Vec<Excess>,
+}
+
+/// The stiffness of a span: a force density, N/m, and what it has beyond that along a unit vector.
+struct Block {
+    density: f64,
+    beyond: f64,
+    u: Vector,
+}
+
+impl Block {
+    /// Of a span `d` with a stiffness along it.
+    fn new(density: f64, d: Vector, along: f64) -> Self {
+        if density.abs() <= 0.0 && along <= 0.0 {
+            return Self { density: 0.0, beyond: 0.0, u: [0.0; 3] };
+        }
+        Self { density, beyond: along - density, u: times(1.0 / norm(d), d) }
+    }
+
+    /// `aᵀ K b`.
+    fn between(&self, a: Vector, b: Vector) -> f64 {
+        self.density * dot(a, b) + self.beyond * dot(self.u, a) * dot(self.u, b)
+    }
 }
 
 /// A stiffness against changes of the length of a rope.
@@ -65,12 +85,12 @@ impl<'a> Stiffness<'a> {
         for (bar, rho) in mechanism.bars.iter().zip(&densities) {
             let spans = mechanism.of(&bar.spans);
             if let [span] = spans {
-                members.push((span, Matrix3::identity() * *rho));
+                members.push((span, Block { density: *rho, beyond: 0.0, u: [0.0; 3] }));
                 continue;
             }
             for span in spans {
                 let d = state.between(span.a, span.b);
-                members.push((span, block(rho * bar.length_m / norm(d), d, 0.0)));
+                members.push((span, Block::new(rho * bar.length_m / norm(d), d, 0.0)));
             }
         }
         for spring in &mechanism.springs {
@@ -83,7 +103,7 @@ impl<'a> Stiffness<'a> {
             for span in spans {
                 let d = state.between(span.a, span.b);
                 let density = spring.force_density(length_m, norm(d));
-                members.push((span, block(density, d, own)));
+                members.push((span, Block::new(density, d, own)));
                 let u = if slope > own { times(1.0 / norm(d), d) } else { [0.0; 3] };
                 gradient.extend([(span.a, times(-1.0, u)), (span.b, u)]);
             }
@@ -115,7 +135,7 @@ impl<'a> Stiffness<'a> {
         for (link, block) in &self.members {
             for (i, row) in axes.iter().enumerate() {
                 for (j, column) in axes.iter().enumerate() {
-                    let value = Vector3::from(*row).dot(&(block * Vector3::from(*column)));
+                    let value = block.between(*row, *column);
                     let ends =
                         [link.a, link.b].map(|slot| (slot < moving).then_some(slot * axes.len()));
                     put_difference(&mut stiffness, ends, [i, j], value);
@@ -205,11 +225,11 @@ impl<'a> Stiffness<'a> {
             made_of += part;
         }
         for (link, block) in &self.members {
-            let mut by = Vector3::zeros();
+            let mut by = [0.0; 3];
             for (k, axis) in axes.iter().enumerate() {
-                by += Vector3::from(*axis) * (at(link.b, k) - at(link.a, k));
+                by = add_times(by, at(link.b, k) - at(link.a, k), *axis);
             }
-            let part = by.dot(&(block * by));
+            let part = block.between(by, by);
             sum += part;
             made_of += part.abs();
         }
@@ -226,15 +246,6 @@ impl<'a> Stiffness<'a> {
         let mass: f64 = mechanism.mass.iter().sum();
         (loads + tension) / (mass * mechanism.system.total_length_m())
     }
-}
-
-/// The stiffness of a span `d` with a force density, N/m, and another stiffness along it.
-fn block(density: f64, d: Vector, along: f64) -> Matrix3<f64> {
-    if density.abs() <= 0.0 && along <= 0.0 {
-        return Matrix3::zeros();
-    }
-    let u = Vector3::from(d) / norm(d);
-    Matrix3::identity() * density + u * u.transpose() * (along - density)
 }
 
 /// Put `value` times `[[1, −1], [−1, 1]]` at the coordinates of two ends; one that is held has

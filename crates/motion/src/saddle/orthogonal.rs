@@ -11,8 +11,9 @@
 //! `√s = |Fᵀ d|` loses those of `δ` alone (the square-root form of G. J. Bierman, *Factorization
 //! Methods for Discrete Sequential Estimation*, 1977).
 
+use matrices::dense::{Cholesky, inverse, product, qr};
 use model::Vector;
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::DMatrix;
 
 use super::forest::Symmetric;
 use numerics::vector::dot;
@@ -49,37 +50,31 @@ impl Eliminated {
 /// children left on them; the relative diagonal that fails otherwise, zero where `a` does.
 pub(super) fn eliminate(a: Symmetric, w: &[Vector], roots: &[f64]) -> Result<Eliminated, f64> {
     let [xx, xy, xz, yy, yz, zz] = a;
-    let a = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    let l = a.cholesky().ok_or(0.0)?.l();
-    let backwards = |v: Vector3<f64>| l.tr_solve_lower_triangular(&v).unwrap_or_default().into();
+    let a = DMatrix::from_row_slice(3, 3, &[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
+    let l = Cholesky::new(&a).ok_or(0.0)?;
     let m = w.len();
-    let mut stacked = DMatrix::zeros(3 + m, m);
-    for (k, (&w, &root)) in w.iter().zip(roots).enumerate() {
-        let own = l.solve_lower_triangular(&Vector3::from(w)).unwrap_or_default();
-        stacked.fixed_view_mut::<3, 1>(0, k).copy_from(&own);
-        stacked[(3 + k, k)] = root;
+    let mut stacked =
+        l.solve(DMatrix::from_column_slice(3, m, w.as_flattened())).resize_vertically(3 + m, 0.0);
+    for (k, root) in roots.iter().enumerate() {
+        stacked[(3 + k, k)] = *root;
     }
     // The rows of Q that belong to the joint, as columns.
-    let mut q = DMatrix::identity(3 + m, 3);
-    let mut u = DMatrix::zeros(m, m);
-    if m > 0 {
-        let qr = stacked.qr();
-        qr.q_tr_mul(&mut q);
-        u = qr.r();
-    }
-    for (k, column) in u.column_iter().enumerate() {
-        let (below, whole) = (u[(k, k)].abs(), column.norm());
+    let [u, q] = qr(stacked, DMatrix::identity(3 + m, 3));
+    for k in 0..m {
+        let whole = u.column(k).iter().map(|x| x * x).sum::<f64>().sqrt();
+        let below = u[(k, k)].abs();
         if below.is_nan() || below <= LEAST_DIAGONAL * whole {
             return Err(if whole > 0.0 { below / whole } else { 0.0 });
         }
     }
-    let inverse = u.solve_upper_triangular(&DMatrix::identity(m, m)).ok_or(0.0)?;
-    let scaled = &inverse * q.rows(0, m);
-    let row = |of: &DMatrix<f64>, k: usize| Vector3::new(of[(k, 0)], of[(k, 1)], of[(k, 2)]);
+    let inverse = inverse(&u).ok_or(0.0)?;
+    let (q, across) = (q.transpose(), inverse.transpose());
+    let scaled = product(&q.columns(0, m).into_owned(), &across);
+    let [f, h] = [q.columns(m, 3).into_owned(), scaled].map(|right| l.solve_transposed(right));
     Ok(Eliminated {
-        f: [0, 1, 2].map(|k| backwards(row(&q, m + k))),
-        h: (0..m).map(|k| backwards(row(&scaled, k))).collect(),
-        t_inverse: (&inverse * inverse.transpose()).iter().copied().collect(),
+        f: std::array::from_fn(|k| [0, 1, 2].map(|i| f[(i, k)])),
+        h: h.as_slice().as_chunks().0.to_vec(),
+        t_inverse: product(&inverse, &across).as_slice().to_vec(),
     })
 }
 

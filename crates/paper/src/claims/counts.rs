@@ -1,6 +1,7 @@
 //! How many equations, unknowns and freedoms: counted on the matrices of `lagrange`.
 
 use lagrange::{constraint_matrix, direction_gradient, jacobian, residual, spin};
+use matrices::dense::Kernels;
 use nalgebra::DVector;
 
 use super::{Facts, Finding};
@@ -43,9 +44,10 @@ pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
         ),
         "freedom" => {
             let b = constraint_matrix(chain, &q);
-            let values = b.clone().singular_values();
-            let rank = values.iter().filter(|value| **value > ZERO * values.max()).count();
-            counted(b.ncols() - rank, "difference to the columns of B less its rank")
+            counted(
+                b.ncols() - Kernels::new(&b, ZERO)?.rank,
+                "difference to the columns of B less its rank",
+            )
         }
         "useless" => {
             // A turn about its own axis moves no point of a bar.

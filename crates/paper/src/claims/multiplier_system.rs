@@ -1,7 +1,7 @@
 //! Does (40) have a solution at a given position? Twelve multipliers, eighteen equations.
 
 use lagrange::{Seed, constraint_matrix, load_vector};
-use matrices::dense::least_squares;
+use matrices::dense::{apply, least_squares};
 use model::Problem;
 use nalgebra::DVector;
 
@@ -40,7 +40,7 @@ pub fn misfit(problem: &Problem, units: PaperUnits, phi: &[f64; 3]) -> Misfit {
     let Some(lambda) = least_squares(&matrix, &right, RANK) else {
         return Misfit { norm: f64::NAN, largest: f64::NAN };
     };
-    let left = matrix * lambda - right;
+    let left = apply(&matrix, &lambda) - right;
     Misfit { norm: left.norm(), largest: left.amax() }
 }
 

@@ -165,8 +165,10 @@ fn theta_with_half_the_span(facts: &Facts) -> Option<f64> {
 
 /// The angles are said to be from a vertical axis Ox, while the weights of (35) act along -Z.
 fn vertical(facts: &Facts) -> Finding {
-    let weight =
-        lagrange::load_vector(facts.example.problem.chain()).fixed_rows::<3>(0).normalize();
+    let weight = lagrange::load_vector(facts.example.problem.chain())
+        .fixed_rows::<3>(0)
+        .into_owned()
+        .normalize();
     let [from_x, from_down] = [weight.x, -weight.z].map(|cos| cos.acos().to_degrees());
     let verdict =
         if from_x <= f64::EPSILON { Assessment::Confirmed } else { Assessment::Corrected };

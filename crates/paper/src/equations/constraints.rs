@@ -1,5 +1,6 @@
 //! Sections III and IV, the constraint functions and their matrix: eqs. (6)-(22).
 
+use matrices::dense::Kernels;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -207,8 +208,8 @@ fn freedom() -> f64 {
     let paper = model::cases::paper();
     of_some(100, |rng| {
         let q = coordinates(rng);
-        let singular = lagrange::constraint_matrix(paper.chain(), &q).singular_values();
-        let rank = singular.iter().filter(|&&s| s > RANK * singular.max()).count();
+        let matrix = lagrange::constraint_matrix(paper.chain(), &q);
+        let rank = Kernels::new(&matrix, RANK).map_or(0, |kernels| kernels.rank);
         let useless = (0..3).map(|bar| {
             let at = 6 * bar + 3;
             let gradient = lagrange::direction_gradient(q[at], q[at + 1], q[at + 2]);
@@ -229,7 +230,7 @@ fn matrix_of_constraints() -> f64 {
         let q = coordinates(rng);
         let matrix = lagrange::constraint_matrix(paper.chain(), &q);
         largest((0..18).map(|column| {
-            let numeric = derivative(|t| {
+            let numeric = derivative(&|t| {
                 let mut moved = q.clone();
                 moved[column] += t;
                 constraint_functions(&moved)

@@ -2,10 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use matrices::dense::{Lu, apply};
 use nalgebra::{DVector, Vector3};
 
 use super::inertia::velocity_matrix;
-use super::sample::{LargestEntry, largest};
+use super::sample::{LargestEntry, dynamic, largest};
 use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED};
 
 /// Multipliers of three bars.
@@ -31,7 +32,7 @@ pub(super) fn planar(phi: [f64; 3]) -> DVector<f64> {
 /// $-[B]^T\\{\lambda\\}$ at planar coordinates, in the unit of `lambda`.
 pub(super) fn reactions(q: &DVector<f64>, lambda: &DVector<f64>) -> DVector<f64> {
     let paper = model::cases::paper();
-    -(lagrange::constraint_matrix(paper.chain(), q).transpose() * lambda)
+    -apply(&lagrange::constraint_matrix(paper.chain(), q).transpose(), lambda)
 }
 
 /// $[T]$ of (41) in mg, with or without the weight of bar 2.
@@ -78,7 +79,10 @@ pub(super) fn counted() -> Vec<EquationAudit> {
 
 /// Matrices [Q] that are singular at these angles, or not known to be regular.
 fn singular(angles: [[f64; 3]; 3]) -> f64 {
-    let regular = angles.iter().filter(|q| velocity_matrix(**q).determinant().abs() > ROUNDING);
+    let determinant = |q: &[f64; 3]| {
+        Lu::new(&dynamic(&velocity_matrix(*q))).map_or(0.0, |factors| factors.determinant())
+    };
+    let regular = angles.iter().filter(|q| determinant(q).abs() > ROUNDING);
     (angles.len() - regular.count()) as f64
 }
 

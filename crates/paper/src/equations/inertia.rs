@@ -1,5 +1,6 @@
 //! Section V, velocities and matrices of inertia: eqs. (23)-(32).
 
+use matrices::dense::product;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand::RngExt;
 use validate::lever::centre_part;
@@ -45,7 +46,7 @@ fn omega([psi, theta, phi]: [f64; 3], rates: &Vector3<f64>) -> Vector3<f64> {
 
 /// $[A]^T [\dot A]$ by numeric differentiation of nalgebra's rotation.
 fn numeric_spin(q: [f64; 3], rates: &Vector3<f64>) -> Matrix3<f64> {
-    let change = derivative(|t| dynamic(&rotation(at(q, rates, t))));
+    let change = derivative(&|t| dynamic(&rotation(at(q, rates, t))));
     rotation(q).transpose() * three_by_three(&change)
 }
 
@@ -143,7 +144,7 @@ fn rows_too_many(one_matrix: bool) -> f64 {
         let mut column = DMatrix::zeros(9, 3);
         column.view_mut((6, 0), (3, 3)).copy_from(&turning);
         // Each mass multiplies a block.
-        (masses.kronecker(&DMatrix::identity(3, 3)) * column).nrows()
+        product(&masses.kronecker(&DMatrix::identity(3, 3)), &column).nrows()
     };
     rows as f64 - 6.0
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use matrices::dense::least_squares;
+use matrices::dense::{apply, least_squares};
 use nalgebra::{DVector, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -82,7 +82,7 @@ fn open(theta: f64, alpha: f64) -> f64 {
 /// Difference of an axis from the direction of the weights in the load vector.
 fn down_from(axis: Vector3<f64>) -> f64 {
     let paper = model::cases::paper();
-    let weight = lagrange::load_vector(paper.chain()).fixed_rows::<3>(0).normalize();
+    let weight = lagrange::load_vector(paper.chain()).fixed_rows::<3>(0).into_owned().normalize();
     (weight - axis).largest_entry()
 }
 
@@ -99,7 +99,7 @@ fn left_of_40(phi: [f64; 3]) -> f64 {
     let load = load(true);
     let columns = nalgebra::DMatrix::from_columns(&columns);
     let Some(multipliers) = least_squares(&columns, &load, ROUNDING) else { return f64::NAN };
-    (load - columns * multipliers).norm()
+    (load - apply(&columns, &multipliers)).norm()
 }
 
 /// Difference of two angles in deg, modulo a turn.

@@ -1,5 +1,6 @@
 //! Section VI, the equation of motion: eqs. (33)-(39).
 
+use matrices::dense::product;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -58,7 +59,7 @@ impl ClosedMotion {
         let q = self.coordinates(0.0);
         let lock = q[10].sin().min(q[16].sin());
         // Bars 2 and 3 of length 1 each span at most 2.
-        rest.norm() < 1.7 && rest.xy().norm() > 0.5 && lock > 0.5
+        rest.norm() < 1.7 && rest.x.hypot(rest.y) > 0.5 && lock > 0.5
     }
 
     fn first_direction(&self, t: f64) -> Vector3<f64> {
@@ -102,11 +103,12 @@ fn lower_rows(as_printed: bool) -> f64 {
         let path = |t: f64| DMatrix::from_column_slice(18, 1, motion.coordinates(t).as_slice());
         let q = motion.coordinates(0.0);
         let rhs = if as_printed {
-            -matrix(&q) * path(0.0)
+            -product(&matrix(&q), &path(0.0))
         } else {
-            -derivative(|t| matrix(&motion.coordinates(t))) * derivative(path)
+            let change = derivative(&|t| matrix(&motion.coordinates(t)));
+            -product(&change, &derivative(&path))
         };
-        (matrix(&q) * second_derivative(path) - rhs).largest_entry()
+        (product(&matrix(&q), &second_derivative(&path)) - rhs).largest_entry()
     })
 }
 
@@ -139,10 +141,10 @@ fn kinetic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> f64 {
 /// The generalised force of (39) by Lagrange's equation: $\partial T/\partial\beta$ less the part
 /// of the time derivative of $\partial T/\partial\dot\beta$ without accelerations.
 fn gyroscopic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> Vector3<f64> {
-    let change = derivative(|t| dynamic(&inertia_product(at(q, rates, t), j)));
+    let change = derivative(&|t| dynamic(&inertia_product(at(q, rates, t), j)));
     let gradient = Vector3::from_fn(|k, _| {
         let along = Vector3::ith(k, 1.0);
-        derivative(|t| DMatrix::from_element(1, 1, kinetic(at(q, &along, t), rates, j)))[(0, 0)]
+        derivative(&|t| DMatrix::from_element(1, 1, kinetic(at(q, &along, t), rates, j)))[(0, 0)]
     });
     gradient - three_by_three(&change) * rates
 }
@@ -150,7 +152,7 @@ fn gyroscopic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> Vector3<f6
 /// (39) with its missing bracket; the dot on the transpose as printed, or without.
 fn bracketed(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>, dotted: bool) -> Vector3<f64> {
     let velocity = velocity_matrix(q);
-    let change = three_by_three(&derivative(|t| dynamic(&velocity_matrix(at(q, rates, t)))));
+    let change = three_by_three(&derivative(&|t| dynamic(&velocity_matrix(at(q, rates, t)))));
     let inertia = Matrix3::from_diagonal(j);
     let front = if dotted { change } else { velocity }.transpose();
     let turning = front * skew(&(velocity * rates)) * inertia * velocity;
@@ -168,9 +170,9 @@ fn gyroscopic_error(dotted: bool) -> f64 {
 /// Columns of the first summand of (38) or (39) less those of the left-hand side: 3 × 3 matrices,
 /// times the column of rates only if a bracket says so.
 fn columns_too_many(bracket: bool) -> f64 {
-    let summand = DMatrix::<f64>::zeros(3, 3) * DMatrix::<f64>::zeros(3, 3);
+    let summand = product(&DMatrix::zeros(3, 3), &DMatrix::zeros(3, 3));
     let rates = DMatrix::<f64>::zeros(3, 1);
-    let columns = if bracket { (summand * rates).ncols() } else { summand.ncols() };
+    let columns = if bracket { product(&summand, &rates).ncols() } else { summand.ncols() };
     columns as f64 - 1.0
 }
 

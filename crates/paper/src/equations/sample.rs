@@ -19,6 +19,10 @@ const STEP: f64 = 1e-2;
 
 /// Largest residual, by magnitude, over the random states; NaN if one is.
 pub(super) fn worst(mut residual: impl FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
+    worst_of(&mut residual)
+}
+
+fn worst_of(residual: &mut dyn FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     largest((0..STATES).map(|_| residual(&mut rng)))
 }
@@ -72,13 +76,13 @@ pub(super) fn at(angles: [f64; 3], rates: &Vector3<f64>, t: f64) -> [f64; 3] {
 }
 
 /// First derivative at 0, central differences of sixth order.
-pub(super) fn derivative(f: impl Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn derivative(f: &dyn Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
     let odd = |k: f64| f(k * STEP) - f(-k * STEP);
     (odd(1.0) * (3.0 / 4.0) - odd(2.0) * (3.0 / 20.0) + odd(3.0) / 60.0) / STEP
 }
 
 /// Second derivative at 0, central differences of sixth order.
-pub(super) fn second_derivative(f: impl Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn second_derivative(f: &dyn Fn(f64) -> DMatrix<f64>) -> DMatrix<f64> {
     let even = |k: f64| f(k * STEP) + f(-k * STEP);
     (even(1.0) * 1.5 - even(2.0) * (3.0 / 20.0) + even(3.0) / 90.0 - f(0.0) * (49.0 / 18.0))
         / (STEP * STEP)
