@@ -136,7 +136,8 @@ pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     let slope: f64 = (0..n + 3).map(|k| psi[k] * j[(k, n + 3)]).sum();
     let rounding = ROUNDING * psi.iter().map(|part| part.abs()).sum::<f64>();
     // Twice: of two folds that touch, the slope falls to nothing on the way.
-    (2.0 * rounding / slope.abs()).max(f64::EPSILON)
+    let error = 2.0 * rounding / slope.abs();
+    if error.is_nan() { f64::INFINITY } else { error.max(f64::EPSILON) }
 }
 
 /// The direction in which only the position changes.
