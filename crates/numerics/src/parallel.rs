@@ -20,7 +20,7 @@ pub fn in_parallel<T: Send>(
     let mut done = Vec::new();
     done.resize_with(count, || Mutex::new(None));
     each(count, apart, &|k| {
-        *done[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(work(k))
+        *done[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(work(k));
     });
     let taken = |slot: Mutex<Option<T>>| slot.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.into_iter().filter_map(taken).collect()
