@@ -1,6 +1,7 @@
 //! The order in which joints are eliminated.
 
-use matrices::sparse::minimum_degree;
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
 
 /// Joints that move, in the order of elimination, and whether they form trees.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,7 +15,7 @@ pub(crate) struct Order {
 /// Order the joints of `moves` over the `edges` between them.
 ///
 /// Trees are ordered from their leaves to the root, which causes no fill at all; other graphs by
-/// approximate minimum degree.
+/// least degree.
 pub(crate) fn order(moves: &[bool], edges: &[(usize, usize)]) -> Order {
     let mut neighbours = vec![Vec::new(); moves.len()];
     for &(a, b) in edges {
@@ -45,15 +46,34 @@ pub(crate) fn order(moves: &[bool], edges: &[(usize, usize)]) -> Order {
     joints.reverse();
     let is_forest = edges.len() + parts == joints.len();
     if !is_forest {
-        let ends = neighbours.iter().scan(0, |end, list| {
-            *end += list.len();
-            Some(*end)
-        });
-        let starts: Vec<usize> = std::iter::once(0).chain(ends).collect();
-        let of_all = minimum_degree(&starts, &neighbours.concat()).unwrap_or(joints);
-        joints = of_all.into_iter().filter(|joint| moves[*joint]).collect();
+        joints = least_degree(&joints, &neighbours);
     }
     Order { joints, is_forest }
+}
+
+/// Always the joint with the fewest neighbours next; its neighbours become neighbours of each
+/// other.
+fn least_degree(joints: &[usize], neighbours: &[Vec<usize>]) -> Vec<usize> {
+    let mut around: Vec<BTreeSet<usize>> =
+        neighbours.iter().map(|list| list.iter().copied().collect()).collect();
+    let mut heap: BinaryHeap<_> =
+        joints.iter().map(|&joint| Reverse((around[joint].len(), joint))).collect();
+    let mut done = vec![false; neighbours.len()];
+    let mut ordered = Vec::with_capacity(joints.len());
+    while let Some(Reverse((degree, joint))) = heap.pop() {
+        if done[joint] || degree != around[joint].len() {
+            continue;
+        }
+        done[joint] = true;
+        ordered.push(joint);
+        let clique: Vec<usize> = std::mem::take(&mut around[joint]).into_iter().collect();
+        for &other in &clique {
+            around[other].remove(&joint);
+            around[other].extend(clique.iter().copied().filter(|&third| third != other));
+            heap.push(Reverse((around[other].len(), other)));
+        }
+    }
+    ordered
 }
 
 #[cfg(test)]
