@@ -85,7 +85,7 @@ fn proved(
         .map_err(|no_box| format!("the equilibrium is not proved: {no_box}"))?;
     // A box next to a fold may hold the neighbour. NaN is near to nothing.
     let distance_m = proof.beyond_m(joints_m);
-    let near = distance_m <= Tolerances::project().joints.value * system.total_length_m();
+    let near = distance_m <= Tolerances::project().joints * system.total_length_m();
     if !near {
         let distance_n = proof.beyond_n(axial_n);
         return Err(NoBox::Elsewhere { distance_m, distance_n }.to_string());

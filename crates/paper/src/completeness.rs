@@ -181,6 +181,6 @@ impl Completeness {
             && self.euler == Some(self.alternating_sum)
             && self.sextic_roots.is_some_and(|roots| 2 * roots == self.planar)
             && self.lagrange <= placed(model::cases::paper().chain())
-            && self.statics <= tolerances.statics.value
+            && self.statics <= tolerances.statics
     }
 }

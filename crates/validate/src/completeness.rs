@@ -82,7 +82,7 @@ fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: 
 /// Whether an answer at this distance of all equilibria differs from them, to the accuracy that
 /// answers are asked to agree to.
 fn refutes(chain: &Chain, distance: f64) -> bool {
-    distance > Tolerances::project().joints.value + placed(chain)
+    distance > Tolerances::project().joints + placed(chain)
 }
 
 /// Whether a family of equilibria with slack bars has this energy, to the rounding of a solver.

@@ -4,28 +4,19 @@ use std::sync::LazyLock;
 
 use toml::{Table, Value};
 
-use crate::built_in::{key, numbers, parsed};
+use crate::built_in::{key, number, parsed};
 
-/// One budget.
-#[derive(Debug, Clone, Copy)]
-pub struct Budget {
-    /// The largest value allowed.
-    pub value: f64,
-    /// The worst value measured over the registry of cases.
-    pub measured: f64,
-}
-
-/// All budgets.
+/// All budgets; the file says of each what it is measured in, and why it is this much and no more.
 #[derive(Debug, Clone, Copy)]
 pub struct Tolerances {
-    /// Distance of the joints of two answers.
-    pub joints: Budget,
-    /// Difference of the joint forces of two answers.
-    pub forces: Budget,
-    /// Difference of the energies of two answers.
-    pub energy: Budget,
-    /// Violations of geometry and of Newton's laws by one answer.
-    pub statics: Budget,
+    /// Distance of the joints of two answers, over the size of the system.
+    pub joints: f64,
+    /// Difference of the joint forces of two answers, over all loads.
+    pub forces: f64,
+    /// Difference of the energies of two answers, over all loads times the size of the system.
+    pub energy: f64,
+    /// Violations of geometry and of Newton's laws by one answer, over what acts there.
+    pub statics: f64,
 }
 
 impl Tolerances {
@@ -38,11 +29,8 @@ impl Tolerances {
     pub fn project() -> Self {
         static PROJECT: LazyLock<Tolerances> = LazyLock::new(|| {
             let file = file();
-            let [joints, forces, energy, statics] = NAMES.map(|name| {
-                let budget = key(&file, name, Value::as_table);
-                let [value, measured] = numbers(budget, ["value", "measured"]);
-                Budget { value, measured }
-            });
+            let [joints, forces, energy, statics] =
+                NAMES.map(|name| key(key(&file, name, Value::as_table), "value", number));
             Tolerances { joints, forces, energy, statics }
         });
         *PROJECT
@@ -52,7 +40,6 @@ impl Tolerances {
 /// In the order of [`Tolerances`].
 const NAMES: [&str; 4] = ["joints", "forces", "energy", "statics"];
 
-/// Each budget with its unit and the reason why it is this much and no more.
 fn file() -> Table {
     parsed(include_str!("../data/tolerances.toml"))
 }
@@ -66,9 +53,9 @@ mod tests {
         let Tolerances { joints, forces, energy, statics } = Tolerances::project();
         let file = file();
         for (name, budget) in NAMES.into_iter().zip([joints, forces, energy, statics]) {
-            assert!(budget.measured <= budget.value && budget.value <= 1e-8, "{budget:?}");
             // A key that is not read is a mistake.
             let keys = key(&file, name, Value::as_table);
+            assert!(key(keys, "measured", number) <= budget && budget <= 1e-8, "{name}");
             let [unit, reason] = ["unit", "reason"].map(|told| key(keys, told, Value::as_str));
             assert!(!unit.is_empty() && !reason.trim().is_empty() && keys.len() == 4, "{name}");
         }

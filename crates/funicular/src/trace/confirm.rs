@@ -52,7 +52,7 @@ impl Confirmed {
             && self.same_index == self.points
             && self.minima == self.minimised
             && self.flat == self.singular
-            && self.statics <= Tolerances::project().statics.value
+            && self.statics <= Tolerances::project().statics
     }
 }
 

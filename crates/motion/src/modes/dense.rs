@@ -3,6 +3,7 @@
 use matrices::dense::{Cholesky, across, eigen, product, projected};
 use nalgebra::DMatrix;
 
+use super::lanczos::length;
 use super::planes::Sector;
 use super::solved::{Solved, ZERO};
 use super::stiffness::{Entry, Stiffness};
@@ -39,9 +40,10 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
     let shapes: Vec<_> = shapes.as_slice().chunks_exact(size).map(<[f64]>::to_vec).collect();
     let residual = |(k, omega2): (usize, &f64)| {
         let off = |(image, z): (&f64, &f64)| image - z * omega2;
-        length(images.column(k).iter().zip(&vectors.column(k)).map(off))
+        let rest: Vec<f64> = images.column(k).iter().zip(&vectors.column(k)).map(off).collect();
+        length(&rest)
     };
-    let rounding = size as f64 * f64::EPSILON * length(symmetric.iter().copied());
+    let rounding = size as f64 * f64::EPSILON * length(symmetric.as_slice());
     let is_zero = |(omega2, y): (&f64, &Vec<f64>)| {
         omega2.abs() <= ZERO * stiffness.energy(sector, y)[1] + rounding
     };
@@ -54,10 +56,6 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
         omega2,
         shapes,
     })
-}
-
-fn length(entries: impl Iterator<Item = f64>) -> f64 {
-    entries.map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The joint that moves no mass of its own: the first one whose inertia, with that of those before

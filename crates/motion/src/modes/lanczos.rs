@@ -110,6 +110,11 @@ pub(super) fn divide(w: &mut [f64], by: f64) {
     }
 }
 
+/// The length of a vector.
+pub(super) fn length(v: &[f64]) -> f64 {
+    dot(v, v).sqrt()
+}
+
 /// The product of two vectors.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

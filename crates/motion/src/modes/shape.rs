@@ -2,7 +2,7 @@
 
 use model::Vector;
 
-use super::lanczos::{self, combined, divide};
+use super::lanczos::{self, combined, divide, length};
 use super::planes::Sector;
 use super::solved::Solved;
 use super::stiffness::Stiffness;
@@ -71,10 +71,6 @@ pub(super) fn modes(
         found.push(mode(mechanism, sector, of_zero, &shape, What::Neutral));
     }
     found
-}
-
-fn length(v: &[f64]) -> f64 {
-    lanczos::dot(v, v).sqrt()
 }
 
 /// Turns of the parts that turn freely about a vertical, in the coordinates of a sector.

@@ -276,7 +276,7 @@ fn ask_beside(
         }
         _ => return None,
     };
-    let budget = Tolerances::project().statics.value;
+    let budget = Tolerances::project().statics;
     let in_balance = answers.iter().all(|answer| judge(system, answer).passes(budget));
     if !in_balance || question.equations == Equations::Full {
         return None;

@@ -277,7 +277,7 @@ impl<'a> Judgement<'a> {
         for answer in answers {
             let statics = judge(self.system, answer);
             let (solver, place) = (answer.solver.clone(), statics.worst);
-            let budget = self.tolerances.statics.value;
+            let budget = self.tolerances.statics;
             self.hold(Quantity::Statics { solver, place }, statics.largest(), budget);
             self.agreement.statics.push(statics);
         }
@@ -325,7 +325,7 @@ impl<'a> Judgement<'a> {
             let off_n = family.off_equally_stiff_n(self.system, answer, self.no_force_n());
             let unit_n = self.scale.of_forces_n(self.taut_n(answer));
             let solver = answer.solver.clone();
-            let budget_n = self.tolerances.forces.value * unit_n;
+            let budget_n = self.tolerances.forces * unit_n;
             self.hold(Quantity::EquallyStiff { solver }, off_n, budget_n);
         }
     }
@@ -360,7 +360,7 @@ impl<'a> Judgement<'a> {
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
         let (turned, parts) = turned_onto(self.system, first, second, &self.free);
-        let budget_m = self.tolerances.joints.value * self.scale.size_m + self.scale.stored_m;
+        let budget_m = self.tolerances.joints * self.scale.size_m + self.scale.stored_m;
         let mut joints_m = self.joints_apart_m(first, &turned);
         if joints_m > budget_m {
             for joint in sliding(self.system, [first, &turned], self.scale.total_n, budget_m) {
@@ -375,7 +375,7 @@ impl<'a> Judgement<'a> {
             system: self.system,
             answers: [first, &turned],
             scale: &self.scale,
-            tolerance: self.tolerances.forces.value,
+            tolerance: self.tolerances.forces,
             family: self.family.as_ref(),
         };
         let (apart, (named, choices)) = (pair.apart(), pair.named());
@@ -397,7 +397,7 @@ impl<'a> Judgement<'a> {
             let what = Quantity::NamedForces { between: between.clone() };
             self.hold(what, named.value_n, named.budget_n);
         }
-        let budget = tolerances.energy.value * self.scale.energy_j() + self.scale.stored_j;
+        let budget = tolerances.energy * self.scale.energy_j() + self.scale.stored_j;
         self.hold(Quantity::Energy { between: between.clone() }, energy_j, budget);
         let indices = [first.stability.index_in_space, second.stability.index_in_space];
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);

@@ -79,7 +79,7 @@ pub(super) fn lowest_listed<'a>(
 
 /// Whether an answer is that position, to the accuracy that solvers are held to.
 pub(super) fn is_at(system: &System, at: &SystemPosition, answer: &SystemEquilibrium) -> bool {
-    distance(system, at, answer) <= Tolerances::project().joints.value + PLACED
+    distance(system, at, answer) <= Tolerances::project().joints + PLACED
 }
 
 /// Look the answers up in the census that was wanted, and say on their ladders what it knows of them.
@@ -111,7 +111,7 @@ pub fn look_up(
 pub fn certify_by_census(system: &System, census: &SystemCensus, answer: &mut SystemEquilibrium) {
     let distances = census.equilibria.iter().map(|position| distance(system, position, answer));
     let nearest = distances.min_by(f64::total_cmp);
-    let accuracy = Tolerances::project().joints.value + PLACED;
+    let accuracy = Tolerances::project().joints + PLACED;
     if nearest.is_some_and(|distance| distance <= accuracy) {
         answer.evidence.ladder.complete = census.completeness(system);
         return;

@@ -62,7 +62,7 @@ pub(crate) fn turned_onto<'a>(
     if !complete || is_held_row(system, second) {
         return as_it_is;
     }
-    let budget = Tolerances::project().statics.value;
+    let budget = Tolerances::project().statics;
     // What is slack in both holds nothing; the judge sees where a turn would make it taut.
     let holds = |member: &Member| ![first, second].iter().all(|answer| is_slack(member, answer));
     let mut bodies = Bodies::new(system, holds);
@@ -98,7 +98,7 @@ fn is_held_row(system: &System, answer: &SystemEquilibrium) -> bool {
     let Some(first) = row.joints().next() else { return false };
     let [x, y, _] = answer.reactions_n[first];
     !row.problem().chain().anchors_on_one_vertical()
-        && x.hypot(y) > Tolerances::project().forces.value * largest_n
+        && x.hypot(y) > Tolerances::project().forces * largest_n
 }
 
 /// Bodies that hinge on joints of one vertical in both answers.
@@ -111,7 +111,7 @@ fn add_hinged(
     let tolerances = Tolerances::project();
     let origin_m = system.reference_m();
     let reach = second.joints_m.iter().map(|place| norm(minus(*place, origin_m)));
-    let near_m = tolerances.joints.value * reach.fold(0.0, worse);
+    let near_m = tolerances.joints * reach.fold(0.0, worse);
     let level = |answer: &SystemEquilibrium| -> Vec<usize> {
         let places = answer.joints_m.iter().map(|x| [x[0] - origin_m[0], x[1] - origin_m[1]]);
         firsts(places, near_m)
@@ -144,7 +144,7 @@ fn add_hinged(
         let [x, y, _] = pulls.fold([0.0; 3], plus);
         x.hypot(y)
     };
-    bodies.add_hinged(&verticals, level_n, tolerances.forces.value * largest_n);
+    bodies.add_hinged(&verticals, level_n, tolerances.forces * largest_n);
 }
 
 /// For every body the turn that brings the second places closest to the first, when what it hangs

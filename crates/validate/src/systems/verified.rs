@@ -52,8 +52,8 @@ fn held_against(
     let distance_m = proof.beyond_m(&answer.joints_m);
     let distance_n = proof.beyond_n(&answer.axial_n);
     let tolerances = Tolerances::project();
-    let near = distance_m <= tolerances.joints.value * length_m
-        && distance_n <= tolerances.forces.value * force_n;
+    let near =
+        distance_m <= tolerances.joints * length_m && distance_n <= tolerances.forces * force_n;
     // NaN is near to nothing.
     if !near {
         return Status::Open(Reason::NoBox(NoBox::Elsewhere { distance_m, distance_n }));

@@ -158,7 +158,7 @@ fn a_seed_finds_what_was_deleted() {
 /// hold.
 #[test]
 fn every_listed_equilibrium_is_one_for_lagrange_and_for_the_statics_judge() {
-    let tolerance = Tolerances::project().statics.value;
+    let tolerance = Tolerances::project().statics;
     let judged: Vec<(f64, f64)> = chains(3..=6, 10)
         .into_par_iter()
         .map(|(bars, seed)| {

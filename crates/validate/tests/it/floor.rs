@@ -313,7 +313,7 @@ fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
             for sign in [-1.0, 1.0] {
                 // As exact as answers are asked to agree: a bar that is nearly upright makes much of
                 // what rounding leaves level.
-                let near_n = 10.0 * Tolerances::project().forces.value;
+                let near_n = 10.0 * Tolerances::project().forces;
                 let deeper = sign * 10.0_f64.powi(-exponent);
                 let answer = ask(&above(kind, 1.0 - deeper), Solvers::Both, &|_| {});
                 let found: &Option<SystemAgreement> = &answer.agreement;

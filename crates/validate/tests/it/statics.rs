@@ -188,7 +188,7 @@ fn long(lean: f64) -> (Problem, Vec<Vector>, Vec<Vector>) {
 
 /// The budget of the project.
 fn budget() -> f64 {
-    Tolerances::project().statics.value
+    Tolerances::project().statics
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Small dense matrices: approximate inverses in double precision, and products with intervals.
 
+use matrices::dense::inverse;
+use nalgebra::DMatrix;
 use numerics::Interval;
 
 use crate::network::arithmetic::{product, sum};
@@ -28,12 +30,6 @@ impl<T: Copy> Dense<T> {
     pub(in crate::network::census) fn row(&self, row: usize) -> &[T] {
         &self.entries[row * self.columns..(row + 1) * self.columns]
     }
-
-    fn swap_rows(&mut self, a: usize, b: usize) {
-        for column in 0..self.columns {
-            self.entries.swap(a * self.columns + column, b * self.columns + column);
-        }
-    }
 }
 
 impl Dense<Interval> {
@@ -60,35 +56,12 @@ impl Dense<Interval> {
 }
 
 impl Dense<f64> {
-    /// The inverse of a square matrix, by elimination with the largest pivot of each column;
-    /// nothing where one vanishes.
+    /// The inverse of a square matrix; nothing where a pivot vanishes.
     pub(in crate::network::census) fn inverse(&self) -> Option<Self> {
-        let n = self.rows;
-        let mut left = self.clone();
-        let mut right = Self::filled(n, n, 0.0);
-        for k in 0..n {
-            right.set(k, k, 1.0);
-        }
-        for k in 0..n {
-            let pivot = (k..n)
-                .max_by(|a, b| left.at(*a, k).abs().total_cmp(&left.at(*b, k).abs()))
-                .filter(|row| left.at(*row, k).is_normal())?;
-            left.swap_rows(k, pivot);
-            right.swap_rows(k, pivot);
-            let scale = left.at(k, k).recip();
-            for row in (0..n).filter(|row| *row != k) {
-                let factor = left.at(row, k) * scale;
-                for column in 0..n {
-                    left.set(row, column, left.at(row, column) - factor * left.at(k, column));
-                    right.set(row, column, right.at(row, column) - factor * right.at(k, column));
-                }
-            }
-            for column in 0..n {
-                left.set(k, column, left.at(k, column) * scale);
-                right.set(k, column, right.at(k, column) * scale);
-            }
-        }
-        right.entries.iter().all(|entry| entry.is_finite()).then_some(right)
+        // Row after row it is its transpose by columns, and so is the inverse.
+        let found = inverse(&DMatrix::from_column_slice(self.columns, self.rows, &self.entries))?;
+        let entries = found.as_slice().to_vec();
+        entries.iter().all(|entry| entry.is_finite()).then_some(Self { entries, ..*self })
     }
 
     /// An approximate left inverse of a matrix of full column rank, `(A^T A)^-1 A^T`.
