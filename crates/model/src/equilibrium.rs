@@ -1,6 +1,6 @@
 //! The answer of one solver.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::Vector;
 use crate::evidence::Evidence;
@@ -11,7 +11,7 @@ use crate::stability::Stability;
 /// can be compared.
 ///
 /// The field names are those of the JSON (`funicular solve --json`).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Equilibrium {
     /// Who found it.
     pub solver: SolverName,
@@ -36,7 +36,7 @@ pub struct Equilibrium {
 }
 
 /// Forces of the ground on the chain at its two anchors, world frame, N.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reactions {
     /// At joint 0.
     pub start: Vector,

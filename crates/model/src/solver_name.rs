@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::{self, Display, Formatter};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The solver behind an answer: one of ours, or any other by its name.
 ///
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(SolverName::new("lagrange"), SolverName::LAGRANGE);
 /// assert_eq!(third.to_string(), "ipopt");
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(transparent)]
 pub struct SolverName(Cow<'static, str>);
 

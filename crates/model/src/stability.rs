@@ -2,13 +2,13 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Second-order behaviour of an equilibrium.
 ///
 /// The index is the number of independent directions in which the energy falls (Morse index of the
 /// energy on the configurations that keep every bar whole and both ends in place).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Stability {
     /// Character among the motions in the vertical plane of the equilibrium.
     pub in_plane: InPlane,
@@ -22,7 +22,7 @@ pub struct Stability {
 }
 
 /// Character of an equilibrium among the motions in its own vertical plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum InPlane {
     /// No direction of falling energy.
@@ -36,7 +36,7 @@ pub enum InPlane {
 }
 
 /// Stability of an equilibrium among all motions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum InSpace {
     /// No direction of falling energy.

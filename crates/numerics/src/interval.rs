@@ -23,20 +23,10 @@ use crate::rounding::{down, up};
 /// assert!(one.contains(1.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(from = "[f64; 2]", into = "[f64; 2]")
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(into = "[f64; 2]"))]
 pub struct Interval {
     lo: f64,
     hi: f64,
-}
-
-impl From<[f64; 2]> for Interval {
-    fn from([lo, hi]: [f64; 2]) -> Self {
-        Self { lo, hi }
-    }
 }
 
 impl From<Interval> for [f64; 2] {

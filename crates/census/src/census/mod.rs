@@ -8,7 +8,7 @@ mod figure;
 pub(crate) mod position;
 
 use model::{Chain, Problem};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::census::compact::CompactCensus;
 use crate::count::morse::{self, MorseError};
@@ -23,7 +23,7 @@ use crate::slack::families::SlackFamily;
 use crate::slack::straight::StraightPosition;
 
 /// All equilibria of a chain, and how far that is proved.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Census {
     /// The isolated equilibria (for anchors on one vertical: the circles), by energy, then by
     /// angles.
@@ -33,7 +33,6 @@ pub struct Census {
     /// Positions in which all bars lie in the line between the anchors, as far as integers decide
     /// whether the lengths fit into it. Upright ones are equilibria whose force is a family; no
     /// force holds the others.
-    #[serde(default)]
     pub straight: Vec<StraightPosition>,
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
@@ -50,7 +49,7 @@ pub struct Census {
 }
 
 /// What a census took.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of bars.
     pub bars: usize,

@@ -1,11 +1,11 @@
 //! The charts of the pulls: see [`cell`](crate::plane::cell).
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A chart of pulls: a face of the half cube (H, V, w), the named coordinate being constant, or a
 /// shifted copy of the nearest face. The pull is (H, V)/w in units of the census, V counted from
 /// the middle of the weights.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Face {
     /// w = 1, coordinates (H, V − V_g) with V_g the V at which the force of the bars of this group

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use numerics::Interval;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::closure::Pattern;
 use crate::plane::cell::Cell;
@@ -26,7 +26,7 @@ use crate::search::Task;
 /// assert!(census.undecided.iter().all(|open| open.reason == Reason::Degenerate));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Undecided {
     /// Why.
     pub reason: Reason,
@@ -41,7 +41,7 @@ pub struct Undecided {
 }
 
 /// Why a cell is undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Reason {

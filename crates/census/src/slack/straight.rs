@@ -49,7 +49,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use numerics::Interval;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::closure::{Pattern, signed};
 use crate::plane::cell::Cell;
@@ -59,7 +59,7 @@ use crate::slack::moments::Exact;
 use crate::slack::upright::{upright_alone, upright_or_infinite};
 
 /// A position in which all bars lie in the line between the anchors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StraightPosition {
     /// +1 for each bar that points from the first anchor to the last, −1 for each that points back.
     pub along: Vec<i8>,

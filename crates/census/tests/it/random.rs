@@ -239,19 +239,9 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
         let mut census = pool.install(|| census(&problem));
         census.statistics.seconds = 0.0;
         assert!(census.complete && census.equilibria.len() > 20);
-        // Every bit of every number is in it: JSON is written so that it reads back the same.
+        // Every bit of every number is in it.
         serde_json::to_string(&census).unwrap()
     });
     // Compared without printing: a census is long.
     assert!(one == two && one == three && one == five);
-}
-
-#[test]
-fn a_census_survives_json() {
-    let problem = random_problem(4, 1);
-    let census = census(&problem);
-    let text = serde_json::to_string(&census).unwrap();
-    let back: Census = serde_json::from_str(&text).unwrap();
-    assert!(back == census, "some number changed on the way");
-    assert_eq!(back.check(&problem), Ok(()));
 }

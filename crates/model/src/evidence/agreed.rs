@@ -1,6 +1,6 @@
 //! The rung `agreed`.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::finite;
 use super::force_choice::ForceChoice;
@@ -8,7 +8,7 @@ use super::from_one;
 use crate::solver_name::SolverName;
 
 /// Answers of several solvers are one, and each is in balance.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Agreed {
     /// Whose answers.
     pub solvers: Vec<SolverName>,
@@ -25,27 +25,27 @@ pub struct Agreed {
     #[serde(with = "finite")]
     pub statics: f64,
     /// What the equilibrium of a system leaves open, if anything.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
     /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by
     /// convention (see [`ForceChoice`]).
     pub shape_only: bool,
     /// What else there is to say of the forces of a system.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub forces_found: Option<ForcesFound>,
 }
 
 /// What a comparison finds of the forces of a system besides their difference.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct ForcesFound {
     /// The largest force, where it exceeds all that acts on the system by orders of magnitude.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub large: Option<LargeForce>,
     /// Where the answers name different forces of one family: those that differ most.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub choices: Option<Choices>,
     /// What the judge proves of the first answer by a factorisation with a bound of its rounding.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub proved: Option<Proved>,
 }
 
@@ -59,7 +59,7 @@ impl ForcesFound {
 
 /// A force that exceeds all that acts on a system by orders of magnitude, as in a line that is
 /// nearly taut.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LargeForce {
     /// The member, from 1.
     pub member: usize,
@@ -72,7 +72,7 @@ pub struct LargeForce {
 }
 
 /// Two different forces of one family.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Choices {
     /// The two solvers.
     pub between: [SolverName; 2],
@@ -87,7 +87,7 @@ pub struct Choices {
 /// What is proved of the places and forces of an answer as they are stored, by Cholesky's
 /// factorisation in floating point and a bound of its rounding (S. M. Rump, BIT Numer. Math. 46
 /// (2006) 433-452, doi:10.1007/s10543-006-0056-1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proved {
     /// The lengths are independent: there is no self-stress.
@@ -112,7 +112,7 @@ impl Proved {
 }
 
 /// What the equilibrium of a system leaves open.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Room {
     /// Parts that turn freely about verticals: they are turned onto each other before answers are
     /// compared.
@@ -122,7 +122,7 @@ pub struct Room {
     pub free_joints: usize,
     /// Names of the joints that slide from their place in one answer to that in another through equilibria with
     /// the same forces: they are not compared.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub undetermined: Vec<String>,
 }
 
@@ -136,7 +136,7 @@ impl Room {
 }
 
 /// A number that is over its budget.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Excess {
     /// What the number measures.
     #[serde(flatten)]
@@ -150,7 +150,7 @@ pub struct Excess {
 }
 
 /// What a comparison measures.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "what", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Quantity {
@@ -208,7 +208,7 @@ pub enum Quantity {
 }
 
 /// A place in a system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
     /// A member, counted from 1.
@@ -220,7 +220,7 @@ pub enum Place {
 }
 
 /// What speaks against answers being one.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Disagreement {
     /// What is over its budget.
     pub excesses: Vec<Excess>,

@@ -1,16 +1,16 @@
 //! The rung `optimal`.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::finite;
 
 /// No configuration has less energy: the stress matrix is positive semidefinite.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Optimal {
     /// The energy less a proved lower bound of all energies, in units of the weight between the
     /// anchors times the total length; nothing where a factorisation in intervals proves it of the
     /// exact equilibrium.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
     /// Whether the stress matrix is singular as far as doubles can tell: the free turn about the
     /// vertical through both anchors.
@@ -18,7 +18,7 @@ pub struct Optimal {
 }
 
 /// Why there is no certificate of global minimality.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "because", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoCertificate {

@@ -1,9 +1,9 @@
 //! The rung `complete`.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A census has listed every equilibrium, and this is one of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Complete {
     /// Equilibria in one vertical plane.
     pub in_plane: usize,
@@ -14,12 +14,12 @@ pub struct Complete {
     /// Cells of pulls that this took.
     pub cells: u64,
     /// What there is to say besides of the list of a system.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub system: Option<CompleteSystem>,
 }
 
 /// The list of all equilibria of a system of bars, cables, struts and springs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct CompleteSystem {
     /// Isolated equilibria, each standing for all that free turns make of it.
     pub positions: usize,
@@ -30,7 +30,7 @@ pub struct CompleteSystem {
 }
 
 /// Why there is no census.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(tag = "because", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoCensus {

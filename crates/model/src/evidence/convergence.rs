@@ -1,34 +1,32 @@
 //! The rung `converged`.
 
-use std::borrow::Cow;
-
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::finite;
 use super::reason::Reason;
 use super::status::Status;
 
 /// How a solver ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Convergence {
     /// What the residual measures and in which units.
-    pub residual_of: Cow<'static, str>,
+    pub residual_of: &'static str,
     /// The solver's own residual, dimensionless.
     #[serde(with = "finite")]
     pub residual: f64,
     /// What the residual may be; nothing for a proof by enclosure, which needs none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Iterations of the solver.
     pub iterations: usize,
     /// How far the solver's arithmetic leaves the forces open, where that is worth saying.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub force_uncertainty: Option<ForceUncertainty>,
 }
 
 impl Convergence {
     pub(super) fn new(
-        residual_of: Cow<'static, str>,
+        residual_of: &'static str,
         residual: f64,
         tolerance: Option<f64>,
         iterations: usize,
@@ -49,7 +47,7 @@ impl Convergence {
 
 /// How far double precision leaves the forces of an answer open, as the solver knows its own
 /// arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ForceUncertainty {
     /// Up to so much of the largest force.
     #[serde(with = "finite")]
@@ -59,7 +57,7 @@ pub struct ForceUncertainty {
 }
 
 /// Why double precision does not determine forces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum UncertaintyCause {

@@ -1,9 +1,9 @@
 //! Forces that equilibrium does not determine.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Which forces of a family an answer names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ForceChoice {

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::from_one;
 use crate::Vector;
@@ -11,7 +11,7 @@ use crate::Vector;
 /// rope or to another ring.
 ///
 /// The length of the span has a corner there. It has no direction, and pulls with any force up to the tension.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Jam {
     /// Number of the rope among the members, from 0; from 1 in JSON.
     #[serde(with = "from_one")]

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Serialize, Serializer};
 
 use super::agreed::Agreed;
 use super::certificate::Optimal;
@@ -147,46 +147,33 @@ impl Ladder {
 }
 
 /// A rung in JSON: the words, and the numbers beside them.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 #[serde(tag = "rung", rename_all = "lowercase")]
-enum Entry {
-    Converged(Line<Convergence>),
-    Agreed(Line<Agreed>),
-    Verified(Line<Verified>),
-    Complete(Line<Complete>),
-    Optimal(Line<Optimal>),
+enum Entry<'a> {
+    Converged(Line<'a, Convergence>),
+    Agreed(Line<'a, Agreed>),
+    Verified(Line<'a, Verified>),
+    Complete(Line<'a, Complete>),
+    Optimal(Line<'a, Optimal>),
 }
 
-#[derive(Serialize, Deserialize)]
-struct Line<P> {
+#[derive(Serialize)]
+struct Line<'a, P> {
     reached: bool,
     how: String,
-    #[serde(default = "none", skip_serializing_if = "Option::is_none")]
-    proof: Option<P>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    reason: Option<Reason>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<&'a P>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a Reason>,
 }
 
-/// A proof need not have a default for its absence to have one.
-fn none<P>() -> Option<P> {
-    None
-}
-
-impl<P: Clone + Display> Line<P> {
-    fn of(status: &Status<P>) -> Self {
+impl<'a, P: Display> Line<'a, P> {
+    fn of(status: &'a Status<P>) -> Self {
         Self {
             reached: status.is_reached(),
             how: status.to_string(),
-            proof: status.proof().cloned(),
-            reason: status.reason().cloned(),
-        }
-    }
-
-    fn status<E: serde::de::Error>(self) -> Result<Status<P>, E> {
-        match (self.reached, self.proof, self.reason) {
-            (true, Some(proof), None) => Ok(Status::Reached(proof)),
-            (false, None, Some(reason)) => Ok(Status::Open(reason)),
-            _ => Err(E::custom("a rung is reached with its proof, or open with its reason")),
+            proof: status.proof(),
+            reason: status.reason(),
         }
     }
 }
@@ -200,21 +187,5 @@ impl Serialize for Ladder {
             Entry::Complete(Line::of(&self.complete)),
             Entry::Optimal(Line::of(&self.optimal)),
         ])
-    }
-}
-
-impl<'de> Deserialize<'de> for Ladder {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut ladder = Self::default();
-        for entry in Vec::<Entry>::deserialize(deserializer)? {
-            match entry {
-                Entry::Converged(line) => ladder.converged = line.status()?,
-                Entry::Agreed(line) => ladder.agreed = line.status()?,
-                Entry::Verified(line) => ladder.verified = line.status()?,
-                Entry::Complete(line) => ladder.complete = line.status()?,
-                Entry::Optimal(line) => ladder.optimal = line.status()?,
-            }
-        }
-        Ok(ladder)
     }
 }

@@ -36,9 +36,7 @@ mod status;
 mod text;
 mod verified;
 
-use std::borrow::Cow;
-
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 pub use agreed::{
     Agreed, Choices, Disagreement, Excess, ForcesFound, LargeForce, Place, Proved, Quantity, Room,
@@ -57,32 +55,26 @@ pub use status::Status;
 pub use verified::{NoBox, Verified, VerifiedSystem};
 
 /// How far an equilibrium is proved, and what it cost.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
     /// The solver's own residual, dimensionless; see `residual_of`.
-    #[serde(with = "finite")]
     pub residual: f64,
     /// What the residual measures and in which units.
-    pub residual_of: Cow<'static, str>,
+    pub residual_of: &'static str,
     /// Iterations of the solver.
     pub iterations: usize,
     /// Dimension of the null space of the solver's own system at the solution.
     pub nullity: usize,
     /// Ratio of the largest to the smallest non-zero singular value of that system, scaled to the
     /// solver's units.
-    #[serde(with = "finite")]
     pub condition: f64,
     /// Time of the solver alone, s.
-    #[serde(with = "finite")]
     pub solve_s: f64,
     /// Where equilibrium does not determine the forces in a system: what may be added to them.
-    #[serde(default)]
     pub self_stresses: Option<SelfStresses>,
     /// In a system: how the lengths determine shape and forces, where the solver has counted that.
-    #[serde(default)]
     pub rigidity: Option<Rigidity>,
     /// In a system: spans of ropes without length, with their forces.
-    #[serde(default)]
     pub jams: Vec<Jam>,
     /// The five rungs.
     pub ladder: Ladder,
@@ -102,28 +94,27 @@ impl Evidence {
     /// ```
     #[must_use]
     pub fn new(
-        residual_of: impl Into<Cow<'static, str>>,
+        residual_of: &'static str,
         residual: f64,
         tolerance: f64,
         iterations: usize,
     ) -> Self {
-        let convergence =
-            Convergence::new(residual_of.into(), residual, Some(tolerance), iterations);
+        let convergence = Convergence::new(residual_of, residual, Some(tolerance), iterations);
         Self::of(convergence)
     }
 
     /// Evidence of a proof by enclosure, which has no tolerance: the enclosures of `residual_of`
     /// have this largest relative width.
     #[must_use]
-    pub fn enclosed(residual_of: impl Into<Cow<'static, str>>, width: f64) -> Self {
-        Self::of(Convergence::new(residual_of.into(), width, None, 0))
+    pub fn enclosed(residual_of: &'static str, width: f64) -> Self {
+        Self::of(Convergence::new(residual_of, width, None, 0))
     }
 
     fn of(convergence: Convergence) -> Self {
-        let Convergence { ref residual_of, residual, iterations, .. } = convergence;
+        let Convergence { residual_of, residual, iterations, .. } = convergence;
         Self {
             residual,
-            residual_of: residual_of.clone(),
+            residual_of,
             iterations,
             nullity: 0,
             condition: 1.0,
@@ -184,7 +175,7 @@ impl Serialize for Evidence {
         Keys {
             rung: self.rung(),
             residual: self.residual,
-            residual_of: &self.residual_of,
+            residual_of: self.residual_of,
             iterations: self.iterations,
             nullity: self.nullity,
             condition: self.condition,

@@ -1,6 +1,6 @@
 //! Why a rung is open.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::agreed::{Disagreement, Excess};
 use super::certificate::NoCertificate;
@@ -11,7 +11,7 @@ use super::verified::NoBox;
 use crate::solver_name::SolverName;
 
 /// Why a rung was not reached.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Reason {
@@ -108,7 +108,7 @@ pub enum Reason {
 }
 
 /// Why a solver has no answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoAnswer {

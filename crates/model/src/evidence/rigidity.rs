@@ -1,6 +1,6 @@
 //! How the lengths of members determine a shape and its forces.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Counts from the rank of the rigidity matrix: one row for each inextensible member that has its
 /// length, the derivative of that length by the free coordinates of the joints.
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// J. C. Maxwell, Phil. Mag. 27 (1864) 294-299; S. Pellegrino and C. R. Calladine, Int. J. Solids
 /// Struct. 22 (1986) 409-428, doi:10.1016/0020-7683(86)90014-4
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rigidity {
     /// Rank of the matrix.
     pub rank: usize,

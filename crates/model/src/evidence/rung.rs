@@ -1,9 +1,9 @@
 //! The names of the rungs.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The rungs, lowest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rung {
     /// A solver's own residual is below its tolerance.

@@ -1,6 +1,6 @@
 //! Axial forces of a system that equilibrium does not determine.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::ForceChoice;
 
@@ -9,7 +9,7 @@ use super::ForceChoice;
 /// pushing).
 ///
 /// A solver states those that it found by its own method; the judge counts them by its own.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfStresses {
     /// Number of independent ones.
     pub dimension: usize,
@@ -20,16 +20,16 @@ pub struct SelfStresses {
     /// The largest difference between the length of an inextensible member and the distance of its
     /// ends, m: these members overdetermine the shape, which is the one that meets all lengths best
     /// (see [`Misfit`](crate::system::Misfit)). Without value where a solver does not say.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub misfit_m: Option<f64>,
     /// What is open of the axial force of each member, where the solver tells it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ranges: Option<Vec<ForceRange>>,
 }
 
 /// What balance and signs leave open of the axial force of a member: cables pull, struts push, bars
 /// do either.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ForceRange {
     /// The force is what the answer shows, in every member of the family.

@@ -1,11 +1,11 @@
 //! The rung `verified`.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::finite;
 
 /// Exactly one equilibrium lies in a box (Krawczyk's test in interval arithmetic), and this is it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Verified {
     /// Largest relative width of the enclosures.
     #[serde(with = "finite")]
@@ -17,12 +17,12 @@ pub struct Verified {
     /// anchors.
     pub circle: bool,
     /// What there is to say besides of the box of a system.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub system: Option<VerifiedSystem>,
 }
 
 /// The box of a system of bars, cables, struts and springs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct VerifiedSystem {
     /// Largest width of the box in a coordinate of a joint, m.
     #[serde(with = "finite")]
@@ -44,7 +44,7 @@ pub struct VerifiedSystem {
 }
 
 /// Why no box around an answer is proved to hold exactly one equilibrium of a system.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "because", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoBox {

@@ -1,10 +1,10 @@
-//! The JSON of an answer: its words, and that it is read back as it was.
+//! The JSON of an answer: its words and numbers.
 
 use model::{
-    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceUncertainty, InPlane, InSpace,
-    NoCensus, NoCertificate, Optimal, Place, Quantity, Reactions, Reason, Room, Rung, SolverName,
-    Stability, Status, UncertaintyCause, Verified,
+    Agreed, Disagreement, Equilibrium, Evidence, Excess, InPlane, InSpace, NoCensus, NoCertificate,
+    Optimal, Place, Quantity, Reactions, Reason, Room, Rung, SolverName, Stability, Status,
 };
+use serde_json::{Value, json};
 
 fn agreed() -> Agreed {
     let solvers = vec![SolverName::LAGRANGE, SolverName::ENERGY, SolverName::new("a third")];
@@ -43,9 +43,8 @@ fn equilibrium() -> Equilibrium {
 }
 
 #[test]
-fn the_values_of_an_equilibrium_read_back() {
-    let equilibrium = equilibrium();
-    let json = serde_json::to_value(&equilibrium).unwrap();
+fn the_values_of_an_equilibrium_are_written() {
+    let json = serde_json::to_value(equilibrium()).unwrap();
     assert_eq!(json["joints_m"][1][2], 3.0);
     assert_eq!(json["reactions_n"]["end"][0], 1.0);
     assert_eq!(json["stability"]["index_in_space"], 2);
@@ -53,7 +52,6 @@ fn the_values_of_an_equilibrium_read_back() {
     for key in ["residual", "iterations", "nullity", "solve_s"] {
         assert!(json["evidence"][key].is_number(), "{key}");
     }
-    assert_eq!(serde_json::from_value::<Equilibrium>(json).unwrap(), equilibrium);
 }
 
 #[test]
@@ -123,56 +121,64 @@ fn converged_is_not_reached_above_the_tolerance() {
     assert_eq!(Evidence::new("force", 1e-12, 1e-12, 3).rung(), Some(Rung::Converged));
 }
 
-/// Every reason is written and read back with its numbers; what is not a number is null.
+/// Every reason is written with its kind and its numbers; what is not a number is null.
 #[test]
-fn reasons_read_back() {
-    let excess = Excess {
+fn reasons_are_written_with_their_numbers() {
+    let excess = |value| Excess {
         what: Quantity::Statics { solver: SolverName::new("a third"), place: Place::Member(3) },
-        value: 1e-3,
+        value,
         budget: 1e-11,
     };
-    let disagreement = Disagreement { excesses: vec![excess] };
+    let disagreement = Disagreement { excesses: vec![excess(1e-3), excess(f64::NAN)] };
+    let statics = |value: Value| {
+        json!({
+            "what": "statics", "solver": "a third", "place": { "member": 3 },
+            "value": value, "budget": 1e-11,
+        })
+    };
+    let disagree = json!({ "excesses": [statics(json!(1e-3)), statics(Value::Null)] });
     let reasons = [
-        Reason::NotTried,
-        Reason::OneSolverOnly { solver: SolverName::ENERGY, statics: 1e-15 },
-        Reason::SolversDisagree(disagreement),
-        Reason::NoCensus(NoCensus::TooManyBars { bars: 30, limit: 12 }),
-        Reason::SlackFamily,
-        Reason::NotAmongDecided { cells: 2 },
-        Reason::Elsewhere { distance: 1e-6 },
-        Reason::AtStraight { distance: 1e-15 },
-        Reason::SingularFamilies { listed: 2 },
-        Reason::StraightPosition { sides: vec![1, 2] },
-        Reason::NoCertificate(NoCertificate::Gap { gap: 0.5 }),
+        (Reason::NotTried, json!({ "kind": "not_tried" })),
+        (
+            Reason::OneSolverOnly { solver: SolverName::ENERGY, statics: 1e-15 },
+            json!({ "kind": "one_solver_only", "solver": "energy", "statics": 1e-15 }),
+        ),
+        (Reason::SolversDisagree(disagreement), with(disagree, "solvers_disagree")),
+        (
+            Reason::NoCensus(NoCensus::TooManyBars { bars: 30, limit: 12 }),
+            json!({ "kind": "no_census", "because": "too_many_bars", "bars": 30, "limit": 12 }),
+        ),
+        (Reason::SlackFamily, json!({ "kind": "slack_family" })),
+        (Reason::NotAmongDecided { cells: 2 }, json!({ "kind": "not_among_decided", "cells": 2 })),
+        (Reason::Elsewhere { distance: 1e-6 }, json!({ "kind": "elsewhere", "distance": 1e-6 })),
+        (
+            Reason::AtStraight { distance: 1e-15 },
+            json!({ "kind": "at_straight", "distance": 1e-15 }),
+        ),
+        (
+            Reason::SingularFamilies { listed: 2 },
+            json!({ "kind": "singular_families", "listed": 2 }),
+        ),
+        (
+            Reason::StraightPosition { sides: vec![1, 2] },
+            json!({ "kind": "straight_position", "sides": [1, 2] }),
+        ),
+        (
+            Reason::NoCertificate(NoCertificate::Gap { gap: 0.5 }),
+            json!({ "kind": "no_certificate", "because": "gap", "gap": 0.5 }),
+        ),
     ];
-    for reason in reasons {
-        let mut evidence =
-            Evidence::new("force", 0.0, 0.0, 0).with_force_uncertainty(ForceUncertainty {
-                relative: 1e-6,
-                cause: UncertaintyCause::ParallelBars,
-            });
+    for (reason, written) in reasons {
+        let mut evidence = Evidence::new("force", 0.0, 0.0, 0);
         evidence.ladder.agreed = Status::Open(reason);
-        evidence.ladder.verified = Status::Reached(Verified {
-            box_width: 1e-15,
-            distance: 0.0,
-            circle: true,
-            system: None,
-        });
-        let json = serde_json::to_string(&evidence).unwrap();
-        let back: Evidence = serde_json::from_str(&json).unwrap();
-        assert_eq!(back, evidence, "{json}");
+        let json = serde_json::to_value(&evidence).unwrap();
+        assert_eq!(json["ladder"][1]["reason"], written);
+        assert_eq!(json["ladder"][1]["reached"], false);
         assert!(!evidence.ladder.how(Rung::Agreed).is_empty());
     }
-    let excess = Excess {
-        what: Quantity::SelfStresses { solver: SolverName::ENERGY },
-        value: f64::NAN,
-        budget: 1.0,
-    };
-    let json = serde_json::to_value(&excess).unwrap();
-    assert_eq!((&json["what"], &json["solver"]), (&"self_stresses".into(), &"energy".into()));
-    assert!(json["value"].is_null());
-    assert!(serde_json::from_value::<Excess>(json).unwrap().value.is_nan());
-    // A rung without the proof or the reason is no evidence.
-    let bare = r#"[{"rung": "agreed", "reached": true, "how": "trust me"}]"#;
-    assert!(serde_json::from_str::<model::Ladder>(bare).is_err());
+}
+
+fn with(mut object: Value, kind: &str) -> Value {
+    object["kind"] = kind.into();
+    object
 }
