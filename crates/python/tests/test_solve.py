@@ -106,7 +106,7 @@ def test_ranges_over_tolerances():
     assert not exact.is_proved and "tolerance" in exact.reason and exact.axial_n.shape == (0, 2) and exact.draws is None
 
 
-def test_a_hundred_thousand_draws_stay_within_their_ranges():
+def test_thousands_of_draws_stay_within_their_ranges():
     # A lamp on two elastic cables, all of their numbers uncertain; half of the draws at the ends of the tolerances.
     text = """
         gravity_m_s2 = 10
@@ -118,7 +118,7 @@ def test_a_hundred_thousand_draws_stay_within_their_ranges():
     system = fn.System.from_toml(text)
     ranges = system.tolerances()
     assert ranges.is_proved
-    rows, rng = 100_000, np.random.default_rng(1)
+    rows, rng = 20_000, np.random.default_rng(1)
 
     def draws(*shape):
         within = rng.uniform(-1, 1, (rows, *shape))

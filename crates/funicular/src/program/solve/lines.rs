@@ -15,25 +15,29 @@ pub struct Line {
 /// Lines as they are read.
 pub struct Lines {
     from: Box<dyn BufRead + Send>,
+    /// Bytes of the longest line that is read, and of the longest that is passed over.
+    limits: [u64; 2],
     number: u64,
     ended: bool,
 }
 
 impl Lines {
     pub fn of(from: impl BufRead + Send + 'static) -> Self {
-        Self { from: Box::new(from), number: 0, ended: false }
+        let limits = [most_file_bytes(), MAX_BARS_FILE_BYTES];
+        Self { from: Box::new(from), limits, number: 0, ended: false }
     }
 
     /// The next line with its end, `None` behind the last.
     fn read(&mut self) -> io::Result<Option<Vec<u8>>> {
+        let [most, longest] = self.limits;
         let mut bytes = vec![];
         // One byte more than is allowed shows that it is too long.
-        self.from.by_ref().take(most_file_bytes() + 1).read_until(b'\n', &mut bytes)?;
+        self.from.by_ref().take(most + 1).read_until(b'\n', &mut bytes)?;
         self.number += 1;
-        if bytes.len() as u64 > most_file_bytes() {
-            let rest = self.from.by_ref().take(MAX_BARS_FILE_BYTES).skip_until(b'\n')?;
-            if rest as u64 == MAX_BARS_FILE_BYTES {
-                let reason = format!("a line does not end within {MAX_BARS_FILE_BYTES} bytes");
+        if bytes.len() as u64 > most {
+            let rest = self.from.by_ref().take(longest).skip_until(b'\n')?;
+            if rest as u64 == longest {
+                let reason = format!("a line does not end within {longest} bytes");
                 return Err(io::Error::other(reason));
             }
         }
@@ -60,7 +64,7 @@ impl Iterator for Lines {
                 }
             };
             if !bytes.iter().all(u8::is_ascii_whitespace) {
-                return Some(Line { number, text: object(bytes) });
+                return Some(Line { number, text: object(bytes, self.limits[0]) });
             }
         }
         None
@@ -68,9 +72,9 @@ impl Iterator for Lines {
 }
 
 /// The text of a line that may be an object of JSON.
-fn object(bytes: Vec<u8>) -> Result<String, String> {
-    if bytes.len() as u64 > most_file_bytes() {
-        return Err(format!("the line is longer than the limit of {} bytes", most_file_bytes()));
+fn object(bytes: Vec<u8>, most: u64) -> Result<String, String> {
+    if bytes.len() as u64 > most {
+        return Err(format!("the line is longer than the limit of {most} bytes"));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
@@ -87,9 +91,7 @@ fn object(bytes: Vec<u8>) -> Result<String, String> {
 
 #[cfg(test)]
 mod tests {
-    use std::io::{BufReader, Cursor, Read as _};
-
-    use model::system_file::MAX_FILE_BYTES;
+    use std::io::{BufRead, BufReader, Cursor, Read as _};
 
     use super::Lines;
 
@@ -106,17 +108,24 @@ mod tests {
         assert_eq!(bad.collect::<Vec<_>>(), [false, true]);
     }
 
+    /// With limits that are soon met.
+    fn short(from: impl BufRead + Send + 'static) -> Lines {
+        let lines = Lines::of(from);
+        assert_eq!(lines.limits[1], 2_000_000_000);
+        Lines { limits: [1_000_000, 20_000_000], ..lines }
+    }
+
     #[test]
     fn a_line_without_end_is_not_held() {
-        let endless = std::io::repeat(b'{').take(MAX_FILE_BYTES + 9);
-        let from = BufReader::new(endless.chain(Cursor::new("\n{2}\n")));
-        let read: Vec<_> = Lines::of(from).map(|line| (line.number, line.text.is_ok())).collect();
+        let endless = || BufReader::new(std::io::repeat(b'{'));
+        let read: Vec<_> = short(endless().take(1_000_009).chain(Cursor::new("\n{2}\n")))
+            .map(|line| (line.number, line.text.is_ok()))
+            .collect();
         assert_eq!(read, [(1, false), (2, true)]);
         // A device that never ends is not read for ever.
-        let device = Lines::of(BufReader::with_capacity(1 << 16, std::io::repeat(b'{')));
-        let told: Vec<_> = device.map(|line| line.text.unwrap_err()).collect();
+        let told: Vec<_> = short(endless()).map(|line| line.text.unwrap_err()).collect();
         assert!(
-            told.len() == 1 && told[0].contains("does not end within 2000000000 bytes"),
+            told.len() == 1 && told[0].contains("does not end within 20000000 bytes"),
             "{told:?}"
         );
     }
