@@ -8,7 +8,7 @@ use crate::point::Point;
 
 /// Weight of the preference for equal reactions in the estimate: small against the lengths (their
 /// sum is 1), large against rounding. It decides only when all bars are parallel.
-const REGULARISATION: f64 = 1e-10;
+pub(crate) const REGULARISATION: f64 = 1e-10;
 
 /// The pull of the first anchor for which the moments are least,
 /// $\sum l_i |(1 - u_i u_i^T)(p_0 + c_i e_z)|^2 \to \min$: linear in three unknowns, and in the

@@ -30,7 +30,7 @@ fn drawn(random: &mut ChaCha8Rng, bars: usize) -> Problem {
 /// Every chain is decided; `INTEGERS=10` takes those of up to ten bars as well, a minute.
 #[test]
 fn all_chains_of_integers_are_decided() {
-    let (most, each) = std::env::var("INTEGERS").map_or((5, 40), |n| (n.parse().unwrap(), 100));
+    let (most, each) = std::env::var("INTEGERS").map_or((5, 60), |n| (n.parse().unwrap(), 100));
     let mut why: BTreeMap<String, usize> = BTreeMap::new();
     let (mut decided, mut complete, mut all) = (0, 0, 0);
     for bars in 3..=most {
@@ -115,7 +115,7 @@ fn is_fold(problem: &Problem, open: &Undecided) -> bool {
 /// `INTEGERS=10` takes those of up to ten bars, and more of each number.
 #[test]
 fn chains_of_integers_with_bars_without_mass() {
-    let (most, each) = std::env::var("INTEGERS").map_or((5, 40), |n| (n.parse().unwrap(), 100));
+    let (most, each) = std::env::var("INTEGERS").map_or((5, 60), |n| (n.parse().unwrap(), 100));
     let (mut decided, mut all, mut slack) = (0, 0, 0);
     for bars in 3..=most {
         let mut random = ChaCha8Rng::seed_from_u64(100 + bars as u64);

@@ -13,8 +13,8 @@ use crate::thresholds::RIDGE;
 use crate::vector::scaled;
 
 /// Stiffness of inextensible members over that of the stiffest elastic one: their forces are right
-/// to the inverse of it, which is enough to begin with.
-const RIGID: f64 = 1e3;
+/// to the inverse of it, which is enough to begin with, and errors of lengths fall by it in a step.
+pub(super) const RIGID: f64 = 1e3;
 
 /// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
 const LOOSE: f64 = 1e-3;

@@ -18,8 +18,10 @@ use model::system::System;
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Rod};
 use crate::network::law::Excess;
-use crate::network::polish::STIFF_STRAIN;
+use crate::network::near::RIGID;
+use crate::network::polish::{NEUTRAL, STIFF_STRAIN};
 use crate::network::shape::{NO_STRAIN, Shape, largest};
+use crate::thresholds::PROGRESS;
 use crate::vector::{along, dot, norm, scaled};
 
 /// Forces of elastic members that are right to this part of the largest need nothing more,
@@ -33,16 +35,6 @@ const BORNE: [f64; 2] = [1e-2, 1e2];
 
 /// Steps at most; few are enough.
 const STEPS: usize = 12;
-
-/// A step must leave less than this part of the error.
-const PROGRESS: f64 = 0.5;
-
-/// Stiffness of what stands for an inextensible member, over the stiffest elastic one: errors of
-/// lengths fall by this in a step.
-const RIGID: f64 = 1e3;
-
-/// Diagonal over the largest force, for motions that nothing resists.
-const NEUTRAL: f64 = 1e-10;
 
 /// Displacements from the places of a shape, m.
 struct Displaced<'a> {

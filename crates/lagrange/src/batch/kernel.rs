@@ -6,6 +6,7 @@
 
 use super::lanes::{LANES, LARGEST_ANGLE, Lanes, each};
 use super::numbers::Bar;
+use crate::multipliers::REGULARISATION;
 use crate::thresholds::GOLDEN;
 
 /// One bar in all lanes.
@@ -79,9 +80,6 @@ const fn limits() -> [f64; 32] {
 /// Steps allowed at most: the angles then stay within the range of the sine.
 pub(crate) const MOST_STEPS: u32 = 60_000;
 const _: () = assert!(MOST_STEPS as f64 * PLAIN < LARGEST_ANGLE);
-
-/// Weight of the preference for equal reactions in the estimate of the pull, as in `multipliers`.
-const REGULARISATION: f64 = 1e-10;
 
 /// An axial force smaller than this is taken for this one: it keeps the quotients finite.
 const LEAST_AXIAL: f64 = 1e-30;
