@@ -374,7 +374,7 @@ fn ladder(
     bounds: &Bounds,
 ) -> Ladder {
     let convergence = Convergence {
-        residual_of: "largest violation of a law in units of what the tolerance explains".into(),
+        residual_of: "largest violation of a law in units of what the tolerance explains",
         residual: measured.largest,
         tolerance: Some(1.0),
         iterations: 0,

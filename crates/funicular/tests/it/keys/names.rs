@@ -112,7 +112,7 @@ fn verdicts_of_all_kinds() {
 fn uncertain_forces() {
     use model::{Convergence, ForceChoice, ForceRange, ForceUncertainty, UncertaintyCause};
     let uncertain = |residual, relative, cause| Convergence {
-        residual_of: "closure".into(),
+        residual_of: "closure",
         residual,
         tolerance: Some(0.5),
         iterations: 3,
