@@ -118,6 +118,17 @@ impl UncheckedBar {
         }
     }
 
+    /// A bar of the same mass that many times as long: each of its points moves along with it.
+    pub(super) fn stretched(&self, factor: f64) -> Self {
+        let square = factor * factor;
+        Self {
+            length_m: factor * self.length_m,
+            mass_kg: self.mass_kg,
+            centre_m: self.centre_m.map(|centre_m| factor * centre_m),
+            inertia_kg_m2: self.inertia_kg_m2.map(|[x, y, z]| [x, square * y, square * z]),
+        }
+    }
+
     /// Distance of the centre of weight from the first joint, m.
     pub(crate) fn centre_m(&self) -> f64 {
         self.centre_m.unwrap_or(0.5 * self.length_m)

@@ -20,7 +20,8 @@ use crate::parameter::error::ParameterError;
 pub enum Number {
     /// `loads`, of a system: a factor of all its forces and masses.
     Loads,
-    /// `lengths`, of a system: a factor of the lengths of all its bars, as all of them are heated.
+    /// `lengths`, of a system: a factor of the lengths of all its bars, as all of them are heated; centres of weight
+    /// and forces on them move along.
     Lengths,
     /// `gravity_m_s2`.
     Gravity,

@@ -173,13 +173,17 @@ impl UncheckedMember {
     }
 
     fn scale(&mut self, factors: Factors) {
-        for load in &mut self.changed().loads {
+        let member = self.changed();
+        let half_m = 0.5 * member.body.length_m();
+        for load in &mut member.loads {
             load.force_n = load.force_n.map(|force| force * factors.loads);
+            // In the middle it stays there, whatever length is set.
+            if load.at_m.to_bits() != half_m.to_bits() {
+                load.at_m *= factors.lengths;
+            }
         }
-        self.body.set(BarField::Mass, factors.loads * self.body.mass_kg);
-        if factors.lengths.to_bits() != 1.0_f64.to_bits() {
-            self.body.set(BarField::Length, factors.lengths * self.body.length_m);
-        }
+        self.body = self.body.stretched(factors.lengths);
+        self.body.mass_kg *= factors.loads;
     }
 
     fn set(&mut self, field: BarField, value: f64) {
