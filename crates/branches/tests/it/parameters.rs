@@ -274,25 +274,3 @@ fn errors_are_about_a_piece_of_the_text() {
         assert_eq!(&text[error.span.clone()], piece, "{text}: {error}");
     }
 }
-
-/// Heated by a factor a bar is longer, and its centre of weight and what is hung on it move along; in its middle both stay.
-#[test]
-fn all_points_of_a_bar_are_heated() {
-    let text = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [4, 0, 0] }\nP = {}\n\
-        [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 2\nmass_kg = 1\ncentre_m = 0.5\ninertia_kg_m2 = [1, 2, 3]\n\
-        forces = [{ at_m = 1.25, force_n = [0, 0, -1] }, { at_m = 1, force_n = [0, 0, -1] }]\n\
-        [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 3\nmass_kg = 1\n";
-    let Ok(Described::System(system)) = model::system_file::parse(text, "heated.toml") else {
-        panic!("a system")
-    };
-    let parameters = [vary("lengths=1.5"), vary("loads=4")];
-    let variation = Variation::new(system, &parameters, Combine::Product).unwrap();
-    let heated = variation.system(&[1.5, 4.0]).unwrap();
-    let [first, second] = heated.members() else { panic!("two bars") };
-    assert_eq!([first, second].map(|bar| bar.body.length_m()), [3.0, 4.5]);
-    assert_eq!([first, second].map(|bar| bar.body.mass_kg()), [4.0, 4.0]);
-    assert_eq!([first, second].map(|bar| bar.body.centre_m()), [0.75, 2.25]);
-    assert_eq!(first.body.given_inertia_kg_m2(), Some([1.0, 4.5, 6.75]));
-    let loads: Vec<_> = first.loads.iter().map(|load| (load.at_m, load.force_n[2])).collect();
-    assert_eq!(loads, [(1.875, -4.0), (1.5, -4.0)]);
-}
