@@ -197,7 +197,7 @@ fn lengths_are_a_factor_of_all_lengths() {
         let centre_m = other.given_centre_m().map_or(0.5 * length_m, |centre_m| 1.25 * centre_m);
         assert!((own.centre_m() - centre_m).abs() < 1e-14, "{k}");
         // What lies off the axis stays as far from it.
-        let [moments, others] = [own, other].map(|body| body.given_inertia_kg_m2());
+        let [moments, others] = [own.given_inertia_kg_m2(), other.given_inertia_kg_m2()];
         assert_eq!(moments, others.map(|[x, y, z]| [x, 1.5625 * y, 1.5625 * z]), "{k}");
         assert_eq!(
             (found.prestress_n(), found.stiffness_n),
