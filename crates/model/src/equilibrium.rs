@@ -1,7 +1,5 @@
 //! The answer of one solver.
 
-use serde::Serialize;
-
 use crate::Vector;
 use crate::evidence::Evidence;
 use crate::solver_name::SolverName;
@@ -11,7 +9,7 @@ use crate::stability::Stability;
 /// can be compared.
 ///
 /// The field names are those of the JSON (`funicular solve --json`).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
     /// Who found it.
     pub solver: SolverName,
@@ -36,7 +34,7 @@ pub struct Equilibrium {
 }
 
 /// Forces of the ground on the chain at its two anchors, world frame, N.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reactions {
     /// At joint 0.
     pub start: Vector,

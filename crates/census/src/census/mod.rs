@@ -23,7 +23,7 @@ use crate::slack::families::SlackFamily;
 use crate::slack::straight::StraightPosition;
 
 /// All equilibria of a chain, and how far that is proved.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Census {
     /// The isolated equilibria (for anchors on one vertical: the circles), by energy, then by
     /// angles.

@@ -13,12 +13,10 @@
 //! M. Morse, Trans. Amer. Math. Soc. 27 (1925) 345-396, doi:10.1090/S0002-9947-1925-1501318-X;
 //! R. Bott, Ann. of Math. 60 (1954) 248-261, doi:10.2307/1969631
 
-use serde::Serialize;
-
 use crate::count::topology::Topology;
 
 /// How the Morse inequalities fail.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MorseError {
     /// Occurs when an index is larger than the dimension.

@@ -22,12 +22,11 @@
 //! doi:10.1007/s10711-007-9139-7, Theorem 1
 
 use numerics::Interval;
-use serde::Serialize;
 
 use crate::plane::system::System;
 
 /// Betti numbers and Euler characteristic of a closed manifold.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Topology {
     /// Betti numbers `b_0, b_1, ...` up to the dimension.
     pub betti: Vec<u64>,
@@ -36,7 +35,7 @@ pub struct Topology {
 }
 
 /// Why the topology is not known.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TopologyError {
     /// Occurs when some bars and perhaps the span are together exactly as long as the others, or so

@@ -4,7 +4,6 @@ pub(crate) mod inertia;
 pub(crate) mod stress;
 
 use numerics::{Interval, atan2};
-use serde::Serialize;
 
 use crate::closure::bar::unit;
 use crate::closure::signed;
@@ -20,7 +19,7 @@ use crate::plane::system::System;
 /// For anchors on one vertical it stands for a whole circle of equilibria, all turns of the chain
 /// about that vertical: it is shown in the plane X = 0, bar 1 leaning towards +Y, and its mirror
 /// image is the turn by 180 degrees.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ProvenEquilibrium {
     /// +1 for each bar in tension, −1 for each in compression, 0 for one that carries nothing,
     /// less than a 10¹² part of the weights, or so little that its sign is not proved.
@@ -57,7 +56,7 @@ pub struct ProvenEquilibrium {
 }
 
 /// A rectangle in a chart of pulls.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbourhood {
     /// The chart.
     pub chart: Face,

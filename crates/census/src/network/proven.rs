@@ -2,7 +2,6 @@
 
 use model::system::{Kind, Member, System};
 use numerics::Interval;
-use serde::Serialize;
 
 use super::activity::Activity;
 use super::arithmetic::{Vector, minus, norm, sum};
@@ -11,7 +10,7 @@ use super::krawczyk::Zero;
 
 /// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an
 /// enclosure of the exact value.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SystemBox {
     /// Places of all joints, world frame, m.
     pub joints_m: Vec<[Interval; 3]>,

@@ -26,7 +26,7 @@ use crate::search::Task;
 /// assert!(census.undecided.iter().all(|open| open.reason == Reason::Degenerate));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Undecided {
     /// Why.
     pub reason: Reason,

@@ -21,7 +21,6 @@ use std::ops::Range;
 
 use model::{Bar, Problem};
 use numerics::Interval;
-use serde::Serialize;
 
 use crate::closure::signed;
 use crate::count::topology::{Topology, TopologyError};
@@ -49,7 +48,7 @@ use crate::slack::unloaded::ways;
 /// assert_eq!(hanging.dimension_in_plane, 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SlackFamily {
     /// +1 for each bar in tension, −1 in compression, 0 for the slack bars.
     pub signs: Vec<i8>,

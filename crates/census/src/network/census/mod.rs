@@ -30,7 +30,6 @@ use std::time::Instant;
 use model::NoCensus;
 use model::system::{Kind, Support, System};
 use numerics::Interval;
-use serde::Serialize;
 
 pub use self::bridle::bridle_seconds;
 pub use self::net::{NetCensus, Open, UndecidedPlaces};
@@ -61,7 +60,7 @@ const MOST_JOINTS: usize = 1000;
 pub const MAX_POSITIONS: usize = 4096;
 
 /// All equilibria of a system, and how far that is proved.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SystemCensus {
     /// The isolated equilibria by energy, each standing for all that free turns about verticals
     /// make of it.
@@ -75,7 +74,7 @@ pub struct SystemCensus {
 }
 
 /// A part of a system, connected not over anchors alone.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PartCensus {
     /// Its isolated equilibria, whatever the lengths of slack members are.
     pub positions: usize,
@@ -92,7 +91,7 @@ pub struct PartCensus {
 }
 
 /// The chain of a part with its census.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ChainCensus {
     /// Its joints from anchor to anchor, from 0.
     pub joints: Vec<usize>,

@@ -6,7 +6,6 @@ use model::{
     Status, Vector as Point, Verified, VerifiedSystem,
 };
 use numerics::Interval;
-use serde::Serialize;
 
 use super::choice::Choice;
 use super::{PartCensus, SystemCensus};
@@ -16,7 +15,7 @@ use crate::network::proven::idle_n;
 
 /// An equilibrium of a system whose existence is proved; every number is an enclosure of the exact
 /// value.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SystemPosition {
     /// Places of all joints, world frame, m. Of what turns freely one position is shown.
     pub joints_m: Vec<[Interval; 3]>,

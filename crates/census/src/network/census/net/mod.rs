@@ -46,7 +46,6 @@ mod swing;
 
 use model::NoCensus;
 use numerics::Interval;
-use serde::Serialize;
 
 use self::cell::Cell;
 pub(super) use self::core::Core;
@@ -70,7 +69,7 @@ const MOST_COORDINATES: usize = 12;
 const MOST_SWINGS: usize = 12;
 
 /// The net of a part with what its census took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NetCensus {
     /// Its joints that move, from 0.
     pub joints: Vec<usize>,
@@ -98,7 +97,7 @@ pub struct NetCensus {
 
 /// A box of places of the knots for which the census does not say how many equilibria it holds,
 /// besides those that are listed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct UndecidedPlaces {
     /// Why.
     pub reason: Open,
@@ -110,8 +109,7 @@ pub struct UndecidedPlaces {
 }
 
 /// Why places of knots are undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Open {
     /// The box is as small as boxes get: a degenerate equilibrium, straight bars, or nearly so.
