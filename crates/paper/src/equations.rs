@@ -228,7 +228,7 @@ impl FaultyEquations {
 ///
 /// Angles from the descending vertical in rad. In the coordinates of section VIII they are
 /// $\varphi_1, \varphi_2, \varphi_3$, with $\psi_i = 0$ and $\theta_i = \pi/2$.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct E1State {
     /// Angle of bar OA, rad.
     pub theta: f64,

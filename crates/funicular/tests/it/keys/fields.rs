@@ -8,19 +8,9 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 29] = [
+const NOT_PRINTED: [(&str, &str); 18] = [
     ("funicular::Found", "either is printed by its keys alone"),
-    ("census::Census", "`census --json` prints its own `Summary`"),
-    ("census::ChainCensus", "printed as `Chain` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
-    ("census::MorseError", "printed as the sentence `census.check.failure`"),
-    ("census::NetCensus", "printed as `Net` of the program"),
-    ("census::Open", "a net prints the number of its undecided boxes"),
-    ("census::ProvenEquilibrium", "printed as `InRow` of the program"),
-    ("census::SlackFamily", "printed as `Slack` of the program"),
-    ("census::TopologyError", "printed as the sentence `census.topology_unknown`"),
-    ("census::Undecided", "printed as `Open` of the program"),
-    ("census::UndecidedPlaces", "a net prints the number of its undecided boxes"),
     ("funicular::Chart", "for the script of a page"),
     ("funicular::Curve", "for the script of a page"),
     ("funicular::Data", "for the script of a page"),
@@ -31,7 +21,6 @@ const NOT_PRINTED: [(&str, &str); 29] = [
     ("funicular::Start", "for the script of a page"),
     ("funicular::Topology", "for the script of a page"),
     ("funicular::Track", "for the script of a page"),
-    ("paper::E1State", "a value of the report's own tests"),
     ("report::Kind", "data of the figure on the report's page, looked at in a browser"),
     ("report::State", "data of the figure on the report's page, looked at in a browser"),
     ("report::View", "data of the figure on the report's page, looked at in a browser"),
