@@ -1,11 +1,17 @@
 //! Pictures as files: SVG as it is drawn, PNG, PDF and DXF of that.
 
 #[cfg(feature = "png-pdf")]
-mod converted;
+mod drawing;
 #[cfg(feature = "png-pdf")]
 mod dxf;
 #[cfg(feature = "png-pdf")]
+mod font;
+#[cfg(feature = "png-pdf")]
+mod letters;
+#[cfg(feature = "png-pdf")]
 mod pdf;
+#[cfg(feature = "png-pdf")]
+mod pixels;
 
 /// What a picture is written as.
 ///
@@ -16,7 +22,7 @@ mod pdf;
 /// assert_eq!(Format::Svg.file(&svg).unwrap(), svg.as_bytes());
 /// match Format::Png.file(&svg) {
 ///     Ok(png) => assert!(png.starts_with(b"\x89PNG")),
-///     Err(error) => assert!(error.to_string().contains("--features png-pdf")),
+///     Err(error) => assert!(error.to_string().contains("feature `png-pdf`")),
 /// }
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,11 +42,9 @@ pub enum Format {
 #[non_exhaustive]
 pub enum FormatError {
     /// Occurs when the crate is built without its feature `png-pdf`.
-    #[error(
-        "PNG, PDF and DXF of pictures are not in this build: releases have them, and `cargo build --release --features png-pdf`"
-    )]
+    #[error("PNG, PDF and DXF of pictures are not in this build: it lacks the feature `png-pdf`")]
     NotBuilt,
-    /// Occurs when the drawing cannot be converted, such as for want of memory.
+    /// Occurs when the drawing cannot be converted: it is too large, or no drawing of this crate.
     #[error("the picture cannot be converted: {0}")]
     NotConverted(String),
 }
@@ -69,23 +73,29 @@ impl Format {
         }
     }
 
-    /// The bytes of a file with this drawing. PNG and PDF have the letters of `DejaVu Sans Condensed`, whatever the machine has;
-    /// characters that it lacks are shown as boxes.
+    /// The bytes of a file with this drawing, one that [`Svg`](crate::Svg) has written. PNG and PDF have the letters of
+    /// `DejaVu Sans Condensed`, whatever the machine has, one after the other; characters that it lacks are shown as boxes.
     ///
     /// # Errors
     ///
     /// [`FormatError`] of all but SVG.
     pub fn file(self, svg: &str) -> Result<Vec<u8>, FormatError> {
+        if self == Self::Svg {
+            return Ok(svg.as_bytes().to_vec());
+        }
+        #[cfg(not(feature = "png-pdf"))]
+        return Err(FormatError::NotBuilt);
+        #[cfg(feature = "png-pdf")]
+        self.converted(svg).map_err(FormatError::NotConverted)
+    }
+
+    #[cfg(feature = "png-pdf")]
+    fn converted(self, svg: &str) -> Result<Vec<u8>, String> {
+        let drawing = drawing::read(svg)?;
         match self {
-            Self::Svg => Ok(svg.as_bytes().to_vec()),
-            #[cfg(not(feature = "png-pdf"))]
-            Self::Png | Self::Pdf | Self::Dxf => Err(FormatError::NotBuilt),
-            #[cfg(feature = "png-pdf")]
-            Self::Png => converted::png(svg),
-            #[cfg(feature = "png-pdf")]
-            Self::Pdf => converted::pdf(svg),
-            #[cfg(feature = "png-pdf")]
-            Self::Dxf => converted::dxf(svg),
+            Self::Svg | Self::Png => pixels::write(&drawing).ok_or("it is too large".into()),
+            Self::Pdf => Ok(pdf::write(&drawing)),
+            Self::Dxf => Ok(dxf::write(&drawing).into_bytes()),
         }
     }
 }
@@ -111,24 +121,39 @@ mod tests {
         for format in [Format::Png, Format::Pdf, Format::Dxf] {
             assert_eq!((format.check().is_ok(), format.file(&drawing()).is_ok()), (built, built));
         }
-        let broken = Format::Png.file("<svg").unwrap_err().to_string();
-        assert!(broken.contains(if built { "cannot be converted" } else { "not in this build" }));
+        for broken in ["<svg", "<svg/>", "<svg width=\"9\" height=\"9\"><ellipse/></svg>"] {
+            let said = Format::Png.file(broken).unwrap_err().to_string();
+            assert!(said.contains(if built { "cannot be converted" } else { "not in this build" }));
+        }
+    }
+
+    /// Colours of a PNG without filters, red, green and blue, rows from the top.
+    #[cfg(feature = "png-pdf")]
+    fn decoded(png: &[u8]) -> ([u32; 2], Vec<[u8; 3]>) {
+        let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+        let [width, height] = [side(16), side(20)];
+        let at = png.windows(4).position(|name| name == b"IDAT").unwrap();
+        let packed = &png[at + 4..at + 4 + side(at - 4) as usize];
+        let rows = miniz_oxide::inflate::decompress_to_vec_zlib(packed).unwrap();
+        let rows = rows.chunks(3 * width as usize + 1);
+        assert!(rows.clone().all(|row| row[0] == 0));
+        let colours = rows.flat_map(|row| row[1..].as_chunks().0.iter().copied());
+        ([width, height], colours.collect())
     }
 
     #[cfg(feature = "png-pdf")]
     #[test]
     fn pixels_are_those_of_the_drawing() {
         let png = Format::Png.file(&drawing()).unwrap();
-        let pixels = resvg::tiny_skia::Pixmap::decode_png(&png).unwrap();
-        assert_eq!((pixels.width(), pixels.height()), (400, 200));
-        let at = |x, y| pixels.pixel(x, y).map(|c| [c.red(), c.green(), c.blue(), c.alpha()]);
-        assert_eq!(at(0, 0), Some([255; 4]));
-        assert_eq!(at(60, 40), Some([200, 0, 0, 255]));
+        let ([width, height], colours) = decoded(&png);
+        assert_eq!((width, height), (400, 200));
+        let at = |x: usize, y: usize| colours[400 * y + x];
+        assert_eq!((at(0, 0), at(60, 40)), ([255; 3], [200, 0, 0]));
         // Both pixels of the raster, sharp at their edge.
-        assert_eq!((at(58, 140), at(62, 140)), (Some([0, 0, 250, 255]), Some([0, 120, 0, 255])));
-        let dark = |x: std::ops::Range<u32>| {
+        assert_eq!((at(58, 140), at(62, 140)), ([0, 0, 250], [0, 120, 0]));
+        let dark = |x: std::ops::Range<usize>| {
             let within = x.flat_map(|x| (100..124).map(move |y| (x, y)));
-            within.filter(|(x, y)| at(*x, *y).is_some_and(|[r, ..]| r < 100)).count()
+            within.filter(|(x, y)| at(*x, *y)[0] < 100).count()
         };
         // The text is centred on x = 300, some 100 px of letters to each side, of strokes 2 px wide.
         assert!(
@@ -138,6 +163,30 @@ mod tests {
             dark(300..400)
         );
         assert_eq!(dark(110..180), 0);
+    }
+
+    /// A letter of its own, one that is put together from two, one beyond the first 65,536, and one that is missing, from the left:
+    /// rows of pixels above the first are of the second alone.
+    #[cfg(feature = "png-pdf")]
+    #[test]
+    fn letters_are_those_of_the_font() {
+        let mut svg = Svg::new([160.0, 40.0], "");
+        for (x, letter) in [(0.0, "A"), (40.0, "\u{c4}"), (80.0, "\u{1d7d9}"), (120.0, "\u{4e2d}")]
+        {
+            svg.text(Look::fill(Colour::BLACK).size(30.0), [x, 36.0], Anchor::Start, letter);
+        }
+        let (_, colours) = decoded(&Format::Png.file(&svg.finish()).unwrap());
+        let dark = |k: usize, rows: std::ops::Range<usize>| {
+            let within = rows.flat_map(|y| (80 * k..80 * k + 80).map(move |x| (x, y)));
+            within.filter(|(x, y)| colours[320 * y + x][0] < 100).count()
+        };
+        assert_eq!(
+            (0..4).map(|k| dark(k, 0..25) > 0).collect::<Vec<_>>(),
+            [false, true, false, false]
+        );
+        assert!(dark(1, 0..25) > 20 && dark(1, 30..80) == dark(0, 30..80));
+        // A box is as good as empty inside.
+        assert!(dark(2, 25..80) > 200 && dark(3, 40..60) < dark(3, 25..80) / 3);
     }
 
     #[cfg(feature = "png-pdf")]

@@ -26,34 +26,101 @@ pub struct Raster<'a> {
 /// Effort of the compression, from 0 to 10: that of zlib's default.
 const EFFORT: u8 = 6;
 
+/// Colours of pixels, rows from the top: red, green, blue.
+#[cfg(feature = "png-pdf")]
+pub(crate) struct Pixels {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) rgb: Vec<u8>,
+}
+
+/// Pixels by numbers of a palette, in the header of a file.
+const PALETTE: u8 = 3;
+
 impl Raster<'_> {
     /// The file.
     #[must_use]
     pub fn png(&self) -> Vec<u8> {
-        let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
-        let mut head = vec![];
-        head.extend(self.width.to_be_bytes());
-        head.extend(self.height.to_be_bytes());
-        // Depth 8, colour type 3 (palette), and the only compression, filter and order there are.
-        head.extend([8, 3, 0, 0, 0]);
-        chunk(&mut file, *b"IHDR", &head);
         let palette: Vec<u8> = self.palette.iter().flat_map(|colour| colour.0).collect();
-        chunk(&mut file, *b"PLTE", &palette);
-        let mut raw = Vec::with_capacity(self.pixels.len() + self.height as usize);
-        for row in self.pixels.chunks(self.width.max(1) as usize) {
-            // Each row begins with the number of its filter: none.
-            raw.push(0);
-            raw.extend(row);
-        }
-        chunk(&mut file, *b"IDAT", &compress_to_vec_zlib(&raw, EFFORT));
-        chunk(&mut file, *b"IEND", &[]);
-        file
+        let rows = self.pixels.chunks(self.width.max(1) as usize);
+        file([self.width, self.height], PALETTE, &palette, rows)
     }
 
     /// The file as text.
     pub(crate) fn base64(&self) -> String {
         BASE64_STANDARD.encode(self.png())
     }
+}
+
+#[cfg(feature = "png-pdf")]
+impl Pixels {
+    /// The file.
+    pub(crate) fn png(&self) -> Vec<u8> {
+        /// A colour for each pixel.
+        const COLOURS: u8 = 2;
+        let rows = self.rgb.chunks(3 * self.width.max(1) as usize);
+        file([self.width, self.height], COLOURS, &[], rows)
+    }
+
+    /// Read what [`Raster::png`] writes; none of other files.
+    pub(crate) fn read(file: &[u8]) -> Option<Self> {
+        let mut rest = file.strip_prefix(SIGNATURE)?;
+        let (mut head, mut palette, mut packed) = (vec![], vec![], vec![]);
+        while let Some((length, tail)) = rest.split_first_chunk() {
+            let (name, tail) = tail.split_first_chunk()?;
+            let (data, tail) = tail.split_at_checked(u32::from_be_bytes(*length) as usize)?;
+            match name {
+                b"IHDR" => head = data.to_vec(),
+                b"PLTE" => palette = data.to_vec(),
+                b"IDAT" => packed = data.to_vec(),
+                _ => {}
+            }
+            // Behind its sum.
+            rest = tail.get(4..)?;
+        }
+        let (width, tail) = head.split_first_chunk()?;
+        let (height, tail) = tail.split_first_chunk()?;
+        let [width, height] = [width, height].map(|side| u32::from_be_bytes(*side));
+        let rows = miniz_oxide::inflate::decompress_to_vec_zlib(&packed).ok()?;
+        let row = width as usize + 1;
+        if tail != [8, PALETTE, 0, 0, 0] || width == 0 || rows.len() != row * height as usize {
+            return None;
+        }
+        let mut rgb = Vec::with_capacity(3 * rows.len());
+        for number in rows.chunks(row).flat_map(|row| &row[1..]) {
+            rgb.extend(palette.get(3 * usize::from(*number)..)?.first_chunk::<3>()?);
+        }
+        Some(Self { width, height, rgb })
+    }
+}
+
+const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+fn file<'a>(
+    [width, height]: [u32; 2],
+    colours: u8,
+    palette: &[u8],
+    rows: impl Iterator<Item = &'a [u8]>,
+) -> Vec<u8> {
+    let mut file = SIGNATURE.to_vec();
+    let mut head = vec![];
+    head.extend(width.to_be_bytes());
+    head.extend(height.to_be_bytes());
+    // Depth 8, the kind of colours, and the only compression, filter and order there are.
+    head.extend([8, colours, 0, 0, 0]);
+    chunk(&mut file, *b"IHDR", &head);
+    if !palette.is_empty() {
+        chunk(&mut file, *b"PLTE", palette);
+    }
+    let mut raw = vec![];
+    for row in rows {
+        // Each row begins with the number of its filter: none.
+        raw.push(0);
+        raw.extend(row);
+    }
+    chunk(&mut file, *b"IDAT", &compress_to_vec_zlib(&raw, EFFORT));
+    chunk(&mut file, *b"IEND", &[]);
+    file
 }
 
 fn chunk(file: &mut Vec<u8>, name: [u8; 4], data: &[u8]) {

@@ -55,14 +55,14 @@
 //!
 //! # Features
 //!
-//! All but `png-pdf` are on by default. A program that solves chains takes `default-features = false` and few
+//! All are on by default. A program that solves chains takes `default-features = false` and few
 //! dependencies.
 //!
 //! | feature | what |
 //! |---|---|
 //! | `columns` | bars from Parquet |
 //! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
-//! | `png-pdf` | pictures also as PNG, PDF and DXF ([`picture::Format`]): two minutes of a processor to compile |
+//! | `png-pdf` | pictures also as PNG, PDF and DXF ([`picture::Format`]) |
 //! | `branches` | `Study`, `Derivatives`, `Trace` |
 //! | `live` | `live::Ask` |
 //! | `paper` | `Reproduce` |

@@ -7,57 +7,47 @@
 
 use std::fmt::Write as _;
 
-use resvg::tiny_skia::{PathSegment, Point, Transform};
-use resvg::usvg::{self, Group, Node, Paint, Tree};
+use tiny_skia::{PathSegment, Point};
+
+use super::drawing::{Drawing, Piece, Shape, Text};
 
 /// Straight pieces to a curve.
 const PIECES: u8 = 8;
 /// What closes a polyline, in its group 70.
 const CLOSED: u8 = 1;
 
-pub(super) fn write(tree: &Tree) -> String {
+pub(super) fn write(drawing: &Drawing) -> String {
     let mut dxf = "0\nSECTION\n2\nENTITIES\n".to_owned();
-    group(&mut dxf, tree.root());
+    for piece in &drawing.pieces {
+        match piece {
+            Piece::Shape(shape) => outline(&mut dxf, shape),
+            Piece::Text(text) => words(&mut dxf, text),
+            Piece::Raster { .. } => {}
+        }
+    }
     dxf + "0\nENDSEC\n0\nEOF\n"
 }
 
-fn group(dxf: &mut String, all: &Group) {
-    for node in all.children() {
-        match node {
-            Node::Group(inner) => group(dxf, inner),
-            Node::Path(path) => outline(dxf, path),
-            Node::Text(text) => words(dxf, text),
-            Node::Image(_) => {}
-        }
-    }
-}
-
 /// Every piece of a path without a gap.
-fn outline(dxf: &mut String, path: &usvg::Path) {
-    let paint = path.stroke().map(usvg::Stroke::paint).or(path.fill().map(usvg::Fill::paint));
-    let Some(layer) = paint.map(layer) else { return };
+fn outline(dxf: &mut String, shape: &Shape) {
+    let Some([r, g, b]) = shape.pen.as_ref().map(|pen| pen.colour).or(shape.fill) else { return };
+    let layer = format!("{r:02x}{g:02x}{b:02x}");
     let mut way = vec![];
-    for segment in path.data().segments() {
+    for segment in shape.path.segments() {
         match segment {
             PathSegment::MoveTo(to) => {
-                polyline(
-                    dxf,
-                    &layer,
-                    path.abs_transform(),
-                    &std::mem::replace(&mut way, vec![to]),
-                    0,
-                );
+                polyline(dxf, &layer, &std::mem::replace(&mut way, vec![to]), 0);
             }
             PathSegment::LineTo(to) => way.push(to),
             PathSegment::QuadTo(by, to) => curve(&mut way, [by, by, to], [2.0, 0.0]),
             PathSegment::CubicTo(by, then, to) => curve(&mut way, [by, then, to], [3.0, 3.0]),
             PathSegment::Close => {
-                polyline(dxf, &layer, path.abs_transform(), &way, CLOSED);
+                polyline(dxf, &layer, &way, CLOSED);
                 way.truncate(1);
             }
         }
     }
-    polyline(dxf, &layer, path.abs_transform(), &way, 0);
+    polyline(dxf, &layer, &way, 0);
 }
 
 /// Points of a Bezier curve from the last point, of the second or third degree by the factors of its inner points.
@@ -79,7 +69,7 @@ fn curve(way: &mut Vec<Point>, [by, then, to]: [Point; 3], [first, second]: [f32
     }
 }
 
-fn polyline(dxf: &mut String, layer: &str, at: Transform, way: &[Point], closed: u8) {
+fn polyline(dxf: &mut String, layer: &str, way: &[Point], closed: u8) {
     if way.len() < 2 {
         return;
     }
@@ -87,35 +77,23 @@ fn polyline(dxf: &mut String, layer: &str, at: Transform, way: &[Point], closed:
         write!(dxf, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{closed}\n10\n0.0\n20\n0.0\n30\n0.0\n");
     for point in way {
         let _ = write!(dxf, "0\nVERTEX\n8\n{layer}\n");
-        place(dxf, at, *point);
+        place(dxf, *point);
     }
     dxf.push_str("0\nSEQEND\n");
 }
 
-fn place(dxf: &mut String, at: Transform, mut point: Point) {
-    at.map_point(&mut point);
+fn place(dxf: &mut String, point: Point) {
     // Not the negative zero.
     let _ = write!(dxf, "10\n{:?}\n20\n{:?}\n30\n0.0\n", point.x, 0.0 - point.y);
 }
 
 /// A text from the lower left corner of its letters, as high as these.
-fn words(dxf: &mut String, text: &usvg::Text) {
-    let letters: String =
-        text.chunks().iter().map(usvg::TextChunk::text).map(formats::export::dxf_text).collect();
-    let within = text.bounding_box();
-    let at = text.abs_transform();
-    let turn = 0.0 - at.ky.atan2(at.sx).to_degrees();
+fn words(dxf: &mut String, text: &Text) {
+    let letters = formats::export::dxf_text(&text.letters);
+    let mut at = Point::from_xy(text.within.left(), text.within.bottom());
+    text.turn.map_point(&mut at);
+    let turn = 0.0 - text.turn.ky.atan2(text.turn.sx).to_degrees();
     dxf.push_str("0\nTEXT\n8\ntexts\n");
-    place(dxf, at, Point::from_xy(within.left(), within.bottom()));
-    let _ = write!(dxf, "40\n{:?}\n50\n{turn:?}\n1\n{letters}\n", within.height());
-}
-
-/// The layer of a colour, such as `0072b2`.
-fn layer(paint: &Paint) -> String {
-    match paint {
-        Paint::Color(colour) => {
-            format!("{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue)
-        }
-        _ => "other".to_owned(),
-    }
+    place(dxf, at);
+    let _ = write!(dxf, "40\n{:?}\n50\n{turn:?}\n1\n{letters}\n", text.within.height());
 }

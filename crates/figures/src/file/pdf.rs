@@ -6,12 +6,12 @@
 //! ISO 32000-1:2008, sections 8.4 and 8.5 (graphics), 9.3.6 (text that is not shown) and 9.10.3 (what its codes mean).
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::types::{LineCapStyle, LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap};
-use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str};
-use resvg::tiny_skia::{PathSegment, Pixmap};
-use resvg::usvg::{
-    self, FillRule, Group, ImageKind, LineCap, LineJoin, Node, Paint, PaintOrder, Stroke, Tree,
-};
+use pdf_writer::types::{LineJoinStyle, SystemInfo, TextRenderingMode, UnicodeCmap};
+use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Ref, Str};
+use tiny_skia::{PathSegment, Rect};
+
+use super::drawing::{Drawing, Pen, Piece, Shape, Text};
+use crate::png::Pixels;
 
 /// Points to a pixel of the drawing: 96 px to an inch, as CSS has it.
 const POINTS: f32 = 0.75;
@@ -30,24 +30,31 @@ const MEANING: Ref = Ref::new(6);
 const RASTER: i32 = 7;
 
 /// What is collected while the drawing is gone through.
-struct Drawn {
+struct Drawn<'a> {
     content: Content,
-    rasters: Vec<Pixmap>,
+    rasters: Vec<&'a Pixels>,
     /// The letters that the codes of the unseen font stand for, from 1.
     letters: Vec<char>,
 }
 
-/// The file; none where a raster cannot be read.
-pub(super) fn write(tree: &Tree) -> Option<Vec<u8>> {
-    let [width, height] = [tree.size().width(), tree.size().height()].map(|px| POINTS * px);
+/// The file.
+pub(super) fn write(drawing: &Drawing) -> Vec<u8> {
+    let [width, height] = drawing.size.map(|px| POINTS * px);
     let mut drawn = Drawn { content: Content::new(), rasters: vec![], letters: vec![] };
     drawn.content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
-    drawn.group(tree.root())?;
+    drawn.content.set_line_join(LineJoinStyle::RoundJoin);
+    for piece in &drawing.pieces {
+        match piece {
+            Piece::Shape(shape) => drawn.shape(shape),
+            Piece::Raster { within, pixels } => drawn.raster(*within, pixels),
+            Piece::Text(text) => drawn.text(text),
+        }
+    }
     let mut pdf = Pdf::new();
     pdf.catalog(CATALOG).pages(PAGES);
     pdf.pages(PAGES).kids([PAGE]).count(1);
     let mut page = pdf.page(PAGE);
-    page.media_box(Rect::new(0.0, 0.0, width, height));
+    page.media_box(pdf_writer::Rect::new(0.0, 0.0, width, height));
     page.parent(PAGES).contents(CONTENT);
     let mut resources = page.resources();
     resources.fonts().pair(FONT, LETTERS);
@@ -60,18 +67,15 @@ pub(super) fn write(tree: &Tree) -> Option<Vec<u8>> {
     page.finish();
     let packed = compress_to_vec_zlib(drawn.content.finish().as_slice(), EFFORT);
     pdf.stream(CONTENT, &packed).filter(Filter::FlateDecode);
-    for (pixmap, at) in drawn.rasters.iter().zip(RASTER..) {
-        let colours: Vec<u8> =
-            pixmap.pixels().iter().flat_map(|c| [c.red(), c.green(), c.blue()]).collect();
-        let packed = compress_to_vec_zlib(&colours, EFFORT);
-        let [across, down] = [pixmap.width(), pixmap.height()].map(|n| i32::try_from(n).ok());
+    for (pixels, at) in drawn.rasters.iter().zip(RASTER..) {
+        let packed = compress_to_vec_zlib(&pixels.rgb, EFFORT);
         let mut raster = pdf.image_xobject(Ref::new(at), &packed);
         raster.filter(Filter::FlateDecode);
-        raster.width(across?).height(down?).bits_per_component(8);
-        raster.color_space().device_rgb();
+        raster.width(pixels.width.cast_signed()).height(pixels.height.cast_signed());
+        raster.bits_per_component(8).color_space().device_rgb();
     }
     font(&mut pdf, &drawn.letters);
-    Some(pdf.finish())
+    pdf.finish()
 }
 
 /// The font of the texts that are not shown, and what its codes mean.
@@ -93,73 +97,32 @@ fn image(number: usize) -> String {
     format!("I{number}")
 }
 
-impl Drawn {
-    fn group(&mut self, group: &Group) -> Option<()> {
-        let at = group.transform();
-        self.content.save_state();
-        self.content.transform([at.sx, at.ky, at.kx, at.sy, at.tx, at.ty]);
-        for node in group.children() {
-            match node {
-                Node::Group(inner) => self.group(inner)?,
-                Node::Path(path) => self.path(path),
-                Node::Image(image) => self.raster(image)?,
-                Node::Text(text) => {
-                    self.unseen(text);
-                    self.group(text.flattened())?;
-                }
-            }
-        }
-        self.content.restore_state();
-        Some(())
-    }
-
-    fn path(&mut self, path: &usvg::Path) {
-        let even_odd = path.fill().is_some_and(|fill| fill.rule() == FillRule::EvenOdd);
-        let fill = path.fill().map(|fill| rgb(fill.paint()));
-        let stroke = path.stroke();
-        if let Some([r, g, b]) = fill {
-            self.content.set_fill_rgb(r, g, b);
-        }
-        if let Some(stroke) = stroke {
-            self.pen(stroke);
-        }
-        self.outline(path);
-        match (fill, stroke, even_odd) {
-            (Some(_), Some(_), _) if path.paint_order() == PaintOrder::StrokeAndFill => {
-                self.content.stroke();
-                self.outline(path);
-                self.content.fill_nonzero()
-            }
-            (Some(_), Some(_), true) => self.content.fill_even_odd_and_stroke(),
-            (Some(_), Some(_), false) => self.content.fill_nonzero_and_stroke(),
-            (Some(_), None, true) => self.content.fill_even_odd(),
-            (Some(_), None, false) => self.content.fill_nonzero(),
-            (None, Some(_), _) => self.content.stroke(),
-            (None, None, _) => self.content.end_path(),
+impl<'a> Drawn<'a> {
+    fn shape(&mut self, shape: &Shape) {
+        self.looks(shape);
+        self.outline(shape);
+        match (shape.fill, &shape.pen) {
+            (Some(_), Some(_)) => self.content.fill_nonzero_and_stroke(),
+            (Some(_), None) => self.content.fill_nonzero(),
+            (None, Some(_)) => self.content.stroke(),
+            (None, None) => self.content.end_path(),
         };
     }
 
-    fn pen(&mut self, stroke: &Stroke) {
-        let [r, g, b] = rgb(stroke.paint());
-        self.content.set_stroke_rgb(r, g, b).set_line_width(stroke.width().get());
-        self.content.set_line_cap(match stroke.linecap() {
-            LineCap::Butt => LineCapStyle::ButtCap,
-            LineCap::Round => LineCapStyle::RoundCap,
-            LineCap::Square => LineCapStyle::ProjectingSquareCap,
-        });
-        self.content.set_line_join(match stroke.linejoin() {
-            LineJoin::Miter | LineJoin::MiterClip => LineJoinStyle::MiterJoin,
-            LineJoin::Round => LineJoinStyle::RoundJoin,
-            LineJoin::Bevel => LineJoinStyle::BevelJoin,
-        });
-        self.content.set_miter_limit(stroke.miterlimit().get());
-        let dashes = stroke.dasharray().unwrap_or_default();
-        self.content.set_dash_pattern(dashes.iter().copied(), stroke.dashoffset());
+    fn looks(&mut self, shape: &Shape) {
+        if let Some([r, g, b]) = shape.fill.map(rgb) {
+            self.content.set_fill_rgb(r, g, b);
+        }
+        if let Some(Pen { colour, width, dashes }) = &shape.pen {
+            let [r, g, b] = rgb(*colour);
+            self.content.set_stroke_rgb(r, g, b).set_line_width(*width);
+            self.content.set_dash_pattern(dashes.iter().copied(), 0.0);
+        }
     }
 
-    fn outline(&mut self, path: &usvg::Path) {
+    fn outline(&mut self, shape: &Shape) {
         let mut last = [0.0; 2];
-        for segment in path.data().segments() {
+        for segment in shape.path.segments() {
             let to = match segment {
                 PathSegment::MoveTo(p) => {
                     self.content.move_to(p.x, p.y);
@@ -190,20 +153,33 @@ impl Drawn {
         }
     }
 
-    fn raster(&mut self, raster: &usvg::Image) -> Option<()> {
-        let ImageKind::PNG(bytes) = raster.kind() else { return None };
-        let (width, height) = (raster.size().width(), raster.size().height());
-        self.content.save_state().transform([width, 0.0, 0.0, -height, 0.0, height]);
+    fn raster(&mut self, within: Rect, pixels: &'a Pixels) {
+        let to = [within.width(), 0.0, 0.0, -within.height(), within.left(), within.bottom()];
+        self.content.save_state().transform(to);
         self.content.x_object(Name(image(self.rasters.len()).as_bytes())).restore_state();
-        self.rasters.push(Pixmap::decode_png(bytes).ok()?);
-        Some(())
+        self.rasters.push(pixels);
     }
 
-    /// The text within the box of its letters.
-    fn unseen(&mut self, text: &usvg::Text) {
-        let within = text.bounding_box();
-        let letters = text.chunks().iter().flat_map(|chunk| chunk.text().chars());
-        let codes: Vec<u8> = letters.filter_map(|letter| self.code(letter)).collect();
+    /// The outlines of the letters, edges first, and the text unseen within its box.
+    fn text(&mut self, text: &Text) {
+        let turn = text.turn;
+        self.content.save_state();
+        self.content.transform([turn.sx, turn.ky, turn.kx, turn.sy, turn.tx, turn.ty]);
+        self.unseen(text);
+        self.content.restore_state();
+        for letters in &text.outlines {
+            self.looks(letters);
+            if letters.pen.is_some() {
+                self.outline(letters);
+                self.content.stroke();
+            }
+            self.outline(letters);
+            self.content.fill_nonzero();
+        }
+    }
+
+    fn unseen(&mut self, Text { letters, within, .. }: &Text) {
+        let codes: Vec<u8> = letters.chars().filter_map(|letter| self.code(letter)).collect();
         let natural = WIDTH / 1000.0 * within.height() * codes.len() as f32;
         if codes.is_empty() || natural <= 0.0 {
             return;
@@ -226,12 +202,7 @@ impl Drawn {
     }
 }
 
-/// From 0 to 1; the drawings have no other paints than colours.
-fn rgb(paint: &Paint) -> [f32; 3] {
-    match paint {
-        Paint::Color(colour) => {
-            [colour.red, colour.green, colour.blue].map(|x| f32::from(x) / 255.0)
-        }
-        _ => [0.5; 3],
-    }
+/// From 0 to 1.
+fn rgb(colour: [u8; 3]) -> [f32; 3] {
+    colour.map(|x| f32::from(x) / 255.0)
 }

@@ -1,6 +1,7 @@
 //! Where things stand in the picture.
 
 use crate::structure::Structure;
+use crate::structure::members::NOTHING;
 use crate::structure::view::View;
 
 /// Room at the sides, px: for arrows and their labels.
@@ -41,8 +42,12 @@ pub(crate) struct Scene {
 impl Scene {
     pub(crate) fn new(structure: &Structure<'_>) -> Self {
         let points: Vec<[f64; 3]> = structure.joints.iter().map(|joint| joint.at_m).collect();
+        let axial = structure.members.iter().filter_map(|member| member.axial_n);
+        // What a solver leaves of a force that is zero is not drawn.
+        let nothing = NOTHING * axial.map(f64::abs).fold(0.0, f64::max);
+        let forces = structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]);
         let forces: Vec<[f64; 3]> =
-            structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]).collect();
+            forces.filter(|[x, y, z]| x.hypot(*y).hypot(*z) > nothing).collect();
         let view = View::from(structure.seen, &points, &forces);
         let floor = structure.floor_m.map_or_else(Vec::new, |height| corners(&points, height));
         let seen: Vec<[f64; 2]> =

@@ -224,6 +224,17 @@ fn the_key_names_what_is_drawn() {
     assert!(svg.contains("N (arrows; none below 3 N)"), "{svg}");
 }
 
+/// A frame under prestress alone asks nothing of its supports: what rounding leaves of their forces is no arrow.
+#[test]
+fn what_rounding_leaves_of_a_force_is_not_drawn() {
+    let (mut joints, members) = tripod();
+    for joint in &mut joints {
+        (joint.load_n, joint.reaction_n) = ([0.0; 3], joint.reaction_n.map(|x| 1e-14 * x));
+    }
+    let svg = draw(&joints, &members);
+    assert!(!svg.contains(">reaction<") && !svg.contains("N (arrows"), "{svg}");
+}
+
 /// No label covers another, the tip of an arrow or a support.
 #[test]
 fn labels_are_apart_from_each_other_and_from_arrows() {
