@@ -115,7 +115,7 @@ fn is_fold(problem: &Problem, open: &Undecided) -> bool {
 /// `INTEGERS=10` takes those of up to ten bars.
 #[test]
 fn chains_of_integers_with_bars_without_mass() {
-    let most: usize = std::env::var("INTEGERS").map_or(5, |n| n.parse().unwrap());
+    let most: usize = std::env::var("INTEGERS").map_or(4, |n| n.parse().unwrap());
     let (mut decided, mut all, mut slack) = (0, 0, 0);
     for bars in 3..=most {
         let mut random = ChaCha8Rng::seed_from_u64(100 + bars as u64);

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::run::{command, funicular, good, refused, says, stderr, stdout};
+use crate::run::{funicular, good, program, refused, says, stderr, stdout};
 
 #[test]
 fn help_version_and_completions() {
@@ -49,7 +49,7 @@ fn first_guesses_find_their_way() {
 fn a_closed_standard_error_changes_no_exit_code() {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let status = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"))
+    let status = std::process::Command::new(crate::run::PROGRAM)
         .args(["solve", "there-is-no-such-file.toml"])
         .stderr(writer)
         .status()
@@ -76,7 +76,7 @@ fn the_nearest_case_is_named() {
 
 #[test]
 fn threads_are_capped_wherever_they_are_asked_for() {
-    let mut many = command(".", &["solve", "--case", "two-bars"]);
+    let mut many = program(".", &["solve", "--case", "two-bars"]);
     let output = many.env("RAYON_NUM_THREADS", "5000").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::run::{column, command, stdout, words};
+use crate::run::{column, fed, program, stdout, words};
 use funicular::prelude::*;
 use serde_json::Value;
 
@@ -38,7 +38,7 @@ fn height_m(load_n: f64) -> f64 {
 
 /// What the program says, with the words of its errors in one line.
 fn run(folder: &Path, arguments: &[&str], input: &str) -> (Option<i32>, String, String) {
-    let output = command(folder, arguments).write_stdin(input).output().unwrap();
+    let output = fed(program(folder, arguments), input);
     let error = words(&output).replace(" \u{2502}", "");
     (output.status.code(), stdout(&output), error)
 }

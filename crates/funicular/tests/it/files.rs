@@ -8,8 +8,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::run::{Running, folder, limited, names, ran, wait_until, words};
-use assert_cmd::cargo::cargo_bin;
+use crate::run::{PROGRAM, Running, fed, folder, limited, names, program, ran, wait_until, words};
 
 const SYSTEM: &str = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\
                       [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
@@ -24,7 +23,7 @@ fn standard_output_has_another_name() {
     let folder = folder("stdout");
     fs::write(folder.join("chain.toml"), SYSTEM).unwrap();
     let out = fs::File::create(folder.join("out")).unwrap();
-    let status = Command::new(cargo_bin("funicular"))
+    let status = Command::new(PROGRAM)
         .args(["solve", "chain.toml", "--csv", "/dev/stdout"])
         .current_dir(&folder)
         .stdout(out)
@@ -149,9 +148,8 @@ fn bars_come_from_standard_input() {
     let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n";
     let text = format!("bars_file = \"/dev/stdin\"\n{anchors}");
     fs::write(folder.join("chain.toml"), text).unwrap();
-    let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
-    command.current_dir(&folder).write_stdin("length_m,mass_kg\n1,1\n1,2\n1,1\n");
-    let output = command.args(["solve", "chain.toml"]).output().unwrap();
+    let solve = program(&folder, &["solve", "chain.toml"]);
+    let output = fed(solve, "length_m,mass_kg\n1,1\n1,2\n1,1\n");
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
 }
 
@@ -161,7 +159,7 @@ fn bars_come_from_standard_input() {
 fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Running {
     let child = Command::new("env")
         .args(["--default-signal", signals])
-        .arg(cargo_bin("funicular"))
+        .arg(PROGRAM)
         .args(arguments)
         .current_dir(folder)
         .stdout(Stdio::null())
@@ -219,12 +217,12 @@ fn a_hangup_that_is_ignored_is_ignored() {
 #[cfg(target_os = "linux")]
 fn a_limit_of_memory_is_kept() {
     /// What the program is, its threads and their stacks, kB.
-    const PROGRAM: u64 = 200_000;
+    const ITSELF: u64 = 200_000;
     let folder = folder("memory");
     let limited = |limit: &str, kilobytes: u64, file: &str| {
         let script = format!("ulimit -v {kilobytes}; exec \"$@\"");
         let mut command = Command::new("sh");
-        command.args(["-c", &script, "sh"]).arg(cargo_bin("funicular"));
+        command.args(["-c", &script, "sh"]).arg(PROGRAM);
         command.args(["solve", file, "--summary", "--max-memory", limit]);
         // Each thread that has to wait for memory reserves addresses of its own, 64 MB at a time, which are no
         // memory, and more of them on a busy machine.
@@ -233,25 +231,25 @@ fn a_limit_of_memory_is_kept() {
     };
     let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
     fs::write(folder.join("chain.toml"), chain(200_000)).unwrap();
-    let output = limited("80MB", PROGRAM + 80_000, "chain.toml");
+    let output = limited("80MB", ITSELF + 80_000, "chain.toml");
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     fs::write(folder.join("longer.toml"), chain(200_001)).unwrap();
-    let output = limited("80MB", PROGRAM, "longer.toml");
+    let output = limited("80MB", ITSELF, "longer.toml");
     assert_eq!(output.status.code(), Some(2), "{}", words(&output));
     assert!(words(&output).contains("200000"), "{}", words(&output));
     fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();
-    assert_eq!(limited("1GB", PROGRAM, "most.toml").status.code(), Some(2));
+    assert_eq!(limited("1GB", ITSELF, "most.toml").status.code(), Some(2));
     // Lines of nothing, empty arrays, comments.
     for (name, text) in [("lines", "\n"), ("arrays", "[],"), ("comments", "#\n")] {
         let file = format!("{name}.toml");
         let long = text.repeat(2_000_000 / text.len());
         let long = if name == "arrays" { format!("a = [{long}]") } else { long };
         fs::write(folder.join(&file), &long).unwrap();
-        let output = limited("200MB", PROGRAM + 200_000, &file);
+        let output = limited("200MB", ITSELF + 200_000, &file);
         assert_eq!(output.status.code(), Some(2), "{name}: {}", words(&output));
         assert!(!words(&output).contains("longer than"), "{name}: {}", words(&output));
         fs::write(folder.join(&file), long.repeat(2)).unwrap();
-        let output = limited("200MB", PROGRAM, &file);
+        let output = limited("200MB", ITSELF, &file);
         assert_eq!(output.status.code(), Some(2), "{name}: {}", words(&output));
         assert!(words(&output).contains("2500000"), "{name}: {}", words(&output));
     }
@@ -266,7 +264,7 @@ fn a_full_disk_is_undecided() {
     assert_eq!(output.status.code(), Some(3), "{}", words(&output));
     assert!(words(&output).contains("cannot write /dev/full"), "{}", words(&output));
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let mut command = Command::new(cargo_bin("funicular"));
+    let mut command = Command::new(PROGRAM);
     let output = command.args(["solve", "--case", "two-bars"]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", words(&output));
 }

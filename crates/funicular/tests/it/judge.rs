@@ -6,7 +6,7 @@ use formats::system::parse_moordyn;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-use crate::run::{command, refused, run, says};
+use crate::run::{fed, program, refused, run, says};
 
 /// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
 /// it hangs 4 m deep, and each cable pulls with 5/4 of 10 N.
@@ -34,7 +34,7 @@ fn write(folder: &Path, name: &str, text: &str) {
 #[test]
 fn what_our_own_commands_print_is_confirmed() {
     let folder = folder("judge-own");
-    let solved = command(
+    let solved = program(
         &folder,
         &["solve", "lamp.toml", "--json", "--csv", "j.csv", "--bars-csv", "b.csv"],
     );
@@ -49,7 +49,7 @@ fn what_our_own_commands_print_is_confirmed() {
     let chain = ["--case", "three-equal-bars"];
     for by in ["solve", "census"] {
         let printed =
-            command(&folder, &[&[by], &chain[..], &["--json"]].concat()).output().unwrap();
+            program(&folder, &[&[by], &chain[..], &["--json"]].concat()).output().unwrap();
         write(&folder, "chain.json", &String::from_utf8(printed.stdout).unwrap());
         let (code, out, _) =
             judge(&folder, &[&chain[..], &["--answer", "chain.json", "--json"]].concat());
@@ -166,9 +166,8 @@ fn bad_input_is_told_and_ends_with_two() {
 #[test]
 fn standard_input_may_be_the_answer_or_the_system() {
     let folder = folder("judge-stdin");
-    let run = |arguments: &[&str], input: &str| {
-        command(&folder, arguments).write_stdin(input).output().unwrap().status.code()
-    };
+    let run =
+        |arguments: &[&str], input: &str| fed(program(&folder, arguments), input).status.code();
     assert_eq!(run(&["judge", "lamp.toml", "--answer", "-"], RIGHT), Some(0));
     assert_eq!(run(&["judge", "-", "--answer", "right.csv"], LAMP), Some(0));
     assert_eq!(run(&["judge", "lamp.toml", "--answer", "-"], ""), Some(2));

@@ -8,11 +8,11 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
-use crate::run::{Running, column, command, names, program, wait_until};
+use crate::run::{Running, column, names, program, wait_until};
 
 /// The outcome of the program in a folder, on so many threads of the pool.
 fn run(folder: &Path, threads: usize, arguments: &[&str]) -> std::process::Output {
-    let mut command = command(folder, arguments);
+    let mut command = program(folder, arguments);
     command.env("RAYON_NUM_THREADS", threads.to_string()).output().unwrap()
 }
 
@@ -303,7 +303,7 @@ fn of_two_stable_rests_each_release_is_given_its_own() {
 fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let release = ["simulate", "--case", "two-bars", "--seeds", "4000", "--damping", "3"];
-    let more = ["--time", "10", "--step", "0.02", "--out"];
+    let more = ["--time", "2", "--step", "0.02", "--out"];
     let whole = [&release[..], &more[..], &["whole"]].concat();
     assert_eq!(run(folder.path(), 2, &whole).status.code(), Some(0));
     let part = [&release[..], &more[..], &["part", "--threads", "1"]].concat();

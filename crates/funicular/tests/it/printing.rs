@@ -2,13 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use crate::run::{command, funicular, ran, says, stderr, stdout};
+use crate::run::{funicular, program, ran, says, stderr, stdout};
 
 /// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
 const WEIGHT_N: f64 = 2.0 * 9.80665;
 
 fn solve_in(locale: &str, arguments: &[&str]) -> String {
-    let mut command = command(".", &[&["solve", "--case", "lamp"], arguments].concat());
+    let mut command = program(".", &[&["solve", "--case", "lamp"], arguments].concat());
     let output = command.env("LC_ALL", locale).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     stdout(&output)
@@ -141,7 +141,7 @@ fn both_solvers_count_lengths_alike_on_a_floor() {
 /// `1'` is one word, also where a table is wider than the terminal; and what stands above it is not.
 #[test]
 fn names_of_mirror_images_are_not_broken_over_lines() {
-    let mut command = command(".", &["census", "--case", "three-equal-bars"]);
+    let mut command = program(".", &["census", "--case", "three-equal-bars"]);
     let text = stdout(&command.env("LC_ALL", "C.UTF-8").output().unwrap());
     for label in ["1'", "2'"] {
         let begins = |line: &&str| line.split_whitespace().next() == Some(label);
@@ -161,7 +161,7 @@ fn names_of_mirror_images_are_not_broken_over_lines() {
 fn all_that_is_printed_fits_80_columns() {
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| {
-        let mut command = command(folder.path(), arguments);
+        let mut command = program(folder.path(), arguments);
         stdout(&command.env("LC_ALL", "C.UTF-8").output().unwrap())
     };
     run(&["new", "--net", "5x5", "net.toml"]);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Output;
 use std::sync::LazyLock;
 
-use crate::run::{command, folder, funicular, good, json, says, stderr, stdout, words};
+use crate::run::{fed, folder, funicular, good, json, program, says, stderr, stdout, words};
 use serde_json::Value;
 
 fn file(folder: &str, text: &str) -> String {
@@ -256,7 +256,7 @@ fn bad_input_ends_with_code_2_and_shows_the_line() {
 fn a_new_file_can_be_solved_as_it_is_and_from_standard_input() {
     let new = funicular(&["new"]);
     assert_eq!(new.status.code(), Some(0));
-    let output = command(".", &["solve", "-"]).write_stdin(new.stdout).output().unwrap();
+    let output = fed(program(".", &["solve", "-"]), new.stdout);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     // The weight between the anchors, 3.4 kg, and the forces of README.md.

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use assert_cmd::Command;
+use crate::run::ran;
 
 /// Every option of every command that names a file or folder of results; `FILE` is the input.
 const COMMANDS: [&[&str]; 18] = [
@@ -91,11 +91,10 @@ fn what_is_refused_replaces_nothing() {
     }
     let mut before = BTreeMap::new();
     all(folder.path(), &mut before);
-    let run = |arguments: &[&str], input: &str| {
-        let named =
-            |word: &&str| if *word == "FILE" { input.to_owned() } else { (*word).to_owned() };
-        let mut command = Command::cargo_bin("funicular").unwrap();
-        command.current_dir(folder.path()).args(arguments.iter().map(named)).output().unwrap()
+    let run = |arguments: &[&'static str], input: &'static str| {
+        let mut arguments = arguments.to_vec();
+        arguments.iter_mut().filter(|word| **word == "FILE").for_each(|word| *word = input);
+        ran(folder.path(), &arguments)
     };
     for arguments in COMMANDS {
         for (input, _) in INPUTS {

@@ -3,34 +3,54 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::collections::BTreeMap;
+use std::io::{Read, Write as _};
 use std::panic::Location;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Output, Stdio};
+use std::process::{Child, Command, ExitStatus, Output, Stdio};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use assert_cmd::Command;
-use assert_cmd::cargo::cargo_bin;
 use serde_json::Value;
+
+/// Where the program is.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_funicular");
 
 /// Patience of a loaded machine.
 const LONG: Duration = Duration::from_secs(300);
 
 /// The program in a folder, to be started.
-pub fn program(folder: impl AsRef<Path>, arguments: &[&str]) -> std::process::Command {
-    let mut program = std::process::Command::new(cargo_bin("funicular"));
+pub fn program(folder: impl AsRef<Path>, arguments: &[&str]) -> Command {
+    let mut program = Command::new(PROGRAM);
     program.current_dir(folder).env("NO_COLOR", "1").args(arguments);
     program
 }
 
-/// The same, to be waited for.
-pub fn command(folder: impl AsRef<Path>, arguments: &[&str]) -> Command {
-    Command::from_std(program(folder, arguments))
+/// What it leaves behind when it is given an input, within some patience.
+pub fn fed(mut program: Command, input: impl AsRef<[u8]> + Send) -> Output {
+    program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    thread::scope(|scope| {
+        let mut running = Running(program.spawn().unwrap());
+        let Child { stdin, stdout, stderr, .. } = &mut running.0;
+        let (mut stdin, mut out, mut err) =
+            (stdin.take().unwrap(), stdout.take().unwrap(), stderr.take().unwrap());
+        // A program that refuses does not read all.
+        scope.spawn(move || drop(stdin.write_all(input.as_ref())));
+        let [out, err] = [scope.spawn(move || read(&mut out)), scope.spawn(move || read(&mut err))];
+        let status = running.status();
+        Output { status, stdout: out.join().unwrap(), stderr: err.join().unwrap() }
+    })
+}
+
+fn read(from: &mut dyn Read) -> Vec<u8> {
+    let mut all = vec![];
+    from.read_to_end(&mut all).unwrap();
+    all
 }
 
 /// What it leaves behind under a limit that a shell sets.
 pub fn limited(folder: &Path, limit: &str, arguments: &[&str]) -> Output {
-    let mut shell = std::process::Command::new("sh");
-    shell.args(["-c", &format!("{limit}; exec \"$@\""), "sh"]).arg(cargo_bin("funicular"));
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("{limit}; exec \"$@\""), "sh", PROGRAM]);
     shell.args(arguments).current_dir(folder).output().unwrap()
 }
 
@@ -40,17 +60,21 @@ pub struct Running(pub Child);
 impl Running {
     /// The exit code, within some patience.
     pub fn code(&mut self) -> Option<i32> {
+        self.status().code()
+    }
+
+    fn status(&mut self) -> ExitStatus {
         let mut status = None;
         wait_until("it does not end", || {
             status = self.0.try_wait().unwrap();
             status.is_some()
         });
-        status.unwrap().code()
+        status.unwrap()
     }
 
     pub fn signal(&self, name: &str) {
         let id = self.0.id().to_string();
-        let kill = std::process::Command::new("kill").args(["-s", name, &id]).status();
+        let kill = Command::new("kill").args(["-s", name, &id]).status();
         assert!(kill.unwrap().success());
     }
 }
@@ -80,7 +104,7 @@ pub fn peak(folder: impl AsRef<Path>, arguments: &[&str], printed: u64) -> u64 {
     let mut program = program(folder, arguments);
     let piped = program.stdout(Stdio::piped()).stderr(Stdio::null());
     let mut running = Running(piped.spawn().unwrap());
-    let mut out = std::io::Read::take(running.0.stdout.take().unwrap(), printed);
+    let mut out = Read::take(running.0.stdout.take().unwrap(), printed);
     assert_eq!(std::io::copy(&mut out, &mut std::io::sink()).unwrap(), printed);
     let status = std::fs::read_to_string(format!("/proc/{}/status", running.0.id())).unwrap();
     let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
@@ -92,13 +116,13 @@ pub fn wait_until(otherwise: &str, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
     while !is_so() {
         assert!(start.elapsed() < LONG, "{otherwise}");
-        std::thread::sleep(Duration::from_millis(1));
+        thread::sleep(Duration::from_millis(1));
     }
 }
 
 /// What it leaves behind.
 pub fn ran(folder: impl AsRef<Path>, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().unwrap()
+    program(folder, arguments).output().unwrap()
 }
 
 /// The same where no file is named.

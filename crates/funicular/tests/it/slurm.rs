@@ -56,7 +56,7 @@ fn script(folder: &Path, name: &str) -> Command {
         .current_dir(folder)
         .env("PATH", format!("{}:{path}", folder.join("bin").display()))
         .env("JOBS", folder.join("jobs"))
-        .env("FUNICULAR", assert_cmd::cargo::cargo_bin!("funicular"))
+        .env("FUNICULAR", crate::run::PROGRAM)
         .env("SBATCH_OPTIONS", "--partition=short");
     command
 }

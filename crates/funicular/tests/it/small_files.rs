@@ -1,21 +1,17 @@
 //! Small files that would take the machine, wait for ever, or show what is not theirs.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use std::time::Duration;
 
-use crate::run::{command, folder, words};
+use crate::run::{fed, folder, program, words};
 
-/// Patience of a loaded machine; what is refused here took minutes, or memory without end.
-const PATIENCE: Duration = Duration::from_secs(100);
-
+/// What is refused here took minutes, or memory without end.
 fn run(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments).timeout(PATIENCE).output().unwrap()
+    fed(program(folder, arguments), "")
 }
 
 #[track_caller]
@@ -299,7 +295,7 @@ fn names_stay_names_in_tables_pictures_and_pages() {
 fn a_parameter_is_not_echoed_raw() {
     let folder = folder("vary");
     let study = ["study", "--case", "lamp", "--vary", "joints.lamp.mass_kg=1\u{1b}[31m,2"];
-    let mut command = command(&folder, &study);
+    let mut command = program(&folder, &study);
     let output = command.env_remove("NO_COLOR").env("FORCE_COLOR", "1").output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(text.contains("1?[31m") && !text.contains("1\u{1b}[31m"), "{text:?}");

@@ -42,7 +42,7 @@ const LONG: [&str; 8] = [
     "--case",
     "three-equal-bars",
     "--seeds",
-    "500_000",
+    "200_000",
     "--solver",
     "lagrange",
     "--angles",
@@ -252,7 +252,7 @@ fn an_interrupted_sweep_says_how_to_go_on() {
         let mut pipe = running.0.stderr.take().unwrap();
         std::io::Read::read_to_string(&mut pipe, &mut text).unwrap();
         assert_eq!(running.code(), Some(130), "{text}");
-        assert!(text.contains("--resume") && text.contains(" of 500000 seeds"), "{text}");
+        assert!(text.contains("--resume") && text.contains(" of 200000 seeds"), "{text}");
         assert!(files(&cut).keys().all(|name| !name.starts_with(".part")));
         good(".", &long(&cut, &["--resume"]));
     }

@@ -100,7 +100,7 @@ fn command_lines() {
             if text.is_empty() {
                 return;
             }
-            let output = Command::new(assert_cmd::cargo::cargo_bin!("funicular"))
+            let output = Command::new(crate::run::PROGRAM)
                 .args(text.split('\n'))
                 .current_dir(&folder)
                 .env("NO_COLOR", "1")

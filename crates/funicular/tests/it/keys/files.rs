@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::output::Output;
 use super::solve::{LAMP, LEVEL_V, refusals_of_a_fall, system_of_level_v};
 
-use crate::run::good;
+use crate::run::{good, ran};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -56,9 +56,7 @@ fn lines_of_a_batch() {
     let falls = r#"{"gravity_m_s2":10,"joints":{"A":{"at_m":[0,0,0]},"P":{"mass_kg":1}},"bars":[{"from":"A","to":"P","length_m":1,"mass_kg":0,"kind":"strut"}]}"#;
     let wrong = v.replace("mass_kg", "masskg");
     std::fs::write(folder.path().join("three.jsonl"), format!("{v}\n{wrong}\n{falls}\n")).unwrap();
-    let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder.path()).args(["solve", "--batch", "three.jsonl"]);
-    let result = command.output().unwrap();
+    let result = ran(folder.path(), &["solve", "--batch", "three.jsonl"]);
     assert_eq!(result.status.code(), Some(2));
     let text = String::from_utf8(result.stdout).unwrap();
     let (first, rest) = text.split_once('\n').unwrap();
@@ -100,10 +98,8 @@ fn several_files() {
     for (name, text) in [("v.toml", LEVEL_V), ("falls.toml", falls), ("far.toml", &far)] {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
-    let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
-    command.current_dir(folder.path());
-    let result = command.args(["solve", "v.toml", "falls.toml", "far.toml", "--json"]).output();
-    let text = String::from_utf8(result.unwrap().stdout).unwrap();
+    let result = ran(folder.path(), &["solve", "v.toml", "falls.toml", "far.toml", "--json"]);
+    let text = String::from_utf8(result.stdout).unwrap();
     let mut objects = serde_json::Deserializer::from_str(&text).into_iter::<Value>();
     let first = objects.next().unwrap().unwrap().to_string();
     answered(&first, "file", &json!("v.toml"), "several_files");
