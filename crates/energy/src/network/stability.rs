@@ -46,13 +46,7 @@ pub(super) fn second_order(
     most: usize,
 ) -> SecondOrder {
     let mut second = if frame.freedom <= most {
-        let dense = match limit {
-            Some(limit) => {
-                let shape = stressed(shape, &limit.stiffening);
-                Dense::with(frame, &shape, |e| limit.taut[e], limit.rank)
-            }
-            None => Dense::new(frame, shape),
-        };
+        let dense = Dense::read(frame, shape, limit);
         let Count { index, neutral, condition, .. } = dense.count();
         SecondOrder {
             index,
@@ -75,7 +69,7 @@ pub(super) fn second_order(
             condition: 1.0,
         }
     };
-    second.index_in_plane = index_in_plane(frame, shape, most);
+    second.index_in_plane = index_in_plane(frame, shape, limit, most);
     second
 }
 
@@ -85,7 +79,12 @@ fn resists(frame: &Frame, shape: &Shape, rod: usize) -> bool {
 }
 
 /// Index among the motions in the vertical plane of the system, if there is one.
-fn index_in_plane(frame: &Frame, shape: &Shape, most: usize) -> Option<usize> {
+fn index_in_plane(
+    frame: &Frame,
+    shape: &Shape,
+    limit: Option<&Limit>,
+    most: usize,
+) -> Option<usize> {
     let spots = plane_spots(frame, shape)?;
     let mut freedom = 0;
     let spots: Vec<Spot> = spots
@@ -98,7 +97,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape, most: usize) -> Option<usize> {
         .collect();
     let flat = Frame { spots, freedom, ..frame.clone() };
     if freedom <= most {
-        return Some(Dense::new(&flat, shape).count().index);
+        return Some(Dense::read(&flat, shape, limit).count().index);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
     Some(below(&flat, shape, &mut factor, ZERO, false))
@@ -235,6 +234,17 @@ pub(super) struct Dense {
 }
 
 impl Dense {
+    /// As a shape that is overdetermined is read, if it is one.
+    fn read(frame: &Frame, shape: &Shape, limit: Option<&Limit>) -> Self {
+        match limit {
+            Some(limit) => {
+                let shape = stressed(shape, &limit.stiffening);
+                Self::with(frame, &shape, |e| limit.taut[e], limit.rank)
+            }
+            None => Self::new(frame, shape),
+        }
+    }
+
     pub(super) fn new(frame: &Frame, shape: &Shape) -> Self {
         Self::with(frame, shape, |e| resists(frame, shape, e), ZERO)
     }

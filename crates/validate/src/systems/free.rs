@@ -5,12 +5,12 @@
 //! member bears none, and at a joint without load neither do members in independent directions.
 //! What room the lengths leave follows from their derivative: with independent rows, fewer than
 //! there are coordinates, the places are a manifold (implicit function theorem), and the joints
-//! that its tangents move are free. So are joints that lie on the floor with members that bear
-//! nothing.
+//! that its tangents move are free. So are joints that lie on the floor with members that lie there too and bear nothing along
+//! themselves, where the lengths leave them room to slide.
 
 use matrices::dense::Kernels;
 use model::Vector;
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 
 use super::certificate::{along_supports, joint_loads, largest_force_n, total_load_n};
 use super::family::motions;
@@ -40,25 +40,24 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
         return vec![false; joints];
     }
     let unloaded = unloaded(system, answers);
-    let mut free = vec![false; joints];
+    let members_of = members_of(system);
+    let mut free = lie_loose(system, answers, &members_of);
     if unloaded.contains(&true) {
-        let members_of = members_of(system);
         let bears = bearing(system, answers, &members_of, &unloaded);
         let idle: Vec<bool> = (0..joints)
             .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
             .collect();
         for part in parts(system, &members_of, &idle) {
-            let room = answers.iter().map(|answer| with_room(system, answer, &members_of, &part));
-            let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
-            for (joint, open) in part.iter().zip(all.unwrap_or_default()) {
-                free[*joint] = open;
+            let room = with_room(system, answers, &members_of, &part, motions);
+            for (joint, open) in part.iter().zip(room) {
+                free[*joint] |= open;
             }
         }
     }
     for joint in in_row(system, answers) {
         free[joint] = true;
     }
-    free.iter().zip(lie_loose(system, answers)).map(|(free, loose)| *free || loose).collect()
+    free
 }
 
 /// The free joints of a row between two anchors: however long it is, the lengths tell.
@@ -81,32 +80,48 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
     }
 }
 
-/// Which joints nothing but the floor acts on in every answer: it lets them slide.
-fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+/// Which joints nothing but the floor acts on in every answer, and can slide on it.
+fn lie_loose(
+    system: &System,
+    answers: &[SystemEquilibrium],
+    members_of: &[Vec<usize>],
+) -> Vec<bool> {
     /// A force below this part of the largest is none, or of all that acts where that is less: far
     /// above the error of forces.
     const NONE: f64 = 1e-8;
-    let mut loose: Vec<bool> = system
-        .joints()
-        .iter()
-        .enumerate()
-        .map(|(k, joint)| {
-            answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
-                && !sliding(&joint.support).is_empty()
+    let joints = system.joints();
+    let slides = |joint: usize| !sliding(&joints[joint].support).is_empty();
+    let mut loose: Vec<bool> = (0..joints.len())
+        .map(|joint| {
+            slides(joint) && answers.iter().all(|answer| push_n(system, answer, joint) > 0.0)
         })
         .collect();
-    if !loose.contains(&true) {
-        return loose;
-    }
+    let Some(floor_m) = system.floor_m().filter(|_| loose.contains(&true)) else {
+        return vec![false; joints.len()];
+    };
     let acts_n = total_load_n(system);
     let acts_n = if acts_n > 0.0 { acts_n } else { f64::INFINITY };
-    let least = |answer| NONE * largest_force_n(answer).min(acts_n);
-    let least: Vec<f64> = answers.iter().map(least).collect();
-    for (k, member) in system.members().iter().enumerate() {
-        if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
-            for joint in member.path() {
-                loose[joint] = false;
+    for answer in answers {
+        let least_n = NONE * largest_force_n(answer).min(acts_n);
+        for (member, axial_n) in system.members().iter().zip(&answer.axial_n) {
+            // A member that rises from the floor bears the weight of what is on it, or is as far away as it is long.
+            let above = |joint: usize| answer.joints_m[joint][2] - floor_m;
+            let lies = || member.path().all(|joint| above(joint) <= CLEAR * member.body.length_m());
+            if axial_n.abs() > least_n || !(is_slack(member, answer) || lies()) {
+                for joint in member.path() {
+                    loose[joint] = false;
+                }
             }
+        }
+    }
+    for part in parts(system, members_of, &loose) {
+        // Of the long rest of a mooring line all is taken to slide: there is more room than bars.
+        if part.len() > TOGETHER {
+            continue;
+        }
+        let room = with_room(system, answers, members_of, &part, sliding);
+        for (joint, open) in part.iter().zip(room) {
+            loose[*joint] = open;
         }
     }
     loose
@@ -226,12 +241,28 @@ fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec
     parts
 }
 
-/// Which of some joints can move, all others held, while no taut member changes its length.
+/// The directions in which a support lets its joint move.
+type Motions = fn(&Support) -> Vec<Vector>;
+
+/// Which of some joints can move in every answer, all others held, while no taut member changes its length.
 fn with_room(
+    system: &System,
+    answers: &[SystemEquilibrium],
+    members_of: &[Vec<usize>],
+    part: &[usize],
+    motions: Motions,
+) -> Vec<bool> {
+    let room = answers.iter().map(|answer| room(system, answer, members_of, part, motions));
+    let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
+    all.unwrap_or_default()
+}
+
+fn room(
     system: &System,
     answer: &SystemEquilibrium,
     members_of: &[Vec<usize>],
     part: &[usize],
+    motions: Motions,
 ) -> Vec<bool> {
     let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
     taut.retain(|k| !is_slack(&system.members()[*k], answer));
