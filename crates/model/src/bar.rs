@@ -196,14 +196,13 @@ impl Bar {
         self.is_given[1].then_some(self.inertia_kg_m2)
     }
 
-    /// The same body unstretched, where it is longer by the factor `stretch`: every point stays at
-    /// the same part of the length, so that the moments across, `∫ (s − r)² dm`, go with its
-    /// square. The moment about the bar stays.
-    pub(crate) fn unstretched(&self, stretch: f64) -> Result<Self, BarError> {
-        let length_m = self.length_m / stretch;
+    /// The same body longer or shorter, by the same factor for all lengths: every point stays at the same part of the length, so
+    /// that the moments across, `∫ (s − r)² dm`, go with its square. The moment about the bar stays.
+    pub(crate) fn scaled(&self, scale: impl Fn(f64) -> f64) -> Result<Self, BarError> {
+        let length_m = scale(self.length_m);
         // The last place of it may be past the end by rounding.
-        let centre_m = self.given_centre_m().map(|centre_m| (centre_m / stretch).min(length_m));
-        let across = |moment: f64| moment / stretch / stretch;
+        let centre_m = self.given_centre_m().map(|centre_m| scale(centre_m).min(length_m));
+        let across = |moment: f64| scale(scale(moment));
         let inertia = self.given_inertia_kg_m2().map(|[x, y, z]| [x, across(y), across(z)]);
         Self::given(length_m, self.mass_kg, centre_m, inertia)
     }

@@ -40,7 +40,11 @@ fn solved(text: &str) -> serde_json::Value {
 fn every_key_is_the_one_that_it_stands_for() {
     let area_m2 = 0.25 * PI * 0.012 * 0.012;
     let (mass_kg, stiffness_n) = (7850.0 * area_m2 * 0.9, 1.1e11 * area_m2);
-    let long_m = 0.9 * (1.0 + 1.2e-5 * -40.0);
+    let expansion = 1.0 + 1.2e-5 * -40.0;
+    let long_m = 0.9 * expansion;
+    let square = |j: f64| expansion * (expansion * j);
+    // Places along a bar stay at the same part of its length, at its end too.
+    let cold = "length_m = 0.9\nmass_kg = 1\ntemperature_k = -40\nexpansion_per_k = 1.2e-5\n";
     let pair = [
         (
             "length_m = 0.9\nmass_kg_per_m = 0.75",
@@ -53,6 +57,15 @@ fn every_key_is_the_one_that_it_stands_for() {
         (
             "length_m = 0.9\nmass_kg_per_m = 1\ntemperature_k = -40\nexpansion_per_k = 1.2e-5",
             format!("length_m = {long_m}\nmass_kg = 0.9"),
+        ),
+        (
+            &format!("{cold}centre_m = 0.9\ninertia_kg_m2 = [0.01, 0.02, 0.03]"),
+            format!(
+                "length_m = {long_m}\nmass_kg = 1\ncentre_m = {long_m}\n\
+                 inertia_kg_m2 = [0.01, {}, {}]",
+                square(0.02),
+                square(0.03)
+            ),
         ),
     ];
     for (keys, by_hand) in &pair {
@@ -71,6 +84,13 @@ fn every_key_is_the_one_that_it_stands_for() {
                 "length_m = 0.9\nmass_kg = 0.5\nforces = [{{ force_n = [0, {}, {}] }}]",
                 3.0 * 0.9,
                 -2.0 * 0.9
+            ),
+        ),
+        (
+            &format!("{cold}forces = [{{ force_n = [0, 3, -2], at_m = 0.9 }}]"),
+            format!(
+                "length_m = {long_m}\nmass_kg = 1\n\
+                 forces = [{{ force_n = [0, 3, -2], at_m = {long_m} }}]"
             ),
         ),
     ];

@@ -102,7 +102,7 @@ impl Member {
         let stretch = member.stretch(stiffness_n, prestress_n)?;
         let given =
             Prestress { force_n: prestress_n, body: member.body, loads: member.loads.clone() };
-        member.body = given.body.unstretched(stretch)?;
+        member.body = given.body.scaled(|x| x / stretch)?;
         let (length_m, stressed_m) = (member.body.length_m(), given.body.length_m());
         for PointLoad { at_m, .. } in &mut member.loads {
             // The end stays the end; what is past it stays past it, and is refused with the system.

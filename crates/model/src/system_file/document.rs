@@ -245,15 +245,15 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
     Ok((bars, Origin::Tables(places)))
 }
 
-/// The body of one bar: length, mass, centre, moments; of the length that the file gives, before any change of
-/// temperature.
+/// The body of one bar: length, mass, centre, moments; of the length that the file gives, and then after a change of temperature.
 pub(super) fn bar(table: &Table<'_>, given_m: f64) -> Result<Bar, SystemFileError> {
     let (mass_kg, mass_key) = material::mass_kg(table, given_m)?;
-    let length_m = material::length_m(table, given_m)?;
+    let expansion = material::expansion(table)?;
     let centre_m = table.number("centre_m")?;
     let inertia = table.get("inertia_kg_m2");
     let inertia = inertia.map(|value| table.vector("inertia_kg_m2", value)).transpose()?;
-    Bar::given(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+    let given = Bar::given(given_m, mass_kg, centre_m, inertia);
+    given.and_then(|given| given.scaled(|x| expansion * x)).map_err(|error| {
         let kind = Kind::Bar(error);
         match error {
             BarError::Length { .. } => table.error(kind, "length_m"),

@@ -14,12 +14,10 @@ const WANTED_MASS: &str =
     "a mass in kilograms, or mass_kg_per_m, or density_kg_m3 with diameter_m, in its place";
 const WANTED_SIZE: &str = "positive and finite";
 
-/// The length after a change of temperature: `length_m (1 + expansion_per_k temperature_k)`.
-pub(super) fn length_m(table: &Table<'_>, length_m: f64) -> Result<f64, SystemFileError> {
-    match both(table, ["temperature_k", "expansion_per_k"])? {
-        Some([change_k, expansion_per_k]) => Ok(length_m * (1.0 + expansion_per_k * change_k)),
-        None => Ok(length_m),
-    }
+/// How much longer a bar is after a change of temperature: `1 + expansion_per_k temperature_k`.
+pub(super) fn expansion(table: &Table<'_>) -> Result<f64, SystemFileError> {
+    let both = both(table, ["temperature_k", "expansion_per_k"])?;
+    Ok(both.map_or(1.0, |[change_k, expansion_per_k]| 1.0 + expansion_per_k * change_k))
 }
 
 /// The mass of a bar of this length, kg, and the key that gives it.

@@ -550,6 +550,7 @@ fn member(
     };
     material::check_diameter(table, &["density_kg_m3", "young_pa"])?;
     let body = bar(table, length_m)?;
+    let expansion = material::expansion(table)?;
     let kind = member_kind(table.text("kind")?).map_err(|kind| table.error(kind, "kind"))?;
     let mut loads = Vec::new();
     if let Some(value) = table.get("forces") {
@@ -557,7 +558,10 @@ fn member(
         let items = value.get_ref().as_array();
         let items = items.ok_or_else(|| table.wrong_type("forces", value, WANTED))?;
         for (k, item) in items.iter().enumerate() {
-            loads.push(force(&table.table(&format!("forces[{}]", k + 1), item)?, body.length_m())?);
+            let force = force(&table.table(&format!("forces[{}]", k + 1), item)?, length_m)?;
+            // At the same part of the length, whose last place may be before it by rounding.
+            let at_m = (expansion * force.at_m).min(body.length_m());
+            loads.push(PointLoad { at_m, ..force });
         }
     }
     loads.extend(material::spread(table, length_m, body.length_m())?);
