@@ -174,35 +174,3 @@ fn significant(x: f64, digits: usize) -> String {
         text
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn significant_digits_are_told_in_the_form_that_shows_them() {
-        for (x, digits, text) in [
-            (0.522_916_3, 4, "0.5229"),
-            (-13.0, 4, "-13"),
-            (-3.816e-6, 3, "-3.82×10⁻⁶"),
-            (4.1e-13, 4, "<\u{a0}10⁻¹²"),
-            (0.0, 4, "<\u{a0}10⁻¹²"),
-            (2.5e-10, 4, "<\u{a0}10⁻⁹"),
-            (f64::NAN, 4, "not a number"),
-        ] {
-            assert_eq!(Number::significant(x, digits).to_string(), text);
-        }
-    }
-
-    #[test]
-    fn counts_decimals_and_sizes() {
-        assert_eq!(Number::count(12.0).to_string(), "12");
-        assert_eq!(Number::count(0.0).in_words(), "0");
-        assert_eq!(Number::count(0.25).to_string(), "0.25");
-        assert_eq!(Number::decimals(-1e-17, 3).to_string(), "0.000");
-        assert_eq!(Number::decimals(1e-17, 3).in_words(), "0.000");
-        assert_eq!(Number::size(-0.0, 1).to_string(), "0");
-        assert_eq!(format!("{:#}", Number::size(2e-3, 0)), "0.002");
-        assert_eq!(format!("{:#}", Number::size(2e-5, 0)), "2×10⁻⁵");
-    }
-}

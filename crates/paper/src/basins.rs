@@ -105,33 +105,3 @@ fn by_energy(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<End>> {
     };
     starts.iter().map(end).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn energy_ends_at_minima_and_lagrange_anywhere() {
-        let example = Example::solve().unwrap();
-        let [lagrange, energy] = Basins::of_both(&example);
-        for basins in [&lagrange, &energy] {
-            assert_eq!(basins.rows.len(), SIDE);
-            assert!(basins.rows.iter().all(|row| row.len() == SIDE));
-        }
-        // The minimiser: E1 or E1', nearly all starts. A start with all bars on one line has no
-        // side to fall to.
-        let minima = energy.count('1') + energy.count('2');
-        assert!(
-            minima + energy.count(NO_ANSWER) == SIDE * SIDE && energy.count(NO_ANSWER) < 10,
-            "{minima}"
-        );
-        // The multipliers: all four, each by a good part.
-        for letter in LETTERS {
-            assert!(
-                lagrange.count(letter) > SIDE * SIDE / 20,
-                "{letter}: {}",
-                lagrange.count(letter)
-            );
-        }
-    }
-}

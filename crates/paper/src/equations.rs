@@ -30,8 +30,6 @@ mod motion;
 mod multipliers;
 mod rotations;
 mod sample;
-#[cfg(test)]
-mod tests;
 
 use serde::Serialize;
 

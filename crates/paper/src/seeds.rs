@@ -277,19 +277,3 @@ fn equilibria(example: &Example, kind: Kind) -> Vec<(Reached, Option<bool>)> {
         Kind::Spatial => vec![place("E1", 0, None), place("E2", 2, None)],
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_seed_has_its_own_angles_and_keeps_them() {
-        let bits = |kind, index| angles(kind, index).map(|bar| bar.map(f64::to_bits));
-        assert_eq!(bits(Kind::Spatial, 7), bits(Kind::Spatial, 7));
-        assert_ne!(bits(Kind::Spatial, 7), bits(Kind::Spatial, 8));
-        for [psi, theta, phi] in angles(Kind::Planar, 3) {
-            let [x, _, _]: [f64; 3] = lagrange::direction(psi, theta, phi).into();
-            assert!(x.abs() < 1e-15, "planar seeds lie in OYZ");
-        }
-    }
-}

@@ -68,39 +68,3 @@ pub(crate) fn slope(chain: &Chain, angles_rad: [Interval; 3]) -> Option<Interval
     }
     Some(slope / (mass[0] * length[0]))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The standard library is good to a unit in the last place.
-    #[test]
-    fn sine_and_cosine_are_enclosed_tightly() {
-        for k in -300..=300 {
-            let x = f64::from(k) * 0.0131;
-            let [sin, cos] = sin_cos(Interval::point(x));
-            for (enclosure, value) in [(sin, x.sin()), (cos, x.cos())] {
-                assert!(enclosure.lo() - 2e-16 <= value && value <= enclosure.hi() + 2e-16, "{x}");
-                assert!(enclosure.width() < 2e-14, "{x} {}", enclosure.width());
-            }
-        }
-        assert_eq!(sin_cos(Interval::LINE), [Interval::new(-1.0, 1.0); 2]);
-        // Wide intervals: the ends are inside.
-        let [sin, cos] = sin_cos(Interval::new(0.2, 0.9));
-        assert!([0.2_f64, 0.5, 0.9].iter().all(|x| sin.contains(x.sin()) && cos.contains(x.cos())));
-    }
-
-    /// Closed form of the example, and the zero at E1.
-    #[test]
-    fn the_slope_is_that_of_the_paper() {
-        let problem = model::cases::paper();
-        // theta = 0, alpha = −60°, beta = 60°: √3/2.
-        let at = [0.0, -60.0, 60.0].map(|angle| radians(Interval::point(angle)));
-        let found = slope(problem.chain(), at).unwrap();
-        assert!(found.contains(0.75_f64.sqrt()) && found.width() < 1e-13, "{found:?}");
-        let e1 = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
-        let at = e1.map(|angle| radians(Interval::around(angle, 1e-13)));
-        let found = slope(problem.chain(), at).unwrap();
-        assert!(found.contains(0.0) && found.width() < 1e-12, "{found:?}");
-    }
-}

@@ -74,20 +74,3 @@ fn processor() -> Option<String> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     Some(line.split_once(':')?.1.trim().to_owned())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_package_has_a_version_and_the_command_no_folder() {
-        let here =
-            Environment::here(["/some/where/funicular", "reproduce"].map(String::from).into_iter());
-        assert_eq!(here.command, "funicular reproduce");
-        assert!(here.packages.len() >= PACKAGES.len(), "{:?}", here.packages);
-        for name in PACKAGES {
-            assert!(here.packages.iter().any(|p| p.starts_with(name)), "{name}");
-        }
-        assert!(here.compiler.starts_with("rustc "), "{}", here.compiler);
-    }
-}

@@ -312,23 +312,3 @@ fn links(text: &str) -> String {
     }
     out + rest
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn marks_become_elements_and_markup_does_not() {
-        assert_eq!(inline("a < `b` and **c**"), "a &lt; <code>b</code> and <strong>c</strong>");
-        assert_eq!(
-            inline("see [there](#x) and ` alone"),
-            "see <a href=\"#x\">there</a> and ` alone"
-        );
-        assert_eq!(inline("b_{1,5} [B]^T"), "b<sub>1,5</sub> [B]<sup>T</sup>");
-        assert_eq!(
-            inline("J_x in 1/s^3, [J_Ci]"),
-            "J<sub>x</sub> in 1/s<sup>3</sup>, [J<sub>Ci</sub>]"
-        );
-        assert_eq!(inline("mass_kg and `e_x`, 2^"), "mass_kg and <code>e_x</code>, 2^");
-    }
-}

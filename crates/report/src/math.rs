@@ -103,29 +103,3 @@ const BRACKETED: [(&str, &str); 2] = [
 pub fn plain_latex(latex: &str) -> String {
     MARKS.iter().fold(latex.to_owned(), |text, mark| text.replace(mark.command, mark.plain))
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::equations;
-
-    #[test]
-    fn every_equation_is_typeset() {
-        for equation in equations::all() {
-            for latex in [Some(equation.printed), equation.corrected].into_iter().flatten() {
-                let mathml = super::mathml(latex);
-                assert!(!mathml.contains("merror"), "{}: {mathml}", equation.number);
-                assert!(!mathml.contains("rgb("), "{}: {mathml}", equation.number);
-                // The converter puts a space into the base of a power of a bare \cos.
-                for script in ["msup", "msub", "msubsup"] {
-                    assert!(!mathml.contains(&format!("<{script}><mspace")), "{}", equation.number);
-                }
-                assert_eq!(
-                    mathml.contains("class=\"wrong\"") || mathml.contains("class=\"fixed\""),
-                    equation.corrected.is_some(),
-                    "{}",
-                    equation.number
-                );
-            }
-        }
-    }
-}

@@ -88,17 +88,8 @@ impl View {
     #[must_use]
     pub fn new(reproduction: &Reproduction) -> Self {
         let figures = &reproduction.figures;
-        let scanned = figures.scan_points.iter().flat_map(|points| points.iter().step_by(EVERY));
-        Self::of(
-            &reproduction.equilibria,
-            figures.scan_results,
-            scanned.map(|p| p.map(rounded)).collect(),
-        )
-    }
-
-    /// The same from its parts: equilibria, (ix) and (x) as theta, alpha, beta in degrees and V,
-    /// and the points of the scan to mark.
-    fn of(equilibria: &[Position], [ix, x]: [[f64; 4]; 2], scan: Vec<[f64; 2]>) -> Self {
+        let [ix, x] = figures.scan_results;
+        let equilibria = &reproduction.equilibria;
         let mut places: Vec<Place> = equilibria.iter().map(Place::equilibrium).collect();
         let away = equilibria.iter().map(|e| (e.lagrange_deg[0] - ix[0]).abs());
         let away = away.fold(f64::INFINITY, f64::min);
@@ -139,10 +130,11 @@ impl View {
                 places[*place].state.at = at;
             }
         }
+        let scanned = figures.scan_points.iter().flat_map(|points| points.iter().step_by(EVERY));
         Self {
             states: places.into_iter().map(|place| place.state).collect(),
             curve: along.into_iter().map(|(_, sample, _)| sample).collect(),
-            scan,
+            scan: scanned.map(|p| p.map(rounded)).collect(),
             largest_theta_deg: energy::example::LARGEST_THETA_COSINE.acos().to_degrees(),
         }
     }
@@ -258,6 +250,3 @@ fn signless_zero(text: &str) -> String {
     let zero = digits.bytes().all(|b| b == b'0' || b == b'.');
     if zero { digits.to_owned() } else { text.replace('-', "\u{2212}") }
 }
-
-#[cfg(test)]
-mod tests;

@@ -116,36 +116,3 @@ fn check(text: &str) -> Result<(), (usize, String)> {
     let what = message.rfind(" at line ").map_or(message.as_str(), |end| &message[..end]);
     Err((offset, what.to_owned()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{as_toml, is_json};
-
-    #[test]
-    fn every_value_stays_in_its_place() {
-        let json = "{\n \"name\": \"a\\/b\", \"joints\": {\"A\": {\"at_m\": [0,\n 1, 2]}}\n}\n";
-        let toml = as_toml(json).unwrap();
-        assert_eq!(toml.len(), json.len());
-        for word in ["name", "joints", "at_m", "1, 2"] {
-            assert_eq!(toml.find(word), json.find(word), "{word}");
-        }
-        let tree: toml::Table = toml.parse().unwrap();
-        assert_eq!(tree["name"].as_str(), Some("a/b"));
-        assert_eq!(tree["joints"]["A"]["at_m"].as_array().map(Vec::len), Some(3));
-    }
-
-    #[test]
-    fn characters_in_two_halves_are_one() {
-        let toml = as_toml(r#"{"name": "\ud83d\udca1 \u00e4 \"\\ : , {"}"#).unwrap();
-        let tree: toml::Table = toml.parse().unwrap();
-        assert_eq!(tree["name"].as_str(), Some("\u{1f4a1} \u{e4} \"\\ : , {"));
-    }
-
-    #[test]
-    fn what_is_no_json_is_told_with_its_place() {
-        assert!(is_json(" \n{}") && !is_json("[joints]"));
-        let (place, what) = as_toml("{\"a\": 1,\n \"b\": }").unwrap_err();
-        assert_eq!((place, what.as_str()), (15, "expected value"));
-        assert!(as_toml("{\"a\": [null]}").unwrap_err().1.contains("null"));
-    }
-}

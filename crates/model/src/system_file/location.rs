@@ -28,26 +28,3 @@ pub(super) fn span_of(text: &str, part: &str) -> Range<usize> {
     let start = part.as_ptr().addr() - text.as_ptr().addr();
     start..start + part.len()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_and_columns_count_from_one_in_characters() {
-        let at = |offset| Position::of("\u{e4}b\nc", offset).map(|p| (p.line, p.column));
-        assert_eq!(at(0), Some((1, 1)));
-        assert_eq!(at(1), None, "inside the umlaut");
-        assert_eq!(at(2), Some((1, 2)));
-        assert_eq!(at(4), Some((2, 1)));
-        assert_eq!(at(5), Some((2, 2)));
-        assert_eq!(at(99), Some((2, 2)));
-    }
-
-    #[test]
-    fn parts_know_their_place() {
-        let text = "one,two";
-        let cell = text.split(',').nth(1).unwrap_or_default();
-        assert_eq!(span_of(text, cell), 4..7);
-    }
-}

@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod advice;
+mod axial;
+mod cases;
 mod columns;
 mod constructors;
 mod drawings;
@@ -15,10 +17,12 @@ mod load_cases;
 mod memory;
 mod mutations;
 mod network_columns;
+mod numbers;
 mod parts;
 mod refused;
 mod ropes;
 mod round_trip;
+mod slips;
 mod strength;
 mod support;
 mod system_numbers;

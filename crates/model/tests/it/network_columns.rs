@@ -308,3 +308,23 @@ fn readers_of_other_files_name_their_rows() {
     );
     assert!(said(2.0, 8.0).ends_with("row 1, column `to`: there is no joint \"8\""));
 }
+
+#[test]
+fn cells_may_be_quoted_and_blank() {
+    let joints = "name , x_m,y_m,z_m\r\n\"the, \"\"old\"\" lamp\" , 0,0 ,0\n P ,,,\n\n";
+    let bars = "from , to,length_m,mass_kg\r\n\"the, \"\"old\"\" lamp\" ,P, 1e-3 ,2\n\n";
+    let found = described("quoted", [SYSTEM, joints, bars]).unwrap();
+    let names: Vec<_> = found.joints().iter().map(|joint| joint.name.to_string()).collect();
+    assert_eq!(names, ["the, \"old\" lamp", "P"]);
+    assert_eq!(found.members(), [Member::bar(0, 1, Bar::homogeneous(1e-3, 2.0).unwrap())]);
+}
+
+#[test]
+fn quotes_are_closed() {
+    for line in ["\"A,0,0,0", "\"A\"x,0,0,0"] {
+        let joints = format!("name,x_m,y_m,z_m\n{line}\nB,,,\n");
+        let error = described("open", [SYSTEM, &joints, BARS]).unwrap_err();
+        assert!(error.to_string().contains("a quote is not closed"), "{error}");
+        assert_eq!(&error.text()[error.span().unwrap()], line);
+    }
+}

@@ -1,6 +1,7 @@
 //! Malformed texts, each with its exact error.
 
-use model::system_file::parse;
+use model::system::System;
+use model::system_file::{Described, parse};
 
 use crate::support::{anchored, barred, chain, check};
 
@@ -402,4 +403,43 @@ fn positions_count_characters_and_lines_of_any_kind() {
         (marked.to_string().as_str(), marked.text()),
         ("f:1:8: name: expected a string, found an integer", "name = 3\n")
     );
+}
+
+/// The system of a text of JSON.
+fn of_json(json: &str) -> System {
+    match parse(json, "f") {
+        Ok(Described::System(system)) => system,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn every_value_of_json_stays_in_its_place() {
+    let json = "{\n \"name\": \"a\\/b\", \"joints\": {\"A\": {\"at_m\": [0,\n 1, 2]}, \"P\": {}},\n \
+                \"bars\": [{\"from\": \"A\", \"to\": \"P\", \"length_m\": 3, \"mass_kg\": 1}]\n}\n";
+    let system = of_json(json);
+    assert_eq!((system.name(), system.joints()[0].support.at_m()), ("a/b", Some([0.0, 1.0, 2.0])));
+    for (value, wrong) in
+        [("\"a\\/b\"", "12345 "), ("2]", "x]"), ("3,", "-3,"), ("\"P\", ", "\"Q\", ")]
+    {
+        let wrong_json = json.replace(value, wrong);
+        let error = parse(&wrong_json, "f").unwrap_err();
+        let span = error.span().unwrap();
+        assert_eq!((error.text(), span.start), (wrong_json.as_str(), json.find(value).unwrap()));
+    }
+}
+
+#[test]
+fn characters_of_json_in_two_halves_are_one() {
+    let json = " \n{\"name\": \"\\ud83d\\udca1 \\u00e4 \\\"\\\\ : , {\", \"joints\": {\"A\": {\"at_m\": [0, 0, 0]}, \
+                \"P\": {}}, \"bars\": [{\"from\": \"A\", \"to\": \"P\", \"length_m\": 3, \"mass_kg\": 1}]}";
+    assert_eq!(of_json(json).name(), "\u{1f4a1} \u{e4} \"\\ : , {");
+}
+
+#[test]
+fn what_is_no_json_is_told_with_its_place() {
+    let error = parse("{\"a\": 1,\n \"b\": }", "f").unwrap_err();
+    assert_eq!(error.span().unwrap().start, 15);
+    assert!(error.to_string().ends_with("expected value"), "{error}");
+    assert!(parse("{\"a\": [null]}", "f").unwrap_err().to_string().contains("null"));
 }

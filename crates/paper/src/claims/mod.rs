@@ -145,19 +145,3 @@ fn smallest(sizes: impl IntoIterator<Item = f64>) -> f64 {
 fn printed_degrees(angle_rad: f64) -> f64 {
     angle_rad.to_degrees().rem_euclid(360.0)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_that_is_none_supports_no_verdict() {
-        let printed = Paper::project().claims[0].clone();
-        let finding = Finding::new(printed.expected, f64::NAN, "").lagrange(f64::INFINITY);
-        let claim = Claim::new(printed, finding);
-        assert_eq!((claim.verdict, claim.as_expected), (Assessment::Undecided, false));
-        assert_eq!((claim.number, claim.lagrange), (None, None));
-        assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
-        assert!(smallest([1.0, f64::NAN, 2.0]).is_nan());
-    }
-}

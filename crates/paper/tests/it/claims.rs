@@ -9,7 +9,7 @@ use paper::printed::Paper;
 use paper::seeds::{Survey, surveys};
 
 /// The example and small surveys, solved once.
-fn solved() -> &'static (Example, Vec<Survey>) {
+pub fn solved() -> &'static (Example, Vec<Survey>) {
     static ONCE: OnceLock<(Example, Vec<Survey>)> = OnceLock::new();
     ONCE.get_or_init(|| {
         let example = Example::solve().unwrap();

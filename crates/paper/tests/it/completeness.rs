@@ -85,3 +85,49 @@ fn only_e1_is_optimal_in_the_reproduction() {
         assert_eq!(reached(Rung::Agreed), position.name.starts_with("E1"));
     }
 }
+
+/// The enclosed slope, and the nearest equilibrium, if these angles were printed as (x), deg.
+fn slope_mgl(angles: [(&str, usize); 3]) -> [f64; 2] {
+    let mut paper = Paper::project();
+    for (id, (text, digits)) in ["x-theta", "x-alpha", "x-beta"].into_iter().zip(angles) {
+        let printed = paper.claims.iter_mut().find(|claim| claim.id == id).unwrap();
+        text.clone_into(&mut printed.printed);
+        printed.digits = Some(digits);
+    }
+    Completeness::new(&paper, &crate::claims::solved().0).second.slope_mgl
+}
+
+/// Closed form of the example, and the zero at E1.
+#[test]
+fn the_slope_is_that_of_the_paper() {
+    // theta = 0, alpha = −60°, beta = 60°: √3/2.
+    let [low, high] = slope_mgl([("0", 14), ("300", 14), ("60", 14)]);
+    let exact = 0.75_f64.sqrt();
+    assert!(low < exact && exact < high && high - low < 1e-13, "{low} {high}");
+    let [low, high] = slope_mgl([
+        ("19.69486797613302", 13),
+        ("38.59913618445189", 13),
+        ("286.07941120776866", 13),
+    ]);
+    assert!(low < 0.0 && 0.0 < high && high - low < 1e-12, "{low} {high}");
+    // Of all angles nothing is known.
+    let [low, high] = slope_mgl([("NaN", 0), ("0", 3), ("0", 3)]);
+    assert!(low < f64::MIN && high > f64::MAX, "{low} {high}");
+}
+
+/// All along the closure curve, where the chain does not turn back in theta.
+#[test]
+fn the_slope_is_that_of_the_energy_along_the_curve() {
+    let mut met = 0;
+    for point in energy::example::curve(12) {
+        let exact = energy::example::slope(point.theta_rad, point.branch);
+        let angles = [point.theta_rad, point.alpha_rad, point.beta_rad];
+        let text = angles.map(|angle| format!("{:.12}", angle.to_degrees().rem_euclid(360.0)));
+        let [low, high] = slope_mgl([(&text[0], 12), (&text[1], 12), (&text[2], 12)]);
+        if exact.abs() < 10.0 {
+            assert!(low < exact && exact < high && high - low < 1e-10, "{low} {exact} {high}");
+            met += 1;
+        }
+    }
+    assert!(met > 16, "{met}");
+}

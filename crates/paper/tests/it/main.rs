@@ -2,6 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod bounds;
 mod claims;
 mod completeness;
+mod equations;
+mod figures;
+mod printed;
 mod reproduction;
+mod sextic;

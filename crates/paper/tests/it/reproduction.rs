@@ -1,5 +1,6 @@
 //! The whole paper, judged: the headline of this project.
 
+use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use model::{InPlane, InSpace, SolverName};
@@ -8,6 +9,8 @@ use paper::equations;
 use paper::printed::Paper;
 use paper::reproduction::{Reproduction, reproduce_with};
 use paper::seeds::{Kind, SEEDS, Survey};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 
 pub fn reproduction() -> &'static Reproduction {
@@ -337,4 +340,28 @@ fn two_runs_differ_in_their_times_only() {
     };
     let again = reproduce_with(SEEDS, |_| ()).unwrap();
     assert!(timeless(reproduction()) == timeless(&again));
+}
+
+/// Planar seeds are three angles in the plane *OYZ*, each seed from a stream of its own.
+#[test]
+fn planar_seeds_lie_in_the_plane() {
+    let (example, surveys) = crate::claims::solved();
+    let by_lagrange = |s: &&Survey| s.solver == SolverName::LAGRANGE && s.kind == Kind::Planar;
+    let survey = surveys.iter().find(by_lagrange).unwrap();
+    let settings = lagrange::Settings::default();
+    let mut solver = lagrange::Solver::new(&example.problem, &settings).unwrap();
+    let mut iterations: Vec<usize> = vec![];
+    let mut direct = 0;
+    for seed in 0..survey.seeds {
+        let mut random = ChaCha8Rng::seed_from_u64(2026);
+        random.set_stream(seed as u64);
+        let angles: [f64; 3] = std::array::from_fn(|_| random.random_range(-PI..PI));
+        let found = solver.solve(&lagrange::Seed::planar(&angles)).unwrap();
+        iterations.push(found.effort().iterations);
+        direct += usize::from(found.effort().relaxations == 0);
+    }
+    iterations.sort_unstable();
+    assert_eq!(survey.direct, Some(direct));
+    assert_eq!(survey.median_iterations, iterations[survey.seeds / 2 - 1]);
+    assert_eq!(Some(&survey.most_iterations), iterations.last());
 }

@@ -87,14 +87,3 @@ fn runs(row: &str, letter: char) -> Vec<(usize, usize)> {
     }
     runs
 }
-
-#[cfg(test)]
-mod tests {
-    use super::runs;
-
-    #[test]
-    fn neighbours_make_one_run() {
-        assert_eq!(runs("1121-1", '1'), [(0, 2), (3, 4), (5, 6)]);
-        assert_eq!(runs("1121-1", '4'), []);
-    }
-}

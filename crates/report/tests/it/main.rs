@@ -1,11 +1,16 @@
 //! The report of the paper: complete, self-contained, accessible, and the same as the golden copy.
 
+mod equations;
+mod formulas;
+mod pictures;
+mod view;
+
 use std::path::Path;
 use std::sync::LazyLock;
 
 use paper::equations::Validity;
-use report::block::audit_cells;
-use report::equations::{self, judged};
+use report::block::{Block, audit_cells};
+use report::equations::{judged, statements};
 use report::{Environment, Report};
 
 /// One report for all tests.
@@ -64,7 +69,7 @@ fn every_equation_has_a_verdict_and_every_verdict_a_number() {
     }
     // Numbered or not, every row of the audit is told.
     let told: usize = judged.iter().map(|j| j.rows.len()).sum();
-    let rest = equations::statements(&REPORT.reproduction().equations).count();
+    let rest = statements(&REPORT.reproduction().equations).count();
     assert_eq!(told + rest, REPORT.reproduction().equations.len());
 }
 
@@ -208,4 +213,38 @@ fn only_the_last_part_knows_where_it_was_made() {
     assert_eq!(json["schema_version"], 3);
     assert_eq!(json["environment"]["command"], "funicular reproduce --out report");
     assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
+}
+
+#[test]
+fn every_package_has_a_version_and_the_command_no_folder() {
+    let here =
+        Environment::here(["/some/where/funicular", "reproduce"].map(String::from).into_iter());
+    assert_eq!(here.command, "funicular reproduce");
+    for name in [
+        "argmin ",
+        "argmin-math ",
+        "clarabel ",
+        "nalgebra ",
+        "pulldown-latex ",
+        "rand ",
+        "rand_chacha ",
+        "rayon ",
+    ] {
+        assert!(here.packages.iter().any(|p| p.starts_with(name)), "{name}");
+    }
+    assert!(here.compiler.starts_with("rustc "), "{}", here.compiler);
+}
+
+#[test]
+fn marks_become_elements_and_markup_does_not() {
+    for (text, element) in [
+        ("a < `b` and **c**", "a &lt; <code>b</code> and <strong>c</strong>"),
+        ("see [there](#x) and ` alone", "see <a href=\"#x\">there</a> and ` alone"),
+        ("b_{1,5} [B]^T", "b<sub>1,5</sub> [B]<sup>T</sup>"),
+        ("J_x in 1/s^3, [J_Ci]", "J<sub>x</sub> in 1/s<sup>3</sup>, [J<sub>Ci</sub>]"),
+        ("mass_kg and `e_x`, 2^", "mass_kg and <code>e_x</code>, 2^"),
+    ] {
+        let page = report::html::page("", &[Block::Text(text.to_owned())], &[]);
+        assert!(page.contains(&format!("\n<p>{element}</p>\n")), "{text}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::*;
+use paper::equations::{E1State, EquationAudit, FaultyEquations, Validity, audit};
 
 /// The audit at E1: most tests read it.
 static ROWS: LazyLock<Vec<EquationAudit>> = LazyLock::new(|| audit(&e1()));
