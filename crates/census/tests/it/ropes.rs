@@ -130,6 +130,14 @@ fn joints_that_have_run_together_are_proved() {
     }
     let census = SystemCensus::of_cables(&over_pulleys(2.0), &at_m, &[30.0]).unwrap();
     assert!(census.complete && census.equilibria[0].energy_j.contains(-150.0));
+    // The span over E to Q has no direction; it bears the 20 N of Q, and E both that and the level 30 N of the rope.
+    let found = census.to_model(&over_pulleys(2.0));
+    let [found] = &found[..] else { panic!("{found:?}") };
+    let near = |a: Vector, b: Vector| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-12);
+    let [jam] = found.evidence.jams[..] else { panic!("{:?}", found.evidence.jams) };
+    assert!((jam.member, jam.span) == (0, 2) && near(jam.pull_n, [0.0, 0.0, -20.0]), "{jam:?}");
+    assert!(near(found.end_forces_n[0], [0.0, 0.0, -20.0]), "{:?}", found.end_forces_n);
+    assert!(near(found.reactions_n[1], [30.0, 0.0, 20.0]), "{:?}", found.reactions_n);
     // Pulled aside by 12 N in Y too: |(12, 20)| < 30 N, but not with 24 N.
     for (aside_n, holds) in [(12.0, true), (24.0, false)] {
         let system = over_pulleys(2.0);

@@ -2,14 +2,16 @@
 
 use model::system::{Kind, System, SystemEquilibrium, SystemStability};
 use model::{
-    Complete, CompleteSystem, Evidence, InSpace, NoCensus, NoCertificate, Reason, SolverName,
+    Complete, CompleteSystem, Evidence, InSpace, Jam, NoCensus, NoCertificate, Reason, SolverName,
     Status, Vector as Point, Verified, VerifiedSystem,
 };
 use numerics::Interval;
 
 use super::choice::Choice;
 use super::{PartCensus, SystemCensus};
-use crate::network::arithmetic::{NOWHERE, dot, minus, norm, over, plus, product, sum, times};
+use crate::network::arithmetic::{
+    NOWHERE, Vector, dot, minus, norm, over, plus, product, sum, times,
+};
 use crate::network::frame::Frame;
 use crate::network::proven::idle_n;
 
@@ -56,18 +58,12 @@ impl SystemPosition {
             axial[*member] = *force;
         }
         let loads = frame.loads(system);
-        let mut forces = loads.clone();
+        let forces = balance(system, &places, &axial, loads.clone()).joints;
         let mut energy = Interval::ZERO;
         for (place, load) in places.iter().zip(&loads) {
             energy = sum(energy, -dot(*place, *load));
         }
         for (member, axial) in system.members().iter().zip(&axial) {
-            for [a, b] in member.spans() {
-                let span = minus(places[b], places[a]);
-                let pull = times(*axial, over(span, norm(span)));
-                forces[a] = plus(forces[a], pull);
-                forces[b] = minus(forces[b], pull);
-            }
             let stored = product(frame.compliance(member), axial.square()).scale(0.5);
             energy = sum(energy, stored);
         }
@@ -103,6 +99,49 @@ impl SystemPosition {
     }
 }
 
+/// Forces at places, all enclosed.
+struct Balance {
+    /// The sum of loads and members at each joint.
+    joints: Vec<Vector>,
+    /// How each member pulls at its first joint, and away from its last.
+    ends: Vec<[Vector; 2]>,
+    /// Spans without length, by member and place in it, and how each pulls at its first joint.
+    jams: Vec<(usize, usize, Vector)>,
+}
+
+/// A span without length pulls as the joint asks that has run there, to the end of its rope.
+fn balance(system: &System, places: &[Vector], axial: &[Interval], loads: Vec<Vector>) -> Balance {
+    let ends = vec![[NOWHERE; 2]; axial.len()];
+    let mut found = Balance { joints: loads, ends, jams: vec![] };
+    let spans = |k: usize| system.members()[k].spans().enumerate();
+    let all = (0..axial.len()).flat_map(|k| spans(k).map(move |(n, joints)| (k, n, joints)));
+    let is_jam =
+        |k: usize, [a, b]: [usize; 2]| axial[k] != Interval::ZERO && places[a] == places[b];
+    let (jams, long): (Vec<_>, Vec<_>) = all.partition(|(k, _, joints)| is_jam(*k, *joints));
+    for (k, n, [a, b]) in long.into_iter().chain(jams) {
+        let pull = if !is_jam(k, [a, b]) {
+            let span = minus(places[b], places[a]);
+            times(axial[k], over(span, norm(span)))
+        } else if system.joints()[b].support.at_m().is_none() {
+            found.joints[b]
+        } else {
+            times(-Interval::ONE, found.joints[a])
+        };
+        found.joints[a] = plus(found.joints[a], pull);
+        found.joints[b] = minus(found.joints[b], pull);
+        if n == 0 {
+            found.ends[k][0] = pull;
+        }
+        if n == system.members()[k].via().len() {
+            found.ends[k][1] = pull;
+        }
+        if is_jam(k, [a, b]) {
+            found.jams.push((k, n, pull));
+        }
+    }
+    found
+}
+
 impl SystemCensus {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
     /// enclosures, and how far each is proved.
@@ -121,19 +160,26 @@ impl SystemCensus {
         let middles = |vectors: &[[Interval; 3]]| -> Vec<Point> {
             vectors.iter().map(|vector| vector.map(Interval::mid)).collect()
         };
+        let in_newton = |force: &Vector| force.map(|part| part.scale(frame.force_n));
+        let loads_n = frame.loads(system).iter().map(in_newton).collect();
+        let Balance { ends, jams, .. } =
+            balance(system, &position.joints_m, &position.axial_n, loads_n);
         let end = |is_start: bool| {
-            let members = system.members().iter().zip(&position.axial_n);
-            let forces = members.map(|(member, axial_n)| {
-                let ends = if is_start { member.spans().next() } else { member.spans().last() };
-                let [a, b] = ends.unwrap_or([member.from, member.to]).map(|k| position.joints_m[k]);
-                let pull = times(*axial_n, over(minus(b, a), norm(minus(b, a))));
+            let forces = system.members().iter().zip(&ends).map(|(member, pulls)| {
+                let pull = pulls[usize::from(!is_start)];
                 let share = frame.share(system, member, is_start);
-                let share_n = share.map(|part| part.scale(frame.force_n));
+                let share_n = in_newton(&share);
                 let pull = if is_start { times(-Interval::ONE, pull) } else { pull };
                 minus(pull, share_n)
             });
             middles(&forces.collect::<Vec<_>>())
         };
+        let jams = jams.into_iter().map(|(member, span, pull)| Jam {
+            member,
+            span,
+            pull_n: pull.map(Interval::mid),
+        });
+        let jams = jams.collect();
         SystemEquilibrium {
             solver: SolverName::CENSUS,
             energy_j: position.energy_j.mid(),
@@ -152,7 +198,7 @@ impl SystemCensus {
                 index_in_plane: position.index_in_plane,
                 neutral: usize::from(position.circle),
             },
-            evidence: self.evidence(system, position),
+            evidence: Evidence { jams, ..self.evidence(system, position) },
         }
     }
 
