@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::graph::Graph;
-use super::{Joint, Support, System};
+use super::{Joint, Kind, Support, System};
 use crate::Vector;
 use crate::readable::{Computed, Readable};
 
@@ -261,7 +261,11 @@ impl System {
                 let ends = || (joints[start].name.to_string(), joints[joint].name.to_string());
                 let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
                 if (reach_m - distance_m).abs() <= near {
-                    if self.holds_inner(graph, &ways.way(joint), None) {
+                    let way = ways.way(joint);
+                    let parts =
+                        way.iter().map(|k| (*k, ways.get(*k).unwrap_or_default() / reach_m));
+                    let slack = self.slack_beside(graph, [start, joint], parts);
+                    if self.holds_inner(graph, &way, slack) {
                         continue;
                     }
                     let (from, to) = ends();
@@ -289,10 +293,45 @@ impl System {
         Ok(())
     }
 
+    /// Cables to anchors that are slack from joints which lie on the straight line between two others, at these parts of it.
+    fn slack_beside(
+        &self,
+        graph: &Graph<'_>,
+        ends: [usize; 2],
+        parts: impl Iterator<Item = (usize, f64)>,
+    ) -> Vec<usize> {
+        /// Slack by this part of the length: far above any rounding.
+        const CLEAR: f64 = 1e-6;
+        let at_m = |joint: usize| self.joints()[joint].support.at_m();
+        let [Some(start_m), Some(end_m)] = ends.map(at_m) else { return vec![] };
+        let mut slack = vec![];
+        for (joint, part) in parts {
+            let place_m = std::array::from_fn(|k| start_m[k] + part * (end_m[k] - start_m[k]));
+            for (member, other, _) in graph.at(joint) {
+                let cable = &self.members()[member];
+                let fixed = self.joints()[other].support.is_fixed();
+                let Some(anchor_m) = at_m(other).filter(|_| fixed && cable.rope.is_none()) else {
+                    continue;
+                };
+                let distance_m = crate::Anchors { start_m: place_m, end_m: anchor_m }.span_m();
+                let length_m = cable.body.length_m();
+                if cable.kind == Kind::Cable && distance_m < length_m * (1.0 - CLEAR) {
+                    slack.push(member);
+                }
+            }
+        }
+        slack
+    }
+
     /// Whether other members hold every joint that is inside a way over members in one line: joints
     /// of trusses lie straight between others and are held by their diagonals. Nothing else holds
-    /// those of a taut rope, and a load there has no finite force.
-    fn holds_inner(&self, graph: &Graph<'_>, way: &[usize], also: Option<usize>) -> bool {
+    /// those of a taut rope, and a load there has no finite force; nor do members of which it is `also` known that they do not.
+    fn holds_inner(
+        &self,
+        graph: &Graph<'_>,
+        way: &[usize],
+        also: impl IntoIterator<Item = usize>,
+    ) -> bool {
         let inner = &way[1..way.len() - 1];
         let mut along: HashSet<usize> = also.into_iter().collect();
         for pair in way.windows(2) {

@@ -123,6 +123,23 @@ fn straight_chords_are_refused_only_where_nothing_else_holds_them() {
     assert_eq!(chord(true).refusal(), Ok(()));
     // A post that stands on the middle holds nothing.
     assert!(matches!(chord(false).refusal(), Err(SystemRefusal::Taut { .. })));
+    // A cable from 1 m above the middle holds it where it is no longer than that; one that is slack there does not.
+    let beside = |third: Member| {
+        let mut joints = chord(false).joints().to_vec();
+        joints[3] = Joint::anchor("top", [1.0, 0.0, 1.0]);
+        let mut members = chord(false).members()[..2].to_vec();
+        members.push(third);
+        System::new("beside", 10.0, joints, members).unwrap().refusal()
+    };
+    let long = |length_m: f64| Bar::homogeneous(length_m, 0.0).unwrap();
+    assert_eq!(beside(Member::cable(2, 3, long(1.0))), Ok(()));
+    for cable in [long(1.001), long(3.0)] {
+        let stretched = Member::cable(3, 2, cable).with_stiffness(1e4);
+        for member in [Member::cable(2, 3, cable), stretched] {
+            assert!(matches!(beside(member), Err(SystemRefusal::Taut { .. })));
+        }
+    }
+    assert_eq!(beside(Member::cable(2, 3, long(0.999)).with_stiffness(1e4)), Ok(()));
     // A third bar over two in a line: held by what meets them elsewhere, or folded.
     let with_long = |braced: bool| {
         let long = Member::bar(4, 1, Bar::homogeneous(2.0, 0.0).unwrap());
