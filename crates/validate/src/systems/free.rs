@@ -5,8 +5,8 @@
 //! member bears none, and at a joint without load neither do members in independent directions.
 //! What room the lengths leave follows from their derivative: with independent rows, fewer than
 //! there are coordinates, the places are a manifold (implicit function theorem), and the joints
-//! that its tangents move are free. So are joints that lie on the floor with members that lie there too and bear nothing along
-//! themselves, where the lengths leave them room to slide.
+//! that its tangents move are free. So are joints that lie on the floor with members that bear nothing, where the lengths leave
+//! them room to slide.
 
 use matrices::dense::Kernels;
 use model::Vector;
@@ -48,7 +48,7 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
             .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
             .collect();
         for part in parts(system, &members_of, &idle) {
-            let room = with_room(system, answers, &members_of, &part, motions);
+            let room = with_room(system, answers, &members_of, &part, &IN_SPACE);
             for (joint, open) in part.iter().zip(room) {
                 free[*joint] |= open;
             }
@@ -96,18 +96,15 @@ fn lie_loose(
             slides(joint) && answers.iter().all(|answer| push_n(system, answer, joint) > 0.0)
         })
         .collect();
-    let Some(floor_m) = system.floor_m().filter(|_| loose.contains(&true)) else {
-        return vec![false; joints.len()];
-    };
+    if !loose.contains(&true) {
+        return loose;
+    }
     let acts_n = total_load_n(system);
     let acts_n = if acts_n > 0.0 { acts_n } else { f64::INFINITY };
     for answer in answers {
         let least_n = NONE * largest_force_n(answer).min(acts_n);
         for (member, axial_n) in system.members().iter().zip(&answer.axial_n) {
-            // A member that rises from the floor bears the weight of what is on it, or is as far away as it is long.
-            let above = |joint: usize| answer.joints_m[joint][2] - floor_m;
-            let lies = || member.path().all(|joint| above(joint) <= CLEAR * member.body.length_m());
-            if axial_n.abs() > least_n || !(is_slack(member, answer) || lies()) {
+            if axial_n.abs() > least_n {
                 for joint in member.path() {
                     loose[joint] = false;
                 }
@@ -119,7 +116,8 @@ fn lie_loose(
         if part.len() > TOGETHER {
             continue;
         }
-        let room = with_room(system, answers, members_of, &part, sliding);
+        // A member that is upright there, and just as long as it is high, leaves none: its joint would have to rise.
+        let room = with_room(system, answers, members_of, &part, &ON_FLOOR);
         for (joint, open) in part.iter().zip(room) {
             loose[*joint] = open;
         }
@@ -207,12 +205,16 @@ fn independent(along: &[Vector]) -> bool {
 
 /// Whether a member is slack by more than any rounding.
 pub(super) fn is_slack(member: &Member, answer: &SystemEquilibrium) -> bool {
+    is_slack_by(CLEAR, member, answer)
+}
+
+fn is_slack_by(clear: f64, member: &Member, answer: &SystemEquilibrium) -> bool {
     let distance_m = length_m(member, &answer.joints_m);
     let length_m = member.body.length_m();
     match member.kind {
         Kind::Bar => false,
-        Kind::Cable => distance_m < length_m * (1.0 - CLEAR),
-        Kind::Strut => distance_m > length_m * (1.0 + CLEAR),
+        Kind::Cable => distance_m < length_m * (1.0 - clear),
+        Kind::Strut => distance_m > length_m * (1.0 + clear),
     }
 }
 
@@ -241,8 +243,17 @@ fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec
     parts
 }
 
-/// The directions in which a support lets its joint move.
-type Motions = fn(&Support) -> Vec<Vector>;
+/// How joints may move.
+struct Way {
+    /// The directions that a support leaves.
+    motions: fn(&Support) -> Vec<Vector>,
+    /// Members slack by more than this part of their length hold nothing.
+    clear: f64,
+}
+
+const IN_SPACE: Way = Way { motions, clear: CLEAR };
+/// Of members that are known to bear nothing.
+const ON_FLOOR: Way = Way { motions: sliding, clear: 1e-12 };
 
 /// Which of some joints can move in every answer, all others held, while no taut member changes its length.
 fn with_room(
@@ -250,9 +261,9 @@ fn with_room(
     answers: &[SystemEquilibrium],
     members_of: &[Vec<usize>],
     part: &[usize],
-    motions: Motions,
+    way: &Way,
 ) -> Vec<bool> {
-    let room = answers.iter().map(|answer| room(system, answer, members_of, part, motions));
+    let room = answers.iter().map(|answer| room(system, answer, members_of, part, way));
     let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
     all.unwrap_or_default()
 }
@@ -262,10 +273,10 @@ fn room(
     answer: &SystemEquilibrium,
     members_of: &[Vec<usize>],
     part: &[usize],
-    motions: Motions,
+    way: &Way,
 ) -> Vec<bool> {
     let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
-    taut.retain(|k| !is_slack(&system.members()[*k], answer));
+    taut.retain(|k| !is_slack_by(way.clear, &system.members()[*k], answer));
     taut.sort_unstable();
     taut.dedup();
     if taut.is_empty() {
@@ -276,7 +287,7 @@ fn room(
         .iter()
         .enumerate()
         .flat_map(|(at, joint)| {
-            motions(&system.joints()[*joint].support).into_iter().map(move |axis| (at, axis))
+            (way.motions)(&system.joints()[*joint].support).into_iter().map(move |axis| (at, axis))
         })
         .collect();
     let (rank, coordinates) = (taut.len(), axes.len());

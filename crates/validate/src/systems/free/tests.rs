@@ -46,7 +46,7 @@ fn two_bars_leave_room_where_they_are_bent() {
         let (_, like) = lamp();
         let joints_m = vec![[0.0; 3], at_m, [2.0, 0.0, 0.0]];
         let answer = SystemEquilibrium { joints_m, ..like };
-        with_room(&system, &[answer], &members_of(&system), &[1], motions)
+        with_room(&system, &[answer], &members_of(&system), &[1], &IN_SPACE)
     };
     for turned in [false, true] {
         assert_eq!(room([1.0, 0.0, 0.0], turned), [false], "{turned}");
@@ -107,7 +107,7 @@ fn string(joints: usize) -> Vec<bool> {
     let (_, like) = lamp();
     let answer = SystemEquilibrium { joints_m, ..like };
     let part: Vec<usize> = (1..=joints).collect();
-    with_room(&system, &[answer], &members_of(&system), &part, motions)
+    with_room(&system, &[answer], &members_of(&system), &part, &IN_SPACE)
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn joints_on_a_line_have_no_room_to_first_order() {
         let system = System::new("three", 10.0, joints, tied).unwrap();
         let (_, like) = lamp();
         let answer = SystemEquilibrium { joints_m, ..like };
-        with_room(&system, &[answer], &members_of(&system), &[1, 2, 3], motions)
+        with_room(&system, &[answer], &members_of(&system), &[1, 2, 3], &IN_SPACE)
     };
     assert_eq!(room([1.0, 0.0, 0.0]), [false; 3]);
     assert_eq!(room([1.0, 1.0, 0.0]), [true; 3]);
