@@ -108,6 +108,12 @@ fn lie_loose(
                 for joint in member.path() {
                     loose[joint] = false;
                 }
+            } else if !is_slack_by(ON_FLOOR.clear, member, answer) {
+                // At a member that is upright, and just as long as it is high, a joint would have to rise.
+                for (joint, pull) in gradient(member.spans(), &answer.joints_m) {
+                    let axes = sliding(&joints[joint].support);
+                    loose[joint] &= axes.iter().any(|axis| dot(pull, *axis).abs() > INDEPENDENT);
+                }
             }
         }
     }
@@ -116,7 +122,6 @@ fn lie_loose(
         if part.len() > TOGETHER {
             continue;
         }
-        // A member that is upright there, and just as long as it is high, leaves none: its joint would have to rise.
         let room = with_room(system, answers, members_of, &part, &ON_FLOOR);
         for (joint, open) in part.iter().zip(room) {
             loose[*joint] = open;
