@@ -266,6 +266,7 @@ fn errors_are_about_a_piece_of_the_text() {
         ("bars[2]\u{e4}.mass_kg=1", "\u{e4}", "a dot is missing here"),
         ("bars[2.mass_kg=1", "[", "this bracket is not closed"),
         ("bars[2=1", "[", "this bracket is not closed"),
+        ("joints.\"A.1.mass_kg=1", "\"", "this quotation mark is not closed"),
         ("joints.A.m\u{e4}ss_kg=1", "m\u{e4}ss_kg", "unknown key"),
         ("gravity_m_s2=1,x,2", "x", "is not a number"),
     ] {

@@ -39,6 +39,7 @@ pub struct SystemStability {
     /// The same among the motions in the vertical plane that holds all joints, forces and supports;
     /// nothing where there is no such plane.
     pub index_in_plane: Option<usize>,
-    /// Independent directions in which the energy neither falls nor rises to second order.
+    /// Independent directions in which the energy neither falls nor rises to second order, as the solver counts them. Of joints
+    /// on which nothing acts, and of forces that are shared by convention, each has its own count: it is not compared.
     pub neutral: usize,
 }

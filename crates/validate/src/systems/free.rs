@@ -40,9 +40,9 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
         return vec![false; joints];
     }
     let unloaded = unloaded(system, answers);
-    let members_of = members_of(system);
-    let mut free = lie_loose(system, answers, &members_of);
+    let mut free = lie_loose(system, answers);
     if unloaded.contains(&true) {
+        let members_of = members_of(system);
         let bears = bearing(system, answers, &members_of, &unloaded);
         let idle: Vec<bool> = (0..joints)
             .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
@@ -81,11 +81,7 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
 }
 
 /// Which joints nothing but the floor acts on in every answer, and can slide on it.
-fn lie_loose(
-    system: &System,
-    answers: &[SystemEquilibrium],
-    members_of: &[Vec<usize>],
-) -> Vec<bool> {
+fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     /// A force below this part of the largest is none, or of all that acts where that is less: far
     /// above the error of forces.
     const NONE: f64 = 1e-8;
@@ -117,12 +113,13 @@ fn lie_loose(
             }
         }
     }
-    for part in parts(system, members_of, &loose) {
+    let members_of = members_of(system);
+    for part in parts(system, &members_of, &loose) {
         // Of the long rest of a mooring line all is taken to slide: there is more room than bars.
         if part.len() > TOGETHER {
             continue;
         }
-        let room = with_room(system, answers, members_of, &part, &ON_FLOOR);
+        let room = with_room(system, answers, &members_of, &part, &ON_FLOOR);
         for (joint, open) in part.iter().zip(room) {
             loose[*joint] = open;
         }

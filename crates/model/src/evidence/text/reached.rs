@@ -203,7 +203,7 @@ impl Display for SelfStresses {
         write!(
             f,
             "one family of dimension {dimension}: {them} may be added without a change of shape or balance; the \
-             forces told are {choice}"
+             forces given are {choice}"
         )
     }
 }
