@@ -127,7 +127,7 @@ mod tests {
         }
     }
 
-    /// Colours of a PNG without filters, red, green and blue, rows from the top.
+    /// Colours of a PNG without filters, red, green and blue, rows from the top; all of them opaque.
     #[cfg(feature = "png-pdf")]
     fn decoded(png: &[u8]) -> ([u32; 2], Vec<[u8; 3]>) {
         let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
@@ -135,9 +135,12 @@ mod tests {
         let at = png.windows(4).position(|name| name == b"IDAT").unwrap();
         let packed = &png[at + 4..at + 4 + side(at - 4) as usize];
         let rows = miniz_oxide::inflate::decompress_to_vec_zlib(packed).unwrap();
-        let rows = rows.chunks(3 * width as usize + 1);
+        let rows = rows.chunks(4 * width as usize + 1);
         assert!(rows.clone().all(|row| row[0] == 0));
-        let colours = rows.flat_map(|row| row[1..].as_chunks().0.iter().copied());
+        let colours = rows.flat_map(|row| row[1..].as_chunks().0).map(|&[r, g, b, opacity]| {
+            assert_eq!(opacity, 255);
+            [r, g, b]
+        });
         ([width, height], colours.collect())
     }
 

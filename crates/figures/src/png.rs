@@ -54,14 +54,6 @@ impl Raster<'_> {
 
 #[cfg(feature = "png-pdf")]
 impl Pixels {
-    /// The file.
-    pub(crate) fn png(&self) -> Vec<u8> {
-        /// A colour for each pixel.
-        const COLOURS: u8 = 2;
-        let rows = self.rgb.chunks(3 * self.width.max(1) as usize);
-        file([self.width, self.height], COLOURS, &[], rows)
-    }
-
     /// Read what [`Raster::png`] writes; none of other files.
     pub(crate) fn read(file: &[u8]) -> Option<Self> {
         let mut rest = file.strip_prefix(SIGNATURE)?;
@@ -92,6 +84,14 @@ impl Pixels {
         }
         Some(Self { width, height, rgb })
     }
+}
+
+/// The file of pixels with red, green, blue and opacity, rows from the top.
+#[cfg(feature = "png-pdf")]
+pub(crate) fn opaque(size: [u32; 2], pixels: &[u8]) -> Vec<u8> {
+    /// Colours with opacity, in the header of a file.
+    const COLOURS: u8 = 6;
+    file(size, COLOURS, &[], pixels.chunks(4 * size[0].max(1) as usize))
 }
 
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";

@@ -6,7 +6,7 @@ use tiny_skia::{
 };
 
 use super::drawing::{Drawing, Pen, Piece, Shape};
-use crate::png::Pixels;
+use crate::png::{self, Pixels};
 
 /// Pixels of a PNG to one of the drawing.
 const SCALE: f32 = 2.0;
@@ -47,9 +47,8 @@ pub(super) fn write(drawing: &Drawing) -> Option<Vec<u8>> {
             }
         }
     }
-    let rgb = pixmap.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
-    let [width, height] = [size.width(), size.height()];
-    Some(Pixels { width, height, rgb: rgb.collect() }.png())
+    // With their opacity, which is whole: as they lie in memory.
+    Some(png::opaque([size.width(), size.height()], pixmap.data()))
 }
 
 fn fill(pixmap: &mut Pixmap, shape: &Shape, at: Transform) {
