@@ -24,7 +24,7 @@ pub struct Raster<'a> {
 }
 
 /// Effort of the compression, from 0 to 10: that of zlib's default.
-const EFFORT: u8 = 6;
+pub(crate) const EFFORT: u8 = 6;
 
 /// Colours of pixels, rows from the top: red, green, blue.
 #[cfg(feature = "png-pdf")]

@@ -103,7 +103,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     let stiffest = stiffest.map(|rod| rod.length / rod.flexibility).fold(0.0, f64::max);
     let rounding = rounding_floor(&frame, &shape) * stiffest / frame.force_scale(&shape.force);
     let (index, curvature) = if frame.freedom <= DENSE {
-        let count = Dense::new(&frame, &shape).count();
+        let count = Dense::read(&frame, &shape, None).count();
         (count.index, count.nearest_to_zero.map(|nearest| nearest / stiff))
     } else {
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;

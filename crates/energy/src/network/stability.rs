@@ -235,18 +235,14 @@ pub(super) struct Dense {
 
 impl Dense {
     /// As a shape that is overdetermined is read, if it is one.
-    fn read(frame: &Frame, shape: &Shape, limit: Option<&Limit>) -> Self {
+    pub(super) fn read(frame: &Frame, shape: &Shape, limit: Option<&Limit>) -> Self {
         match limit {
             Some(limit) => {
                 let shape = stressed(shape, &limit.stiffening);
                 Self::with(frame, &shape, |e| limit.taut[e], limit.rank)
             }
-            None => Self::new(frame, shape),
+            None => Self::with(frame, shape, |e| resists(frame, shape, e), ZERO),
         }
-    }
-
-    pub(super) fn new(frame: &Frame, shape: &Shape) -> Self {
-        Self::with(frame, shape, |e| resists(frame, shape, e), ZERO)
     }
 
     /// With the members that are taut, and the part of the largest singular value below which all

@@ -11,12 +11,10 @@ use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Ref, Str};
 use tiny_skia::{PathSegment, Rect};
 
 use super::drawing::{Drawing, Pen, Piece, Shape, Text};
-use crate::png::Pixels;
+use crate::png::{EFFORT, Pixels};
 
 /// Points to a pixel of the drawing: 96 px to an inch, as CSS has it.
 const POINTS: f32 = 0.75;
-/// Effort of the compression: that of zlib's default.
-const EFFORT: u8 = 6;
 /// Width of every letter of the unseen font, in thousandths of its size.
 const WIDTH: f32 = 500.0;
 const FONT: Name<'_> = Name(b"F");

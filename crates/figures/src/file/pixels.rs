@@ -1,8 +1,8 @@
 //! A drawing as pixels.
 
 use tiny_skia::{
-    Color, FillRule, FilterQuality, LineJoin, Mask, Paint, Pixmap, PixmapPaint, Size, Stroke,
-    StrokeDash, Transform,
+    Color, FillRule, FilterQuality, LineJoin, Paint, Pixmap, PixmapPaint, Size, Stroke, StrokeDash,
+    Transform,
 };
 
 use super::drawing::{Drawing, Pen, Piece, Shape};
@@ -12,8 +12,6 @@ use crate::png::{self, Pixels};
 const SCALE: f32 = 2.0;
 /// Most pixels: 256 MB in memory. Larger drawings are scaled less.
 const MOST: f32 = 6.4e7;
-/// Without a mask.
-const WHOLE: Option<&Mask> = None;
 
 /// The file; none where there is no room for its pixels.
 pub(super) fn write(drawing: &Drawing) -> Option<Vec<u8>> {
@@ -43,7 +41,7 @@ pub(super) fn write(drawing: &Drawing) -> Option<Vec<u8>> {
                     scaled.pre_translate(within.left(), within.top()).pre_scale(sides[0], sides[1]);
                 let sharp =
                     PixmapPaint { quality: FilterQuality::Nearest, ..PixmapPaint::default() };
-                pixmap.draw_pixmap(0, 0, own.as_ref(), &sharp, at, WHOLE);
+                pixmap.draw_pixmap(0, 0, own.as_ref(), &sharp, at, None);
             }
         }
     }
@@ -53,7 +51,7 @@ pub(super) fn write(drawing: &Drawing) -> Option<Vec<u8>> {
 
 fn fill(pixmap: &mut Pixmap, shape: &Shape, at: Transform) {
     if let Some(colour) = shape.fill {
-        pixmap.fill_path(&shape.path, &paint(colour), FillRule::Winding, at, WHOLE);
+        pixmap.fill_path(&shape.path, &paint(colour), FillRule::Winding, at, None);
     }
 }
 
@@ -61,7 +59,7 @@ fn stroke(pixmap: &mut Pixmap, shape: &Shape, at: Transform) {
     if let Some(Pen { colour, width, dashes }) = &shape.pen {
         let dash = StrokeDash::new(dashes.clone(), 0.0);
         let pen = Stroke { width: *width, line_join: LineJoin::Round, dash, ..Stroke::default() };
-        pixmap.stroke_path(&shape.path, &paint(*colour), &pen, at, WHOLE);
+        pixmap.stroke_path(&shape.path, &paint(*colour), &pen, at, None);
     }
 }
 

@@ -254,7 +254,7 @@ struct Way {
 }
 
 const IN_SPACE: Way = Way { motions, clear: CLEAR };
-/// Of members that are known to bear nothing.
+/// Of members that bear nothing, so that any length to spare, above the rounding of places, lets a joint slide.
 const ON_FLOOR: Way = Way { motions: sliding, clear: 1e-12 };
 
 /// Which of some joints can move in every answer, all others held, while no taut member changes its length.

@@ -174,12 +174,12 @@ impl SystemCensus {
             });
             middles(&forces.collect::<Vec<_>>())
         };
-        let jams = jams.into_iter().map(|(member, span, pull)| Jam {
+        let jam = |(member, span, pull): (usize, usize, Vector)| Jam {
             member,
             span,
             pull_n: pull.map(Interval::mid),
-        });
-        let jams = jams.collect();
+        };
+        let jams = jams.into_iter().map(jam).collect();
         SystemEquilibrium {
             solver: SolverName::CENSUS,
             energy_j: position.energy_j.mid(),

@@ -62,7 +62,7 @@ fn a_shallow_truss_snaps_through_where_it_is_soft() {
         assert_eq!(below(&frame, &shape, &mut factor, ZERO, false), falls, "{stiffness}");
         // That there is no Cholesky factor, and the signs.
         assert_eq!(factor.count, 2);
-        let dense = Dense::new(&frame, &shape);
+        let dense = Dense::read(&frame, &shape, None);
         // Sideways in its plane two rigid bars leave it nothing, and upwards neither.
         let index = if stiffness.is_infinite() { 1 } else { falls };
         assert_eq!(dense.count().index, index, "{stiffness}");
@@ -160,7 +160,7 @@ fn the_condition_is_that_of_the_stiffnesses() {
         let (frame, shape) = truss(1.0 / stiffness);
         let [along, upwards]: [f64; 2] =
             [2.0 * (0.99 * stiffness - 0.005), 2.0 * (0.01 * stiffness - 0.495)];
-        let Count { neutral, condition, .. } = Dense::new(&frame, &shape).count();
+        let Count { neutral, condition, .. } = Dense::read(&frame, &shape, None).count();
         assert_eq!(neutral, 0);
         assert!(
             (condition * upwards.abs() / along - 1.0).abs() < 1e-12,
@@ -173,7 +173,7 @@ fn the_condition_is_that_of_the_stiffnesses() {
 #[test]
 fn eigenvalues_count_beside_the_largest() {
     let (frame, shape) = truss(0.0);
-    let mut dense = Dense::new(&frame, &shape);
+    let mut dense = Dense::read(&frame, &shape, None);
     for (small, size, index, neutral) in
         [(5e-7, 1.0, 0, 2), (2e-6, 1.0, 1, 0), (2e-6, 4e3, 0, 2), (5e-6, 4e3, 1, 0)]
     {
@@ -192,7 +192,7 @@ fn two_bars_on_a_line_pull_against_each_other() {
     let (mut frame, shape) = truss(0.0);
     frame.spots[3].freedom = 1;
     frame.freedom = 1;
-    let stresses = Dense::new(&frame, &shape).self_stresses(&frame);
+    let stresses = Dense::read(&frame, &shape, None).self_stresses(&frame);
     let [stress] = &stresses[..] else { panic!("one, not {}", stresses.len()) };
     assert!(stress.len() == 3 && stress[2].abs() <= 0.0);
     assert!((stress[0].abs() - std::f64::consts::FRAC_1_SQRT_2).abs() < 1e-15);
