@@ -111,11 +111,9 @@ impl<'a> Rows<'a> {
     fn row(&self, first: usize, next: usize) -> Vec<usize> {
         let mut row = vec![first, next];
         while let [.., before, here] = row[..] {
-            let loose = matches!(self.system.joints()[here].support, Support::Free);
+            let loose = !holds_height(self.system, here);
             match self.onward(before, here) {
-                Some(onward) if !holds_height(self.system, here) && onward != first => {
-                    row.push(onward);
-                }
+                Some(onward) if loose && onward != first => row.push(onward),
                 None if loose && self.at(here).len() == 1 => return Vec::new(),
                 _ => break,
             }

@@ -26,7 +26,7 @@ pub struct Kernels<'a> {
     pub rank: usize,
     /// The smallest of them and the largest other one, over the largest: 1 and 0 where there is none.
     pub gap: [f64; 2],
-    /// The largest singular value.
+    /// The largest singular value, or the scale where that is more.
     pub largest: f64,
 }
 
@@ -35,13 +35,20 @@ impl<'a> Kernels<'a> {
     /// not finite.
     #[must_use]
     pub fn new(matrix: &'a DMatrix<f64>, zero: f64) -> Option<Self> {
+        Self::at_scale(matrix, zero, 0.0)
+    }
+
+    /// The same below `zero` times the largest or the scale of the entries, whichever is larger: rows of unit vectors
+    /// of which nothing but rounding is left have no rank.
+    #[must_use]
+    pub fn at_scale(matrix: &'a DMatrix<f64>, zero: f64, scale: f64) -> Option<Self> {
         let values = singular_values(matrix)?;
         let largest = values.first().copied().unwrap_or(0.0);
-        let most = largest.max(f64::MIN_POSITIVE);
+        let most = largest.max(scale).max(f64::MIN_POSITIVE);
         let rank = values.iter().filter(|value| **value > zero * most).count();
         let counted = if rank > 0 { values[rank - 1] / most } else { 1.0 };
         let gap = [counted, values.get(rank).map_or(0.0, |value| value / most)];
-        Some(Self { matrix, rank, gap, largest })
+        Some(Self { matrix, rank, gap, largest: largest.max(scale) })
     }
 
     /// An orthonormal basis, by columns, of what the matrix takes to zero.

@@ -329,7 +329,7 @@ fn kernels(rigidity: &DMatrix<f64>, zero: f64) -> (DMatrix<f64>, DMatrix<f64>, R
     let (m, n) = (rigidity.nrows(), rigidity.ncols());
     let unsolved =
         |rank| Rigidity { rank, self_stresses: m - rank, mechanisms: n - rank, gap: [1.0, 0.0] };
-    let Some(found) = Kernels::new(rigidity, zero) else {
+    let Some(found) = Kernels::at_scale(rigidity, zero, 1.0) else {
         return (DMatrix::identity(n, n), DMatrix::zeros(m, 0), unsolved(0));
     };
     let counted = Rigidity { gap: found.gap, ..unsolved(found.rank) };

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use crate::run::{funicular, program, ran, says, stderr, stdout};
+use crate::run::{fed, funicular, program, ran, says, stderr, stdout};
 
 /// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
 const WEIGHT_N: f64 = 2.0 * 9.80665;
@@ -34,6 +34,23 @@ fn numbers(text: &str, line: &str) -> Vec<f64> {
 fn close(x: f64, wanted: f64) {
     // Six digits are printed.
     assert!((x - wanted).abs() <= 1e-5 * wanted.abs(), "{x} {wanted}");
+}
+
+/// A pendulum drawn aside, held in an upright plane as in space: it spans nothing, so its depth is that of its end.
+#[test]
+fn what_hangs_loose_in_a_plane_has_no_line_to_sag_below() {
+    for plane in ["", "plane = \"xz\"\n"] {
+        let file = format!(
+            "{plane}gravity_m_s2 = 10\n\
+             joints = {{ A = {{ at_m = [0, 0, 0] }}, P = {{ force_n = [3, 0, 0], mass_kg = 0.2 }}, \
+             Q = {{ mass_kg = 0.2 }} }}\n\
+             bars = [{{ from = \"A\", to = \"P\", length_m = 5, mass_kg = 0 }}, \
+             {{ from = \"P\", to = \"Q\", length_m = 2, mass_kg = 0 }}]\n"
+        );
+        let text = stdout(&fed(program(".", &["solve", "-"]), file));
+        let depth = "Sag: 6 m, of joint Q below the lowest support, A.";
+        assert!(text.contains(depth), "{text}");
+    }
 }
 
 #[test]

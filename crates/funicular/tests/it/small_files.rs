@@ -46,6 +46,28 @@ fn names_times_a_count_are_refused_before_they_are_made() {
     assert!(lines[1].contains("\"verdict\":\"agreed\""), "{text}");
 }
 
+/// Solvers square lengths and forces: the table was one of NaN.
+#[test]
+fn numbers_whose_squares_are_none_are_refused() {
+    let folder = folder("huge");
+    let lamp = |far: &str, pull: &str, stiff: &str| {
+        format!(
+            "joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [3, {far}, 0] }}, \
+             P = {{ mass_kg = 1, force_n = [{pull}, 0, 0] }} }}\n\
+             bars = [{{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 1, stiffness_n = {stiff} }}, \
+             {{ from = \"P\", to = \"B\", length_m = 2, mass_kg = 1, stiffness_n = {stiff} }}]\n"
+        )
+    };
+    for (file, because) in [
+        (lamp("1e300", "0", "1e3"), "extent of the supports of this system is above 1e150"),
+        (lamp("0", "1e300", "1e3"), "total load of this system is above 1e150"),
+        (lamp("0", "0", "1e300"), "total stiffness of this system is above 1e150"),
+    ] {
+        fs::write(folder.join("lamp.toml"), file).unwrap();
+        refused(&run(&folder, &["solve", "lamp.toml"]), because);
+    }
+}
+
 /// Each line may have so many segments, all of them together may not.
 #[test]
 fn segments_of_all_lines_share_one_budget() {

@@ -103,7 +103,9 @@ fn open_pushes(
     solution: &Solution,
 ) -> Option<Vec<bool>> {
     let floor_m = system.floor_m()?;
-    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium, floor_m);
+    // What iterations leave of lengths adds to the rounding.
+    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium, floor_m)
+        + solution.residual * framework.units.length_m;
     let joints = framework.nodes.iter().zip(&solution.equilibrium.joints_m);
     let touches = joints.zip(lies).map(|((node, at_m), lies)| {
         *lies || ((floor_m - at_m[2]).abs() <= depth_m && lift(node).is_some())

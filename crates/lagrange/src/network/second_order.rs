@@ -190,7 +190,7 @@ impl Dense {
             members.filter(|&k| links[k].taut && links[k].along.is_none()).collect();
         let rows = gradients(framework, &links, &first_unknown, &rigid);
         // A decomposition that fails says nothing: every direction counts as one that is free, and neutral.
-        let kernels = Kernels::new(&rows, SHARP);
+        let kernels = Kernels::at_scale(&rows, SHARP, 1.0);
         let rank_gap = kernels.as_ref().map_or([1.0, 0.0], |kernels| kernels.gap);
         let (motions, stresses) = kernels.map_or_else(
             || (DMatrix::identity(size, size), DMatrix::zeros(rigid.len(), 0)),

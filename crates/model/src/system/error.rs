@@ -258,8 +258,11 @@ pub enum SystemError {
         /// The factor as given.
         factor: f64,
     },
-    /// Occurs when every number is finite and a total is not: lengths, loads, or their product.
-    #[error("the {quantity} of this system is larger than a double can hold")]
+    /// Occurs when every number is finite and a total, or its square, is not: lengths, loads, their product,
+    /// stiffnesses.
+    #[error(
+        "the {quantity} of this system is above {LARGEST_TOTAL:e}: its square is more than a double can hold"
+    )]
     Overflow {
         /// Which total.
         quantity: &'static str,
@@ -292,6 +295,9 @@ pub enum SystemError {
 fn quoted(names: &[String]) -> String {
     names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")
 }
+
+/// Solvers square lengths and forces.
+const LARGEST_TOTAL: f64 = 1e150;
 
 /// How far from 1 the length of a direction may be: the rounding of its three components.
 pub(crate) const UNIT_TOLERANCE: f64 = 8.0 * f64::EPSILON;
@@ -459,6 +465,7 @@ fn check_totals(
     let forces = forces.chain(members.iter().flat_map(|m| m.loads.iter().map(|l| l.force_n)));
     let force_n = crate::sum(forces.map(|[x, y, z]| x.hypot(y).hypot(z)));
     let load_n = mass_kg * gravity_m_s2 + force_n;
+    let stiffness_n: f64 = members.iter().filter_map(|member| member.stiffness_n).sum();
     let reach_m = joints
         .iter()
         .filter_map(|joint| joint.support.at_m())
@@ -469,8 +476,9 @@ fn check_totals(
         ("total length", length_m, false),
         ("total load", load_n, !loaded),
         ("total load times total length", load_n * length_m, !loaded),
+        ("total stiffness", stiffness_n, true),
     ] {
-        if !total.is_finite() {
+        if total.is_nan() || total > LARGEST_TOTAL {
             return Err(SystemError::Overflow { quantity });
         }
         if total < SMALLEST_TOTAL && !may_vanish {

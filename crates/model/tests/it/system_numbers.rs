@@ -117,7 +117,13 @@ fn totals_are_numbers_with_digits_to_spare() {
     // Nothing is loaded: there is no weight to be small.
     assert!(accepted(1.0, joints(), bar(1.0, 0.0)));
     assert_eq!(error(4.0, joints(), bar(1.0, huge / 2.0)), large("total load"));
-    assert_eq!(error(4.0, joints(), bar(4.0, huge / 8.0)), large("total load times total length"));
+    // Solvers square lengths and forces: 1e150 is the most that any total may be.
+    assert_eq!(error(4.0, joints(), bar(1.0, 0.26e150)), large("total load"));
+    assert!(accepted(4.0, joints(), bar(1.0, 0.24e150)));
+    assert_eq!(error(4.0, joints(), bar(1e80, 1e80)), large("total load times total length"));
+    let stiff = vec![bar(1.0, 1.0).stretching(Some(1.1e150))];
+    let stiff = System::new("", 1.0, joints().to_vec(), stiff).map(|_| ());
+    assert_eq!(stiff, Err(large("total stiffness")));
     // The two ends of the reach may be on both sides of zero.
     let far = [Joint::anchor("A", [0.0, -0.75 * huge, 0.0]), free()];
     assert_eq!(error(1.0, far, bar(1.0, 1.0)), large("extent of the supports"));

@@ -371,14 +371,25 @@ impl<'a> Judgement<'a> {
             }
             joints_m = self.joints_apart_m(first, &turned);
         }
-        let pair = Pair {
+        let mut pair = Pair {
             system: self.system,
             answers: [first, &turned],
             scale: &self.scale,
             tolerance: self.tolerances.forces,
             family: self.family.as_ref(),
         };
-        let (apart, (named, choices)) = (pair.apart(), pair.named());
+        let mut apart = pair.apart();
+        let counted = pair.family.is_some_and(Family::is_counted);
+        let between = (apart.value_n > apart.budget_n && !counted && joints_m <= budget_m)
+            .then(|| Family::between(self.system, pair.answers))
+            .flatten();
+        if between.is_some() {
+            // Two answers in balance that differ by it show that the forces are open.
+            pair.family = between.as_ref();
+            apart = pair.apart();
+            self.shape_only = true;
+        }
+        let (named, choices) = pair.named();
         let energy_j = (first.energy_j - second.energy_j).abs();
         if let Some(choices) = choices {
             self.forces_found.choices.get_or_insert(choices);

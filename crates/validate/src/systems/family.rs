@@ -27,6 +27,9 @@ const COUNTED: usize = 240;
 /// with them the balances of joints change by less than what two answers may differ by.
 const RANK: f64 = 1e-9;
 
+/// What a solver leaves of lengths, up to this many roundings of a coordinate, makes the height of a joint as unsure.
+const LEFT_OF_LENGTHS: f64 = 1e3;
+
 /// A member whose part of every self-stress of unit size is below this takes part in none: far above
 /// the rounding of singular vectors.
 const TAKES_PART: f64 = 1e-9;
@@ -62,8 +65,7 @@ impl Family {
     /// system is large and the answer names none, and where a rope has a span without length, which pulls in
     /// any direction.
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
-        let members = system.members();
-        let named = &answer.evidence.self_stresses;
+        let named = answer.evidence.self_stresses.as_ref().map(|named| &named.basis[..]);
         let motions_of = |joint: &Joint| match joint.support {
             Support::Free => 3,
             Support::Plane { .. } => 2,
@@ -71,17 +73,29 @@ impl Family {
             Support::Fixed { .. } => 0,
         };
         let is_large = || system.joints().iter().map(motions_of).sum::<usize>() > 2 * COUNTED;
-        let incomplete = answer.joints_m.len() != system.joints().len();
-        if incomplete || has_corner(system, answer) || named.is_none() && is_large() {
+        if named.is_none() && is_large() {
             return None;
         }
-        let near_m = rounding_m(system, answer);
-        let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-        let free = system.joints().iter().zip(&answer.joints_m).map(|(joint, at_m)| {
-            let touches = at_m[2] - floor_m <= near_m;
-            if touches { sliding(&joint.support) } else { motions(&joint.support) }
-        });
-        let free: Vec<Vec<Vector>> = free.collect();
+        Self::with(system, answer, named.unwrap_or_default())
+    }
+
+    /// The same where nothing is counted and the axial forces of two answers with one shape differ: with their
+    /// difference as the self-stress that is named. Without value where it is none.
+    pub(super) fn between(
+        system: &System,
+        [first, second]: [&SystemEquilibrium; 2],
+    ) -> Option<Self> {
+        let apart = first.axial_n.iter().zip(&second.axial_n).map(|(a, b)| a - b);
+        let stress = normalised(&apart.collect::<Vec<_>>())?;
+        Self::with(system, first, &[stress]).filter(|family| !family.basis.is_empty())
+    }
+
+    fn with(system: &System, answer: &SystemEquilibrium, named: &[Vec<f64>]) -> Option<Self> {
+        let members = system.members();
+        if answer.joints_m.len() != system.joints().len() || has_corner(system, answer) {
+            return None;
+        }
+        let free = motions_above_floor(system, answer);
         let coordinates: usize = free.iter().map(Vec::len).sum();
         let (mut along, mut misfit_m, mut ropes) = (Vec::new(), Vec::new(), BTreeMap::new());
         for (k, member) in members.iter().enumerate() {
@@ -108,8 +122,8 @@ impl Family {
         if coordinates <= COUNTED {
             family.count(system, &taut, coordinates)?;
         }
-        if let Some(named) = named {
-            named.basis.iter().for_each(|stress| family.add(system, stress));
+        for stress in named {
+            family.add(system, stress);
         }
         Some(family)
     }
@@ -163,6 +177,10 @@ impl Family {
     /// named.
     pub(super) fn dimension(&self) -> Option<usize> {
         (self.counted || !self.basis.is_empty()).then_some(self.basis.len())
+    }
+
+    pub(super) fn is_counted(&self) -> bool {
+        self.counted
     }
 
     /// The rank of the lengths and what follows from it; without value where it is not counted.
@@ -375,6 +393,24 @@ fn unit(member: usize, members: usize) -> Vec<f64> {
     (0..members).map(|k| if k == member { 1.0 } else { 0.0 }).collect()
 }
 
+/// Of each joint the directions in which it may move; along the floor, of those that touch it.
+pub(super) fn motions_above_floor(system: &System, answer: &SystemEquilibrium) -> Vec<Vec<Vector>> {
+    let rounding_m = rounding_m(system, answer);
+    let off = system.members().iter().map(|member| {
+        let bar = member.kind == Kind::Bar && member.stiffness_n.is_none();
+        if bar { (length_m(member, &answer.joints_m) - member.body.length_m()).abs() } else { 0.0 }
+    });
+    let near_m = rounding_m + off.fold(0.0, f64::max).min(LEFT_OF_LENGTHS * rounding_m);
+    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let joints = system.joints().iter().zip(&answer.joints_m);
+    joints
+        .map(|(joint, at_m)| {
+            let touches = at_m[2] - floor_m <= near_m;
+            if touches { sliding(&joint.support) } else { motions(&joint.support) }
+        })
+        .collect()
+}
+
 /// Orthonormal directions in which a joint may move.
 pub(super) fn motions(support: &Support) -> Vec<Vector> {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -412,7 +448,7 @@ fn null_rows(matrix: &DMatrix<f64>) -> Option<Null> {
         let rows = (0..rows).map(|k| unit(k, rows)).collect();
         return Some(Null { rows, zero: 0.0, rank: 0, gap: [1.0, 0.0] });
     }
-    let kernels = Kernels::new(matrix, RANK)?;
+    let kernels = Kernels::at_scale(matrix, RANK, 1.0)?;
     let Kernels { rank, gap, largest, .. } = kernels;
     let left = kernels.left();
     let rows = left.column_iter().map(|stress| stress.iter().copied().collect()).collect();

@@ -257,7 +257,8 @@ const IN_SPACE: Way = Way { motions, clear: CLEAR };
 /// Of members that bear nothing, so that any length to spare, above the rounding of places, lets a joint slide.
 const ON_FLOOR: Way = Way { motions: sliding, clear: 1e-12 };
 
-/// Which of some joints can move in every answer, all others held, while no taut member changes its length.
+/// Which of some joints can move, all others held, while no taut member changes its length: in every answer in which
+/// the lengths are independent. Where they are not, as in a line folded onto itself, another answer has to tell.
 fn with_room(
     system: &System,
     answers: &[SystemEquilibrium],
@@ -265,9 +266,9 @@ fn with_room(
     part: &[usize],
     way: &Way,
 ) -> Vec<bool> {
-    let room = answers.iter().map(|answer| room(system, answer, members_of, part, way));
+    let room = answers.iter().filter_map(|answer| room(system, answer, members_of, part, way));
     let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
-    all.unwrap_or_default()
+    all.unwrap_or_else(|| vec![false; part.len()])
 }
 
 fn room(
@@ -276,13 +277,13 @@ fn room(
     members_of: &[Vec<usize>],
     part: &[usize],
     way: &Way,
-) -> Vec<bool> {
+) -> Option<Vec<bool>> {
     let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
     taut.retain(|k| !is_slack_by(way.clear, &system.members()[*k], answer));
     taut.sort_unstable();
     taut.dedup();
     if taut.is_empty() {
-        return vec![true; part.len()];
+        return Some(vec![true; part.len()]);
     }
     // The coordinates of each joint along what its support leaves free.
     let axes: Vec<(usize, Vector)> = part
@@ -294,7 +295,7 @@ fn room(
         .collect();
     let (rank, coordinates) = (taut.len(), axes.len());
     if part.len() > TOGETHER || rank >= coordinates {
-        return vec![false; part.len()];
+        return Some(vec![false; part.len()]);
     }
     let mut rows = DMatrix::<f64>::zeros(rank, coordinates);
     for (row, k) in taut.iter().enumerate() {
@@ -306,15 +307,13 @@ fn room(
             }
         }
     }
-    let kernels = Kernels::new(&rows, INDEPENDENT).filter(|kernels| kernels.rank == rank);
-    let Some(right) = kernels.map(|kernels| kernels.right()) else {
-        return vec![false; part.len()];
-    };
+    let kernels = Kernels::new(&rows, INDEPENDENT).filter(|kernels| kernels.rank == rank)?;
+    let right = kernels.right();
     let moves = |at: usize| {
         let own = axes.iter().enumerate().filter(|(_, (joint, _))| *joint == at);
         own.map(|(k, _)| right.row(k).norm_squared()).sum::<f64>().sqrt() > INDEPENDENT
     };
-    (0..part.len()).map(moves).collect()
+    Some((0..part.len()).map(moves).collect())
 }
 
 #[cfg(test)]

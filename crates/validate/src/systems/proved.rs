@@ -18,7 +18,7 @@ use model::system::{Kind, Member, System, SystemEquilibrium};
 use model::{Proved, Vector};
 
 use super::definite::{Symmetric, gamma};
-use super::family::motions;
+use super::family::{motions, motions_above_floor};
 use super::spans::{self, has_corner};
 use numerics::vector::{dot, minus, norm};
 
@@ -69,7 +69,9 @@ pub(super) fn proved(system: &System, answer: &SystemEquilibrium) -> Option<Prov
     if free.iter().map(Vec::len).sum::<usize>() > MOST {
         return None;
     }
-    Proved::of(is_independent(&acting, &free), is_stable(&acting, &free))
+    // What the floor bears is a force as those of members are.
+    let on_floor = motions_above_floor(system, answer);
+    Proved::of(is_independent(&acting, &on_floor), is_stable(&acting, &free))
 }
 
 /// A member that bears a force, or would along its own direction.

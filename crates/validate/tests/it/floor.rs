@@ -234,6 +234,28 @@ fn long_lines_settle_on_the_floor() {
     assert!(both[0].evidence.iterations < 400, "{}", both[0].evidence.iterations);
 }
 
+/// A line of 95 m from an anchor on the floor to a ship 60 m away and 30 m up: 60 of its segments hang straight down,
+/// and the joint below them just touches the floor. Floor and line share the 100 N of that joint, so the pull at the
+/// ship is the weight of the 60 segments to half of that. The line is too long for its self-stresses to be counted.
+#[test]
+fn of_a_long_line_that_just_touches_the_floor_the_shape_is_agreed_on() {
+    const N: usize = 190;
+    let joint = |k: usize| match k {
+        0 => Joint::anchor("anchor", [0.0, 0.0, -30.0]),
+        N => Joint::anchor("ship", [60.0, 0.0, 0.0]),
+        _ => Joint::free(k.to_string()),
+    };
+    let bar = Bar::homogeneous(0.5, 10.0).unwrap();
+    let members = (0..N).map(|k| Member::cable(k, k + 1, bar)).collect();
+    let system = System::new("slack", 10.0, (0..=N).map(joint).collect(), members).unwrap();
+    let both = answers(&system.with_floor(-30.0).unwrap());
+    for e in &both {
+        assert!((e.reactions_n[N][2] - 6000.0).abs() <= 50.0 + 1e-6, "{:?}", e.reactions_n[N]);
+        assert!(e.joints_m[N - 60][2] + 30.0 < 1e-9, "{:?}", e.joints_m[N - 60]);
+        assert!(e.evidence.ladder.agreed.proof().unwrap().shape_only);
+    }
+}
+
 /// What is below the floor, pulled by it or pushed above it is found.
 #[test]
 fn the_judge_knows_the_floor() {

@@ -128,10 +128,13 @@ fn ladder_of_too_low(output: &mut Output, largest: f64) {
     let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
     output.is(&at("rung"), rungs.as_slice());
     output.each(&at("reached"), false);
-    let how = ["8.1e3", "the judge refuses this answer", "not tried", "not tried", "not tried"];
+    let how =
+        ["8.1e3", "the judge refuses this answer", "not tried", "not tried", "lengths are off"];
     output.says(&at("how"), &how);
-    let kinds = ["above_tolerance", "judge_refuses", "not_tried", "not_tried", "not_tried"];
+    let kinds = ["above_tolerance", "judge_refuses", "not_tried", "not_tried", "no_certificate"];
     output.is(&at("reason.kind"), kinds.as_slice());
+    // 2 J less than the lamp has at rest, of 20 N times 5 m.
+    output.near(&at("reason.gap"), 1e-3, -0.02);
     output.says(&at("reason.residual_of"), &["largest violation of a law"]);
     output.near(&at("reason.residual"), 1e-8, largest);
     output.is(&at("reason.tolerance"), 1.0);

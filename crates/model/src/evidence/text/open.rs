@@ -185,6 +185,11 @@ impl Display for NoCertificate {
                 "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, the \
                  stress matrix is indefinite, there is less energy elsewhere"
             ),
+            Self::Gap { gap } if *gap < 0.0 => write!(
+                f,
+                "the energy is {:.1e} of weight times length below the least that any configuration has: lengths are off",
+                -gap
+            ),
             Self::Gap { gap } => {
                 write!(f, "the lower bound stays {gap:.1e} of weight times length below the energy")
             }

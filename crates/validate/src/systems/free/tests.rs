@@ -55,6 +55,38 @@ fn two_bars_leave_room_where_they_are_bent() {
     }
 }
 
+/// Of a line of four bars over two bar lengths, folded onto itself, the lengths are not independent: whether it can
+/// move another answer tells, and none alone.
+#[test]
+fn a_folded_line_leaves_the_room_that_another_answer_shows() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P"),
+        Joint::free("Q"),
+        Joint::free("R"),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+    ];
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let members = (0..4).map(|k| Member::bar(k, k + 1, bar)).collect();
+    let system = System::new("folded", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
+    let along = |x: f64, y: f64| [x, y, 0.0];
+    let answer = |[p, q, r]: [Vector; 3]| {
+        let (_, like) = lamp();
+        let joints_m = vec![[0.0; 3], p, q, r, along(2.0, 0.0)];
+        SystemEquilibrium { joints_m, ..like }
+    };
+    let high = 0.75_f64.sqrt();
+    let folded = || answer([along(1.0, 0.0), along(0.0, 0.0), along(1.0, 0.0)]);
+    let bent = || answer([along(0.5, high), along(1.0, 0.0), along(1.5, high)]);
+    let members_of = members_of(&system);
+    let room = |answers: &[SystemEquilibrium]| {
+        with_room(&system, answers, &members_of, &[1, 2, 3], &ON_FLOOR)
+    };
+    assert_eq!(room(&[folded()]), [false; 3]);
+    assert_eq!(room(&[bent()]), [true; 3]);
+    assert_eq!(room(&[folded(), bent()]), [true; 3]);
+}
+
 /// An anchor from which a slack cable hangs is where it is.
 #[test]
 fn anchors_are_not_free() {
