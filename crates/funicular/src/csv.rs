@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::text::tables::short;
+use crate::text::tables::{fixed, short};
 
 /// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
 /// to less.
@@ -13,13 +13,47 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Numbers {
     rounding: f64,
+    largest: f64,
+    /// Decimals of numbers that differ by little of what they are; else six digits each.
+    decimals: Option<usize>,
 }
 
 impl Numbers {
     /// For numbers of which these are the largest.
     pub(crate) fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
         let largest = numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        Self { rounding: ROUNDING * largest }
+        Self { rounding: ROUNDING * largest, largest, decimals: None }
+    }
+
+    /// The same for numbers that are apart by no more than this, as coordinates far from their origin: six digits of
+    /// that.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "small and not negative"
+    )]
+    pub(crate) fn apart(mut self, by: f64) -> Self {
+        /// Six digits of a number show three of a difference as large as this part of it.
+        const LITTLE: f64 = 1e-3;
+        if by > 0.0 && by < LITTLE * self.largest {
+            self.decimals = Some((5.0 - by.log10().floor()).clamp(0.0, 9.0) as usize);
+        }
+        self
+    }
+
+    /// Of columns with these units: what is beside the largest number of its unit rounding is 0.
+    pub(crate) fn of_columns(units: &[&str], values: impl Fn(usize) -> Vec<f64>) -> Vec<Self> {
+        let columns: Vec<Vec<f64>> = (0..units.len()).map(values).collect();
+        let of_unit = |unit: &str| {
+            let same = columns.iter().zip(units).filter(move |(_, other)| **other == unit);
+            Self::of(same.flat_map(|(column, _)| column)).rounding
+        };
+        let column = |(column, unit): (&Vec<f64>, &&str)| {
+            let most = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let least = column.iter().copied().fold(f64::INFINITY, f64::min);
+            Self { rounding: of_unit(unit), ..Self::of(column).apart(most - least) }
+        };
+        columns.iter().zip(units).map(column).collect()
     }
 
     /// The number, or 0.
@@ -29,7 +63,8 @@ impl Numbers {
 
     /// For reading.
     pub(crate) fn short(self, x: f64) -> String {
-        short(self.number(x))
+        let x = self.number(x);
+        self.decimals.map_or_else(|| short(x), |decimals| fixed(x, decimals))
     }
 
     /// In the fewest digits that read back to it.

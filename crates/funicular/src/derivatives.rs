@@ -11,6 +11,7 @@ use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
 use crate::csv::quoted;
+use crate::equilibria::next_to;
 use crate::error::Error;
 use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
@@ -150,12 +151,9 @@ impl Derivatives {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();
         system.refusal()?;
-        let settings = Settings::default();
         let solution = match system.drawing() {
-            Some(drawing_m) => {
-                network::solve_from(&system, &network::Seed::at(drawing_m), &settings)?
-            }
-            None => network::solve(&system, &settings)?,
+            Some(drawing_m) => next_to(&system, &drawing_m)?,
+            None => network::solve(&system, &Settings::default())?,
         };
         Ok(DerivativesAnswer { system, solution })
     }

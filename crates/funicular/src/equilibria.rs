@@ -2,9 +2,12 @@
 
 use census::Settings;
 use census::network::SystemCensus;
+use lagrange::network::{self, Seed};
+use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
-use model::system::SystemEquilibrium;
-use validate::systems::quick_census;
+use model::system::{System, SystemEquilibrium};
+use validate::systems::{ask_with, quick_census};
+use validate::{Question, UseCensus};
 
 use crate::census::{CensusAnswer, Found};
 use crate::error::Error;
@@ -28,11 +31,39 @@ pub(crate) struct Equilibria {
     pub complete: bool,
 }
 
-/// The equilibrium that the solvers find, the stable one.
+/// The equilibrium that the solvers find, the stable one; none where they disagree.
 pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
-    let found = Solve::new().run(problem)?.into_parts().1.into_iter().take(1);
+    let answer = Solve::new().run(problem)?;
+    if answer.agreement().is_some_and(|agreement| !agreement.agrees()) {
+        return Err(Error::Disagreed(Box::new(answer)));
+    }
+    let found = answer.into_parts().1.into_iter().take(1);
     let list = found.map(|found| Located { label: "1".to_owned(), found }).collect();
     Ok(Equilibria { list, complete: false })
+}
+
+/// The equilibrium of `lagrange` next to a drawing, where both solvers agree on one: the one that `solve` shows. Else
+/// what `lagrange` finds by itself.
+pub(crate) fn next_to(
+    system: &System,
+    drawing_m: &[Vector],
+) -> Result<network::Solution, network::Error> {
+    let settings = network::Settings::default();
+    let alone = || network::solve_from(system, &Seed::at(drawing_m.to_vec()), &settings);
+    // Without loads the drawing may be all that there is.
+    if system.is_unloaded() {
+        return alone();
+    }
+    let question = Question { census: UseCensus::Never, ..Question::default() };
+    let answer = ask_with(system, &question, &|_| {});
+    match answer.equilibria.into_iter().next() {
+        Some(found) if answer.agreement.is_some_and(|agreement| agreement.agrees()) => {
+            let SystemEquilibrium { joints_m, axial_n, .. } = found;
+            let seed = Seed { axial_n: Some(axial_n), ..Seed::at_rest(joints_m) };
+            network::solve_from(system, &seed, &settings).or_else(|_| alone())
+        }
+        _ => alone(),
+    }
 }
 
 /// All equilibria by a census, if that is complete: of a row of at most `max_bars` bars, or of another

@@ -67,6 +67,11 @@ pub enum Error {
     /// why.
     #[error("{}", reasons(.0.failures()))]
     Unsolved(Box<SolveAnswer>),
+    /// Occurs when the solvers disagree where one equilibrium is needed to go on.
+    #[error(
+        "the solvers disagree on this equilibrium: `funicular solve` shows the answers of both"
+    )]
+    Disagreed(Box<SolveAnswer>),
     /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
     #[error(transparent)]
     SystemRefused(#[from] model::system::SystemRefusal),

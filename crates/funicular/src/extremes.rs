@@ -1,7 +1,7 @@
 //! What stands out in an equilibrium.
 
 use model::Vector;
-use model::system::{System, SystemEquilibrium};
+use model::system::{Kind, System, SystemEquilibrium};
 use serde::Serialize;
 
 use crate::sag::Sag;
@@ -47,7 +47,7 @@ pub struct Extremes {
     /// no bar pulls. In JSON bars are counted from 1.
     #[serde(serialize_with = "from_one")]
     pub tension_n: Option<(usize, f64)>,
-    /// The bar, from 0, with the largest compression anywhere along it, and its size, N; without
+    /// The bar, from 0, with the largest compression anywhere along it, no cable, and its size, N; without
     /// value where no bar pushes. In JSON bars are counted from 1.
     #[serde(serialize_with = "from_one")]
     pub compression_n: Option<(usize, f64)>,
@@ -74,7 +74,13 @@ impl Extremes {
         for bar in 0..system.members().len() {
             let along = found.axial_force(system, bar);
             size = size.max(along.largest_n().abs());
-            for (most, force) in largest.iter_mut().zip([along.most_n, -along.least_n]) {
+            // What its own weight presses together at an end of a lying cable is no compression of it.
+            let borne = match system.members()[bar].kind {
+                Kind::Bar => [along.most_n, -along.least_n],
+                Kind::Cable => [along.most_n, 0.0],
+                Kind::Strut => [0.0, -along.least_n],
+            };
+            for (most, force) in largest.iter_mut().zip(borne) {
                 // The first of several.
                 if most.is_some_and(|(_, largest)| force <= largest) {
                     continue;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use model::system::{System, SystemEquilibrium, SystemRefusal};
 use model::{Rung, Vector};
 use serde::Serialize;
+use validate::systems::SystemFailure;
 
+use crate::error::Error;
 use crate::extremes::Extremes;
 use crate::solve::{Solve, SolveAnswer};
 use crate::weakest::Weakest;
@@ -81,7 +83,13 @@ pub(crate) fn settle(
     };
     system.refusal().map_err(refused)?;
     let unknown = |reason: String| Unsettled { outcome: Outcome::Unknown, reason };
-    let answer = solve.run_here(&system.into()).map_err(|error| unknown(error.to_string()))?;
+    let answer = solve.run_here(&system.into()).map_err(|error| match &error {
+        Error::Unsolved(answer) if answer.failures().iter().all(SystemFailure::falls) => {
+            let reason = answer.failures().first().map_or_else(String::new, ToString::to_string);
+            Unsettled { outcome: Outcome::Falls, reason }
+        }
+        _ => unknown(error.to_string()),
+    })?;
     if let Some(near) = answer.near().filter(|near| !near.is_neighbour) {
         let (joint, moved_m) = (&near.joint, near.moved_m);
         let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");

@@ -32,7 +32,7 @@ pub struct Critical {
     /// What that may be: a tolerance, and what rounding of the places leaves of the forces of stiff
     /// members.
     pub allowed: f64,
-    /// Largest misfit of a length, over the length.
+    /// Largest misfit of a length, over the length, beyond what rounding of the places explains.
     pub misfit: f64,
     /// Number of directions in which the energy falls.
     pub index: usize,
@@ -101,7 +101,12 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     let stiff = stiff.fold(f64::MIN_POSITIVE, f64::max);
     let stiffest = frame.rods.iter().filter(|rod| rod.elastic());
     let stiffest = stiffest.map(|rod| rod.length / rod.flexibility).fold(0.0, f64::max);
-    let rounding = rounding_floor(&frame, &shape) * stiffest / frame.force_scale(&shape.force);
+    // Far from the origin places are given to few digits.
+    let far = joints_m.iter().flatten().fold(0.0_f64, |far, x| far.max(x.abs())) / frame.length_m;
+    let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
+    let given = f64::EPSILON * far / shortest;
+    let rounding =
+        rounding_floor(&frame, &shape).max(given) * stiffest / frame.force_scale(&shape.force);
     let (index, curvature) = if frame.freedom <= DENSE {
         let count = Dense::read(&frame, &shape, None).count();
         (count.index, count.nearest_to_zero.map(|nearest| nearest / stiff))
@@ -109,7 +114,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
-    let (unbalance, misfit) = (slope.unbalance, slope.misfit);
+    let (unbalance, misfit) = (slope.unbalance, (slope.misfit - given).max(0.0));
     Ok(Some(Critical { unbalance, allowed: MET + rounding, misfit, index, curvature }))
 }
 

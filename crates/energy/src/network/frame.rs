@@ -228,6 +228,11 @@ impl Frame {
         }
     }
 
+    /// Whether a floor is below any joint that can rise.
+    pub(super) fn has_floor(&self) -> bool {
+        self.rods.iter().any(|rod| rod.ground)
+    }
+
     /// From one end of a member to the other.
     pub(super) fn span(&self, x: &[Vector], rod: usize) -> Vector {
         along(x[self.rods[rod].to], -1.0, x[self.rods[rod].from])

@@ -111,7 +111,9 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result
         let again = match &found {
             Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
             Err(Error::Jammed { .. }) if corners == Corners::Minima => false,
-            Err(Error::IterationLimit { .. }) => attempt <= RESTARTS && !frame.ropes.is_empty(),
+            Err(Error::IterationLimit { .. }) => {
+                attempt <= RESTARTS && (!frame.ropes.is_empty() || frame.has_floor())
+            }
             Err(error) => hard_to_close(error),
         };
         if !again {

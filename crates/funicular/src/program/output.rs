@@ -91,7 +91,8 @@ pub fn check_files<'a>(
 }
 
 /// Endings of pictures that are not written.
-const OTHER_PICTURES: [&str; 5] = ["jpg", "jpeg", "gif", "eps", "webp"];
+const OTHER_PICTURES: [&str; 9] =
+    ["jpg", "jpeg", "gif", "eps", "webp", "bmp", "tif", "tiff", "svgz"];
 
 /// What a file's name ends in, behind the point.
 fn ending(path: &Path) -> &str {

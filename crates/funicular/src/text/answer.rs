@@ -141,16 +141,19 @@ fn question(solution: &SolveAnswer) -> String {
         return lowest(proved).to_owned() + &again(solution.asked_again());
     };
     let moved = format!(
-        "joint {} is {:.3e} m from it, {:.2} % of the shortest member there",
+        "joint {} is {} m from it, {:.2} % of the shortest member there",
         Printable(&near.joint),
-        near.moved_m,
+        short(near.moved_m),
         100.0 * near.moved
     );
     let barrier = near.barrier_j.map_or_else(String::new, |barrier_j| {
-        format!(", and the energy rises by {barrier_j:.3e} J on the way")
+        format!(", and the energy rises by {} J on the way", short(barrier_j))
     });
-    let found = if near.is_neighbour {
-        format!("The equilibrium nearest to the shape given ({moved})")
+    let stays = solution.equilibria().first().is_some_and(|e| e.stability.index_in_space == 0);
+    let found = if near.is_neighbour && stays && !solution.check_failed() {
+        format!("The stable equilibrium nearest to the shape given ({moved})")
+    } else if near.is_neighbour {
+        format!("An equilibrium near the shape given ({moved})")
     } else {
         format!("Not the neighbour of the shape given ({moved}{barrier})")
     };

@@ -6,6 +6,7 @@ use branches::load::MOST_PATHS;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, significant, table, wrapped};
+use crate::csv::Numbers;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
 
@@ -74,9 +75,13 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
     head.extend(found.of().iter().map(|(name, unit)| headed(name, unit)));
     head.extend(["falling".to_owned(), "what happens".to_owned()]);
     let mut table = table(head.iter().map(String::as_str));
+    let units: Vec<&str> = found.of().iter().map(|(_, unit)| *unit).collect();
+    let values = |k: usize| path.points.iter().filter_map(|point| point.of[k]).collect();
+    let columns = Numbers::of_columns(&units, values);
     for point in spread(&path.points) {
         let mut row = vec![short(point.values[last])];
-        row.extend(point.of.iter().map(|value| value.map_or_else(String::new, short)));
+        let cells = point.of.iter().zip(&columns);
+        row.extend(cells.map(|(x, column)| x.map_or_else(String::new, |x| column.short(x))));
         row.push(point.index.to_string());
         row.push(point.event.map_or_else(String::new, |event| happens(&path.events[event])));
         table.add_row(row);

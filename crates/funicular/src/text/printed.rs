@@ -122,7 +122,7 @@ pub fn quantity(x: f64, of: &str) -> String {
 }
 
 /// Some numbers with commas between, the unit behind.
-pub fn numbers(all: &[f64], of: &str, digits: fn(f64) -> String) -> String {
+pub fn numbers(all: &[f64], of: &str, digits: impl Fn(f64) -> String) -> String {
     let (name, size) = display(of).unwrap_or((of, 1.0));
     let all: Vec<String> = all.iter().map(|x| digits(x / size)).collect();
     match &all[..] {

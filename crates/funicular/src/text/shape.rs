@@ -80,7 +80,7 @@ impl Shape<'_> {
 
     fn joints(&self) -> String {
         let mut table = table(["joint", "x / m", "y / m", "z / m"]);
-        let places = Numbers::of(self.joints_m.as_flattened());
+        let places = self.places();
         for (k, at_m) in self.joints_m.iter().enumerate() {
             let mut row = vec![(self.name)(k)];
             row.extend(at_m.map(|x| places.short(x)));
@@ -88,6 +88,15 @@ impl Shape<'_> {
         }
         numbers_from(&mut table, 1);
         titled(&format!("Joints, by {}:", self.solver), &table)
+    }
+
+    /// Coordinates as they are shown.
+    fn places(&self) -> Numbers {
+        let extent = |axis: usize| {
+            let all = || self.joints_m.iter().map(|at_m| at_m[axis]);
+            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        };
+        Numbers::of(self.joints_m.as_flattened()).apart((0..3).map(extent).fold(0.0, f64::max))
     }
 
     /// Some bars, each with its axial force and how steeply it rises from its first joint to its
@@ -208,8 +217,8 @@ impl Shape<'_> {
     /// Sag, lowest joint, largest forces and where.
     pub fn summary(&self) -> String {
         let Some(extremes) = &self.extremes else { return String::new() };
-        let places = Numbers::of(self.joints_m.as_flattened());
-        let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", short);
+        let places = self.places();
+        let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", |x| places.short(x));
         let mut text = format!("Lowest joint: {}, at {at}.\n", (self.name)(extremes.lowest_joint));
         // Writing to a String cannot fail.
         if let Some(Sag { depth_m, joint, ends }) = extremes.sag {

@@ -6,6 +6,7 @@ use model::number::Number;
 
 use super::printable::Printable;
 use super::tables::{numbers_from, short, table, wrapped};
+use crate::csv::Numbers;
 use crate::study::{StudyAnswer, StudyPoint, StudyShape};
 
 /// Points of a path printed one by one; of more, as many spread over the path.
@@ -118,7 +119,14 @@ fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
         let wide =
             found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
         let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
-        let cells = move |shape: &StudyShape| shape.of.iter().map(|x| number(*x)).collect();
+        let shapes = || found.points().iter().filter_map(|point| point.shape.as_ref().ok());
+        let units: Vec<&str> = found.of().iter().map(|(_, unit)| *unit).collect();
+        let values = |k: usize| shapes().filter_map(|shape| shape.of[k]).collect();
+        let columns = Numbers::of_columns(&units, values);
+        let cells = move |shape: &StudyShape| {
+            let cells = shape.of.iter().zip(&columns);
+            cells.map(|(x, column)| x.map_or_else(String::new, |x| column.short(x))).collect()
+        };
         return (head.collect(), Box::new(cells));
     }
     let mut head: Vec<String> =

@@ -59,7 +59,7 @@ impl Table {
 
     /// All cells, the head first, each in one line.
     fn rows(&self) -> Vec<Vec<String>> {
-        let line = |cell: &str| cell.replace('\n', " ");
+        let line = |cell: &str| cell.replace(".\n", ".").replace('\n', " ");
         let head = self.head.iter().map(|cell| line(cell)).collect();
         let rows = self.inner.row_iter();
         let cells = rows.map(|row| row.cell_iter().map(|cell| line(&cell.content())).collect());
@@ -215,6 +215,12 @@ pub fn significant(x: f64, digits: usize) -> String {
         reason = "small and not negative"
     )]
     let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
+    fixed(x, decimals)
+}
+
+/// So many decimals, but no zeros at their end.
+#[must_use]
+pub fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()

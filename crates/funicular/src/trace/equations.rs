@@ -2,7 +2,7 @@
 
 use branches::Variation;
 use branches::load::{self, NoPath};
-use lagrange::network::{Equations, Seed, Settings, Side, solve, solve_from};
+use lagrange::network::{Equations, Settings, Side, solve};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
@@ -10,6 +10,7 @@ use validate::systems::Near;
 
 use super::enclosed::loads_alone;
 use super::load::LoadError;
+use crate::equilibria::next_to;
 
 /// Step of the difference for how supports move.
 const GIVEN: f64 = 1e-3;
@@ -54,7 +55,7 @@ impl<'a> Family<'a> {
         equations.set(&system);
         let drawing_m = system.drawing();
         let found = match &drawing_m {
-            Some(at_m) => solve_from(&system, &Seed::at(at_m.clone()), &Settings::default()),
+            Some(at_m) => next_to(&system, at_m),
             None => solve(&system, &Settings::default()),
         };
         let start = match (found, &drawing_m) {

@@ -104,7 +104,10 @@ fn a_shape_is_csv_or_an_answer_or_a_grid() {
     }
     // From standard input, and a line for people.
     let (code, out, _) = run(at, &["solve", "gable.json", "--near", "-"], UP);
-    assert!(code == Some(0) && out.contains("The equilibrium nearest to the shape given"), "{out}");
+    assert!(
+        code == Some(0) && out.contains("The stable equilibrium nearest to the shape given"),
+        "{out}"
+    );
     assert!(
         out.split_whitespace().collect::<Vec<_>>().join(" ").contains("a lower one exists, at"),
         "{out}"

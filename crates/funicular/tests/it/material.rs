@@ -129,7 +129,7 @@ fn contradictions_are_refused_where_they_stand() {
             "mass_kg = 1\nyoung_pa = 1e9\nstiffness_n = 1\ndiameter_m = 1e-2",
             "`young_pa` and `stiffness_n`",
         ),
-        ("mass_kg = 1\ndiameter_m = 0\nyoung_pa = 1e9", "the number 0 is out of range"),
+        ("mass_kg = 1\ndiameter_m = 0\nyoung_pa = 1e9", "the value 0 is out of range"),
         ("mass_kg = 1\ntemperature_k = 20", "the key `expansion_per_k` is missing"),
         ("mass_kg = 1\nexpansion_per_k = 1e-5", "the key `temperature_k` is missing"),
         ("mass_kg_per_m = -1", "must be zero or positive"),

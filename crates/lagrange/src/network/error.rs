@@ -33,8 +33,8 @@ pub enum Error {
     },
     /// Occurs when the supports of connected joints let them move along their total load.
     #[error(
-        "joint {joint} and the {joints} joints connected with it fall: no support resists {load_n:.3e} N of \
-         their load"
+        "joint {joint} and {} connected with it fall: no support resists {load_n:.3e} N of their load",
+        if *joints == 1 { "the joint".to_owned() } else { format!("the {joints} joints") }
     )]
     Falls {
         /// Name of the first joint of the component.

@@ -16,7 +16,7 @@ pub(super) const RIGID: f64 = 1e3;
 /// Ridge of the least squares, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 
-/// Forces fitted to the places of a state.
+/// Forces fitted to the places of a state, of its taut members.
 pub(super) fn fitted_forces(
     framework: &Framework,
     stiffness: &mut Stiffness,
@@ -27,6 +27,9 @@ pub(super) fn fitted_forces(
     let stiffest = framework.links.iter().filter_map(elastic).fold(0.0, f64::max);
     let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
     let member = |(k, link): (usize, &Link)| {
+        if !state.taut[k] {
+            return (0.0, 0.0);
+        }
         let Some(along) = elastic(link) else { return (rigid, 0.0) };
         let length = framework.whole(k, |span| directions[span].1);
         let own = (length - link.length) * along;

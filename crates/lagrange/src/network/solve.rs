@@ -181,10 +181,18 @@ fn reached(
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
     let start = solver.start(seed);
-    // Without loads the lengths of the shape are all that says what the members bear.
-    let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
+    // Without loads the lengths of the shape are all that says what the members bear, and at rest they are right.
+    let to_fit = seed.axial_n.is_none() && !seed.at_rest && !system.is_unloaded();
+    let drawn = to_fit.then(|| start.clone());
     let start = if to_fit { solver.closed(start) } else { start };
-    let run = match solver.with_signs(start.clone(), Patience::Full) {
+    let found = match (solver.with_signs(start.clone(), Patience::Full), drawn) {
+        // Cables that are drawn a little too short may be slack, and not drawn badly.
+        (Err(error @ Error::NotConverged { .. }), Some(drawn)) if start.places != drawn.places => {
+            solver.with_signs(drawn, Patience::Full).map_err(|_| error)
+        }
+        (found, _) => found,
+    };
+    let run = match found {
         Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
             // From where it comes to rest, unless that is a corner.
             let rest = settle(&solver.framework, &mut solver.stiffness, start);
@@ -383,6 +391,17 @@ impl<'a> Solver<'a> {
         });
         let members = self.framework.links.len();
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
+        let directions = state.directions(&self.framework);
+        let slack_length = if seed.at_rest { REST_SLACK } else { MISDRAWN };
+        for (k, link) in self.framework.links.iter().enumerate() {
+            let length = self.framework.whole(k, |span| directions[span].1);
+            let short = 1.0 - length / link.length;
+            state.taut[k] = match link.kind {
+                Kind::Bar => true,
+                Kind::Cable => short <= slack_length,
+                Kind::Strut => -short <= slack_length,
+            };
+        }
         state.axial = match &seed.axial_n {
             Some(axial_n) => {
                 let axial = axial_n.iter().map(|axial| axial / units.force_n);
@@ -394,17 +413,10 @@ impl<'a> Solver<'a> {
                 fitted_forces(&self.framework, &mut self.stiffness, &state)
             }
         };
-        let directions = state.directions(&self.framework);
-        let slack_length = if seed.at_rest { REST_SLACK } else { MISDRAWN };
         for (k, link) in self.framework.links.iter().enumerate() {
-            let length = self.framework.whole(k, |span| directions[span].1);
-            let short = 1.0 - length / link.length;
-            let slack = match link.kind {
-                Kind::Bar => false,
-                Kind::Cable => short > slack_length || state.axial[k] < 0.0,
-                Kind::Strut => -short > slack_length || state.axial[k] > 0.0,
-            };
-            if slack {
+            let axial = state.axial[k];
+            let pushes = link.kind != Kind::Bar && axial.abs() > 0.0 && !link.bears(axial);
+            if pushes || !state.taut[k] {
                 (state.taut[k], state.axial[k]) = (false, 0.0);
             }
         }

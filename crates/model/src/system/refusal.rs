@@ -23,7 +23,8 @@ pub enum SystemRefusal {
     },
     /// Occurs when a connected part of the system has no support: it falls.
     #[error(
-        "nothing holds joint {name:?} and the {} joints connected with it: this part falls", joints - 1
+        "nothing holds joint {name:?} and {} connected with it: this part falls",
+        if *joints == 2 { "the joint".to_owned() } else { format!("the {} joints", joints - 1) }
     )]
     Falls {
         /// Name of a joint of the part.

@@ -208,7 +208,7 @@ pub enum SystemFileErrorKind {
         found: usize,
     },
     /// Occurs when an integer does not fit where it stands.
-    #[error("the number {found} is out of range")]
+    #[error("the value {found} is out of range")]
     OutOfRange {
         /// As written.
         found: String,

@@ -10,6 +10,7 @@ use super::document::bar;
 use super::drawing;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::limits::MAX_BARS;
 use super::loads;
 use super::material;
 use super::network_rows::{self, FREE, member_kind};
@@ -234,6 +235,9 @@ impl Reading<'_> {
         let (from, from_name) = self.joint(table, "from")?;
         let (to, to_name) = self.joint(table, "to")?;
         let count = table.count("count")?;
+        if count > MAX_BARS - self.members.len().min(MAX_BARS) {
+            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+        }
         let ends = self.drawn.then(|| [from, to].map(|end| self.joints[end].clone()));
         let via = self.via(table)?;
         let drawn = || {

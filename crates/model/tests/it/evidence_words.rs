@@ -19,7 +19,7 @@ fn room_is_told_where_there_is_some() {
     };
     assert_eq!(said(0, 0, &["P"]).unwrap(), "P slides through equilibria with the same forces");
     let all = said(1, 2, &["P", "Q"]).unwrap();
-    assert!(all.starts_with("one part turns freely") && all.contains("first; 2 joints without"));
+    assert!(all.starts_with("one part turns freely") && all.contains("first; 2 joints whose"));
     assert!(all.ends_with("compared; P, Q slide through equilibria with the same forces"));
 }
 

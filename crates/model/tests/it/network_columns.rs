@@ -190,7 +190,7 @@ fn errors_name_file_row_and_column() {
         &joints(",xz,", ",up,"),
         BARS,
         "joints.csv",
-        "4:12: free: the number \"up\" is out of range",
+        "4:12: free: the value \"up\" is out of range",
     );
     check(
         "both",

@@ -15,10 +15,15 @@ fn slips_are_recognised_and_other_words_are_not() {
         ("center_m", "centre_m"),
         ("inertia", "inertia_kg_m2"),
         ("counts", "count"),
+        // What others call it.
+        ("weight_n", "mass_kg"),
     ] {
         assert_eq!(nearest(slip, BAR), Some(meant), "{slip}");
     }
-    for other in ["colour", "weight_n", "", "\u{e4}", "radius_m2"] {
+    assert_eq!(nearest("EA", &["length_m", "stiffness_n"]), Some("stiffness_n"));
+    assert_eq!(nearest("p", &["A", "P"]), Some("P"));
+    assert_eq!(nearest("A", &["\u{65e5}\u{672c}"]), None);
+    for other in ["colour", "width_n", "", "\u{e4}", "radius_m2"] {
         assert_eq!(nearest(other, BAR), None, "{other}");
     }
 }

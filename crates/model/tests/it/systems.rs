@@ -104,7 +104,7 @@ fn a_chain_gains_loads_at_its_joints() {
     );
     check(
         &loaded("joint = 7\nmass_kg = 5\n"),
-        "f:9:9: loads[1].joint: the number 7 is out of range",
+        "f:9:9: loads[1].joint: the value 7 is out of range",
     );
     check(&loaded("joint = 1\n"), "f:9:9: loads[1].joint: a load needs mass_kg or force_n");
     check(
@@ -134,7 +134,7 @@ fn mistakes_are_told_where_they_stand() {
     );
     check(
         &changed("at_m = [2, 0, 0] }", "at_m = [2, 0, 0], free = \"q\" }"),
-        "f:5:32: joints.B.free: the number \"q\" is out of range",
+        "f:5:32: joints.B.free: the value \"q\" is out of range",
     );
     check(
         &changed("mass_kg = 5 }", "free = \"x\" }"),
@@ -166,7 +166,7 @@ fn systems_without_an_answer_are_refused_with_their_numbers() {
             "[[bars]]\nfrom = \"P\"",
             "[[bars]]\nfrom = \"Q\"\nto = \"R\"\nlength_m = 1\nmass_kg = 1\n[[bars]]\nfrom = \"P\"",
         ),
-        "f:6:5: joints.Q: nothing holds joint \"Q\" and the 1 joints connected with it: this part falls",
+        "f:6:5: joints.Q: nothing holds joint \"Q\" and the joint connected with it: this part falls",
     );
     check(
         &changed("at_m = [2, 0, 0]", "at_m = [4, 0, 0]"),

@@ -160,7 +160,7 @@ fn numbers_out_of_range() {
     {
         check(
             &anchored(&format!("[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = {count}\n")),
-            &format!("f:7:9: bars[1].count: the number {shown} is out of range"),
+            &format!("f:7:9: bars[1].count: the value {shown} is out of range"),
             count,
         );
     }

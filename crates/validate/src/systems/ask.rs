@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
-use super::near::{Near, lower_j, next_to};
+use super::near::{FAR, Near, lower_j, next_to};
 use super::statics::judge;
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
@@ -56,6 +56,16 @@ impl SystemFailure {
             self,
             Self::Lagrange(lagrange::network::Error::Misfit { .. })
                 | Self::Energy(energy::network::Error::Misfit { .. })
+        )
+    }
+
+    /// Whether supports leave a part free to move along its loads.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        matches!(
+            self,
+            Self::Lagrange(lagrange::network::Error::Falls { .. })
+                | Self::Energy(energy::network::Error::Falls { .. })
         )
     }
 
@@ -251,8 +261,9 @@ fn ask_again(
 
 /// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
 /// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high first
-/// one, then the other. What is known must be stable, and next to the drawing, if there is one. If both agree then, the
-/// solver and the comparison.
+/// one, then the other. What is known must be stable, and next to the drawing, if there is one: but for a barrier on the
+/// straight way where the other answer is unstable, and wherever the lowest of all is where there is no other. If both
+/// agree then, the solver and the comparison.
 fn ask_beside(
     system: &System,
     drawing_m: Option<&[Vector]>,
@@ -282,7 +293,12 @@ fn ask_beside(
         return None;
     }
     let (both, found) = known.into_iter().find_map(|(known, solver)| {
-        let is_next = |at: &[Vector]| Near::of(system, at, known).is_neighbour;
+        let falls = answers.iter().any(|answer| answer.stability.index_in_space > 0);
+        let alone = answers.len() == 1 && known.evidence.ladder.optimal.is_reached();
+        let is_next = |at: &[Vector]| {
+            let near = Near::of(system, at, known);
+            alone || near.is_neighbour || falls && near.moved <= FAR
+        };
         if known.stability.index_in_space > 0 || !drawing_m.is_none_or(is_next) {
             return None;
         }

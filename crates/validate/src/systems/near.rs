@@ -12,7 +12,11 @@ use numerics::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was
 /// drawn: half a member is about what turns a triangle of bars over.
-const FAR: f64 = 0.5;
+pub(super) const FAR: f64 = 0.5;
+
+/// But where no member has turned by as much as this, its ends against each other over its length, the shape is that
+/// of the drawing wherever it has sunk: a bridge of short panels by more than one of these.
+const TURNED: f64 = 0.25;
 
 /// Places on the straight way from the drawing to the answer at which the energy is looked at.
 const STATIONS: u32 = 32;
@@ -42,8 +46,8 @@ pub struct Near {
     /// structure that has snapped through has passed a barrier. Nothing where there is none, or
     /// where rigid members have no energy.
     pub barrier_j: Option<f64>,
-    /// Whether it is the neighbour of the drawing: no joint has moved by half a member, and no
-    /// barrier lies between.
+    /// Whether it is the neighbour of the drawing: no joint has moved by half a member, or no member has turned by a
+    /// quarter of its length, and no barrier lies between.
     pub is_neighbour: bool,
     /// The energy of a lower equilibrium, J, where one was looked for and found.
     pub lower_j: Option<f64>,
@@ -74,27 +78,41 @@ impl Near {
             moved_m,
             joint: system.joints()[at].name.to_string(),
             barrier_j,
-            is_neighbour: moved <= FAR && barrier_j.is_none(),
+            is_neighbour: (moved <= FAR || turned(system, drawing_m, &answer.joints_m) <= TURNED)
+                && barrier_j.is_none(),
             lower_j: None,
         }
     }
 }
 
+/// The most by which the ends of a span move against each other between two shapes, over the length in the first one.
+fn turned(system: &System, from_m: &[Vector], to_m: &[Vector]) -> f64 {
+    let spans = system.members().iter().flat_map(Member::spans);
+    let turned = spans.map(|[a, b]| {
+        let [before, after] = [from_m, to_m].map(|places| minus(places[b], places[a]));
+        norm(minus(after, before)) / norm(before)
+    });
+    turned.fold(0.0, worse)
+}
+
 /// How the answers lie to the drawing: that of the first. What `energy` found far from the drawing is no answer to
-/// this question, unless `lagrange` has left the drawing, too, and for the same place.
+/// this question, unless `lagrange` has left the drawing, too, and for the same place, or what it found there does
+/// not stay where it is.
 pub(super) fn next_to(
     system: &System,
     drawing_m: &[Vector],
     answers: &mut Vec<Result<SystemEquilibrium, SystemFailure>>,
 ) -> Option<Near> {
     let near = |answer: &SystemEquilibrium| Near::of(system, drawing_m, answer);
-    let places_m = answers.iter().flatten().next()?.joints_m.clone();
-    let first = answers.iter().flatten().map(near).next()?;
+    let nearest = answers.iter().flatten().next()?;
+    let (places_m, stays) = (nearest.joints_m.clone(), nearest.stability.index_in_space == 0);
+    let first = near(nearest);
     for answer in answers {
         let Ok(found) = answer else { continue };
         let there = near(found);
         let elsewhere = || first.is_neighbour || Near::of(system, &places_m, found).moved > FAR;
-        if found.solver == SolverName::ENERGY && !there.is_neighbour && elsewhere() {
+        let keeps = !stays && there.moved <= FAR;
+        if found.solver == SolverName::ENERGY && !there.is_neighbour && !keeps && elsewhere() {
             let Near { joint, moved_m, .. } = there;
             *answer = Err(energy::network::Error::NoMinimumNear { joint, moved_m }.into());
         }

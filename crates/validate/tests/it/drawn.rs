@@ -3,6 +3,7 @@
 
 use model::cases::exhibit;
 use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
+use model::system_file::{Described, parse};
 use model::{Bar, STANDARD_GRAVITY_M_S2 as G, Vector};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -300,6 +301,71 @@ fn the_dome_snaps_through_beyond_its_limit_load_and_that_is_said() {
             let drawing_m = system.drawing().unwrap();
             assert!(!Near::of(&system, &drawing_m, e).is_neighbour, "{part}");
         }
+    }
+}
+
+fn written(text: &str) -> System {
+    match parse(text, "drawn.toml").unwrap() {
+        Described::System(system) => system,
+        Described::Chain(_) => panic!("joints by name"),
+    }
+}
+
+/// Rigid posts of 3 m and a beam of 4 m, pushed aside, with cables across that are longer than 5 m: upright it has no
+/// equilibrium, and it leans until one of them is taut, where 4² + 3² + 2 * 4 * 3 sin θ is the square of its length.
+#[test]
+fn a_frame_with_slack_bracing_leans_until_it_is_taut() {
+    for slack_m in [1e-3, 5e-3, 0.01, 0.05, 0.1] {
+        let length_m = 5.0 + slack_m;
+        let system = written(&format!(
+            "plane = \"xz\"\n\
+             joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [4, 0, 0] }}, \
+             C = {{ near_m = [4, 0, 3], mass_kg = 100, force_n = [500, 0, 0] }}, \
+             D = {{ near_m = [0, 0, 3], mass_kg = 100 }} }}\n\
+             bars = [{{ from = \"A\", to = \"D\", mass_kg = 60 }}, {{ from = \"B\", to = \"C\", mass_kg = 60 }}, \
+             {{ from = \"D\", to = \"C\", mass_kg = 80 }}, \
+             {{ from = \"A\", to = \"C\", length_m = {length_m}, mass_kg = 3, kind = \"cable\" }}, \
+             {{ from = \"B\", to = \"D\", length_m = {length_m}, mass_kg = 3, kind = \"cable\" }}]\n"
+        ));
+        let sin = (length_m * length_m - 25.0) / 24.0;
+        for e in &neighbour(&system).equilibria {
+            let [x, _, z] = e.joints_m[system.joint("D").unwrap()];
+            close(&[x, z], &[3.0 * sin, 3.0 * (1.0 - sin * sin).sqrt()], 1e-11);
+            assert!(e.stability.index_in_space == 0 && axial(&system, e, "A", "C") > 0.0);
+        }
+    }
+}
+
+/// Short panels of a long span that sinks by more than one of them: the parabola of 2.1 m for one that is drawn with
+/// 1 m. No panel turns by more than a tenth.
+#[test]
+fn a_span_of_short_panels_may_sink_by_more_than_a_panel() {
+    const N: usize = 80;
+    let at = |k: usize| 40.0 * k as f64 / N as f64;
+    let joints = (1..N).map(|k| {
+        let (x, part) = (at(k), at(k) / 20.0 - 1.0);
+        format!("c{k} = {{ near_m = [{x}, 0, {}], mass_kg = 10 }}\n", part * part - 1.0)
+    });
+    let length_m = (40.0 + 8.0 / 3.0 * 2.1 * 2.1 / 40.0) / N as f64;
+    let name = |k: usize| match k {
+        0 => "A".to_owned(),
+        N => "B".to_owned(),
+        _ => format!("c{k}"),
+    };
+    let bar = |k: usize| {
+        let [from, to] = [name(k), name(k + 1)];
+        format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nlength_m = {length_m}\nmass_kg = 1\n")
+    };
+    let system = written(&format!(
+        "[joints]\nA = {{ at_m = [0, 0, 0] }}\nB = {{ at_m = [40, 0, 0] }}\n{}{}",
+        joints.collect::<String>(),
+        (0..N).map(bar).collect::<String>()
+    ));
+    let answer = neighbour(&system);
+    assert!(answer.near.unwrap().moved > 2.0);
+    for e in &answer.equilibria {
+        // The length of a parabola to the next order of its sag over its span.
+        assert!((e.joints_m[system.joint("c40").unwrap()][2] + 2.1).abs() < 0.01);
     }
 }
 

@@ -256,6 +256,24 @@ fn of_a_long_line_that_just_touches_the_floor_the_shape_is_agreed_on() {
     }
 }
 
+/// 300 bars of 0.25 m between anchors 40 m apart, 1 m above a floor: four bars hang straight down at each end, 292 lie
+/// in folds. From its anchors down the weights of 10 N are 0.125, 0.375, 0.625 and 0.875 m deep, and then 1 m.
+#[test]
+fn a_chain_much_too_long_lies_in_folds() {
+    const N: usize = 300;
+    let joint = |k: usize| match k {
+        0 => Joint::anchor("A", [0.0; 3]),
+        N => Joint::anchor("B", [40.0, 0.0, 0.0]),
+        _ => Joint::free(k.to_string()),
+    };
+    let bar = Bar::homogeneous(0.25, 1.0).unwrap();
+    let members = (0..N).map(|k| Member::bar(k, k + 1, bar)).collect();
+    let system = System::new("folds", 10.0, (0..=N).map(joint).collect(), members).unwrap();
+    for e in answers(&system.with_floor(-1.0).unwrap()) {
+        close(e.energy_j, -10.0 * (2.0 * 2.0 + 292.0));
+    }
+}
+
 /// What is below the floor, pulled by it or pushed above it is found.
 #[test]
 fn the_judge_knows_the_floor() {

@@ -159,11 +159,10 @@ impl Display for Room {
         let free = match free_joints {
             0 => None,
             1 => Some(
-                "one joint without load, whose members bear no force, is free to move and not compared"
-                    .to_owned(),
+                "one joint whose members bear no force is free to move and not compared".to_owned(),
             ),
             _ => Some(format!(
-                "{free_joints} joints without load, whose members bear no force, are free to move and not \
+                "{free_joints} joints whose members bear no force are free to move and not \
                  compared"
             )),
         };
