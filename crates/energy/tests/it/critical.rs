@@ -102,3 +102,30 @@ fn stiff_members_may_be_out_of_balance_by_rounding() {
         assert!(found.is_equilibrium(), "{found:?}");
     }
 }
+
+/// In UTM coordinates places are stored to 1e-9 m, which is 2 N of a member of 1e9 N over 0.5 m.
+#[test]
+fn places_far_from_the_origin_are_equilibria_to_their_digits() {
+    let [east_m, north_m] = [500_000.1, 5_400_000.3];
+    let joints = |apart_m: f64| {
+        vec![
+            Joint::anchor("A", [east_m - apart_m, north_m, 432.1]),
+            Joint::anchor("B", [east_m + apart_m, north_m, 432.1]),
+            Joint::free("P").with_force([0.0, 0.0, -1000.0]),
+        ]
+    };
+    // The members are stretched to 0.5 m each, 0.3 m down: each bears 1000 N / 2 over 0.6.
+    let (stiffness_n, force_n) = (1e9, 500.0 / 0.6);
+    let length_m = 0.5 / (1.0 + force_n / stiffness_n);
+    let members = [0, 1].map(|from| bar(from, 2, length_m, 0.0).with_stiffness(stiffness_n));
+    let system = System::new("far", 10.0, joints(0.4), members.to_vec()).expect("a system");
+    let at = |lower_m: f64| {
+        let places: Vec<Vector> = system.joints().iter().filter_map(|j| j.support.at_m()).collect();
+        let lamp_m = [east_m, north_m, 432.1 - 0.3 - lower_m];
+        critical(&system, &[places[0], places[1], lamp_m])
+            .expect("it has an energy")
+            .expect("small")
+    };
+    assert!(at(0.0).is_equilibrium(), "{:?}", at(0.0));
+    assert!(!at(1e-6).is_equilibrium(), "{:?}", at(1e-6));
+}

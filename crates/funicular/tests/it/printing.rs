@@ -53,6 +53,29 @@ fn what_hangs_loose_in_a_plane_has_no_line_to_sag_below() {
     }
 }
 
+/// A right triangle of 3, 4 and 5 m, its hypotenuse level, in UTM coordinates: to a centimetre and better.
+#[test]
+fn coordinates_far_from_the_origin_keep_their_digits() {
+    let file = "joints = { A = { at_m = [500000, 5400000, 432] }, B = { at_m = [500005, 5400000, 432] }, \
+         P = { mass_kg = 2 } }\n\
+         bars = [{ from = \"A\", to = \"P\", length_m = 3, mass_kg = 0 }, \
+         { from = \"P\", to = \"B\", length_m = 4, mass_kg = 0 }]\n";
+    let text = stdout(&fed(program(".", &["solve", "-"]), file));
+    let at = numbers(&text, "P");
+    for (found, wanted) in at.iter().zip([500_001.8, 5_400_000.0, 429.6]) {
+        assert!((found - wanted).abs() < 1e-4, "{at:?}");
+    }
+}
+
+/// A name in a head that is broken in a narrow table is whole in CSV.
+#[test]
+fn names_in_heads_are_whole_in_csv() {
+    let study = ["study", "--case", "lamp", "--vary", "joints.lamp.mass_kg=1,2,3"];
+    let shown = ["--of", "joints.lamp", "--of", "bars.1.axial_n", "--of", "sag.A-B"];
+    let text = stdout(&ran(".", &[&study[..], &shown, &["--format", "csv"]].concat()));
+    assert!(text.contains("joints.lamp.z / m,bars.1.axial_n / N"), "{text}");
+}
+
 #[test]
 fn a_lamp_of_two_members_fits_one_screen() {
     let text = solve(&[]);

@@ -340,3 +340,16 @@ fn forces_that_are_found_and_open_are_counted_at_their_worst() {
         assert!(code == Some(0) && text.contains(given), "{text}");
     }
 }
+
+/// A ship that slides, drawn aside against a line of two cables: without either of them nothing holds it.
+#[test]
+fn what_slides_away_for_ever_after_a_loss_falls() {
+    let text = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 }, \
+         ship = { at_m = [3, 0, 2], free = \"x\", force_n = [1000, 0, 0] } }\n\
+         bars = [{ from = \"A\", to = \"P\", length_m = 3, mass_kg = 1, kind = \"cable\" }, \
+         { from = \"P\", to = \"ship\", length_m = 3, mass_kg = 1, kind = \"cable\" }]\n";
+    let found = Solve::new().without_each(&Problem::parse(text, "ship.toml").unwrap()).unwrap();
+    for loss in found.losses() {
+        assert_eq!(loss.left.as_ref().unwrap_err().outcome, Outcome::Falls, "{loss:?}");
+    }
+}
