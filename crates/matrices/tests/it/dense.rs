@@ -335,3 +335,14 @@ fn what_is_across_columns_by_their_size() {
     assert_eq!(across(&DMatrix::zeros(2, 0), 1e-6), DMatrix::identity(2, 2));
     assert_eq!(across(&DMatrix::zeros(2, 3), 1e-6).ncols(), 2);
 }
+
+/// Beside unit vectors these are rounding, and by themselves of full rank.
+#[test]
+fn rank_counts_over_the_scale_that_is_given() {
+    let rounding = DMatrix::from_row_slice(2, 2, &[1e-20, 0.0, 0.0, 1e-22]);
+    let by_itself = Kernels::new(&rounding, 1e-6).unwrap();
+    assert_eq!((by_itself.rank, by_itself.largest), (2, 1e-20));
+    let found = Kernels::at_scale(&rounding, 1e-6, 1.0).unwrap();
+    assert_eq!((found.rank, found.gap, found.largest), (0, [1.0, 1e-20], 1.0));
+    assert_eq!((found.right().ncols(), found.left().ncols()), (2, 2));
+}
