@@ -41,19 +41,20 @@ impl Numbers {
         self
     }
 
-    /// Of columns with these units: what is beside the largest number of its unit rounding is 0.
-    pub(crate) fn of_columns(units: &[&str], values: impl Fn(usize) -> Vec<f64>) -> Vec<Self> {
-        let columns: Vec<Vec<f64>> = (0..units.len()).map(values).collect();
-        let of_unit = |unit: &str| {
-            let same = columns.iter().zip(units).filter(move |(_, other)| **other == unit);
-            Self::of(same.flat_map(|(column, _)| column)).rounding
-        };
-        let column = |(column, unit): (&Vec<f64>, &&str)| {
+    /// Of columns with names and units: what is beside the largest number of its unit rounding is 0.
+    pub(crate) fn of_columns(
+        heads: &[(String, &str)],
+        values: impl Fn(usize) -> Vec<f64>,
+    ) -> Vec<Self> {
+        let columns: Vec<Vec<f64>> = (0..heads.len()).map(values).collect();
+        let column = |(column, (_, unit)): (&Vec<f64>, &(String, &str))| {
+            let of_unit = columns.iter().zip(heads).filter(|(_, (_, other))| other == unit);
             let most = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let least = column.iter().copied().fold(f64::INFINITY, f64::min);
-            Self { rounding: of_unit(unit), ..Self::of(column).apart(most - least) }
+            let rounding = Self::of(of_unit.flat_map(|(column, _)| column)).rounding;
+            Self { rounding, ..Self::of(column).apart(most - least) }
         };
-        columns.iter().zip(units).map(column).collect()
+        columns.iter().zip(heads).map(column).collect()
     }
 
     /// The number, or 0.

@@ -35,7 +35,7 @@ pub(crate) struct Equilibria {
 pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     let answer = Solve::new().run(problem)?;
     if answer.agreement().is_some_and(|agreement| !agreement.agrees()) {
-        return Err(Error::Disagreed(Box::new(answer)));
+        return Err(Error::Disagreed);
     }
     let found = answer.into_parts().1.into_iter().take(1);
     let list = found.map(|found| Located { label: "1".to_owned(), found }).collect();

@@ -71,7 +71,7 @@ pub enum Error {
     #[error(
         "the solvers disagree on this equilibrium: `funicular solve` shows the answers of both"
     )]
-    Disagreed(Box<SolveAnswer>),
+    Disagreed,
     /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
     #[error(transparent)]
     SystemRefused(#[from] model::system::SystemRefusal),

@@ -100,7 +100,7 @@ impl Failure {
             {
                 Self::bad_input(error)
             }
-            Error::Disagreed(_) => Self { diagnostic: error.into(), exit: Exit::CheckFailed },
+            Error::Disagreed => Self { diagnostic: error.into(), exit: Exit::CheckFailed },
             Error::Unsolved(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)

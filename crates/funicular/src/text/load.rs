@@ -75,9 +75,8 @@ fn one_path(found: &LoadPaths, path: &LoadPath) -> String {
     head.extend(found.of().iter().map(|(name, unit)| headed(name, unit)));
     head.extend(["falling".to_owned(), "what happens".to_owned()]);
     let mut table = table(head.iter().map(String::as_str));
-    let units: Vec<&str> = found.of().iter().map(|(_, unit)| *unit).collect();
     let values = |k: usize| path.points.iter().filter_map(|point| point.of[k]).collect();
-    let columns = Numbers::of_columns(&units, values);
+    let columns = Numbers::of_columns(found.of(), values);
     for point in spread(&path.points) {
         let mut row = vec![short(point.values[last])];
         let cells = point.of.iter().zip(&columns);

@@ -120,9 +120,8 @@ fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
             found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
         let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
         let shapes = || found.points().iter().filter_map(|point| point.shape.as_ref().ok());
-        let units: Vec<&str> = found.of().iter().map(|(_, unit)| *unit).collect();
         let values = |k: usize| shapes().filter_map(|shape| shape.of[k]).collect();
-        let columns = Numbers::of_columns(&units, values);
+        let columns = Numbers::of_columns(found.of(), values);
         let cells = move |shape: &StudyShape| {
             let cells = shape.of.iter().zip(&columns);
             cells.map(|(x, column)| x.map_or_else(String::new, |x| column.short(x))).collect()

@@ -12,7 +12,7 @@ const OTHER_WORDS: [(&str, &str); 7] = [
 ];
 
 /// The allowed key most like this one, if it is like one at all: a slip of a few letters, another
-/// case, or the same first word (`mass` for `mass_kg`, `length_cm` for `length_m`).
+/// case, the same first word (`mass` for `mass_kg`, `length_cm` for `length_m`), or what others call it.
 ///
 /// ```
 /// use model::system_file::nearest;

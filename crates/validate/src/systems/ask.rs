@@ -293,11 +293,11 @@ fn ask_beside(
         return None;
     }
     let (both, found) = known.into_iter().find_map(|(known, solver)| {
-        let falls = answers.iter().any(|answer| answer.stability.index_in_space > 0);
+        let unstable = answers.iter().any(|answer| answer.stability.index_in_space > 0);
         let alone = answers.len() == 1 && known.evidence.ladder.optimal.is_reached();
         let is_next = |at: &[Vector]| {
             let near = Near::of(system, at, known);
-            alone || near.is_neighbour || falls && near.moved <= FAR
+            alone || near.is_neighbour || unstable && near.moved <= FAR
         };
         if known.stability.index_in_space > 0 || !drawing_m.is_none_or(is_next) {
             return None;

@@ -379,7 +379,7 @@ impl<'a> Judgement<'a> {
             family: self.family.as_ref(),
         };
         let mut apart = pair.apart();
-        let counted = pair.family.is_some_and(Family::is_counted);
+        let counted = pair.family.is_some_and(|family| family.counts().is_some());
         let between = (apart.value_n > apart.budget_n && !counted && joints_m <= budget_m)
             .then(|| Family::between(self.system, pair.answers))
             .flatten();

@@ -179,10 +179,6 @@ impl Family {
         (self.counted || !self.basis.is_empty()).then_some(self.basis.len())
     }
 
-    pub(super) fn is_counted(&self) -> bool {
-        self.counted
-    }
-
     /// The rank of the lengths and what follows from it; without value where it is not counted.
     pub(super) fn counts(&self) -> Option<Rigidity> {
         self.counted.then_some(self.counts)
@@ -395,20 +391,19 @@ fn unit(member: usize, members: usize) -> Vec<f64> {
 
 /// Of each joint the directions in which it may move; along the floor, of those that touch it.
 pub(super) fn motions_above_floor(system: &System, answer: &SystemEquilibrium) -> Vec<Vec<Vector>> {
-    let rounding_m = rounding_m(system, answer);
-    let off = system.members().iter().map(|member| {
-        let bar = member.kind == Kind::Bar && member.stiffness_n.is_none();
-        if bar { (length_m(member, &answer.joints_m) - member.body.length_m()).abs() } else { 0.0 }
-    });
-    let near_m = rounding_m + off.fold(0.0, f64::max).min(LEFT_OF_LENGTHS * rounding_m);
-    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
     let joints = system.joints().iter().zip(&answer.joints_m);
-    joints
-        .map(|(joint, at_m)| {
-            let touches = at_m[2] - floor_m <= near_m;
-            if touches { sliding(&joint.support) } else { motions(&joint.support) }
-        })
-        .collect()
+    let Some(floor_m) = system.floor_m() else {
+        return joints.map(|(joint, _)| motions(&joint.support)).collect();
+    };
+    let rounding_m = rounding_m(system, answer);
+    let rigid = system.members().iter().filter(|m| m.kind == Kind::Bar && m.stiffness_n.is_none());
+    let off = rigid.map(|bar| (length_m(bar, &answer.joints_m) - bar.body.length_m()).abs());
+    let near_m = rounding_m + off.fold(0.0, f64::max).min(LEFT_OF_LENGTHS * rounding_m);
+    let motions_of = |(joint, at_m): (&Joint, &Vector)| {
+        let touches = at_m[2] - floor_m <= near_m;
+        if touches { sliding(&joint.support) } else { motions(&joint.support) }
+    };
+    joints.map(motions_of).collect()
 }
 
 /// Orthonormal directions in which a joint may move.
