@@ -83,17 +83,29 @@ pub(crate) fn settle(
     };
     system.refusal().map_err(refused)?;
     let unknown = |reason: String| Unsettled { outcome: Outcome::Unknown, reason };
-    let answer = solve.run_here(&system.into()).map_err(|error| match &error {
-        Error::Unsolved(answer) if answer.failures().iter().all(SystemFailure::falls) => {
-            let reason = answer.failures().first().map_or_else(String::new, ToString::to_string);
-            Unsettled { outcome: Outcome::Falls, reason }
-        }
-        _ => unknown(error.to_string()),
+    let answer = solve.run_here(&system.into()).map_err(|error| {
+        let Error::Unsolved(answer) = &error else { return unknown(error.to_string()) };
+        let all = |is: fn(&SystemFailure) -> bool| answer.failures().iter().all(is);
+        let outcome = match () {
+            () if all(SystemFailure::falls) => Outcome::Falls,
+            // Its members are limp: it folds.
+            () if all(SystemFailure::is_unloaded) => Outcome::Leaves,
+            () => return unknown(error.to_string()),
+        };
+        let reason = answer.failures().first().map_or_else(String::new, ToString::to_string);
+        Unsettled { outcome, reason }
     })?;
-    if let Some(near) = answer.near().filter(|near| !near.is_neighbour) {
-        let (joint, moved_m) = (&near.joint, near.moved_m);
-        let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");
-        return Err(Unsettled { outcome: Outcome::Leaves, reason });
+    let leaves = |reason: String| Unsettled { outcome: Outcome::Leaves, reason };
+    if let Some(near) = answer.near() {
+        let stays = answer.agrees() || answer.equilibria()[0].stability.index_in_space == 0;
+        if !near.is_neighbour {
+            let (joint, moved_m) = (&near.joint, near.moved_m);
+            let reason = format!("joint {joint:?} comes to rest {moved_m:.3} m from its drawing");
+            return Err(leaves(reason));
+        }
+        if !stays {
+            return Err(leaves("the equilibrium near its drawing is unstable".to_owned()));
+        }
     }
     let settled = Settled::of(&answer, before_m);
     let (system, found) = answer.into_parts();

@@ -8,7 +8,7 @@
 use model::system::System;
 
 use crate::network::error::Error;
-use crate::network::frame::{Frame, Rod};
+use crate::network::frame::Frame;
 use crate::network::polish::rounding_floor;
 use crate::network::shape::{NO_STRAIN, Shape, largest};
 use crate::network::weak::Settled;
@@ -42,13 +42,9 @@ impl Frame {
 
     /// Whether a strand of a rope has next to no length, where nothing converges.
     pub(super) fn jam(&self, shape: &Shape) -> Option<Error> {
-        let moves = |e: &usize| {
-            let Rod { from, to, .. } = self.rods[*e];
-            self.spots[from].freedom + self.spots[to].freedom > 0
-        };
         let part = |e: usize| norm(self.span(&shape.x, e)) / self.rods[e].length;
         let spans = self.ropes.iter().flatten().copied();
-        let short = spans.filter(|e| moves(e) && part(*e) <= JAMMED);
+        let short = spans.filter(|e| !self.is_held(&self.rods[*e]) && part(*e) <= JAMMED);
         let shortest = short.min_by(|a, b| part(*a).total_cmp(&part(*b)))?;
         let member = self.member_of(shortest);
         let rope = &self.ropes[self.rods[shortest].rope as usize - 1];

@@ -142,6 +142,11 @@ pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
 }
 
 impl Frame {
+    /// Whether a member, or a strand of a rope, has no end that can move.
+    pub(super) fn is_held(&self, rod: &Rod) -> bool {
+        self.spots[rod.from].freedom + self.spots[rod.to].freedom == 0
+    }
+
     /// The system without units.
     pub(super) fn new(system: &System) -> Result<Self, Error> {
         let origin_m = system.reference_m();

@@ -180,8 +180,8 @@ impl Interior {
         let force = self.frame.rods.iter().enumerate().map(|(e, rod)| {
             let slack = self.slack[e] / rod.length > shape.force[e] / mean;
             // A strut between anchors is no cable to any joint.
-            let held = [rod.from, rod.to].iter().all(|joint| self.frame.spots[*joint].freedom == 0);
-            let none = (slack && rod.kind == Kind::Cable) || (held && rod.kind == Kind::Strut);
+            let held = rod.kind == Kind::Strut && self.frame.is_held(rod);
+            let none = held || (slack && rod.kind == Kind::Cable);
             if none { 0.0 } else { shape.force[e] }
         });
         Shape { x: shape.x.clone(), force: force.collect() }

@@ -393,9 +393,10 @@ fn descend(
         .run()
         .map_err(passed_on)?;
     let last = ended.state.get_param().map(Arc::clone);
-    let named = |error| match error {
-        Error::IterationLimit { .. } => last.and_then(|shape| frame.jam(&shape)).unwrap_or(error),
-        error => error,
+    let named = |error| match (error, last) {
+        (Error::IterationLimit { .. }, Some(shape)) if frame.is_relaxed(&shape) => Error::NoLoad,
+        (error @ Error::IterationLimit { .. }, Some(shape)) => frame.jam(&shape).unwrap_or(error),
+        (error, _) => error,
     };
     outcome(&ended.state).map_err(named)?;
     effort.iterations = ended.state.get_iter();

@@ -262,6 +262,9 @@ impl Newton {
                 misfit_m: slope.misfit * self.frame.rods[slope.worst].length * self.frame.length_m,
             };
         }
+        if self.frame.is_relaxed(shape) {
+            return Error::NoLoad;
+        }
         Error::Stalled { unbalance: slope.unbalance, misfit: slope.misfit }
     }
 

@@ -151,10 +151,21 @@ fn wrong_sign(frame: &Frame, shape: &Shape) -> Option<usize> {
 }
 
 impl Frame {
-    /// Whether no elastic member is longer or shorter than it would be by itself.
+    /// Whether no elastic member, but between anchors, is longer or shorter than it would be by itself.
     fn unstrained(&self, shape: &Shape) -> bool {
         let mut members = self.rods.iter().zip(&shape.force);
-        members.all(|(rod, force)| rod.flexibility * force.abs() <= NO_STRAIN * rod.length)
+        members.all(|(rod, force)| {
+            self.is_held(rod) || rod.flexibility * force.abs() <= NO_STRAIN * rod.length
+        })
+    }
+
+    /// Whether a search without loads has lost all that it had to lower: the shape is one of many.
+    pub(super) fn is_relaxed(&self, shape: &Shape) -> bool {
+        let loaded = self.loads.iter().any(|load| norm(*load) > 0.0);
+        let members = self.rods.iter().zip(self.excesses(&shape.x));
+        let force = members.map(|(rod, excess)| rod.prestress(excess.value)).collect();
+        let shape = Shape { x: shape.x.clone(), force };
+        !loaded && self.unstrained(&shape) && self.slope(&shape).misfit <= NO_STRAIN
     }
 }
 
@@ -250,40 +261,28 @@ fn equilibrium(
 
 #[cfg(test)]
 mod tests {
-    use model::system::Kind;
+    use model::Bar;
+    use model::system::{Joint, Member};
 
     use super::*;
     use crate::network::frame::Rod;
 
     #[test]
     fn a_strain_below_its_rounding_is_none() {
-        let rod = Rod {
-            from: 0,
-            to: 1,
-            length: 3.0,
-            kind: Kind::Bar,
-            flexibility: 0.5,
-            ground: false,
-            within: 0.0,
-            linear: false,
-            rope: 0,
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [1.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(2.0),
+        ];
+        let spring = |to, length_m| {
+            Member::bar(0, to, Bar::homogeneous(length_m, 0.0).unwrap()).with_stiffness(50.0)
         };
-        let frame = Frame {
-            origin_m: [0.0; 3],
-            length_m: 1.0,
-            force_n: 1.0,
-            joints: 2,
-            members: 1,
-            ropes: Vec::new(),
-            spots: Vec::new(),
-            supports: Vec::new(),
-            rods: vec![rod],
-            loads: vec![[0.0; 3]; 2],
-            freedom: 0,
-            meter: crate::network::work::Meter::default(),
-        };
+        let system = System::new("springs", 10.0, joints, vec![spring(2, 3.0), spring(1, 0.5)]);
+        let frame = Frame::new(&system.unwrap()).unwrap();
+        // What is held between anchors may have any.
         let at = |strain: f64| {
-            let force = vec![strain * rod.length / rod.flexibility];
+            let force = |(e, rod): (usize, &Rod)| [strain, 1.0][e] * rod.length / rod.flexibility;
+            let force = frame.rods.iter().enumerate().map(force).collect();
             frame.unstrained(&Shape { x: Vec::new(), force })
         };
         assert!(at(0.0) && at(0.9 * NO_STRAIN) && at(-0.9 * NO_STRAIN));

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use model::Vector;
-use model::system::{Kind, System};
+use model::system::{Kind, Support, System};
 
 use super::error::{ROUGH, SimulateError};
 use crate::equilibria;
@@ -26,8 +26,8 @@ pub enum Start {
     /// `2'` for a mirror image.
     Equilibrium(String),
     /// Angles of the members from the descending vertical, degrees, each from its first joint to its
-    /// second, in the vertical plane through the supports (through Y where these are on one
-    /// vertical); what they lack to close the loops is corrected if it is little.
+    /// second, in the vertical plane through the supports (where these are on one vertical in that of `plane`, or
+    /// through Y); what they lack to close the loops is corrected if it is little.
     Angles(Vec<f64>),
     /// A position at random, the same for the same number.
     Seed(u64),
@@ -153,8 +153,8 @@ fn at_angles(system: &System, angles_deg: &[f64]) -> Result<Vec<Vector>, Simulat
     Ok(at)
 }
 
-/// The level direction of the plane through the supports; where they are on one vertical the paper's
-/// `Y`.
+/// The level direction of the plane through the supports; where they are on one vertical that of the upright plane in
+/// which a joint slides, or else the paper's `Y`.
 fn level(system: &System) -> [f64; 2] {
     let fixed = system.joints().iter().filter(|joint| joint.support.is_fixed());
     let mut held = fixed.filter_map(|joint| joint.support.at_m());
@@ -165,6 +165,17 @@ fn level(system: &System) -> [f64; 2] {
         Some(d) if width(&d) > ON_ONE_VERTICAL * system.total_length_m() => {
             d.map(|x| x / width(&d))
         }
-        _ => [0.0, 1.0],
+        _ => {
+            let planes = system.joints().iter().find_map(|joint| match joint.support {
+                Support::Plane { normal: [x, y, _], .. } if x.hypot(y) > 0.0 => Some([x, y]),
+                _ => None,
+            });
+            planes.map_or([0.0, 1.0], |[x, y]| {
+                // The one towards x, or else y.
+                let back = y < 0.0 || (y.abs() <= 0.0 && x > 0.0);
+                let size = if back { -x.hypot(y) } else { x.hypot(y) };
+                [y / size, -x / size]
+            })
+        }
     }
 }

@@ -392,6 +392,22 @@ fn a_pendulum_is_let_go_at_an_angle_and_comes_to_rest() {
     assert!(page.contains("At the end, after 0.5 s, it still moves, "), "{page}");
 }
 
+/// In a plane the angles are those of the plane, towards x or else y.
+#[test]
+fn angles_lie_in_the_plane_of_the_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("p.csv");
+    for (plane, along, across) in [("xz", "x", "y"), ("yz", "y", "x")] {
+        let text = format!("plane = \"{plane}\"\n{PENDULUM}");
+        let path = file(folder.path(), "pendulum.toml", &text);
+        let from = ["simulate", &path, "--from", "angles=30", "--time", "0.01", "--out"];
+        good(".", &[&from[..], &[out.to_str().unwrap()]].concat());
+        let csv = std::fs::read_to_string(&out).unwrap();
+        let first = |axis: &str| column(&csv, &format!("joint_P_{axis}_m"))[0];
+        assert!((first(along) - 0.75).abs() < 1e-12 && first(across).abs() < 1e-12, "{plane}");
+    }
+}
+
 /// Places to three digits are pulled onto the lengths; places that are far off are refused.
 #[test]
 fn a_motion_begins_at_the_places_of_a_file() {

@@ -353,3 +353,29 @@ fn what_slides_away_for_ever_after_a_loss_falls() {
         assert_eq!(loss.left.as_ref().unwrap_err().outcome, Outcome::Falls, "{loss:?}");
     }
 }
+
+/// A prestressed line is limp without either half; an arch of two triangles stands on three hinges, and without a tie
+/// the equilibrium next to it is one of two hinges too many.
+#[test]
+fn what_is_limp_or_unstable_after_a_loss_leaves() {
+    let line = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 0] }, P = { near_m = [2, 0, 0] } }\n\
+                bars = [{ from = 'A', to = 'P', mass_kg = 0, stiffness_n = 1e3, prestress_n = 10 }, \
+                { from = 'P', to = 'B', mass_kg = 0, stiffness_n = 1e3, prestress_n = 10 }]";
+    let arch = "plane = 'xz'\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [20, 0, 0] }, \
+                top = { near_m = [10, 0, 5], mass_kg = 3000 }, P = { near_m = [5, 0, 4.2], mass_kg = 1000 }, \
+                Q = { near_m = [15, 0, 4.2], mass_kg = 800 } }\n\
+                bars = [{ from = 'A', to = 'P', mass_kg = 400 }, { from = 'P', to = 'top', mass_kg = 400 }, \
+                { from = 'top', to = 'Q', mass_kg = 400 }, { from = 'Q', to = 'B', mass_kg = 400 }, \
+                { from = 'A', to = 'top', mass_kg = 600 }, { from = 'B', to = 'top', mass_kg = 600 }]";
+    for (text, ties) in [(line, [0, 1]), (arch, [4, 5])] {
+        let problem = Problem::parse(text, "system.toml").unwrap();
+        let found = Solve::new().without_each(&problem).unwrap();
+        for tie in ties {
+            let why = found.losses()[tie].left.as_ref().unwrap_err();
+            assert_eq!(why.outcome, Outcome::Leaves, "{why:?}");
+            let reason = ["decides the shape", "is unstable"][tie / 4];
+            assert!(why.reason.ends_with(reason), "{why:?}");
+        }
+        assert!(!found.survives() && found.is_decided());
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use model::system::{Kind, System};
+use model::system::{Kind, Member, System};
 use nalgebra::Vector3;
 
 use super::densities::by_densities;
@@ -39,6 +39,8 @@ const LOOSE: f64 = 0.1;
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
+/// The same where a search without loads has come to a rest: it ends before rounding.
+const LEFT_STRAIN: f64 = 1e-9;
 
 /// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
 /// the only minimum), and a local minimum of the energy otherwise.
@@ -193,9 +195,16 @@ fn reached(
         (found, _) => found,
     };
     let run = match found {
-        Err(error @ Error::NotConverged { .. }) if !solver.framework.ropes.is_empty() => {
+        // With loads what a search ends in may be far from the seed.
+        Err(error @ Error::NotConverged { .. })
+            if !solver.framework.ropes.is_empty() || system.is_unloaded() =>
+        {
             // From where it comes to rest, unless that is a corner.
             let rest = settle(&solver.framework, &mut solver.stiffness, start);
+            solver.factorisations += rest.factorisations;
+            if system.is_unloaded() && rest.fits && is_idle(&solver.framework, &rest.state) {
+                return Err(Error::Unloaded);
+            }
             let jam = jammed(system, &solver.framework, &rest.state);
             let found = solver.with_signs(rest.state, Patience::Full);
             found.map_err(|_| jam.unwrap_or(error))?
@@ -208,11 +217,23 @@ fn reached(
 
 /// Refuse a rest without loads and without prestress: the shape is one of many.
 fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
-    let members = || system.members().iter().zip(&solution.equilibrium.axial_n);
-    let idle = || {
-        members().all(|(m, axial_n)| m.stiffness_n.is_none_or(|ea| axial_n.abs() <= NO_STRAIN * ea))
+    // What is stretched between anchors holds no shape.
+    let moves = |m: &Member| m.path().any(|joint| !system.joints()[joint].support.is_fixed());
+    let mut members = system.members().iter().zip(&solution.equilibrium.axial_n);
+    let mut idle = || {
+        members.all(|(m, axial_n)| {
+            !moves(m) || m.stiffness_n.is_none_or(|ea| axial_n.abs() <= NO_STRAIN * ea)
+        })
     };
     if system.is_unloaded() && idle() { Err(Error::Unloaded) } else { Ok(solution) }
+}
+
+/// Whether elastic members that move bear nothing but what a search leaves.
+fn is_idle(framework: &Framework, state: &State) -> bool {
+    let mut links = framework.links.iter().zip(&state.axial);
+    links.all(|(link, axial)| {
+        !framework.moves(link) || link.compliance * axial.abs() <= LEFT_STRAIN * link.length
+    })
 }
 
 /// The hanging equilibrium with runs of members as elements, where that pays and every member

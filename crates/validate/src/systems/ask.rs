@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
-use super::near::{FAR, Near, lower_j, next_to};
+use super::near::{FAR, Near, is_below, lower_j, next_to};
 use super::statics::judge;
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
@@ -66,6 +66,16 @@ impl SystemFailure {
             self,
             Self::Lagrange(lagrange::network::Error::Falls { .. })
                 | Self::Energy(energy::network::Error::Falls { .. })
+        )
+    }
+
+    /// Whether no force is left that decides the shape.
+    #[must_use]
+    pub fn is_unloaded(&self) -> bool {
+        matches!(
+            self,
+            Self::Lagrange(lagrange::network::Error::Unloaded)
+                | Self::Energy(energy::network::Error::NoLoad)
         )
     }
 
@@ -187,8 +197,8 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     }
     let mut agreement = judged(system, &mut equilibria, &failures);
     let drawing_m = drawing_m.as_deref();
-    if !agreement.as_ref().is_some_and(SystemAgreement::agrees)
-        && let Some((solver, one)) = ask_beside(
+    if !agreement.as_ref().is_some_and(SystemAgreement::agrees) {
+        let beside = ask_beside(
             system,
             drawing_m,
             question,
@@ -196,13 +206,24 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
             agreement.as_ref(),
             &mut equilibria,
             &failures,
-        )
-    {
-        agreement = Some(one);
-        failures.clear();
-        near = drawing_m.map(|at| Near::of(system, at, &equilibria[0]));
-        if !asked_again.contains(&solver) {
-            asked_again.push(solver);
+        );
+        let is_near = near.as_ref().is_some_and(|near| near.is_neighbour);
+        let agreed = match beside {
+            Some((solver, one)) => {
+                if !asked_again.contains(&solver) {
+                    asked_again.push(solver);
+                }
+                Some(one)
+            }
+            None if drawing_m.is_some() && !is_near => {
+                elsewhere(system, question, watch, &mut equilibria, &failures)
+            }
+            None => None,
+        };
+        if agreed.is_some() {
+            agreement = agreed;
+            failures.clear();
+            near = drawing_m.map(|at| Near::of(system, at, &equilibria[0]));
         }
     }
     if census == UseCensus::Never {
@@ -262,8 +283,8 @@ fn ask_again(
 /// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
 /// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high first
 /// one, then the other. What is known must be stable, and next to the drawing, if there is one: but for a barrier on the
-/// straight way where the other answer is unstable, and wherever the lowest of all is where there is no other. If both
-/// agree then, the solver and the comparison.
+/// straight way where the other answer is unstable; and where there is no other, wherever the lowest of all is, or what a
+/// structure that does not stay where it is drawn has come down to. If both agree then, the solver and the comparison.
 fn ask_beside(
     system: &System,
     drawing_m: Option<&[Vector]>,
@@ -294,10 +315,11 @@ fn ask_beside(
     }
     let (both, found) = known.into_iter().find_map(|(known, solver)| {
         let unstable = answers.iter().any(|answer| answer.stability.index_in_space > 0);
-        let alone = answers.len() == 1 && known.evidence.ladder.optimal.is_reached();
         let is_next = |at: &[Vector]| {
             let near = Near::of(system, at, known);
-            alone || near.is_neighbour || unstable && near.moved <= FAR
+            let alone =
+                || known.evidence.ladder.optimal.is_reached() || is_below(system, at, known);
+            near.is_neighbour || unstable && near.moved <= FAR || answers.len() == 1 && alone()
         };
         if known.stability.index_in_space > 0 || !drawing_m.is_none_or(is_next) {
             return None;
@@ -312,6 +334,27 @@ fn ask_beside(
     })?;
     *answers = both;
     Some(found)
+}
+
+/// A structure that does not stay where it is drawn, as a mast that has lost a guy, and of which the descent from there
+/// has not come to an end that both solvers know: the lowest equilibrium, if both find it without the drawing. The
+/// comparison.
+fn elsewhere(
+    system: &System,
+    question: &Question,
+    watch: &dyn Fn(&str),
+    answers: &mut Vec<SystemEquilibrium>,
+    failures: &[SystemFailure],
+) -> Option<SystemAgreement> {
+    let astray = !failures.is_empty() && failures.iter().all(SystemFailure::is_astray);
+    if !astray || question.solvers != Solvers::Both || question.equations == Equations::Full {
+        return None;
+    }
+    let question = Question { census: UseCensus::Never, ..*question };
+    let answer = ask_with(&system.clone().undrawn(), &question, watch);
+    let agreement = answer.agreement.filter(SystemAgreement::agrees)?;
+    *answers = answer.equilibria;
+    Some(agreement)
 }
 
 /// What one solver finds next to an equilibrium.

@@ -141,6 +141,11 @@ pub(super) fn lower_j(
     (answer.energy_j - lowest.energy_j > LOWER * unit_j).then_some(lowest.energy_j)
 }
 
+/// Whether an answer lies lower than the drawing: a structure may have come down to it.
+pub(super) fn is_below(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> bool {
+    answer.energy_j < potential_j(system, system.members(), drawing_m)
+}
+
 /// How far the energy rises on the straight way between two shapes, J, if it rises and falls again.
 fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64> {
     if system.members().iter().any(|member| member.stiffness_n.is_none()) {

@@ -43,8 +43,9 @@ pub(crate) struct Scale {
     pub size_m: f64,
     /// Rounding of coordinates that far from the origin, m.
     pub stored_m: f64,
-    /// What the rounding of coordinates may change of the energy, J: loads by it, and by its square half
-    /// of what an elastic member gains of force by its length; the first order of that is in balance.
+    /// What rounding may change of the energy, J. That of the coordinates: loads by it, and by its square half
+    /// of what an elastic member gains of force by its length; the first order of that is in balance. That of the
+    /// lengths of members in the sum of what they store: their prestress by it.
     pub stored_j: f64,
     /// All loads together, N.
     pub load_n: f64,
@@ -88,7 +89,10 @@ impl Scale {
         let stored_m = STORED_ULPS * f64::EPSILON * far_m;
         let strain_j: f64 =
             system.members().iter().map(|m| 0.5 * stored_n(m, stored_m) * stored_m).sum();
-        let stored_j = load_n * stored_m + strain_j.min(MOST_ROUNDING * total_n * size_m);
+        let summed = system.members().iter().map(|m| prestress_n(m) * m.body.length_m());
+        let summed_j = STORED_ULPS * f64::EPSILON * summed.sum::<f64>();
+        let most_j = MOST_ROUNDING * total_n * size_m;
+        let stored_j = load_n * stored_m + (strain_j + summed_j).min(most_j);
         let held_n = load_n + all_prestress_n;
         Self { size_m, stored_m, stored_j, load_n, total_n, held_n, joint_n }
     }

@@ -465,6 +465,37 @@ fn where_no_minimum_is_near_energy_says_so() {
     assert!(answer.failures[0].to_string().contains("no minimum near the drawing"));
 }
 
+/// A mast of 12 m on one joint with three prestressed guys from below: without one of these it comes down and hangs
+/// plumb, the others slack, by (half of 300 kg + 50 kg) g over 4e8 N too long. Energy finds nothing that is near, and
+/// `lagrange` nothing at all.
+#[test]
+fn a_mast_that_has_lost_a_guy_hangs() {
+    let guy = |from: &str| {
+        format!(
+            "{{ from = \"{from}\", to = \"top\", kind = \"cable\", mass_kg = 0, stiffness_n = 1e7, prestress_n = 5000 }}"
+        )
+    };
+    let guys = ["G1", "G2", "G3"].map(guy).join(", ");
+    let system = written(&format!(
+        "joints = {{ base = {{ at_m = [0, 0, 0] }}, G1 = {{ at_m = [10, 0, -2] }}, G2 = {{ at_m = [-5, 8.66, -2] }}, \
+         G3 = {{ at_m = [-5, -8.66, -2] }}, top = {{ near_m = [0, 0, 12], mass_kg = 50 }} }}\n\
+         bars = [{{ from = \"base\", to = \"top\", mass_kg = 300, stiffness_n = 4e8 }}, {guys}]\n"
+    ));
+    neighbour(&system);
+    let mast_m = system.members()[0].body.length_m();
+    for guy in 1..=3 {
+        let (left, _) = system.without(guy);
+        let answer = ask(&left, Solvers::Both, &|_| {});
+        assert!(answer.agrees(), "{guy}: {:?} {:?}", answer.agreement, answer.failures);
+        assert!(!answer.near.as_ref().unwrap().is_neighbour);
+        let down_m = mast_m * (1.0 + (150.0 + 50.0) * G / 4e8);
+        for e in &answer.equilibria {
+            close(&e.joints_m[left.joint("top").unwrap()], &[0.0, 0.0, -down_m], 1e-9);
+            close(&e.axial_n, &[(150.0 + 50.0) * G, 0.0, 0.0], 1e-6);
+        }
+    }
+}
+
 /// Two elastic bars of 5 m over feet 6 m apart, drawn up and found down: on the way through the
 /// level each is 2 m shorter, which is 1e3 N (2 m)²/(2 · 5 m) in each.
 #[test]

@@ -7,7 +7,7 @@ use model::cases::exhibit;
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{Bar, Rung, Vector};
 use validate::Solvers;
-use validate::systems::{Held, Standing, Stress, ask, prestress_stability};
+use validate::systems::{Held, Standing, Stress, SystemFailure, ask, prestress_stability};
 
 /// Relative to the largest number of its kind: both solvers reach 3e-14.
 const DIGITS: f64 = 1e-11;
@@ -215,6 +215,53 @@ fn without_load_and_prestress_there_is_no_answer() {
     assert_eq!(answer.failures.len(), 2);
 }
 
+/// Without one of its members a prism is limp where it weighs nothing: no shape is the only one. With 2 kg in each bar
+/// it comes down from its drawing, and both solvers know where to.
+#[test]
+fn a_prism_that_has_lost_a_member_does_not_stand() {
+    let (light, stands) = answers("prism");
+    let places_m = &stands[0].joints_m;
+    let middle = places_m.iter().map(|at| at[2]).sum::<f64>() / places_m.len() as f64;
+    let on_anchors = |heavy_kg: f64| {
+        let joints = light.joints().iter().zip(places_m).map(|(joint, at_m)| {
+            let name = joint.name.to_string();
+            if at_m[2] < middle {
+                Joint::anchor(name, *at_m)
+            } else {
+                Joint::free(name).near(*at_m)
+            }
+        });
+        let members = light.members().iter().map(|member| {
+            let body = Bar::homogeneous(member.body.length_m(), heavy_kg).unwrap();
+            let same = Member::bar(member.from, member.to, body).of_kind(member.kind);
+            match member.stiffness_n {
+                Some(stiffness_n) => same.with_stiffness(stiffness_n),
+                None => same,
+            }
+        });
+        System::new("prism", 9.81, joints.collect(), members.collect()).unwrap()
+    };
+    for heavy_kg in [0.0, 2.0] {
+        let whole = on_anchors(heavy_kg);
+        for member in 0..whole.members().len() {
+            let [a, b] = [whole.members()[member].from, whole.members()[member].to];
+            let held = [a, b].map(|joint| whole.joints()[joint].support.is_fixed());
+            if held == [true, true] {
+                continue;
+            }
+            let (left, _) = whole.without(member);
+            let answer = ask(&left, Solvers::Both, &|_| {});
+            if heavy_kg > 0.0 {
+                assert!(answer.agrees(), "{member}: {:?} {:?}", answer.agreement, answer.failures);
+                assert!(!answer.near.unwrap().is_neighbour, "{member}");
+            } else {
+                assert!(answer.equilibria.is_empty() && answer.failures.len() == 2, "{member}");
+                assert!(answer.failures.iter().all(SystemFailure::is_unloaded), "{member}");
+            }
+        }
+    }
+}
+
 /// A prestressed net from other places: elastic systems without loads have no force to begin with
 /// but that of their lengths.
 #[test]
@@ -268,4 +315,28 @@ fn a_prestressed_net_is_minimised_from_places_that_are_not_its_own() {
     };
     assert!(rested(1.0) < 1e-6);
     assert!(rested(5.0) > 1e-3);
+}
+
+/// A tendon of 20 parts under 100 kN sinks by `w L²/8 F` under 0.35 kg; a string of 4 mg under 70 N. What they store is far
+/// more than what their loads do, and its rounding is no disagreement.
+#[test]
+fn light_loads_on_a_tight_string_leave_the_rounding_of_what_it_stores() {
+    for (mass_kg, prestress_n) in [(0.35, 1e5), (4e-6, 70.0)] {
+        let at = |k: u32| [0.65 * f64::from(k) / 20.0, 0.0, 0.0];
+        let free = |k: u32| Joint::free(k.to_string()).with_mass(mass_kg / 20.0).near(at(k));
+        let mut joints = vec![Joint::anchor("A", at(0))];
+        joints.extend((1..20).map(free));
+        joints.push(Joint::anchor("B", at(20)));
+        let part = |k| {
+            let body = Bar::homogeneous(at(1)[0], 0.0).unwrap();
+            let cable = Member::cable(k, k + 1, body).with_stiffness(100.0 * prestress_n);
+            cable.with_prestress(prestress_n).unwrap()
+        };
+        let system = System::new("string", 9.81, joints, (0..20).map(part).collect()).unwrap();
+        let answer = ask(&system, Solvers::Both, &|_| {});
+        assert!(answer.agrees(), "{:?} {:?}", answer.agreement, answer.failures);
+        let sag = mass_kg * 9.81 / 20.0 * 0.65 * 20.0 / (8.0 * prestress_n);
+        let found = -answer.equilibria[0].joints_m[10][2];
+        assert!((found / sag - 1.0).abs() < 1e-6, "{found} {sag}");
+    }
 }

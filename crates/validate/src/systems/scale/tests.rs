@@ -55,19 +55,20 @@ fn prestress_gives_forces_their_size_where_nothing_is_loaded() {
     assert_eq!(scale.joint_n, [3.0, 6.0, 6.0]);
 }
 
-/// A rope of 4 m and 2^40 N over a ring with 3 N, 9 m along x from its reference, 2^20 m up: eight roundings are
-/// 2^-29 m, two spans have 2^10 N of them, and the energy 3 N and 2^9 N times 2^-29 m.
+/// A rope of 16 m and 2^42 N over a ring with 3 N, 9 m along x from its reference, 2^20 m up: eight roundings are
+/// 2^-29 m, two spans have 2^10 N of them, and the energy 3 N and 2^9 N times 2^-29 m. Shorter by 2^-22 of its length it
+/// bears 2^20 N, and eight roundings of 16 m times that are 2^-25 J.
 #[test]
 fn coordinates_far_from_the_origin_leave_energies_open() {
     let far_m = 2.0_f64.powi(20) - 16.0;
-    let stored = |stiffness_n: f64| {
+    let stored = |stiffness_n: f64, length_m: f64| {
         let at = |x| [x, 0.0, far_m];
         let joints = vec![
             Joint::anchor("A", at(0.0)),
             Joint::anchor("B", at(16.0)),
             Joint::free("P").with_mass(0.3),
         ];
-        let rope = Member::cable(0, 1, Bar::homogeneous(4.0, 0.0).unwrap()).over(vec![2]);
+        let rope = Member::cable(0, 1, Bar::homogeneous(length_m, 0.0).unwrap()).over(vec![2]);
         let system = System::new("rope", 10.0, joints, vec![rope.with_stiffness(stiffness_n)]);
         let (_, like) = lamp();
         let joints_m = vec![at(0.0), at(16.0), at(9.0)];
@@ -76,10 +77,14 @@ fn coordinates_far_from_the_origin_leave_energies_open() {
         assert_eq!((scale.size_m, scale.stored_m), (16.0, 2.0_f64.powi(-29)));
         (stored_n(&system.members()[0], scale.stored_m), scale.stored_j)
     };
-    let (spring_n, stored_j) = stored(2.0_f64.powi(40));
+    let (spring_n, stored_j) = stored(2.0_f64.powi(42), 16.0);
     assert_eq!(spring_n.to_bits(), f64::to_bits(1024.0));
-    assert_eq!(stored_j.to_bits(), f64::to_bits((3.0 + 512.0) * 2.0_f64.powi(-29)));
+    let coordinates_j = (3.0 + 512.0) * 2.0_f64.powi(-29);
+    assert!((stored_j / coordinates_j - 1.0).abs() < 1e-3, "{stored_j} {coordinates_j}");
+    let (_, stored_j) = stored(2.0_f64.powi(42), 16.0 / (1.0 + 2.0_f64.powi(-22)));
+    let told_j = coordinates_j + 2.0_f64.powi(-25);
+    assert!((stored_j / told_j - 1.0).abs() < 1e-3, "{stored_j} {told_j}");
     // No stiffness forgives more than a millionth of 3 N times 16 m.
-    let (_, stored_j) = stored(2.0_f64.powi(80));
+    let (_, stored_j) = stored(2.0_f64.powi(80), 4.0);
     assert!((stored_j / (48e-6 + 3.0 * 2.0_f64.powi(-29)) - 1.0).abs() < 1e-12, "{stored_j}");
 }
