@@ -107,6 +107,12 @@ pub enum MotionError {
         /// What of its inertia is left when the others move with it, kg.
         inertia_kg: f64,
     },
+    /// Occurs when the motions about an equilibrium that keep the lengths of rigid members are no linear space.
+    #[error(
+        "this shape is singular, as bars that are folded into one line: the motions that keep the lengths are no linear \
+         space, and have no modes"
+    )]
+    Singular,
     /// Occurs when the constraints do not determine their forces: a bar too many, or a taut
     /// straight line.
     #[error(

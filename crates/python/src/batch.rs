@@ -207,6 +207,7 @@ pub fn solve_many<'py>(
         let blocks: Vec<Block> = (0..chains.div_ceil(BLOCK))
             .into_par_iter()
             .map(|k| {
+                watch.go_on();
                 let block = batch.block(k * BLOCK..chains.min((k + 1) * BLOCK));
                 let size = block.energy_j.len();
                 let done = done.fetch_add(size, std::sync::atomic::Ordering::Relaxed) + size;

@@ -131,6 +131,7 @@ pub fn solve_nets<'py>(
     let all = work::run(py, threads, progress.as_ref(), move |watch| {
         let done = AtomicUsize::new(0);
         let one = |row: usize| {
+            watch.go_on();
             let found = rows.problem(&of, row).and_then(|problem| solve.run_here(&problem));
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             watch.tell("systems", done as u64, count as u64);

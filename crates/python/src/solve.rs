@@ -155,8 +155,7 @@ pub fn losses<'py>(
     let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
     work::answer(py, threads, progress, move |watch| {
-        watch.tell("losses", 0, 0);
-        let found = solve.without_each(&of)?;
+        let found = solve.without_each_watched(&of, &|| watch.tell("losses", 0, 0))?;
         let (text, said) = work::told(&found);
         Ok((text, said, found.survives()))
     })
@@ -174,8 +173,7 @@ pub fn load_cases<'py>(
     let solve = Solve::new().solvers(words::solvers(solver)?);
     let of = Arc::clone(&problem.of);
     work::answer(py, threads, progress, move |watch| {
-        watch.tell("load cases", 0, 0);
-        let found = solve.load_cases(&of)?;
+        let found = solve.load_cases_watched(&of, &|| watch.tell("load cases", 0, 0))?;
         let (text, said) = work::told(&found);
         Ok((text, said, found.is_strong()))
     })

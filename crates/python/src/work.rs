@@ -31,8 +31,9 @@ const TELL: Duration = Duration::from_millis(100);
 /// Stack of a thread: the nested searches of the solvers fit into a small part of it.
 const STACK: usize = 8 << 20;
 
-/// The pools that were asked for, by their numbers of threads. A child process has the memory of
-/// its parent and none of its threads, so they belong to one process.
+/// The pools that were asked for, by their numbers of threads: one for each piece of work at a time, so that none waits
+/// for what another caller has begun, or for what was cancelled and has not ended yet. A child process has the memory
+/// of its parent and none of its threads, so they belong to one process.
 struct Pools {
     process: u32,
     /// Threads where nothing is said; 0 for one per processor.
@@ -78,7 +79,7 @@ fn check(threads: usize) -> PyResult<()> {
     Ok(())
 }
 
-/// The pool of so many threads, 0 for as many as were set.
+/// A pool of so many threads, 0 for as many as were set, on which nothing works; whoever holds it works on it.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     check(threads)?;
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -89,7 +90,10 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     }
     let wanted = if threads == 0 { pools.threads } else { threads };
     let wanted = if wanted == 0 { processors() } else { wanted };
-    if let Some((_, pool)) = pools.started.iter().find(|(threads, _)| *threads == wanted) {
+    let idle = |(threads, pool): &&(usize, Arc<ThreadPool>)| {
+        *threads == wanted && Arc::strong_count(pool) == 1
+    };
+    if let Some((_, pool)) = pools.started.iter().find(idle) {
         return Ok(Arc::clone(pool));
     }
     let pool = ThreadPoolBuilder::new()
@@ -127,11 +131,16 @@ pub struct Watch {
 struct Cancelled;
 
 impl Watch {
-    /// What is being done, how much of it is done, and of how much in all (0: not known).
-    pub fn tell(&self, what: &str, done: u64, total: u64) {
+    /// End the work here if it is cancelled: at the beginning of each part.
+    pub fn go_on(&self) {
         if self.cancelled.load(Ordering::Relaxed) {
             resume_unwind(Box::new(Cancelled));
         }
+    }
+
+    /// What is being done, how much of it is done, and of how much in all (0: not known).
+    pub fn tell(&self, what: &str, done: u64, total: u64) {
+        self.go_on();
         let Some(hand_on) = &self.hand_on else { return };
         let now = u64::try_from(self.begun.elapsed().as_millis()).unwrap_or(u64::MAX);
         let last = self.told_ms.load(Ordering::Relaxed);
@@ -169,8 +178,9 @@ pub fn run<T: Send + 'static>(
         hand_on,
     });
     let working = Arc::clone(&watch);
-    pool.spawn(move || {
+    Arc::clone(&pool).spawn(move || {
         let ended = catch_unwind(AssertUnwindSafe(|| work(&working)));
+        drop(pool);
         // Whoever was cancelled is not waited for.
         let _ = sender.send(Message::Ended(ended));
     });

@@ -58,6 +58,21 @@ def test_ctrl_c_stops_long_work(work):
     timer.join()
 
 
+def test_short_work_does_not_wait_for_what_a_thread_has_begun():
+    lengths = np.random.default_rng(0).uniform(0.5, 1.0, (100_000, 10))
+    begun = threading.Event()
+
+    def long():
+        fn.solve_many(lengths, np.ones(10), (3.0, 0.0, -1.0), solver="both", progress=lambda *_: begun.set())
+
+    other = threading.Thread(target=long)
+    other.start()
+    begun.wait()
+    fn.solve(fn.System.case("three-equal-bars"))
+    assert other.is_alive()
+    other.join()
+
+
 def test_a_cancelled_sweep_leaves_what_goes_on(tmp_path):
     system = fn.System.case("three-equal-bars")
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"

@@ -1,17 +1,22 @@
 //! The projected eigenproblem by dense linear algebra: all modes of a small system.
 
 use matrices::dense::{Cholesky, across, eigen, product, projected};
-use nalgebra::DMatrix;
+use model::Vector;
+use nalgebra::{DMatrix, DVectorView};
 
 use super::lanczos::length;
-use super::planes::Sector;
+use super::planes::{Sector, space};
 use super::solved::{Solved, ZERO};
 use super::stiffness::{Entry, Stiffness};
 use crate::error::MotionError;
+use crate::mechanism::Mechanism;
 
 /// Rows of the constraints whose part independent of the others is less than this, relative, are
 /// dependent.
 const INDEPENDENT: f64 = 1e-10;
+
+/// What a self-stress does along motions is rounding below this part of its own size.
+const WORK: f64 = 1e-9;
 
 /// All modes whose displacements are along the axes of a sector.
 ///
@@ -56,6 +61,50 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
         omega2,
         shapes,
     })
+}
+
+/// The motions, by slot, that keep lengths to first order and not to second: those across the kernel of a sum of
+/// self-stresses. Where panels are apart, each with a stress that works in one sense, the sum that weighs each stress
+/// with its trace is positive on all of them.
+///
+/// # Errors
+///
+/// [`MotionError::Singular`] where that sum is not positive, or another stress works along its kernel.
+pub(super) fn bound<'a>(
+    mechanism: &'a Mechanism,
+    stressed: impl Fn(Vec<f64>) -> Stiffness<'a>,
+) -> Result<Vec<Vec<Vector>>, MotionError> {
+    let sector = space();
+    let without = stressed(vec![0.0; mechanism.bars.len()]).entries(&sector);
+    let size = without.size;
+    let rows = matrix(mechanism.constraints(), size, &without.rows);
+    let free = across(&rows.transpose(), INDEPENDENT);
+    let without = matrix(size, size, &without.stiffness);
+    // What each self-stress does along the motions, in units of its own size.
+    let works = |stress: DVectorView<'_, f64>| {
+        let bars = mechanism.bars.iter().zip(stress.iter());
+        let densities = bars.map(|(bar, axial)| axial / bar.length_m).collect();
+        let alone = matrix(size, size, &stressed(densities).entries(&sector).stiffness) - &without;
+        projected(&alone, &free) / alone.amax().max(f64::MIN_POSITIVE)
+    };
+    let stresses = across(&rows, INDEPENDENT);
+    let works: Vec<_> = stresses.column_iter().map(works).collect();
+    let does = |work: &DMatrix<f64>| work.amax() > WORK;
+    if !works.iter().any(does) {
+        return Ok(vec![]);
+    }
+    let weighed = works.iter().map(|work| work * work.trace());
+    let sum = weighed.fold(DMatrix::zeros(free.ncols(), free.ncols()), |sum, work| sum + work);
+    let (values, vectors) = eigen(&(&sum / sum.amax())).ok_or(MotionError::Singular)?;
+    let kernel = values.partition_point(|value| *value <= WORK);
+    let kept = vectors.columns(0, kernel);
+    let undone = works.iter().all(|work| !does(&(work * kept)));
+    if values.first().is_some_and(|least| *least < -WORK) || !undone {
+        return Err(MotionError::Singular);
+    }
+    let motions = product(&free, &vectors.columns(kernel, free.ncols() - kernel).into_owned());
+    let by_slot = |motion: &[f64]| motion.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
+    Ok(motions.as_slice().chunks_exact(size).map(by_slot).collect())
 }
 
 /// The joint that moves no mass of its own: the first one whose inertia, with that of those before

@@ -18,6 +18,11 @@
 //! Inextensible cables that pull and struts that push are bars in small motions, slack ones have
 //! their inertia alone; joints that a floor pushes slide in its level. Bars whose moments across
 //! differ have their second axis level, and spins are apart.
+//!
+//! Where rigid members leave self-stresses `σ`, lengths bind motions to second order: `yᵀ K(σ) y = 0` for all of
+//! them. Braces of what moves as one do no such work; those of a flat panel keep it flat, as one of their sums has a
+//! `K(σ)` that is positive on all other motions. Where none has, as on bars folded into one line, motions are no linear
+//! space and there are no modes.
 
 mod balance;
 mod dense;
@@ -149,7 +154,8 @@ const DENSE_JOINTS: usize = 60;
 ///
 /// [`MotionError`] when the system cannot be moved here or is too large, the places are no
 /// equilibrium, forces are needed and not given, an inextensible cable or strut is neither
-/// certainly taut nor slack, or a joint lies on a floor that does not certainly push it.
+/// certainly taut nor slack, a joint lies on a floor that does not certainly push it, or motions are no linear space
+/// (looked at where no more than 350 joints move).
 ///
 /// ```
 /// use model::Bar;
@@ -282,15 +288,21 @@ fn about(
     if off.is_nan() || off > LENGTHS {
         return Err(MotionError::NotClosed { iterations: 0, off });
     }
-    let densities = densities(mechanism, &state, axial_n)?;
+    let (densities, determinate) = densities(mechanism, &state, axial_n)?;
     let left = LeftOver::new(mechanism, &state, &vectors, &densities);
     let out_of_balance = left.off(mechanism)?;
     check_forces(system, mechanism, joints_m, &densities)?;
     check_pushes(system, mechanism, joints_m, &left)?;
-    let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
+    let of = |densities| Stiffness::new(mechanism, &state, &vectors, densities);
+    let mut stiffness = of(densities);
+    if !determinate && mechanism.moving <= MOST_JOINTS {
+        stiffness.bound = dense::bound(mechanism, of)?;
+    }
     let mut found = Modes { modes: Vec::new(), total: 0, negative: 0, out_of_balance };
     for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
-        let solved = solve(&stiffness, &sector)?;
+        let bound = !stiffness.bound.is_empty();
+        let solved =
+            if bound { dense::solve(&stiffness, &sector) } else { solve(&stiffness, &sector) }?;
         found.total += solved.total;
         found.negative += solved.negative;
         found.modes.extend(shape::modes(&stiffness, &state, &sector, &solved));
@@ -329,12 +341,12 @@ pub(crate) fn approximate_modes(
     Ok(DMatrix::from_vec(rows, count, columns))
 }
 
-/// Force densities of the rigid bars, N/m.
+/// Force densities of the rigid bars, N/m, and whether they are the only ones.
 fn densities(
     mechanism: &Mechanism,
     state: &State,
     axial_n: Option<&[f64]>,
-) -> Result<Vec<f64>, MotionError> {
+) -> Result<(Vec<f64>, bool), MotionError> {
     let mut stepper = Stepper::new(mechanism)?;
     let forces = force::Forces::default();
     match stepper.arrive(mechanism, state, &forces, 0.0) {
@@ -342,7 +354,7 @@ fn densities(
             let nothing = vec![[0.0; 3]; mechanism.joint_at.len()];
             let (_, mut rho) = stepper.accelerations(mechanism, state, &nothing);
             rho.truncate(mechanism.bars.len());
-            Ok(rho)
+            Ok((rho, true))
         }
         Err(failure) => {
             let refused = at_the_beginning(mechanism, failure);
@@ -356,7 +368,7 @@ fn densities(
                 return Err(MotionError::Input { what: "axial forces", reason });
             }
             let bars = mechanism.bars.iter();
-            Ok(bars.map(|bar| axial_n[bar.member] / bar.length_m).collect())
+            Ok((bars.map(|bar| axial_n[bar.member] / bar.length_m).collect(), false))
         }
     }
 }

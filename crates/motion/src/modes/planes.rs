@@ -28,10 +28,15 @@ pub(super) struct Sector {
     pub axes: Vec<Vector>,
 }
 
+/// All displacements.
+pub(super) fn space() -> Sector {
+    let axes = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Sector { direction: Direction::Space, axes }
+}
+
 /// The sectors of an equilibrium: its plane and across, or space.
 pub(super) fn sectors(mechanism: &Mechanism, state: &State, excesses: &[Excess]) -> Vec<Sector> {
-    let space = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let space = vec![Sector { direction: Direction::Space, axes: space.to_vec() }];
+    let space = vec![space()];
     let near_m = FLAT * mechanism.system.total_length_m();
     let first = state.at[0];
     let level = |at: &Vector| [at[0] - first[0], at[1] - first[1], 0.0];

@@ -16,6 +16,8 @@ pub(super) struct Stiffness<'a> {
     /// What ropes resist in their lengths.
     lengths: Vec<Length>,
     densities: Vec<f64>,
+    /// Motions, by slot, that lengths bind to second order.
+    pub bound: Vec<Vec<Vector>>,
     /// What bars with different moments across have beyond the inertia of the mechanism.
     pub excesses: Vec<Excess>,
 }
@@ -112,12 +114,12 @@ impl<'a> Stiffness<'a> {
             }
         }
         let excesses = excesses(mechanism, state);
-        Self { mechanism, vectors, members, lengths, densities, excesses }
+        Self { mechanism, vectors, members, lengths, densities, bound: vec![], excesses }
     }
 
     /// Number of rows of the constraints, empty ones included.
     pub(super) fn row_count(&self) -> usize {
-        self.mechanism.constraints()
+        self.mechanism.constraints() + self.bound.len()
     }
 
     /// Inertia, stiffness and constraints in the coordinates of a sector.
@@ -202,6 +204,11 @@ impl<'a> Stiffness<'a> {
         for (k, slide) in self.mechanism.slides.iter().enumerate() {
             let row = self.mechanism.bars.len() + k;
             put(row, slide.slot, 1.0, self.vectors[self.mechanism.rigid_spans() + k]);
+        }
+        for (k, motion) in self.bound.iter().enumerate() {
+            for (slot, by) in motion.iter().enumerate() {
+                put(self.mechanism.constraints() + k, slot, 1.0, *by);
+            }
         }
         rows
     }

@@ -1,7 +1,7 @@
 //! Frequencies in closed form.
 
 use model::Bar;
-use model::system::{Joint, Member, System};
+use model::system::{Joint, Member, Support, System};
 use motion::{Direction, MotionError, What, modes};
 
 use crate::common::{G, hanging, links, paper, rods, string};
@@ -307,4 +307,46 @@ fn what_is_on_its_axis_does_not_turn() {
         assert!(found.modes.len() == 2 && found.neutral() == 2, "{found:?}");
         assert_eq!(found.modes.iter().any(|mode| mode.what == turn), turns, "{found:?}");
     }
+}
+
+/// A rigid square of 2 m with both diagonals on two hangers of 1 m; 1 kg at each joint and in each bar. Its braces keep it
+/// flat, whatever they bear, so that it has four motions: along its plane `ω² = 11/(32/3) g`, a turn about the vertical with
+/// `11/8 g`, and two swings across with `det [11 g - 32/3 ω², -10 ω²; -10 ω², 10 g - 52/3 ω²] = 0`. Bars folded onto one
+/// line below a ring have two ways to unfold, and no modes; on a line that is taut between supports nothing moves.
+#[test]
+fn braces_keep_a_panel_flat_to_second_order() {
+    let rod = |length_m| Bar::homogeneous(length_m, 1.0).unwrap();
+    let joint = |name: &str| Joint::free(name).with_mass(1.0);
+    let mut joints = vec![Joint::anchor("A", [0.0, 0.0, 3.0]), Joint::anchor("B", [2.0, 0.0, 3.0])];
+    joints.extend(["P", "Q", "R", "S"].map(joint));
+    let ends = [(0, 2, 1.0), (1, 3, 1.0), (2, 3, 2.0), (2, 4, 2.0), (4, 5, 2.0), (3, 5, 2.0)];
+    let across = 8.0_f64.sqrt();
+    let ends = ends.into_iter().chain([(2, 5, across), (3, 4, across)]);
+    let members: Vec<Member> = ends.map(|(a, b, l)| Member::bar(a, b, rod(l))).collect();
+    let at = [[0.0, 0.0, 3.0], [2.0, 0.0, 3.0], [0.0, 0.0, 2.0], [2.0, 0.0, 2.0]];
+    let at = [&at[..], &[[0.0; 3], [2.0, 0.0, 0.0]]].concat();
+    let panel = System::new("panel", G, joints, members).unwrap();
+    let [a, b, c]: [f64; 3] =
+        [32.0 / 3.0 * 52.0 / 3.0 - 100.0, -(11.0 * 52.0 + 320.0) / 3.0, 110.0];
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let mut told = [33.0 / 32.0, 11.0 / 8.0, (-b - root) / (2.0 * a), (-b + root) / (2.0 * a)];
+    told.sort_by(f64::total_cmp);
+    for stress in [0.0, 3.0, -0.5] {
+        let axial = [5.5, 5.5, 0.0, 2.5, 0.0, 2.5, 0.0, 0.0];
+        let own = [0.0, 0.0, 1.0, 1.0, 1.0, 1.0, -2.0_f64.sqrt(), -2.0_f64.sqrt()];
+        let axial_n: Vec<f64> = axial.iter().zip(own).map(|(n, s)| G * (n + stress * s)).collect();
+        let found = modes(&panel, &at, Some(&axial_n)).unwrap();
+        let omega2: Vec<f64> = found.modes.iter().map(|mode| mode.omega2_s2 / G).collect();
+        near(&omega2, &told, 1e-11);
+    }
+    let folded = |support: [f64; 3], at: [f64; 3], lengths: [f64; 2]| {
+        let slides = Support::Line { at_m: support, direction: [1.0, 0.0, 0.0] };
+        let ends = [Joint::anchor("A", [0.0; 3]), joint("P"), joint("S").held_by(slides)];
+        let members = vec![Member::bar(0, 1, rod(lengths[0])), Member::bar(1, 2, rod(lengths[1]))];
+        let system = System::new("row", G, ends.to_vec(), members).unwrap();
+        modes(&system, &[[0.0; 3], at, support], Some(&[2.0 * G, 0.0]))
+    };
+    let upright = folded([0.0, 0.0, 0.5], [0.0, 0.0, -1.0], [1.0, 1.5]);
+    assert!(matches!(upright, Err(MotionError::Singular)), "{upright:?}");
+    assert!(folded([0.0, 0.0, -2.0], [0.0, 0.0, -1.0], [1.0, 1.0]).unwrap().modes.is_empty());
 }
