@@ -96,9 +96,9 @@ pub enum Error {
     /// Occurs when a census is not taken: the chain is too long.
     #[error(transparent)]
     Census(#[from] census::CensusError),
-    /// Occurs when a system has no census: see [`model::NoCensus`].
-    #[error("{0}")]
-    SystemCensus(model::NoCensus),
+    /// Occurs when a system has no census: see [`model::NoCensus`]; with the names of the joints that it is about.
+    #[error("{0}{1}")]
+    SystemCensus(model::NoCensus, String),
     /// Occurs when a solver cannot be made ready for a sweep.
     #[cfg(feature = "sweep")]
     #[error(transparent)]

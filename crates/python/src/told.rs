@@ -119,7 +119,7 @@ fn parts(error: &Error) -> Parts {
             ("SettingError", fields!(tolerance))
         }
         Error::Census(error) => no_census(error.reason()),
-        Error::SystemCensus(because) => no_census(*because),
+        Error::SystemCensus(because, _) => no_census(*because),
         Error::Parameter(error) => {
             let (text, help, column) = (&error.text, &error.help, error.column());
             ("ParameterError", fields!(text, help, column))

@@ -1,6 +1,6 @@
 //! Lists of equilibria against closed forms, and against the census of chains.
 
-use model::system::{Joint, Kind, Member, PointLoad, System};
+use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use model::{Anchors, Bar, Chain, NoCensus, Problem};
 use numerics::Interval;
 
@@ -446,4 +446,79 @@ fn a_slack_cable_leaves_all_signs_of_the_others() {
     for (found, wanted) in heights.iter().flatten().zip(wanted.iter().flatten()) {
         assert!((found - wanted).abs() < 1e-12, "{heights:?}");
     }
+}
+
+/// A boom of √17 m over a foot, held by a cable of √20 m from 3 m above it, with 30 N at its tip: to either side of the mast,
+/// 4 m out and 1 m up, where the triangle of forces is that of lengths, and upright with a slack cable. A chain with a
+/// pendulum in a plane has the list that it has in space, and falls only within the plane.
+#[test]
+fn chains_and_trees_in_a_plane_have_their_lists() {
+    let sliding = |axis: usize, joint: Joint| {
+        let mut normal = [0.0; 3];
+        normal[axis] = 1.0;
+        joint.held_by(Support::Plane { at_m: [0.5, 0.5, 0.0], normal })
+    };
+    let place = |axis: usize, out: f64, up: f64| {
+        let mut at = [0.5, 0.5, up];
+        at[1 - axis] += out;
+        at
+    };
+    for axis in [0, 1] {
+        let tip = sliding(axis, Joint::free("T").with_mass(3.0));
+        let joints = vec![
+            Joint::anchor("foot", place(axis, 0.0, 0.0)),
+            Joint::anchor("mast", place(axis, 0.0, 3.0)),
+            tip,
+        ];
+        let [boom_m, cable_m] = [17.0_f64.sqrt(), 20.0_f64.sqrt()];
+        let members = vec![Member::bar(0, 2, light(boom_m)), Member::cable(1, 2, light(cable_m))];
+        let found = taken(&system(joints, members));
+        assert!(found.complete);
+        let forces = [-10.0 * boom_m, 10.0 * cable_m];
+        let told = [(4.0, 1.0, forces, 0), (-4.0, 1.0, forces, 0), (0.0, boom_m, [-30.0, 0.0], 1)];
+        for (out, up, axial_n, index) in told {
+            let place_m = place(axis, out, up);
+            let there = found.equilibria.iter().filter(|e| {
+                let near = |(x, told): (&Interval, &f64)| (x.mid() - told).abs() < 1e-12;
+                e.joints_m[2].iter().zip(&place_m).all(near)
+                    && e.axial_n.iter().zip(&axial_n).all(near)
+                    && e.index_in_space == index
+                    && !e.circle
+            });
+            assert_eq!(there.count(), 1, "{axis} {out}: {:?}", found.equilibria);
+        }
+        assert_eq!(found.equilibria.len(), 3);
+        let of = |sliding: &dyn Fn(Joint) -> Joint| {
+            let mut joints = vec![
+                Joint::anchor("A", place(axis, 0.0, 0.0)),
+                Joint::anchor("B", place(axis, 2.0, 0.3)),
+            ];
+            let free = [("P", 1.0), ("Q", 2.0), ("L", 1.0)];
+            joints.extend(free.map(|(name, kg)| sliding(Joint::free(name).with_mass(kg))));
+            let members = [(0, 2, 1.0), (2, 3, 1.0), (3, 1, 1.0), (2, 4, 0.5)];
+            let members = members.map(|(a, b, length_m)| Member::bar(a, b, light(length_m)));
+            system(joints, members.to_vec())
+        };
+        let [plane, space] =
+            [of(&|joint| sliding(axis, joint)), of(&|joint| joint)].map(|s| taken(&s));
+        let index = |census: &SystemCensus| -> Vec<usize> {
+            census.equilibria.iter().map(|e| e.index_in_space).collect()
+        };
+        assert_eq!((index(&plane), index(&space)), (vec![0, 1, 1, 2], vec![0, 2, 3, 5]));
+        let places = |census: &SystemCensus| -> Vec<_> {
+            census.equilibria.iter().map(|e| e.joints_m.clone()).collect()
+        };
+        assert_eq!(places(&plane), places(&space));
+    }
+    // What is triangulated in a plane has none.
+    let joints = vec![
+        Joint::anchor("A", [0.5; 3]),
+        Joint::anchor("B", [2.5, 0.5, 0.5]),
+        sliding(1, Joint::free("P").with_mass(1.0)),
+        sliding(1, Joint::free("Q").with_mass(1.0)),
+    ];
+    let ends = [(0, 2), (0, 3), (2, 3), (1, 3)];
+    let members = ends.map(|(a, b)| Member::bar(a, b, light(1.5))).to_vec();
+    let refused = SystemCensus::take(&system(joints, members), &Settings::default());
+    assert_eq!(refused.unwrap_err(), NoCensus::Slider { joint: 3 });
 }

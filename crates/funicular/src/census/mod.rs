@@ -11,6 +11,7 @@ pub use summary::{Chain, Check, EnergyUnit, Net, Open, Part, Slack, Summary};
 
 use census::network::{LoadedRow, SystemCensus};
 use census::{Progress, Settings};
+use model::NoCensus;
 use model::system::{Kind, System};
 use validate::UseCensus;
 
@@ -111,8 +112,11 @@ impl Census {
             row.refusal(&self.settings)?;
         }
         threads::on(self.threads, || {
-            let census = SystemCensus::take_watched(&system, &self.settings, watch)
-                .or_else(|because| of_cables(&system).ok_or(Error::SystemCensus(because)))?;
+            let census =
+                SystemCensus::take_watched(&system, &self.settings, watch).or_else(|because| {
+                    let named = || Error::SystemCensus(because, named(&system, because));
+                    of_cables(&system).ok_or_else(named)
+                })?;
             Ok(CensusAnswer::new(&system, census))
         })?
     }
@@ -147,6 +151,17 @@ impl Census {
         let census = threads::on(self.threads, || row.compact(&self.settings, watch))??;
         Ok(LargeCensusAnswer::new(&system, census, made))
     }
+}
+
+/// The joint or the member that a refusal is about, in brackets.
+fn named(system: &System, because: NoCensus) -> String {
+    let name = |joint: usize| format!("{:?}", system.joints()[joint].name);
+    let joint = because.joint().map(|joint| format!(" (joint {})", name(joint - 1)));
+    let member = because.member().map(|member| {
+        let member = &system.members()[member - 1];
+        format!(" (from {} to {})", name(member.from), name(member.to))
+    });
+    joint.or(member).unwrap_or_default()
 }
 
 /// Of cables and ropes alone the one equilibrium that a solver finds, if it is proved.

@@ -151,7 +151,7 @@ fn how_far(now: census::Progress) -> String {
 
 /// Why there is no census, and how to go on.
 fn refuse(error: Error) -> Failure {
-    if let Error::SystemCensus(NoCensus::Motions { motions, .. }) = error {
+    if let Error::SystemCensus(NoCensus::Motions { motions, .. }, _) = error {
         let help = if motions <= Settings::MAX_MOTIONS {
             format!(
                 "--max-motions {motions} tries it all the same. A net of three motions takes seconds, each motion more \
@@ -163,7 +163,7 @@ fn refuse(error: Error) -> Failure {
         };
         return Failure::bad_input(Diagnostic::from(error).with_help(help));
     }
-    if let Error::SystemCensus(NoCensus::Bridle { bars, .. }) = error {
+    if let Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) = error {
         let time = rough_time(bridle_seconds(bars));
         let help = if bars <= Settings::MAX_BARS {
             format!(

@@ -130,3 +130,27 @@ pub enum NoCensus {
 }
 
 impl std::error::Error for NoCensus {}
+
+impl NoCensus {
+    /// The joint that it is about, from 1.
+    #[must_use]
+    pub fn joint(&self) -> Option<usize> {
+        match *self {
+            Self::Turns { joint }
+            | Self::LoadsNotDown { joint }
+            | Self::Flat { joint }
+            | Self::Slider { joint }
+            | Self::Loose { joint } => Some(joint),
+            _ => None,
+        }
+    }
+
+    /// The member that it is about, from 1.
+    #[must_use]
+    pub fn member(&self) -> Option<usize> {
+        match *self {
+            Self::Elastic { member } | Self::Limp { member } => Some(member),
+            _ => None,
+        }
+    }
+}

@@ -4,7 +4,7 @@ use model::system::System;
 use numerics::Interval;
 
 use super::parts::Part;
-use crate::network::arithmetic::Vector;
+use crate::network::arithmetic::{Vector, product};
 use crate::network::frame::Frame;
 
 /// One position of some joints and the forces of some members, in the units of the frame.
@@ -29,6 +29,25 @@ impl Choice {
 
     pub(super) fn place(&self, joint: usize) -> Option<Vector> {
         self.places.iter().find(|(k, _)| *k == joint).map(|(_, place)| *place)
+    }
+
+    /// What it is in the vertical plane in which its joints slide, with this level axis: of what would turn freely about
+    /// the vertical through its anchors, of which the position through y is shown, both sides.
+    pub(super) fn in_plane(self, system: &System, level: usize) -> Vec<Self> {
+        let anchor = |(joint, _): &&(usize, Vector)| system.joints()[*joint].support.is_fixed();
+        let Some((_, axis)) = self.places.iter().find(anchor).filter(|_| self.circle) else {
+            return vec![self];
+        };
+        let side = |sign: Interval| {
+            let at = |(joint, place): &(usize, Vector)| {
+                let mut at = [axis[0], axis[1], place[2]];
+                at[level] = at[level] + product(sign, place[1] - axis[1]);
+                (*joint, at)
+            };
+            let places = self.places.iter().map(at).collect();
+            Self { places, circle: false, ..self.clone() }
+        };
+        vec![side(Interval::ONE), side(-Interval::ONE)]
     }
 
     /// This and another one together.

@@ -27,8 +27,8 @@ mod weights;
 
 use std::time::Instant;
 
-use model::NoCensus;
 use model::system::{Kind, Support, System};
+use model::{NoCensus, Vector as Point};
 use numerics::Interval;
 
 pub use self::bridle::bridle_seconds;
@@ -156,6 +156,8 @@ impl SystemCensus {
         if system.floor_m().is_some() {
             return Err(NoCensus::Floor);
         }
+        let planar = in_plane(system);
+        let system = planar.as_ref().map_or(system, |(freed, _)| freed);
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {
@@ -164,6 +166,9 @@ impl SystemCensus {
         let frame = Frame::new(system, &[]);
         let parts = parts(system, &[]);
         let is_net = |part: &Part| matches!(part.core, Core::Net { .. });
+        if let Some(part) = parts.iter().find(|part| planar.is_some() && is_net(part)) {
+            return Err(NoCensus::Slider { joint: part.joints[0] + 1 });
+        }
         let pulls = system.members().iter().all(|member| member.kind == Kind::Cable);
         if pulls && parts.iter().any(is_net) {
             return Err(NoCensus::Cables);
@@ -184,16 +189,22 @@ impl SystemCensus {
             for branch in branches {
                 own.extend(of_branch(system, &frame, &branch, &shared, watch, &mut found)?);
             }
+            if let Some((_, level)) = planar {
+                own = own.into_iter().flat_map(|choice| choice.in_plane(system, level)).collect();
+            }
             positions = combined(&positions, &own)?;
         }
         // One vertical plane holds a chain and plumb trees on it, or plumb trees on one anchor.
         let plane = count <= 1
             && found.iter().all(|part| part.framed == 0 && part.net.is_none())
             && frame.loads(system).iter().all(|[x, y, _]| [*x, *y] == [Interval::ZERO; 2]);
-        let mut equilibria: Vec<SystemPosition> = positions
-            .iter()
-            .map(|choice| SystemPosition::new(system, &frame, choice, plane))
-            .collect();
+        let mut equilibria = vec![];
+        for mut choice in positions {
+            if planar.is_some() {
+                choice.index[1] = 0;
+            }
+            equilibria.push(SystemPosition::new(system, &frame, &choice, plane));
+        }
         equilibria.sort_by(|a, b| a.energy_j.mid().total_cmp(&b.energy_j.mid()));
         let proved = |part: &PartCensus| {
             part.chain.as_ref().is_none_or(|chain| chain.census.complete)
@@ -244,6 +255,33 @@ impl SystemCensus {
     pub fn nets(&self) -> impl Iterator<Item = &NetCensus> {
         self.parts.iter().filter_map(|part| part.net.as_ref())
     }
+}
+
+/// A system whose joints slide in one upright plane across x or y, with its anchors and loads in it, as one that moves
+/// freely: chains and trees stay in that plane by themselves. With the level axis of the plane.
+fn in_plane(system: &System) -> Option<(System, usize)> {
+    let moving = system.joints().iter().find(|joint| !joint.support.is_fixed())?;
+    let Support::Plane { at_m: origin_m, normal } = moving.support else { return None };
+    let across = [0, 1].into_iter().find(|k| normal[*k].abs() >= 1.0)?;
+    let is_level = |x: f64| (x - origin_m[across]).abs() <= 0.0;
+    let none = |force: &Point| force[across].abs() <= 0.0;
+    let lies = system.joints().iter().all(|joint| match joint.support {
+        Support::Fixed { at_m } => is_level(at_m[across]),
+        Support::Plane { at_m, normal } => normal[across].abs() >= 1.0 && is_level(at_m[across]),
+        Support::Free | Support::Line { .. } => false,
+    });
+    let loads = system.members().iter().flat_map(|member| &member.loads).map(|load| &load.force_n);
+    let mut loads = loads.chain(system.joints().iter().map(|joint| &joint.force_n));
+    if !lies || !loads.all(none) {
+        return None;
+    }
+    let joints = system.joints().iter().map(|joint| match joint.support {
+        Support::Plane { .. } => joint.clone().held_by(Support::Free),
+        _ => joint.clone(),
+    });
+    let members = system.members().to_vec();
+    let freed = System::new(system.name(), system.gravity_m_s2(), joints.collect(), members);
+    Some((freed.ok()?, 1 - across))
 }
 
 /// Each of these positions with each of those.

@@ -152,7 +152,12 @@ impl Display for NoCensus {
             ),
             Self::Floor => f.write_str("no census knows a floor"),
             Self::Slider { joint } => {
-                write!(f, "no census: the {} joint slides", ordinal(*joint))
+                write!(
+                    f,
+                    "no census: the {} joint slides; only chains and trees that slide in the vertical plane of their \
+                     anchors and loads have one",
+                    ordinal(*joint)
+                )
             }
             Self::Cables => f.write_str(
                 "no census: of cables and ropes alone an equilibrium that is verified is the only one, and none is",
