@@ -109,8 +109,8 @@ pub enum MotionError {
     },
     /// Occurs when the motions about an equilibrium that keep the lengths of rigid members are no linear space.
     #[error(
-        "this shape is singular, as bars that are folded into one line: the motions that keep the lengths are no linear \
-         space, and have no modes"
+        "this shape is singular, as bars that are folded into one line, or a cable more than needed that slackens to either \
+         side: the motions that keep the lengths are no linear space, and have no modes"
     )]
     Singular,
     /// Occurs when the constraints do not determine their forces: a bar too many, or a taut

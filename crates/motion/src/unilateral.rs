@@ -23,7 +23,7 @@ pub(crate) const LENGTHS: f64 = 1e-8;
 pub(crate) const BALANCE: f64 = 1e-7;
 
 /// `cable` or `strut`, of a member that is one and does not stretch.
-fn inextensible(system: &System, number: usize) -> Option<&'static str> {
+pub(crate) fn inextensible(system: &System, number: usize) -> Option<&'static str> {
     let member = &system.members()[number];
     match (member.stiffness_n, member.kind) {
         (Some(_), _) | (None, Kind::Bar) => None,

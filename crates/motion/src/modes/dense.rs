@@ -69,9 +69,11 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
 ///
 /// # Errors
 ///
-/// [`MotionError::Singular`] where that sum is not positive, or another stress works along its kernel.
+/// [`MotionError::Singular`] where that sum is not positive, another stress works along its kernel, or one that works has a
+/// part in a cable or strut, which a motion may slacken.
 pub(super) fn bound<'a>(
     mechanism: &'a Mechanism,
+    is_one_sided: impl Fn(usize) -> bool,
     stressed: impl Fn(Vec<f64>) -> Stiffness<'a>,
 ) -> Result<Vec<Vec<Vector>>, MotionError> {
     let sector = space();
@@ -92,6 +94,14 @@ pub(super) fn bound<'a>(
     let does = |work: &DMatrix<f64>| work.amax() > WORK;
     if !works.iter().any(does) {
         return Ok(vec![]);
+    }
+    let slackens = |stress: DVectorView<'_, f64>| {
+        let mut bars = mechanism.bars.iter().zip(stress.iter());
+        bars.any(|(bar, axial)| axial.abs() > WORK && is_one_sided(bar.member))
+    };
+    let mut working = stresses.column_iter().zip(&works).filter(|(_, work)| does(work));
+    if working.any(|(stress, _)| slackens(stress)) {
+        return Err(MotionError::Singular);
     }
     let weighed = works.iter().map(|work| work * work.trace());
     let sum = weighed.fold(DMatrix::zeros(free.ncols(), free.ncols()), |sum, work| sum + work);

@@ -21,8 +21,8 @@
 //!
 //! Where rigid members leave self-stresses `σ`, lengths bind motions to second order: `yᵀ K(σ) y = 0` for all of
 //! them. Braces of what moves as one do no such work; those of a flat panel keep it flat, as one of their sums has a
-//! `K(σ)` that is positive on all other motions. Where none has, as on bars folded into one line, motions are no linear
-//! space and there are no modes.
+//! `K(σ)` that is positive on all other motions. Where none has, as on bars folded into one line, or a cable slackens to
+//! either side, motions are no linear space and there are no modes.
 
 mod balance;
 mod dense;
@@ -44,7 +44,7 @@ use crate::mechanism::Mechanism;
 use crate::rattle::{Stepper, no_jam};
 use crate::simulation::at_the_beginning;
 use crate::state::State;
-use crate::unilateral::{LENGTHS, check_forces, check_pushes, with_what_holds};
+use crate::unilateral::{LENGTHS, check_forces, check_pushes, inextensible, with_what_holds};
 use planes::Sector;
 use solved::Solved;
 use stiffness::Stiffness;
@@ -296,7 +296,8 @@ fn about(
     let of = |densities| Stiffness::new(mechanism, &state, &vectors, densities);
     let mut stiffness = of(densities);
     if !determinate && mechanism.moving <= MOST_JOINTS {
-        stiffness.bound = dense::bound(mechanism, of)?;
+        let is_one_sided = |member| inextensible(system, member).is_some();
+        stiffness.bound = dense::bound(mechanism, is_one_sided, of)?;
     }
     let mut found = Modes { modes: Vec::new(), total: 0, negative: 0, out_of_balance };
     for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {

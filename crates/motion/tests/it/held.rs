@@ -53,12 +53,11 @@ fn a_cable_that_is_just_taut_and_bears_nothing_is_refused() {
         matches!(refused, MotionError::NeitherTautNorSlack { member: 3, kind: "cable", .. }),
         "{refused}"
     );
-    // Where it bears a part of the weight it holds the weight at its own length.
+    // Where it bears a part of the weight it slackens as the lamp swings: from 1 m above the line of the anchors, 4 m below
+    // which the lamp turns by θ, it is sqrt(17 + 8 cos θ) m to it, and what it bears at rest is in no frequency.
     let axial = [0.6 * axial[0], 0.6 * axial[0], 0.4 * 2.0 * G];
-    let held = modes(&lamp(Kind::Cable, 5.0), &LAMP, Some(&axial)).unwrap();
-    let [mode] = &held.modes[..] else { panic!("{held:?}") };
-    // ρ = F/l of all three over the mass.
-    near(mode.omega2_s2, axial[0] / 5.0 + 0.5 * axial[2] / 5.0, 1e-13);
+    let refused = modes(&lamp(Kind::Cable, 5.0), &LAMP, Some(&axial)).unwrap_err();
+    assert!(matches!(refused, MotionError::Singular), "{refused}");
 }
 
 #[test]
