@@ -120,6 +120,10 @@ def test_scipy_finds_lengths(net):
     assert len(gradients.for_scipy(net, off, ["stiffnesses", "anchors"])[1]) == 2 + 9
     with pytest.raises(fn.SettingError):
         gradients.for_scipy(net, off, ["colours"])
+    # Numbers that are none, or not as many.
+    for wrong in ([2.2], [3.0] * 4, [np.nan, 3, 3], [np.inf, 3, 3], 3.0):
+        with pytest.raises(fn.ShapeError, match="^x: "):
+            fun(wrong)
 
 
 def test_jax_differentiates(net):

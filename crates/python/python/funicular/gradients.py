@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _native
 from ._numbers import Array, array
-from .errors import Error, InputError, SettingError
+from .errors import Error, InputError, SettingError, ShapeError
 from .rows import numbers_of
 from .system import System
 
@@ -71,6 +71,7 @@ def for_scipy(
     """
     now = {name: _now(system, name) for name in names}
     known = {name: np.isfinite(values) for name, values in now.items()}
+    x0 = np.concatenate([values[known[name]] for name, values in now.items()])
 
     def numbers(x: Array) -> dict[str, Array]:
         found, at = {}, 0
@@ -82,12 +83,15 @@ def for_scipy(
         return found
 
     def fun(x: Array) -> tuple[float, Array]:
-        given = numbers(np.asarray(x, dtype=np.float64))
+        x = array("x", x, x0.shape)
+        if not np.isfinite(x).all():
+            raise ShapeError("x: finite numbers wanted", argument="x", expected="finite numbers", found="nan or inf")
+        given = numbers(x)
         value, by_joints, by_axial = loss(*equilibrium(system, given))
         by = pullback(system, given, by_joints, by_axial)
         return float(value), np.concatenate([by[name][known[name]] for name in now])
 
-    return fun, np.concatenate([values[known[name]] for name, values in now.items()])
+    return fun, x0
 
 
 def _now(system: System, name: str) -> Array:
