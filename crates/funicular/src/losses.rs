@@ -99,7 +99,12 @@ fn left(
 ) -> Result<Settled, Unsettled> {
     let (rest, joints) = system.without(bar);
     let before_m: Vec<Vector> = joints.iter().filter_map(|k| before_m.get(*k).copied()).collect();
-    let (left, ..) = settle(solve, rest, &before_m)?;
+    let (left, ..) = settle(solve, rest, &before_m).map_err(|mut why| {
+        if why.outcome == Outcome::Unknown {
+            why.reason += " (members are counted without the lost one)";
+        }
+        why
+    })?;
     Ok(left.numbered(|k| if k >= bar { k + 1 } else { k }))
 }
 

@@ -86,11 +86,13 @@ pub(crate) fn settle(
     let answer = solve.run_here(&system.into()).map_err(|error| {
         let Error::Unsolved(answer) = &error else { return unknown(error.to_string()) };
         let all = |is: fn(&SystemFailure) -> bool| answer.failures().iter().all(is);
-        let outcome = match () {
-            () if all(SystemFailure::falls) => Outcome::Falls,
+        let outcome = if all(SystemFailure::falls) {
+            Outcome::Falls
+        } else if all(SystemFailure::is_unloaded) {
             // Its members are limp: it folds.
-            () if all(SystemFailure::is_unloaded) => Outcome::Leaves,
-            () => return unknown(error.to_string()),
+            Outcome::Leaves
+        } else {
+            return unknown(error.to_string());
         };
         let reason = answer.failures().first().map_or_else(String::new, ToString::to_string);
         Unsettled { outcome, reason }

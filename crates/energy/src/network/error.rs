@@ -86,7 +86,7 @@ pub enum Error {
     /// Occurs when the joints balance with forces so large beside the loads and the prestress of the
     /// system that their rounding is no longer small beside these: next to a singular shape.
     #[error(
-        "the lengths are kept with {ratio:e} times the loads in member {member} alone, of which nothing is \
+        "the lengths are kept with {ratio:.3e} times the loads in member {member} alone, of which nothing is \
          certain: the shape is next to one that bears any forces"
     )]
     Absurd {
@@ -96,7 +96,7 @@ pub enum Error {
         ratio: f64,
     },
     /// Occurs when joints are out of balance by more than a part of what loads them.
-    #[error("joint {joint} is out of balance by {unbalance:e} of its load")]
+    #[error("joint {joint} is out of balance by {unbalance:.3e} of its load")]
     Unbalanced {
         /// Name of the joint.
         joint: String,
@@ -105,8 +105,8 @@ pub enum Error {
     },
     /// Occurs when the iterations are used up.
     #[error(
-        "not converged after {iterations} iterations: unbalanced force {unbalance:e} of the largest, lengths \
-         off by {misfit:e}"
+        "not converged after {iterations} iterations: unbalanced force {unbalance:.3e} of the largest, lengths \
+         off by {misfit:.3e}"
     )]
     IterationLimit {
         /// Iterations made.
@@ -129,8 +129,8 @@ pub enum Error {
     },
     /// Occurs when no step lowers the energy and the residual is still above its tolerance.
     #[error(
-        "no step lowers the energy any further: unbalanced force {unbalance:e} of the largest, lengths off \
-         by {misfit:e}"
+        "no step lowers the energy any further: unbalanced force {unbalance:.3e} of the largest, lengths off \
+         by {misfit:.3e}"
     )]
     Stalled {
         /// Largest unbalanced force over the largest force.
@@ -205,7 +205,7 @@ fn misfit_message(misfits: &[Misfit]) -> String {
     let over = misfits.iter().filter(|other| other.misfit_m.abs() > other.within_m).count();
     format!(
         "the lengths overdetermine the shape and do not fit each other: in the shape that meets them best \
-         member {} is {misfit_m:e} m off, where {within_m:e} m are allowed, and {} more are off by more than \
+         member {} is {misfit_m:.3e} m off, where {within_m:.3e} m are allowed, and {} more are off by more than \
          allowed; give the lengths more exactly, or their length_tolerance_m, or stiffness_n: then the \
          self-stress is real",
         member + 1,

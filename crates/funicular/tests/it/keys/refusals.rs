@@ -125,12 +125,12 @@ fn refusals_of_energy_for_systems() {
         ),
         of(
             &Error::IterationLimit { iterations: 9, unbalance: 0.125, misfit: 0.25 },
-            &["after 9 iterations: unbalanced force 1.25e-1", "off by 2.5e-1"],
+            &["after 9 iterations: unbalanced force 1.250e-1", "off by 2.500e-1"],
         ),
         of(&Error::Work { spent: 16, max_work: 15 }, &["factors of 16 numbers", "max_work is 15"]),
         of(
             &Error::Stalled { unbalance: 0.375, misfit: 0.5 },
-            &["unbalanced force 3.75e-1", "off by 5e-1"],
+            &["unbalanced force 3.750e-1", "off by 5.000e-1"],
         ),
         of(&Error::NoMinimum { index: 10 }, &["in 10 independent directions"]),
         of(
@@ -431,11 +431,11 @@ fn refusals_of_energy_for_frames() {
     use energy::network::Error;
     let misfits = vec![Misfit { member: 1, misfit_m: 0.25, within_m: 0.125 }];
     let refusals = [
-        of(&Error::Misfit { misfits }, &["member 2 is 2.5e-1 m off, where 1.25e-1 m"]),
-        of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.5e0 times the loads in member 2"]),
+        of(&Error::Misfit { misfits }, &["member 2 is 2.500e-1 m off, where 1.250e-1 m"]),
+        of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.500e0 times the loads in member 2"]),
         of(
             &Error::Unbalanced { joint: "U".into(), unbalance: 0.5 },
-            &["joint U is out of balance by 5e-1"],
+            &["joint U is out of balance by 5.000e-1"],
         ),
         of(&Error::Jammed { member: 6, span: 7 }, &["(member 6) jams: its span 7 has no length"]),
     ];
