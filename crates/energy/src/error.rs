@@ -1,5 +1,6 @@
 //! Why there is no answer.
 
+use model::number::Brief;
 use serde::Serialize;
 
 /// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
@@ -8,7 +9,10 @@ use serde::Serialize;
 #[non_exhaustive]
 pub enum Error {
     /// Occurs when a setting is out of its range.
-    #[error("the setting {field} must lie between {low:e} and {high:e}, got {value:e}")]
+    #[error(
+        "the setting {field} must lie between {} and {}, got {value}",
+        Brief(*low), Brief(*high)
+    )]
     Setting {
         /// Name of the field.
         field: &'static str,
@@ -44,8 +48,9 @@ pub enum Error {
     },
     /// Occurs when the chain could not be closed on its anchors from the seed.
     #[error(
-        "the seed could not be closed on the anchors: {gap:e} of the total length is left after \
-         {iterations} corrections"
+        "the seed could not be closed on the anchors: {gap} of the total length is left after \
+         {iterations} corrections",
+        gap = Brief(*gap)
     )]
     NotClosed {
         /// Distance left, in units of the total length.
@@ -54,7 +59,10 @@ pub enum Error {
         iterations: usize,
     },
     /// Occurs when the iterations are used up.
-    #[error("not converged after {iterations} iterations: projected gradient {gradient:.1e}")]
+    #[error(
+        "not converged after {iterations} iterations: projected gradient {gradient}",
+        gradient = Brief(*gradient)
+    )]
     IterationLimit {
         /// Iterations made.
         iterations: u64,
@@ -67,8 +75,9 @@ pub enum Error {
     /// minimum.
     #[error(
         "no step lowers the energy any further after {iterations} iterations: projected gradient \
-         {gradient:.1e}, closure {gap:.1e} of the total length, negative curvature in {directions} \
-         directions"
+         {gradient}, closure {gap} of the total length, negative curvature in {directions} \
+         directions",
+        gradient = Brief(*gradient), gap = Brief(*gap)
     )]
     Stalled {
         /// Iterations made.
@@ -84,8 +93,9 @@ pub enum Error {
     /// not: a chain folded to a fraction of 1e-7 of its length, whose least energy depends on
     /// angles that are lost.
     #[error(
-        "the bars lie on one line to rounding and the anchors {across:e} of the total length off it: what decides \
-         between the positions of such a folded chain is lost in double precision"
+        "the bars lie on one line to rounding and the anchors {across} of the total length off it: what decides \
+         between the positions of such a folded chain is lost in double precision",
+        across = Brief(*across)
     )]
     NearlyFolded {
         /// Distance of the end anchor from the line, in units of the total length.

@@ -1,5 +1,6 @@
 //! What can go wrong in a solve.
 
+use model::number::Brief;
 use serde::Serialize;
 
 use crate::settings::SettingsError;
@@ -38,8 +39,9 @@ pub enum SolveError {
     /// Occurs when every run of Newton's method stopped at a local minimum of the residual that is
     /// no root, or ran out of steps.
     #[error(
-        "no equilibrium from this seed: residual {residual:.3e} (relative) after {iterations} steps \
-         and {relaxations} relaxations"
+        "no equilibrium from this seed: residual {residual} (relative) after {iterations} steps \
+         and {relaxations} relaxations",
+        residual = Brief(*residual)
     )]
     Stagnated {
         /// Norm of the residual at the end, in units of the total weight and length.
@@ -54,8 +56,9 @@ pub enum SolveError {
     /// [`Settings::lock_margin`](crate::Settings::lock_margin) is zero; otherwise the bar
     /// gets other angles and the solve goes on.
     #[error(
-        "false root: the equations hold, and a moment of {moment:.3e} (in units of the largest force \
-         times the mean length) acts on bar {bar}"
+        "false root: the equations hold, and a moment of {moment} (in units of the largest force \
+         times the mean length) acts on bar {bar}",
+        moment = Brief(*moment)
     )]
     FalseRoot {
         /// Number of the bar, from 1.

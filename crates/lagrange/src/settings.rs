@@ -1,5 +1,6 @@
 //! Settings of the solve.
 
+use model::number::Brief;
 use serde::Serialize;
 
 /// Settings of [`solve_from`](crate::solve_from) and [`solve`](crate::solve()).
@@ -61,7 +62,7 @@ impl Default for Settings {
 /// assert_eq!((error.name, error.value, error.high), ("tolerance", 1.0, 1e-3));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
-#[error("setting {name} = {value} is outside its range, {low:e} to {high:e}")]
+#[error("setting {name} = {value} is outside its range, {} to {}", Brief(*low), Brief(*high))]
 pub struct SettingsError {
     /// The field.
     pub name: &'static str,

@@ -107,6 +107,35 @@ impl Display for Number {
     }
 }
 
+/// A number in a sentence: four significant digits, with a power of ten where zeros would hide them.
+///
+/// ```
+/// use model::number::Brief;
+/// assert_eq!(Brief(8.0).to_string(), "8");
+/// assert_eq!(Brief(-1234.56).to_string(), "-1235");
+/// assert_eq!(Brief(0.0).to_string(), "0");
+/// assert_eq!(Brief(1.234_56e-7).to_string(), "1.235e-7");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Brief(pub f64);
+
+impl Display for Brief {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self(x) = *self;
+        let rounded = format!("{x:.3e}").parse().unwrap_or(x);
+        if x.abs() <= 0.0 {
+            f.write_str("0")
+        } else if (SMALL..MANY).contains(&x.abs()) {
+            write!(f, "{rounded}")
+        } else {
+            write!(f, "{rounded:e}")
+        }
+    }
+}
+
+/// From here on zeros would hide the digits.
+const MANY: f64 = 1e6;
+
 /// Significant digits of a number that is not a whole number.
 const COUNTED: usize = 4;
 

@@ -1,5 +1,7 @@
 //! Why a system does not move here, or a motion ends.
 
+use model::number::Brief;
+
 /// Why a system cannot be set in motion, or a step cannot be taken.
 ///
 /// Members are counted from 1, joints are named.
@@ -117,7 +119,8 @@ pub enum MotionError {
     /// straight line.
     #[error(
         "at joint {joint:?} the rigid bars and supports do not determine their forces (relative pivot \
-         {pivot:e}): a bar too many, or bars on one taut line"
+         {pivot}): a bar too many, or bars on one taut line",
+        pivot = Brief(*pivot)
     )]
     Redundant {
         /// Name of the joint where it shows.
@@ -127,8 +130,9 @@ pub enum MotionError {
     },
     /// Occurs when positions cannot be brought onto the lengths of the bars.
     #[error(
-        "the constraints are not met: after {iterations} corrections a bar or support is off by {off:e} of its \
-         length"
+        "the constraints are not met: after {iterations} corrections a bar or support is off by {off} of its \
+         length",
+        off = Brief(*off)
     )]
     NotClosed {
         /// Corrections made.
@@ -138,8 +142,9 @@ pub enum MotionError {
     },
     /// Occurs when the constraints of a step are not met to rounding: the step is too long.
     #[error(
-        "at t = {time_s} s a step of {step_s} s does not meet the lengths (off by {off:e} after \
-         {iterations} corrections): take a shorter step"
+        "at t = {time_s} s a step of {step_s} s does not meet the lengths (off by {off} after \
+         {iterations} corrections): take a shorter step",
+        off = Brief(*off)
     )]
     StepTooLong {
         /// Time at the beginning of the step.
@@ -186,7 +191,8 @@ pub enum MotionError {
     },
     /// Occurs when modes are asked for at a position that is not an equilibrium.
     #[error(
-        "the position is not an equilibrium: {off:e} of the largest force is left over at joint {joint:?}"
+        "the position is not an equilibrium: {off} of the largest force is left over at joint {joint:?}",
+        off = Brief(*off)
     )]
     NotInBalance {
         /// Name of the joint with the largest force left over.

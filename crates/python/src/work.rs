@@ -43,8 +43,7 @@ struct Pools {
 
 static POOLS: Mutex<Pools> = Mutex::new(Pools { process: 0, threads: 0, started: Vec::new() });
 
-/// How many threads share the work where nothing is said, 0 for one per processor. No answer
-/// depends on it.
+/// How many threads share the work where nothing is said, 0 for one per processor.
 #[pyfunction]
 pub fn set_threads(threads: usize) -> PyResult<()> {
     check(threads)?;
@@ -61,8 +60,7 @@ pub fn get_threads() -> usize {
     }
 }
 
-/// Hold every solve of this process to so much work, numbers in all factors of its matrices, which is
-/// iterations times size. What needs more ends without an answer; 10**10 where nothing is said.
+/// Hold every solve of this process to so much work.
 #[pyfunction]
 pub fn limit_work(numbers: NonZeroU64) {
     funicular::limit_work(numbers);

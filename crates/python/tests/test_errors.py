@@ -182,8 +182,13 @@ def test_words_and_settings():
             system.solve(**setting)
     with pytest.raises(fn.SettingError):
         system.solve(threads=5000)
+    for threads in (5000, -1, "two"):
+        with pytest.raises(fn.SettingError):
+            fn.set_threads(threads)
     with pytest.raises(fn.SettingError):
-        fn.set_threads(5000)
+        fn.limit_work(0)
+    with pytest.raises(fn.SettingError):
+        system.solve(progress=3)
     with pytest.raises(fn.ParameterError) as error:
         system.trace("anchors.end_m.q=0..1:3")
     assert error.value.help
@@ -211,6 +216,26 @@ def test_words_and_settings():
         fn.solve()
     with pytest.raises(fn.InputError):
         fn.solve(system, lengths=[1, 1])
+
+
+def test_joints_and_words_of_arrays_are_checked():
+    v = {"anchors": {0: (-3, 0, 0), 1: (3, 0, 0)}, "bars": [[0, 2], [2, 1]], "lengths": [5, 5], "joint_masses": {2: 2.0}}
+    named = fn.System.from_arrays(joints=np.array(["A", "B", "P"]), **v)
+    assert named.joint_names == ["A", "B", "P"]
+    for wrong in (
+        {"anchors": {0: (-3, 0, 0), "A": (3, 0, 0)}},
+        {"anchors": [(-3, 0, 0), (3, 0, 0)]},
+        {"kinds": None},
+        {"joint_masses": {"P": 1, 2: 3}},
+        {"gravity": "9.8"},
+    ):
+        with pytest.raises(fn.ShapeError):
+            fn.System.from_arrays(joints=["A", "B", "P"], **{**v, **wrong})
+    with pytest.raises(fn.ShapeError):
+        named.study({"bars.1.length_m": 3})
+    with pytest.raises(fn.InputError) as error:
+        fn.solve(named.to_toml())
+    assert "from_toml" in error.value.help
 
 
 def test_text_that_would_steer_a_terminal_is_shown_escaped():

@@ -373,6 +373,26 @@ def test_tables_are_read_by_others_without_our_knowing_them():
     assert pyarrow.table(names)["joint"].to_pylist() == names["joint"]
 
 
+def test_tables_are_dictionaries_of_columns():
+    import pandas
+
+    a = fn.System.case("lamp").solve()
+    frame = pandas.DataFrame(a.joints)
+    assert list(frame["joint"]) == ["A", "B", "lamp"] and frame["z_m"].tolist() == a.joints_m[:, 2].tolist()
+    assert a.joints == dict(a.joints) and a.joints != a.bars and pickle.loads(pickle.dumps(a.joints)) == a.joints
+
+
+def test_an_answer_is_a_shape_and_an_answer_to_be_judged():
+    lamp = fn.System.case("lamp")
+    a = lamp.solve()
+    again = lamp.solve(near=a)
+    assert again.near.is_neighbour and np.allclose(again.joints_m, a.joints_m, atol=1e-12)
+    assert fn.judge(lamp, a).confirmed
+    assert fn.judge(lamp, a, 1.001 * a.axial_n).refuted
+    one = lamp.study("loads=0.5..1:2", of="joints.lamp.z")
+    assert one.table == lamp.study("loads=0.5..1:2", of=["joints.lamp.z"]).table
+
+
 def test_streams_that_nobody_reads_are_freed():
     table = fn.Table({"a": np.zeros(1000), "b": ["x"] * 1000})
     for _ in range(1000):

@@ -1,6 +1,7 @@
 //! Why there is no answer.
 
 use model::Vector;
+use model::number::Brief;
 use model::system::Misfit;
 use serde::Serialize;
 
@@ -10,7 +11,10 @@ use serde::Serialize;
 #[non_exhaustive]
 pub enum Error {
     /// Occurs when a setting is out of its range.
-    #[error("the setting {field} must lie between {low:e} and {high:e}, got {value:e}")]
+    #[error(
+        "the setting {field} must lie between {} and {}, got {value}",
+        Brief(*low), Brief(*high)
+    )]
     Setting {
         /// Name of the field.
         field: &'static str,
@@ -86,8 +90,9 @@ pub enum Error {
     /// Occurs when the joints balance with forces so large beside the loads and the prestress of the
     /// system that their rounding is no longer small beside these: next to a singular shape.
     #[error(
-        "the lengths are kept with {ratio:.3e} times the loads in member {member} alone, of which nothing is \
-         certain: the shape is next to one that bears any forces"
+        "the lengths are kept with {ratio} times the loads in member {member} alone, of which nothing is \
+         certain: the shape is next to one that bears any forces",
+        ratio = Brief(*ratio)
     )]
     Absurd {
         /// Number of the member with the largest force, from 1.
@@ -96,7 +101,10 @@ pub enum Error {
         ratio: f64,
     },
     /// Occurs when joints are out of balance by more than a part of what loads them.
-    #[error("joint {joint} is out of balance by {unbalance:.3e} of its load")]
+    #[error(
+        "joint {joint} is out of balance by {unbalance} of its load",
+        unbalance = Brief(*unbalance)
+    )]
     Unbalanced {
         /// Name of the joint.
         joint: String,
@@ -105,8 +113,9 @@ pub enum Error {
     },
     /// Occurs when the iterations are used up.
     #[error(
-        "not converged after {iterations} iterations: unbalanced force {unbalance:.3e} of the largest, lengths \
-         off by {misfit:.3e}"
+        "not converged after {iterations} iterations: unbalanced force {unbalance} of the largest, lengths \
+         off by {misfit}",
+        unbalance = Brief(*unbalance), misfit = Brief(*misfit)
     )]
     IterationLimit {
         /// Iterations made.
@@ -129,8 +138,9 @@ pub enum Error {
     },
     /// Occurs when no step lowers the energy and the residual is still above its tolerance.
     #[error(
-        "no step lowers the energy any further: unbalanced force {unbalance:.3e} of the largest, lengths off \
-         by {misfit:.3e}"
+        "no step lowers the energy any further: unbalanced force {unbalance} of the largest, lengths off \
+         by {misfit}",
+        unbalance = Brief(*unbalance), misfit = Brief(*misfit)
     )]
     Stalled {
         /// Largest unbalanced force over the largest force.
@@ -205,10 +215,12 @@ fn misfit_message(misfits: &[Misfit]) -> String {
     let over = misfits.iter().filter(|other| other.misfit_m.abs() > other.within_m).count();
     format!(
         "the lengths overdetermine the shape and do not fit each other: in the shape that meets them best \
-         member {} is {misfit_m:.3e} m off, where {within_m:.3e} m are allowed, and {} more are off by more than \
+         member {} is {} m off, where {} m are allowed, and {} more are off by more than \
          allowed; give the lengths more exactly, or their length_tolerance_m, or stiffness_n: then the \
          self-stress is real",
         member + 1,
+        Brief(*misfit_m),
+        Brief(*within_m),
         over.saturating_sub(1),
     )
 }

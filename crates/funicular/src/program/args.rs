@@ -52,7 +52,7 @@ Examples:
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
 /// space, at rest or in motion under their weight, masses at joints and constant forces, above a
 /// flat floor; no other contact and no bending. All commands take any such system, but for `census`,
-/// which takes what has few closures, and `trace`, which takes chains of rigid bars between two anchors.
+/// which takes what has few closures; `trace` follows all equilibria of chains, and load paths of any.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use branches::PointError;
+use model::number::Brief;
 use model::system::{Member, System, SystemEquilibrium};
 use model::{Rung, Vector};
 use serde::Serialize;
@@ -127,8 +128,9 @@ impl StudyShape {
         if let (Some(near), Some(first)) = (answer.near(), first) {
             if !near.is_neighbour {
                 return Err(NoShape::unsolved(&format!(
-                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {:.3e} m away",
-                    near.joint, near.moved_m
+                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {} m away",
+                    near.joint,
+                    Brief(near.moved_m)
                 )));
             }
             *before = Some(first.joints_m.clone());

@@ -6,6 +6,7 @@ pub(crate) use branches::load::Kind;
 use branches::load::{End, LoadPath as FollowedPath, Parent, Settings, follow};
 use branches::{Number, PointError, Variation};
 use model::Vector;
+use model::number::Brief;
 use model::system::System;
 use serde::Serialize;
 
@@ -41,7 +42,8 @@ pub enum LoadError {
     Solver(#[from] lagrange::network::Error),
     /// Occurs when the equilibrium at the start is another one than the shape given shows.
     #[error(
-        "the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m:.3e} m away"
+        "the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m} m away",
+        moved_m = Brief(*moved_m)
     )]
     NotNear {
         /// The joint that is farthest, in units of its shortest member.
@@ -51,8 +53,9 @@ pub enum LoadError {
     },
     /// Occurs when the shape given is no equilibrium at the start, nor next to one.
     #[error(
-        "no equilibrium at the start of the path: next to the shape given a part {residual:.1e} of forces or lengths \
-         is left"
+        "no equilibrium at the start of the path: next to the shape given a part {residual} of forces or lengths \
+         is left",
+        residual = Brief(*residual)
     )]
     Start {
         /// What is left of balance and lengths.

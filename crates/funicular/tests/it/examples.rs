@@ -97,7 +97,7 @@ fn judge() {
     let (text, _) = run("judge");
     assert!(text.starts_with("refuted: "), "{text}");
     assert!(text.contains("member 1 (A - lamp): its joints are 5.008"), "{text}");
-    assert!(text.contains("up to 1.000e-2 m away, at joint lamp"), "{text}");
+    assert!(text.contains("up to 0.01 m away, at joint lamp"), "{text}");
 }
 
 #[test]

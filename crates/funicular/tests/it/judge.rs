@@ -111,7 +111,7 @@ fn an_answer_is_judged_by_the_digits_that_it_has() {
     assert!(code == Some(0) && !out.contains("--tolerance"), "{out}");
     let (code, out) = unwrapped(&["whole.csv", "--members", "forces.csv"]);
     assert_eq!(code, Some(0), "{out}");
-    assert!(out.contains("taken as printed to 3 digits: known to 5.000e-3 N."), "{out}");
+    assert!(out.contains("taken as printed to 3 digits: known to 0.005 N."), "{out}");
     assert!(!out.contains("0.000e0") && !out.contains("0.00e0"), "{out}");
     let (code, out) = unwrapped(&["whole.csv", "--members", "wrong.csv"]);
     assert!(code == Some(1) && out.contains("The forces are those of the answer."), "{out}");

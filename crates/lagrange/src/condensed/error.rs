@@ -1,5 +1,6 @@
 //! What can go wrong in a condensed solve.
 
+use model::number::Brief;
 use serde::Serialize;
 
 use crate::settings::SettingsError;
@@ -21,7 +22,10 @@ pub enum CondensedError {
     Settings(#[from] SettingsError),
     /// Occurs when the passes over the bars ran out, or the iteration stopped at rounding errors
     /// larger than the settings allow.
-    #[error("the chain does not close: off by {closure:.3e} of its length after {passes} passes")]
+    #[error(
+        "the chain does not close: off by {closure} of its length after {passes} passes",
+        closure = Brief(*closure)
+    )]
     NotClosed {
         /// Distance of the last joint from its anchor, relative to the total length; NaN when no
         /// closed shape was near.

@@ -1,5 +1,6 @@
 //! What can go wrong in a solve of a system.
 
+use model::number::Brief;
 use model::system::Misfit;
 use serde::Serialize;
 
@@ -33,8 +34,9 @@ pub enum Error {
     },
     /// Occurs when the supports of connected joints let them move along their total load.
     #[error(
-        "joint {joint} and {} connected with it fall: no support resists {load_n:.3e} N of their load",
-        if *joints == 1 { "the joint".to_owned() } else { format!("the {joints} joints") }
+        "joint {joint} and {} connected with it fall: no support resists {load_n} N of their load",
+        if *joints == 1 { "the joint".to_owned() } else { format!("the {joints} joints") },
+        load_n = Brief(*load_n)
     )]
     Falls {
         /// Name of the first joint of the component.
@@ -47,7 +49,8 @@ pub enum Error {
     /// Occurs when a joint moves on without end and the energy falls: only struts, which cannot
     /// pull, connect it with the joints that are held.
     #[error(
-        "joint {joint} moves on without end: it was {distance_m:.3e} m away when it was given up"
+        "joint {joint} moves on without end: it was {distance_m} m away when it was given up",
+        distance_m = Brief(*distance_m)
     )]
     Escapes {
         /// Name of the joint.
@@ -87,8 +90,9 @@ pub enum Error {
     Unloaded,
     /// Occurs when the iteration ends before balance and lengths hold.
     #[error(
-        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance:.3e} of \
-         the loads there, the length of member {member} by {misfit_m:.3e} m"
+        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance} of \
+         the loads there, the length of member {member} by {misfit_m} m",
+        unbalance = Brief(*unbalance), misfit_m = Brief(*misfit_m)
     )]
     NotConverged {
         /// Sparse factorisations.
@@ -127,8 +131,9 @@ pub enum Error {
     /// Occurs when forces are so large beside the loads that rounding of them is no small part of
     /// the loads: nothing but rounding decides them.
     #[error(
-        "member {member} would bear {force_n:.3e} N, {ratio:.1e} times the loads: so near to a singular shape \
-         the forces are not decided by numbers of sixteen digits"
+        "member {member} would bear {force_n} N, {ratio} times the loads: so near to a singular shape \
+         the forces are not decided by numbers of sixteen digits",
+        force_n = Brief(*force_n), ratio = Brief(*ratio)
     )]
     Absurd {
         /// Number of the member, from 1.
@@ -207,8 +212,9 @@ pub enum Error {
     /// Occurs when derivatives are asked for where there are none: an inextensible member between
     /// the anchors that are to move, or equations that are singular beyond what is counted.
     #[error(
-        "no derivative here: the equations leave {left:.1e} of a change; a motion without stiffness, a \
-         self-stress or a rigid member that an anchor would stretch does that"
+        "no derivative here: the equations leave {left} of a change; a motion without stiffness, a \
+         self-stress or a rigid member that an anchor would stretch does that",
+        left = Brief(*left)
     )]
     NoDerivative {
         /// The part of the change that no step takes away.
@@ -233,11 +239,11 @@ fn misfit_text(misfits: &[Misfit]) -> String {
         more => format!(", and {more} more are off"),
     };
     format!(
-        "rigid members have lengths that fit no shape: at best the ends of member {} are {:.3e} m further apart \
-         than its length, and it may be off by {:.3e} m{more}; say how far the lengths are known \
+        "rigid members have lengths that fit no shape: at best the ends of member {} are {} m further apart \
+         than its length, and it may be off by {} m{more}; say how far the lengths are known \
          (length_tolerance_m), or how stiff the members are (stiffness_n)",
         worst.member + 1,
-        worst.misfit_m,
-        worst.within_m
+        Brief(worst.misfit_m),
+        Brief(worst.within_m)
     )
 }

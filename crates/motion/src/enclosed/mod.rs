@@ -25,6 +25,7 @@ mod discs;
 mod kept;
 mod pencil;
 
+use model::number::Brief;
 use model::system::System;
 use nalgebra::DMatrix;
 use numerics::Interval;
@@ -90,15 +91,19 @@ pub enum NotEnclosed {
         member: usize,
     },
     /// Occurs when the constraints are not proved to be independent.
-    #[error("the constraints are not proved to be independent (norm {norm:e}, below 1 is wanted)")]
+    #[error(
+        "the constraints are not proved to be independent (norm {norm}, below 1 is wanted)",
+        norm = Brief(*norm)
+    )]
     Dependent {
         /// Norm of what should be small.
         norm: f64,
     },
     /// Occurs when the approximate modes are not proved to be a basis of what keeps the lengths.
     #[error(
-        "{found} approximate modes are not proved to be a basis of {wanted} dimensions (norm {norm:e}, below 1 \
-         is wanted)"
+        "{found} approximate modes are not proved to be a basis of {wanted} dimensions (norm {norm}, below 1 \
+         is wanted)",
+        norm = Brief(*norm)
     )]
     NoBasis {
         /// Number of modes.

@@ -33,7 +33,7 @@ from ._interpreter import refuse_others
 refuse_others()
 
 # Whatever loads numpy or the native half comes behind that.
-from ._native import __version__, get_threads, limit_work, set_threads
+from ._native import __version__, get_threads
 from . import gradients
 from .answer import Answer, Equilibrium, solve
 from .basins import Basins, basins
@@ -54,6 +54,7 @@ from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
 from .trace import Trace, trace
+from .work import limit_work, set_threads
 
 
 def cases() -> list[str]:

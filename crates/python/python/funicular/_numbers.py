@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -31,7 +31,8 @@ def array(argument: str, value: Any, shape: tuple[int | str, ...]) -> Array:
     except Exception as error:
         raise _misshapen(argument, shape, "no rectangular array") from error
     if given.dtype.kind not in "iuf" or given.dtype.itemsize > MOST_WIDTH:
-        raise _misshapen(argument, shape, f"numbers of the type {given.dtype}")
+        what = "text" if given.dtype.kind in "SU" else f"numbers of the type {given.dtype}"
+        raise _misshapen(argument, shape, what if shape else f"{value!r:.80}")
     # A number stays one: `ascontiguousarray` would make a list of it.
     found: Array = np.array(given, dtype=np.float64, order="C")
     fits = found.ndim == len(shape) and all(
@@ -43,7 +44,7 @@ def array(argument: str, value: Any, shape: tuple[int | str, ...]) -> Array:
 
 
 def _misshapen(argument: str, shape: tuple[int | str, ...], found: str) -> ShapeError:
-    expected = f"real numbers of shape ({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
+    expected = "a real number" if not shape else f"real numbers of shape ({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
     message = f"{argument}: {expected} wanted, got {found}"
     return ShapeError(message, argument=argument, expected=expected, found=found)
 
@@ -73,6 +74,15 @@ def whole(argument: str, value: Any, least: int = 0) -> int:
         message = f"{argument}: a whole number from {least} wanted, got {value!r:.80}"
         raise SettingError(message, setting=argument, value=value)
     return found
+
+
+def texts(argument: str, value: Any) -> list[str]:
+    """A list of texts; one alone is a list of one."""
+    found = [value] if isinstance(value, str) or not isinstance(value, Iterable) else list(value)
+    for entry in found:
+        if not isinstance(entry, str):
+            raise ShapeError(f"{argument}: a text, or a list of texts, wanted, got {entry!r:.80}", argument=argument)
+    return [str(entry) for entry in found]
 
 
 def same_length(wanted: int, **others: Array | None) -> None:

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Union
 
+from .errors import SettingError
+
 Callback = Callable[[str, int, int], None]
 """Called with what is done, how much of it, and of how much in all (0: not known)."""
 
@@ -22,8 +24,11 @@ def shown(progress: Progress) -> Iterator[Callback | None]:
     elif progress is True:
         with _Bar() as bar:
             yield bar.show
-    else:
+    elif callable(progress):
         yield progress
+    else:
+        message = f"progress: True, or a function of (what, done, total), wanted, got {progress!r:.80}"
+        raise SettingError(message, setting="progress", value=progress)
 
 
 class _Bar:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cached_property
 from os import PathLike
@@ -20,7 +21,7 @@ from ._result import Result, printable
 from .errors import InputError
 from .evidence import Evidence, Proofs, Record
 from .plot import plot
-from .system import STANDARD_GRAVITY, System, described
+from .system import STANDARD_GRAVITY, Described, System, described
 from .table import Table, vectors
 
 
@@ -345,7 +346,8 @@ class Answer(Equilibrium):
         return len(self.equilibria) > 1 and all(e.proofs.agreed.reached for e in self.equilibria)
 
     def __repr__(self) -> str:
-        agreed = "agreed" if self.agrees else ", ".join(e.solver for e in self.equilibria)
+        verdict = self.agreement.verdict if self.agreement else ", ".join(e.solver for e in self.equilibria)
+        agreed = "agreed" if self.agrees else "not confirmed" if verdict == "agreed" else verdict
         return f"<Answer of {printable(self.system.name)!r}: {self.energy_j:.6g} J, {self.rung} ({agreed})>"
 
     def _repr_html_(self) -> str:
@@ -354,11 +356,11 @@ class Answer(Equilibrium):
 
 
 def solve(
-    system: System | str | PathLike[str] | Numbers | None = None,
+    system: Described | Numbers | None = None,
     masses: Numbers | None = None,
     end: Vector | None = None,
     *,
-    near: Numbers | None = None,
+    near: Numbers | Equilibrium | None = None,
     lengths: Numbers | None = None,
     start: Vector = (0.0, 0.0, 0.0),
     centres: Numbers | None = None,
@@ -374,9 +376,9 @@ def solve(
 
     Parameters
     ----------
-    system : a :class:`System`, or the path of a system file; or give a chain by ``lengths`` (here or by that name),
+    system : a :class:`System`, the path of a system file, or a dictionary with its keys; or give a chain by ``lengths`` (here or by that name),
         ``masses``, ``end`` and what else its arrays need
-    near : (joints, 3) m, optional: a shape, next to which the equilibrium is sought: see :meth:`System.near`
+    near : (joints, 3) m, or an answer, optional: a shape, next to which the equilibrium is sought: see :meth:`System.near`
     solver : ``both``, ``lagrange`` or ``energy``
     equations : ``condensed``, or ``full`` for all coordinates and multipliers of the paper (some 30 bars)
     census : ``auto`` looks up chains of up to 8 bars in the list of all equilibria, ``never`` none, ``always`` all
@@ -406,7 +408,7 @@ def solve(
     >>> fn.solve([1, 1, 1], [1, 1, 1], (0, 0, -2)).energy_j == a.energy_j
     True
     """
-    if isinstance(system, (str, PathLike)):
+    if isinstance(system, (str, PathLike, Mapping)):
         system = described(system)
     elif system is not None and not isinstance(system, System):
         if lengths is not None:

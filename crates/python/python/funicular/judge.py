@@ -13,6 +13,7 @@ from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._progress import Progress, shown
 from ._result import Result, printable
+from .answer import Equilibrium
 from .errors import InputError
 from .evidence import Proofs, Record
 from .system import Described, System, described
@@ -102,7 +103,7 @@ class Judgement(Result):
 
 def judge(
     system: Described,
-    joints: Numbers | Mapping[Any, Vector],
+    joints: Numbers | Mapping[Any, Vector] | Equilibrium,
     forces: Numbers | None = None,
     *,
     reactions: Mapping[Any, Vector] | None = None,
@@ -115,7 +116,7 @@ def judge(
 
     Parameters
     ----------
-    joints : (joints, 3) m in the order of the system, or {name: (3,) m}
+    joints : (joints, 3) m in the order of the system, or {name: (3,) m}, or an answer with its forces
     forces : (members,) N, axial, tension positive, or one for each span of each member, ropes among them; without them those
         are taken that balance the places best
     reactions : {joint: (3,) N}, optional: forces of the ground, to be judged too
@@ -147,7 +148,10 @@ def judge(
     (True, False, 1, 2.0)
     """
     system = described(system)
-    if isinstance(joints, Mapping):
+    if isinstance(joints, Equilibrium):
+        places = joints.joints_m
+        forces = joints.axial_n if forces is None else forces
+    elif isinstance(joints, Mapping):
         names = system.joint_names
         given = {str(name): at for name, at in joints.items()}
         if set(given) != set(names):

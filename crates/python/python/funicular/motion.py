@@ -18,6 +18,7 @@ from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._picture import File, ending
 from ._progress import Progress, shown
 from ._result import Result, printable
+from .answer import Equilibrium
 from .errors import SettingError
 from .plot import plot_mode
 from .system import Described, System, described
@@ -101,7 +102,7 @@ class Motion(Result):
 def simulate(
     system: Described,
     *,
-    near: Numbers | None = None,
+    near: Numbers | Equilibrium | None = None,
     start: Start = "rest",
     time: float = 10.0,
     step: float = 1e-3,
@@ -275,7 +276,7 @@ class ModesOf(Result):
 def modes(
     system: Described,
     *,
-    near: Numbers | None = None,
+    near: Numbers | Equilibrium | None = None,
     max_bars: int | None = None,
     lowest: int | None = None,
     threads: int = 0,

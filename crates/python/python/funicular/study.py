@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._numbers import number, whole
+from ._numbers import number, texts, whole
 from ._picture import Picture
 from ._progress import Progress, shown
 from ._result import Result, printable
@@ -90,7 +90,7 @@ def study(
     system: Described,
     *vary: str,
     zip: bool = False,
-    of: Sequence[str] = (),
+    of: str | Sequence[str] = (),
     solver: str = "both",
     threads: int = 0,
     progress: Progress = None,
@@ -106,9 +106,9 @@ def study(
     with shown(progress) as callback:
         found = _native.study(
             system._problem,
-            list(map(str, vary)),
+            texts("vary", vary),
             bool(zip),
-            list(map(str, of)),
+            texts("of", of),
             str(solver),
             whole("threads", threads),
             callback,
@@ -226,7 +226,7 @@ def page(
     """
     moved = None if motion is None else (str(motion), number("time", time), number("damping", damping))
     with shown(progress) as callback:
-        return _native.page(described(system)._problem, list(map(str, vary)), moved, whole("threads", threads), callback)
+        return _native.page(described(system)._problem, texts("vary", vary), moved, whole("threads", threads), callback)
 
 
 class Tolerances(Result):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _native
-from ._numbers import Array, Numbers, Vector, array, number, same_length, vector, whole
+from ._numbers import Array, Numbers, Vector, array, number, same_length, texts, vector, whole
 from ._result import plain, printable
 from .errors import FileError, InputError, SettingError, ShapeError
 from .table import Table, vectors
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import networkx
 
     from ._progress import Progress
-    from .answer import Answer
+    from .answer import Answer, Equilibrium
     from .basins import Basins
     from .census import Census
     from .motion import Modes, Motion
@@ -210,8 +210,8 @@ class System:
         Raises ShapeError, BarError, SystemError, or a class of Refused.
         """
         ends = array("bars", bars, ("m", 2))
-        if isinstance(joints, Sequence) and not isinstance(joints, str):
-            names = [_text("joints", joint) for joint in joints]
+        if isinstance(joints, (Sequence, np.ndarray)) and not isinstance(joints, str):
+            names = texts("joints", joints)
         elif whole("joints", joints, 1) > 2 * len(ends):
             message = f"joints: {len(ends)} members meet {2 * len(ends)} joints at most, got {joints}"
             raise ShapeError(message, argument="joints", found=str(joints))
@@ -224,14 +224,12 @@ class System:
             )
         first, second = (ends[:, k].astype(np.int64).tolist() for k in (0, 1))
         numbers = {joint: k for k, joint in enumerate(names)}
-        held = np.full((count, 3), np.nan)
-        for joint, at in anchors.items():
-            held[_joint("anchors", joint, numbers, count)] = vector(f"anchors[{joint!r}]", at)
-        supports = [0] * count
-        for joint in anchors:
-            supports[_joint("anchors", joint, numbers, count)] = 1
+        if not isinstance(anchors, Mapping):
+            raise ShapeError("anchors: a dictionary {joint: (x, y, z)} wanted", argument="anchors")
+        held = _by_joint("anchors", anchors, (3,), numbers, count, np.nan)
+        supports = np.isfinite(held[:, 0]).astype(int).tolist()
         springs = None if stiffnesses is None else _each("stiffnesses", stiffnesses, len(ends))
-        words = [kinds] * len(ends) if isinstance(kinds, str) else list(kinds)
+        words = [kinds] * len(ends) if isinstance(kinds, str) else texts("kinds", kinds)
         if len(words) != len(ends) or any(word not in KINDS for word in words):
             message = f"kinds: one of {', '.join(KINDS)} for all or for each of {len(ends)} members wanted"
             raise SettingError(message, setting="kinds", allowed=list(KINDS))
@@ -377,10 +375,10 @@ class System:
         """The system file that reads back to the same system, bit for bit."""
         return self._problem.toml()
 
-    def near(self, joints: Numbers) -> System:
+    def near(self, joints: Numbers | Equilibrium) -> System:
         """The same system with another question: the equilibrium next to this shape, not the lowest.
 
-        ``joints``: (joints, 3) m, where every joint is drawn; one that is held stays where it is. All that is asked of
+        ``joints``: (joints, 3) m, where every joint is drawn, or an answer; one that is held stays where it is. All that is asked of
         the system begins there: ``solve``, ``modes``, ``simulate``; their argument ``near`` does the same for one
         question. A chain becomes a system of joints and members.
 
@@ -395,15 +393,16 @@ class System:
         Raises ShapeError, AnswerError when there are more or fewer places than joints, SystemError when two are at one
         place.
         """
-        return System._of(self._problem.near(array("joints", joints, ("joints", 3))))
+        places = getattr(joints, "joints_m", joints)
+        return System._of(self._problem.near(array("joints", places, ("joints", 3))))
 
-    def _asked(self, near: Numbers | None) -> System:
+    def _asked(self, near: Numbers | Equilibrium | None) -> System:
         return self if near is None else self.near(near)
 
     def solve(
         self,
         *,
-        near: Numbers | None = None,
+        near: Numbers | Equilibrium | None = None,
         solver: str = "both",
         equations: str = "condensed",
         census: str = "auto",
@@ -430,7 +429,7 @@ class System:
     def trace(
         self,
         *vary: str,
-        of: Sequence[str] = (),
+        of: str | Sequence[str] = (),
         max_points: int | None = None,
         branches: int = 0,
         linear_buckling: bool = False,
@@ -565,7 +564,7 @@ class System:
     def modes(
         self,
         *,
-        near: Numbers | None = None,
+        near: Numbers | Equilibrium | None = None,
         max_bars: int | None = None,
         lowest: int | None = None,
         threads: int = 0,
@@ -625,26 +624,36 @@ def _joint(argument: str, joint: Any, numbers: Mapping[str, int], count: int) ->
     return found
 
 
-def _by_joint(argument: str, value: Any, shape: tuple[int, ...], numbers: Mapping[str, int], count: int) -> Array:
-    """An entry for each joint, from an array, one for all, or by joint."""
+def _by_joint(
+    argument: str, value: Any, shape: tuple[int, ...], numbers: Mapping[str, int], count: int, rest: float = 0.0
+) -> Array:
+    """An entry for each joint, from an array, one for all, or by joint, where others have the rest."""
     if isinstance(value, Mapping):
-        found = np.zeros((count, *shape))
-        for joint, entry in value.items():
-            found[_joint(argument, joint, numbers, count)] = array(f"{argument}[{joint!r}]", entry, shape)
+        found = np.full((count, *shape), rest)
+        at = [_joint(argument, joint, numbers, count) for joint in value]
+        if len(set(at)) < len(at):
+            raise ShapeError(f"{argument}: a joint is given twice, by its name and its number", argument=argument)
+        for k, (joint, entry) in zip(at, value.items()):
+            found[k] = array(f"{argument}[{joint!r}]", entry, shape)
         return found
     if np.ndim(value) == 0:
         return np.full((count, *shape), number(argument, value))
     return array(argument, value, (count, *shape))
 
 
-Described = System | str | PathLike[str]
-"""A system, or the path of its file."""
+Described = System | str | PathLike[str] | Mapping[str, Any]
+"""A system, the path of its file, or a dictionary with the keys of one."""
 
 
 def described(system: Described) -> System:
-    """The system itself, or that of the file."""
+    """The system itself, or that of the file or dictionary."""
+    if isinstance(system, str) and "\n" in system:
+        message = "a system, or the path of a system file, is wanted, not its text"
+        raise InputError(message, argument="system", help="System.from_toml(text) reads a text")
     if isinstance(system, (str, PathLike)):
         return System.read(system)
+    if isinstance(system, Mapping):
+        return System.from_dict(system)
     if isinstance(system, System):
         return system
     message = f"a system, or the path of a system file, is wanted, not {type(system).__name__}"

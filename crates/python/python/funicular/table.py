@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, Union
 
@@ -25,7 +25,7 @@ SHOWN = 20
 """Rows that a notebook shows."""
 
 
-class Table(Mapping[str, Column], Result):
+class Table(dict[str, Column], Result):
     """Columns of equal length by their names: one-dimensional arrays of doubles or integers, or lists of texts.
 
     Whatever reads the Arrow PyCapsule interface reads a table: ``pyarrow.table(t)``, ``polars.DataFrame(t)``,
@@ -43,37 +43,35 @@ class Table(Mapping[str, Column], Result):
     """
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
-        self._columns: dict[str, Column] = {name: _column(values) for name, values in columns.items()}
-
-    def __getitem__(self, name: str) -> Column:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
+        super().__init__({name: _column(values) for name, values in columns.items()})
 
     @property
     def rows(self) -> int:
         """Number of rows."""
-        return len(next(iter(self._columns.values()), []))
+        return len(next(iter(self.values()), []))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The table as an Arrow stream of one batch (a requested schema is not met, as the interface allows)."""
-        return _native.arrow_stream(list(self._columns), list(self._columns.values()))
+        return _native.arrow_stream(list(self), list(self.values()))
 
     def to_pandas(self) -> pandas.DataFrame:
         """A data frame of pandas, which must be installed."""
         import pandas
 
-        frame: pandas.DataFrame = pandas.DataFrame(dict(self._columns))
+        frame: pandas.DataFrame = pandas.DataFrame(self)
         return frame
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mapping) or list(self) != list(other):
+            return False
+        return all(np.array_equal(self[name], other[name], equal_nan=not isinstance(self[name], list)) for name in self)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         count = min(self.rows, SHOWN)
         columns = []
-        for name, column in self._columns.items():
+        for name, column in self.items():
             cells = [printable(name), *(printable(_shown(column[k])) for k in range(count))]
             width = max(map(len, cells))
             text = isinstance(column, list)
@@ -83,13 +81,13 @@ class Table(Mapping[str, Column], Result):
         return "\n".join(lines + more)
 
     def _content(self) -> dict[str, Any]:
-        return dict(self._columns)
+        return dict(self)
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{escape(name)}</th>" for name in self)
         lines = []
         for k in range(min(self.rows, SHOWN)):
-            cells = (_shown(column[k]) for column in self._columns.values())
+            cells = (_shown(column[k]) for column in self.values())
             lines.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
         more = f"<p>{self.rows} rows</p>" if self.rows > SHOWN else ""
         return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>{more}"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from . import _native
-from ._numbers import whole
+from ._numbers import texts, whole
 from ._progress import Progress, shown
 from ._result import Result, printable
 from .evidence import Record
@@ -106,7 +106,7 @@ COUNTS = ("path", "branch", "point", "grid", "event", "index", "index_in_plane",
 def trace(
     system: Described,
     *vary: str,
-    of: Sequence[str] = (),
+    of: str | Sequence[str] = (),
     max_points: int | None = None,
     branches: int = 0,
     linear_buckling: bool = False,
@@ -124,8 +124,8 @@ def trace(
     with shown(progress) as callback:
         found = _native.trace(
             system._problem,
-            list(map(str, vary)),
-            list(map(str, of)),
+            texts("vary", vary),
+            texts("of", of),
             points,
             whole("branches", branches),
             bool(linear_buckling),

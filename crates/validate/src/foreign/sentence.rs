@@ -3,6 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use model::Place;
+use model::number::Brief;
 use model::system::System;
 
 use super::bounds::STORED;
@@ -20,19 +21,26 @@ impl Display for Finding {
             ),
             Self::Far { joints_m, allowed_m } => write!(
                 f,
-                "undecided: no law is broken beyond the tolerance, but the nearest equilibrium found is {joints_m:.3e} m \
-                 away, and the tolerance is {allowed_m:.1e} m"
+                "undecided: no law is broken beyond the tolerance, but the nearest equilibrium found is {} m away, \
+                 and the tolerance is {} m",
+                Brief(*joints_m),
+                Brief(*allowed_m)
             ),
             Self::OtherForces { forces_n, allowed_n } => write!(
                 f,
-                "undecided: the positions are those of an equilibrium, whose forces differ by {forces_n:.3e} N from \
-                 those given; the tolerance is {allowed_n:.1e} N"
+                "undecided: the positions are those of an equilibrium, whose forces differ by {} N from \
+                 those given; the tolerance is {} N",
+                Brief(*forces_n),
+                Brief(*allowed_n)
             ),
             Self::LoadsHidden { member, force_n, loads_n, allowed_n } => write!(
                 f,
-                "undecided: the positions are those of an equilibrium, but the forces, up to {force_n:.3e} N in member \
-                 {member}, exceed the load of any joint ({loads_n:.3e} N) by so much that the tolerance, {allowed_n:.1e} N, hides them: \
-                 a self-stress of any size may be among the forces"
+                "undecided: the positions are those of an equilibrium, but the forces, up to {} N in member \
+                 {member}, exceed the load of any joint ({} N) by so much that the tolerance, {} N, hides them: \
+                 a self-stress of any size may be among the forces",
+                Brief(*force_n),
+                Brief(*loads_n),
+                Brief(*allowed_n)
             ),
             Self::NoEquilibrium => {
                 f.write_str("undecided: no law is broken, and no solver found an equilibrium")
@@ -92,19 +100,6 @@ struct Digits(f64);
 impl Display for Digits {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         written(f, self.0, 9)
-    }
-}
-
-/// The size of an error: zero is 0, not a number of so many digits.
-struct Size(f64);
-
-impl Display for Size {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        if self.0.abs() > 0.0 || self.0.is_nan() {
-            write!(f, "{:.3e}", self.0)
-        } else {
-            f.write_str("0")
-        }
     }
 }
 
@@ -197,13 +192,13 @@ impl Judgement {
                 None => "The forces are those of the answer.".to_owned(),
                 Some(digits) => format!(
                     "The forces are those of the answer, taken as printed to {digits} digits: known to {} N.",
-                    Size(self.bounds.force_n)
+                    Brief(self.bounds.force_n)
                 ),
             },
             ForcesJudged::Found(best) => format!(
                 "The answer has no forces: those that balance best leave {} N (root of the sum of squares over \
                  the joints), the largest of them is {} N.",
-                Size(best.residual_n),
+                Brief(best.residual_n),
                 Digits(best.largest_n)
             ),
         }
@@ -244,22 +239,22 @@ impl Judgement {
             let forces = match one.member.checked_sub(1) {
                 Some(k) if k < system.members().len() => format!(
                     "; forces differ by up to {} N, in member {}",
-                    Size(one.forces_n),
+                    Brief(one.forces_n),
                     member_name(system, k)
                 ),
                 _ => String::new(),
             };
             // The bounds are rounded outwards: by less than a unit of the last digit told.
             let proved = one.proved.as_ref().map_or_else(String::new, |proved| {
-                let [nearest_m, farthest_m] = outwards(proved.joints_m).map(Size);
-                let [least_n, most_n] = outwards(proved.forces_n).map(Size);
+                let [nearest_m, farthest_m] = outwards(proved.joints_m).map(Brief);
+                let [least_n, most_n] = outwards(proved.forces_n).map(Brief);
                 format!(
                     " Proved: the largest error of a joint is between {nearest_m} and {farthest_m} \
                      m, of a force between {least_n} and {most_n} N."
                 )
             });
             let away = if one.joints_m > 0.0 || one.joints_m.is_nan() {
-                format!("up to {} m away, at joint {joint}", Size(one.joints_m))
+                format!("up to {} m away, at joint {joint}", Brief(one.joints_m))
             } else {
                 "in the same places".to_owned()
             };

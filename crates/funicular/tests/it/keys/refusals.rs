@@ -39,7 +39,7 @@ fn refusals_of_energy_for_chains() {
     let refusals = [
         of(
             &Error::Setting { field: "tolerance", value: 2.5, low: 1e-14, high: 0.5 },
-            &["tolerance must lie between 1e-14 and 5e-1, got 2.5"],
+            &["tolerance must lie between 1e-14 and 0.5, got 2.5"],
         ),
         of(&Error::SeedSize { bars: 3, given: 4 }, &["for each of the 3 bars, got 4"]),
         of(
@@ -49,15 +49,15 @@ fn refusals_of_energy_for_chains() {
         of(&Error::SeedAngle { angle_rad: 6.5 }, &["finite, got 6.5 rad"]),
         of(
             &Error::NotClosed { gap: 0.125, iterations: 7 },
-            &["1.25e-1 of the total length is left after 7 corrections"],
+            &["0.125 of the total length is left after 7 corrections"],
         ),
         of(
             &Error::IterationLimit { iterations: 8, gradient: 0.375 },
-            &["after 8 iterations: projected gradient 3.8e-1"],
+            &["after 8 iterations: projected gradient 0.375"],
         ),
         of(
             &Error::Stalled { iterations: 9, gradient: 0.625, gap: 0.0625, directions: 2 },
-            &["after 9 iterations", "gradient 6.2e-1", "closure 6.2e-2", "in 2 directions"],
+            &["after 9 iterations", "gradient 0.625", "closure 0.0625", "in 2 directions"],
         ),
         of(&Error::NearlyFolded { across: 3e-8 }, &["the anchors 3e-8 of the total length"]),
         of(&Error::NotFinite { quantity: "energy" }, &["the energy is not a finite number"]),
@@ -106,7 +106,7 @@ fn refusals_of_energy_for_systems() {
     let refusals = [
         of(
             &Error::Setting { field: "tolerance", value: 2.5, low: 1e-14, high: 0.5 },
-            &["tolerance must lie between 1e-14 and 5e-1, got 2.5"],
+            &["tolerance must lie between 1e-14 and 0.5, got 2.5"],
         ),
         of(&Error::NoMember, &["has no member"]),
         of(&Error::NoLoad, &["no force acts on the system"]),
@@ -125,12 +125,12 @@ fn refusals_of_energy_for_systems() {
         ),
         of(
             &Error::IterationLimit { iterations: 9, unbalance: 0.125, misfit: 0.25 },
-            &["after 9 iterations: unbalanced force 1.250e-1", "off by 2.500e-1"],
+            &["after 9 iterations: unbalanced force 0.125", "off by 0.25"],
         ),
         of(&Error::Work { spent: 16, max_work: 15 }, &["factors of 16 numbers", "max_work is 15"]),
         of(
             &Error::Stalled { unbalance: 0.375, misfit: 0.5 },
-            &["unbalanced force 3.750e-1", "off by 5.000e-1"],
+            &["unbalanced force 0.375", "off by 0.5"],
         ),
         of(&Error::NoMinimum { index: 10 }, &["in 10 independent directions"]),
         of(
@@ -206,7 +206,7 @@ fn refusals_of_lagrange_for_chains() {
     let refusals = [
         of(
             &SolveError::Settings(settings),
-            &["tolerance = 2.5 is outside its range, 1e-15 to 5e-1"],
+            &["tolerance = 2.5 is outside its range, 1e-15 to 0.5"],
         ),
         of(&SolveError::SeedLength { expected: 3, got: 4 }, &["of 4 bars, the chain has 3"]),
         of(
@@ -215,17 +215,14 @@ fn refusals_of_lagrange_for_chains() {
         ),
         of(
             &SolveError::Stagnated { residual: 0.125, iterations: 7, relaxations: 8 },
-            &["residual 1.250e-1 (relative) after 7 steps and 8 relaxations"],
+            &["residual 0.125 (relative) after 7 steps and 8 relaxations"],
         ),
-        of(
-            &SolveError::FalseRoot { bar: 9, moment: 0.25 },
-            &["a moment of 2.500e-1", "acts on bar 9"],
-        ),
+        of(&SolveError::FalseRoot { bar: 9, moment: 0.25 }, &["a moment of 0.25", "acts on bar 9"]),
         of(&SolveError::Unstable { found: 10, index: 11 }, &["10 of them, the last of index 11"]),
         of(&SolveError::Spectrum { size: 12 }, &["the Jacobian (size 12)"]),
         of(
             &CondensedError::NotClosed { closure: 0.375, passes: 13 },
-            &["off by 3.750e-1 of its length after 13 passes"],
+            &["off by 0.375 of its length after 13 passes"],
         ),
         of(&CondensedError::Overflow, &["larger than a double can hold"]),
         of(&CondensedError::Settings(settings), &["tolerance", "2.5"]),
@@ -280,11 +277,11 @@ fn refusals_of_lagrange_for_systems() {
         of(&Error::SeedNotFinite { of: "joint", number: 5 }, &["not finite at joint 5"]),
         of(
             &Error::Falls { joint: joint(), joints: 6, load_n: 7.5 },
-            &["joint P and the 6 joints", "resists 7.500e0 N"],
+            &["joint P and the 6 joints", "resists 7.5 N"],
         ),
         of(
             &Error::Escapes { joint: joint(), distance_m: 8.5 },
-            &["joint P moves on", "8.500e0 m away"],
+            &["joint P moves on", "8.5 m away"],
         ),
         of(
             &Error::TooShort { from: "A".into(), to: "B".into(), distance_m: 9.5, reach_m: 4.5 },
@@ -303,11 +300,7 @@ fn refusals_of_lagrange_for_systems() {
                 member: 12,
                 misfit_m: 0.25,
             },
-            &[
-                "after 11 factorisations",
-                "balance of P is off by 1.250e-1",
-                "member 12 by 2.500e-1 m",
-            ],
+            &["after 11 factorisations", "balance of P is off by 0.125", "member 12 by 0.25 m"],
         ),
         of(&Error::Floor { rounds: 13 }, &["after 13 rounds"]),
         of(&Error::Unstable { index: 14 }, &["of index 14"]),
@@ -373,7 +366,7 @@ fn refusals_of_lagrange_for_derivatives() {
             &["member 18 has just its length and bears no force but that of its own weight"],
         ),
         of(&Error::JustTouches { joint: joint() }, &["joint P just touches the floor"]),
-        of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
+        of(&Error::NoDerivative { left: 0.375 }, &["leave 0.375 of a change"]),
         of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),
     ];
     let test = "refusals_of_lagrange_for_derivatives";
@@ -401,10 +394,10 @@ fn refusals_of_lagrange_for_frames() {
     use lagrange::network::Error;
     let misfits = vec![Misfit { member: 1, misfit_m: 0.25, within_m: 0.125 }];
     let refusals = [
-        of(&Error::Misfit { misfits }, &["ends of member 2 are 2.500e-1 m", "length_tolerance_m"]),
+        of(&Error::Misfit { misfits }, &["ends of member 2 are 0.25 m", "length_tolerance_m"]),
         of(
             &Error::Absurd { member: 2, force_n: 3.5, ratio: 4.5 },
-            &["member 2 would bear 3.500e0 N, 4.5e0 times the loads"],
+            &["member 2 would bear 3.5 N, 4.5 times the loads"],
         ),
         of(
             &Error::Jammed { member: 3, from: "P".into(), to: "D".into() },
@@ -431,11 +424,11 @@ fn refusals_of_energy_for_frames() {
     use energy::network::Error;
     let misfits = vec![Misfit { member: 1, misfit_m: 0.25, within_m: 0.125 }];
     let refusals = [
-        of(&Error::Misfit { misfits }, &["member 2 is 2.500e-1 m off, where 1.250e-1 m"]),
-        of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.500e0 times the loads in member 2"]),
+        of(&Error::Misfit { misfits }, &["member 2 is 0.25 m off, where 0.125 m"]),
+        of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.5 times the loads in member 2"]),
         of(
             &Error::Unbalanced { joint: "U".into(), unbalance: 0.5 },
-            &["joint U is out of balance by 5.000e-1"],
+            &["joint U is out of balance by 0.5"],
         ),
         of(&Error::Jammed { member: 6, span: 7 }, &["(member 6) jams: its span 7 has no length"]),
     ];

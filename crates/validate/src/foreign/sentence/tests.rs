@@ -81,7 +81,7 @@ fn a_judgement_is_told_in_sentences() {
     (best.residual_n, best.largest_n) = (0.125, 1.25);
     assert_eq!(
         judged.forces_sentence(),
-        "The answer has no forces: those that balance best leave 1.250e-1 N (root of the sum of squares over \
+        "The answer has no forces: those that balance best leave 0.125 N (root of the sum of squares over \
          the joints), the largest of them is 1.25 N."
     );
     judged.forces = ForcesJudged::Given;
@@ -99,12 +99,12 @@ fn a_judgement_is_told_in_sentences() {
     assert_eq!(
         *told,
         format!(
-            "lagrange, from the answer, finds an equilibrium ({rung}) up to 5.000e-1 m away, at joint P; \
-             forces differ by up to 2.500e-1 N, in member 2 (P - B). Proved: the largest error of a joint is \
-             between 1.999e0 and 4.002e0 m, of a force between 0 and 8.004e0 N."
+            "lagrange, from the answer, finds an equilibrium ({rung}) up to 0.5 m away, at joint P; \
+             forces differ by up to 0.25 N, in member 2 (P - B). Proved: the largest error of a joint is \
+             between 1.999 and 4.002 m, of a force between 0 and 8.004 N."
         )
     );
-    let wanted = "finds an equilibrium (no rung) up to 7.500e-1 m away, at joint .";
+    let wanted = "finds an equilibrium (no rung) up to 0.75 m away, at joint .";
     assert_eq!(*other, format!("energy, from the answer, {wanted}"));
     // A member that is not there is not named.
     judged.nearest.equilibria[1].member = 3;
