@@ -56,6 +56,10 @@ const MEANT: [(&str, &str); 8] = [
 const NO_FILE: &str =
     "to start: `funicular new > system.toml`, or `--case lamp` (`funicular cases` lists them)";
 
+/// What is said where a parameter is named without its option, or an option without it.
+const VALUES: &str =
+    "values of a number of the file: `--vary loads=0..1.2`, `--vary bars.1.length_m=1,1.1,1.2`";
+
 /// The command line; or how the program ends without one.
 pub fn parse() -> Result<Cli, Exit> {
     if std::env::args_os().len() <= 1 {
@@ -144,13 +148,20 @@ fn explained(error: &clap::Error) -> Exit {
     if let Some((_, meant)) = MEANT.iter().find(|(name, _)| *name == word) {
         say(&format!("\n{meant}"));
     }
-    let missing = match error.get(ContextKind::InvalidArg) {
-        Some(ContextValue::Strings(names)) => {
-            names.iter().any(|name| name.contains("FILE") && !name.starts_with('-'))
-        }
-        _ => false,
+    let args: &[String] = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::Strings(names)) => names,
+        Some(ContextValue::String(name)) => std::slice::from_ref(name),
+        _ => &[],
     };
-    if error.kind() == ErrorKind::MissingRequiredArgument && missing {
+    let is_missing = error.kind() == ErrorKind::MissingRequiredArgument;
+    let is_unknown = error.kind() == ErrorKind::UnknownArgument;
+    let named = |is: fn(&String) -> bool| args.iter().any(is);
+    if is_missing && named(|name| name.starts_with("--vary"))
+        || is_unknown && named(|name| name.contains('=') && !name.starts_with('-'))
+    {
+        say(&format!("\n{VALUES}"));
+    }
+    if is_missing && named(|name| name.contains("FILE") && !name.starts_with('-')) {
         say(&format!("\n{NO_FILE}"));
     }
     if error.use_stderr() { Exit::BadInput } else { Exit::Done }

@@ -56,10 +56,23 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
             agreement.verdict
         );
-        if !agreement.undetermined.is_empty() {
-            let names = Printable(&agreement.undetermined.join(", ")).to_string();
-            let places = if agreement.undetermined.len() == 1 { "place" } else { "places" };
-            let sentence = format!("Not determined by equilibrium: the {places} of {names}.");
+        let turning = match agreement.turned_parts {
+            0 => None,
+            1 => Some(
+                "One part turns freely about a vertical: each turn of it is an equilibrium."
+                    .to_owned(),
+            ),
+            parts => Some(format!(
+                "{parts} parts turn freely about verticals: each turn of them is an equilibrium."
+            )),
+        };
+        let names = Printable(&agreement.undetermined.join(", ")).to_string();
+        let sliding = match agreement.undetermined.len() {
+            0 => None,
+            1 => Some(format!("Not determined by equilibrium: the place of {names}.")),
+            _ => Some(format!("Not determined by equilibrium: the places of {names}.")),
+        };
+        for sentence in turning.into_iter().chain(sliding) {
             text += &wrapped(&sentence, 0);
             text.push('\n');
         }

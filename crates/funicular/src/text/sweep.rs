@@ -72,8 +72,13 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     };
     let _ = writeln!(text, "{listed} in the list{lowest}; {proof}\n");
     let tally = summary.outcomes.tally();
+    let codes = tally.solvers.iter().flat_map(|(_, solver)| solver.0.keys());
+    let mut members = codes.filter_map(|code| summary.equilibrium(manifest, *code));
+    let of =
+        if members.any(|member| member.index_in_space.is_some()) { "space" } else { "the plane" };
+    let falls = format!("index: directions of {of} in which the energy falls");
     for (name, solver) in &tally.solvers {
-        let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, summary, solver));
+        let _ = writeln!(text, "{name} ({falls}):\n{}\n", outcomes(manifest, summary, solver));
     }
     if tally.both.is_some() {
         text += &comparisons(manifest, summary);

@@ -42,6 +42,11 @@ fn first_guesses_find_their_way() {
         assert!(said(&["solve"]).contains(wanted), "{wanted}");
     }
     assert!(said(&["solve", "footbridge"]).contains("--case footbridge"));
+    for guess in
+        [&["trace", "--case", "lamp"][..], &["trace", "x.toml", "--vary", "a=1", "loads=0..1"]]
+    {
+        assert!(said(guess).contains("`--vary loads=0..1.2`"), "{guess:?}");
+    }
 }
 
 /// An error that nobody reads is the same error: no panic, the right exit code.

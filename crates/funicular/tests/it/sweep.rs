@@ -54,7 +54,15 @@ fn the_tables_and_the_object_say_the_same() {
     let output = sweep(&out.join("a"), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    says(&text, &["4000 uniform seeds of number 1", "equilibrium 1 ", "95 % interval", "energy:"]);
+    says(
+        &text,
+        &[
+            "4000 uniform seeds of number 1",
+            "equilibrium 1 ",
+            "95 % interval",
+            "energy (index: directions of the plane",
+        ],
+    );
     assert_eq!(sweep(&out.join("b"), &["--json"]).status.code(), Some(0));
     assert_eq!(files(&out.join("a")), files(&out.join("b")));
 }
