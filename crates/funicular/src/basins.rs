@@ -118,7 +118,7 @@ impl Basins {
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::SystemRefused`].
+    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::Refused`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
         if let Some(chain) = problem.row() {
             return self.axes(chain.chain().bars().len()).map(|_| ());

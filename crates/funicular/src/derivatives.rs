@@ -146,7 +146,7 @@ impl Derivatives {
     ///
     /// # Errors
     ///
-    /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
+    /// [`Error::Refused`] when there is none, [`Error::Network`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();

@@ -17,16 +17,10 @@ pub enum Error {
     /// Occurs when a number of a bar is out of range.
     #[error(transparent)]
     Bar(#[from] model::BarError),
-    /// Occurs when a number of a chain is out of range.
-    #[error(transparent)]
-    Chain(#[from] model::ChainError),
     /// Occurs when a number of a system is out of range, or a member names a joint that is not
     /// there.
     #[error(transparent)]
     System(#[from] model::system::SystemError),
-    /// Occurs when a chain is no equilibrium problem: out of reach, straight, without mass.
-    #[error(transparent)]
-    Refused(#[from] model::Refusal),
     /// Occurs when there is no case of this name.
     #[error("there is no case named `{name}`")]
     UnknownCase {
@@ -72,9 +66,9 @@ pub enum Error {
         "the solvers disagree on this equilibrium: `funicular solve` shows the answers of both"
     )]
     Disagreed,
-    /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
+    /// Occurs when a system is no equilibrium problem: out of reach, straight, without load, a part falls.
     #[error(transparent)]
-    SystemRefused(#[from] model::system::SystemRefusal),
+    Refused(#[from] model::system::Refusal),
     /// Occurs when a file of another program cannot be used.
     #[error(transparent)]
     Format(#[from] formats::FormatError),

@@ -71,7 +71,7 @@ impl<F: Follow> Followed<F> {
     ///
     /// # Errors
     ///
-    /// [`Error::SystemRefused`] when the system has no equilibrium.
+    /// [`Error::Refused`] when the system has no equilibrium.
     pub(crate) fn new(
         problem: &Problem,
         known: &Equilibria,

@@ -77,7 +77,7 @@ impl Problem {
     /// # Errors
     ///
     /// [`Error::System`] when there is no such case, or its factors bring a number out of range;
-    /// [`Error::SystemRefused`] when what acts then has no equilibrium.
+    /// [`Error::Refused`] when what acts then has no equilibrium.
     ///
     /// ```
     /// use funicular::prelude::*;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::system::{System, SystemEquilibrium, SystemRefusal};
+use model::system::{Refusal, System, SystemEquilibrium};
 use model::{Rung, Vector};
 use serde::Serialize;
 use validate::systems::SystemFailure;
@@ -71,12 +71,10 @@ pub(crate) fn settle(
     system: System,
     before_m: &[Vector],
 ) -> Result<(Settled, Arc<System>, SystemEquilibrium), Unsettled> {
-    let refused = |refusal: SystemRefusal| Unsettled {
+    let refused = |refusal: Refusal| Unsettled {
         outcome: match refusal {
-            SystemRefusal::Unconnected { .. } | SystemRefusal::Falls { .. } => Outcome::Falls,
-            SystemRefusal::NothingMoves | SystemRefusal::NoLoad | SystemRefusal::LoadOnAnchors => {
-                Outcome::NoLoad
-            }
+            Refusal::Unconnected { .. } | Refusal::Falls { .. } => Outcome::Falls,
+            Refusal::NothingMoves | Refusal::NoLoad | Refusal::LoadOnAnchors => Outcome::NoLoad,
             _ => Outcome::Unknown,
         },
         reason: refusal.to_string(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::mass_range::too_wide;
-use crate::readable::Readable;
+use crate::system::{LARGEST_TOTAL, SystemError};
 use crate::{Bar, Vector, sum};
 
 /// Standard acceleration of gravity, m/s² (exact by definition: 3rd CGPM, 1901).
@@ -35,7 +35,7 @@ impl Anchors {
     /// It is the distance of the coordinates as the doubles they are, to about one unit in its last
     /// place: the difference of two doubles close to each other is exact. What decimal coordinates
     /// far from the origin lost when they became doubles is not in it; see
-    /// [`Refusal::Unresolved`](crate::Refusal::Unresolved).
+    /// [`Refusal::Unresolved`](crate::system::Refusal::Unresolved).
     ///
     /// ```
     /// let anchors = model::Anchors { start_m: [0.0; 3], end_m: [3e200, 0.0, 4e200] };
@@ -63,60 +63,6 @@ pub struct Chain {
     total_mass_kg: f64,
 }
 
-/// Why a chain cannot be built.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ChainError {
-    /// Occurs when the list of bars is empty.
-    #[error("a chain needs at least one bar")]
-    NoBars,
-    /// Occurs when gravity is zero, negative, infinite or not a number.
-    #[error(
-        "gravity must be positive and finite (it acts along -Z), got {} m/s^2",
-        Readable(*gravity_m_s2)
-    )]
-    Gravity {
-        /// Gravity as given.
-        gravity_m_s2: f64,
-    },
-    /// Occurs when a coordinate of an anchor is infinite or not a number.
-    #[error("the coordinates of an anchor must be finite, got {coordinate_m} m")]
-    Anchor {
-        /// The first bad coordinate.
-        coordinate_m: f64,
-    },
-    /// Occurs when every number is finite and a total is not: the sum of lengths, the weight, the
-    /// span, or the weight times the length.
-    #[error("the {quantity} of this chain is larger than a double can hold")]
-    Overflow {
-        /// Which total.
-        quantity: &'static str,
-    },
-    /// Occurs when a total is so small ([`SMALLEST_TOTAL`]) that what differs from it by a rounding
-    /// error is no longer a normal number.
-    #[error(
-        "the {quantity} of this chain, {total:e} in SI units, is too small for double precision (least: {:e})",
-        SMALLEST_TOTAL
-    )]
-    Underflow {
-        /// Which total.
-        quantity: &'static str,
-        /// Its value in SI units.
-        total: f64,
-    },
-    /// Occurs when the lightest mass is lost in the rounding of the heaviest.
-    #[error(
-        "the masses of this chain reach from {} kg to {} kg: the lightest is lost in the \
-         rounding of the heaviest", Readable(*lightest_kg), Readable(*heaviest_kg)
-    )]
-    MassRange {
-        /// The lightest mass that is not zero.
-        lightest_kg: f64,
-        /// The heaviest mass.
-        heaviest_kg: f64,
-    },
-}
-
 /// Least total length (m), weight (N), and weight times length (J) of a chain.
 ///
 /// Results carry relative errors of about one [`f64::EPSILON`]; below this total such an error
@@ -139,23 +85,27 @@ impl Chain {
     ///
     /// # Errors
     ///
-    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows or
+    /// [`SystemError`] when there is no bar, a number is out of range, or a total overflows or
     /// vanishes.
     pub fn new(
         name: impl Into<String>,
         gravity_m_s2: f64,
         anchors: Anchors,
         bars: Vec<Bar>,
-    ) -> Result<Self, ChainError> {
+    ) -> Result<Self, SystemError> {
         if bars.is_empty() {
-            return Err(ChainError::NoBars);
+            return Err(SystemError::NoMembers);
         }
         if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
-            return Err(ChainError::Gravity { gravity_m_s2 });
+            return Err(SystemError::Gravity { gravity_m_s2 });
         }
-        for coordinate_m in anchors.start_m.into_iter().chain(anchors.end_m) {
-            if !coordinate_m.is_finite() {
-                return Err(ChainError::Anchor { coordinate_m });
+        for (joint, at_m) in [(0, anchors.start_m), (bars.len(), anchors.end_m)] {
+            if let Some(&coordinate_m) = at_m.iter().find(|x| !x.is_finite()) {
+                return Err(SystemError::Coordinate {
+                    name: joint.to_string(),
+                    joint,
+                    coordinate_m,
+                });
             }
         }
         let length_m = sum(bars.iter().map(Bar::length_m));
@@ -169,15 +119,15 @@ impl Chain {
             ("total weight", weight_n, !weighs),
             ("total weight times total length", weight_n * length_m, !weighs),
         ] {
-            if !total.is_finite() {
-                return Err(ChainError::Overflow { quantity });
+            if total.is_nan() || total > LARGEST_TOTAL {
+                return Err(SystemError::Overflow { quantity });
             }
             if total < SMALLEST_TOTAL && !may_vanish {
-                return Err(ChainError::Underflow { quantity, total });
+                return Err(SystemError::Underflow { quantity, total });
             }
         }
         if let Some((lightest_kg, heaviest_kg)) = too_wide(bars.iter().map(Bar::mass_kg)) {
-            return Err(ChainError::MassRange { lightest_kg, heaviest_kg });
+            return Err(SystemError::MassRange { lightest_kg, heaviest_kg });
         }
         let name = name.into();
         let (total_length_m, total_mass_kg) = (length_m, mass_kg);

@@ -9,13 +9,13 @@
 //! let refusal = Problem::new(chain).unwrap_err();
 //! assert_eq!(
 //!     refusal.to_string(),
-//!     "the anchors are 3.5 m apart and the bars reach only 3 m: 0.5 m are missing"
+//!     "the anchors \"0\" and \"3\" are 3.5 m apart and the members between them reach only 3 m: 0.5 m are missing"
 //! );
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! A [`Chain`] is what hangs: rigid [`Bar`]s in a row between two [`Anchors`]. A [`Problem`] is a
-//! chain that has an answer; [`Refusal`] says why another has none. An [`Equilibrium`] is an answer
+//! chain that has an answer; [`Refusal`](system::Refusal) says why another has none. An [`Equilibrium`] is an answer
 //! of one solver with its [`Evidence`].
 //!
 //! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
@@ -53,9 +53,7 @@ pub mod system_file;
 pub use axial::AxialForce;
 pub use bar::{Bar, BarError};
 pub use cell::{name_of_cell, text_cell};
-pub use chain::{
-    Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, VERTICAL_TOLERANCE,
-};
+pub use chain::{Anchors, Chain, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, VERTICAL_TOLERANCE};
 pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
@@ -65,7 +63,7 @@ pub use evidence::{
     SelfStresses, Statement, Status, UncertaintyCause, Verified, VerifiedSystem,
 };
 pub use input::open_input;
-pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
+pub use problem::{Problem, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;
 pub use stability::{InPlane, InSpace, Stability};
 pub use steers::steers;

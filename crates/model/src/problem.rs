@@ -1,6 +1,6 @@
 //! Chains that have an answer, and the refusal of those that have none.
 
-use crate::readable::{Computed, Readable};
+use crate::system::{Refusal, shortened};
 use crate::{Anchors, Bar, Chain};
 
 /// How near to straight is straight, relative to the total length.
@@ -12,7 +12,7 @@ pub const STRAIGHT_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
 /// What the rounding of the anchors' coordinates can change the span by, relative to the largest of
 /// them: six coordinates, half a unit in the last place each.
-const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
+pub(crate) const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
 
 /// A chain for which the question "where does it come to rest, with which forces?" has an answer.
 ///
@@ -20,114 +20,14 @@ const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
 /// use model::{Anchors, Bar, Chain, Problem, Refusal};
 /// let anchors = Anchors { start_m: [0.0; 3], end_m: [3.5, 0.0, 0.0] };
 /// let chain = Chain::new("too short", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 3])?;
-/// assert_eq!(
-///     Problem::new(chain).unwrap_err(),
-///     Refusal::OutOfReach { span_m: 3.5, total_length_m: 3.0 }
-/// );
+/// assert!(matches!(
+///     Problem::new(chain),
+///     Err(Refusal::OutOfReach { distance_m: 3.5, reach_m: 3.0, .. })
+/// ));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem(Chain);
-
-/// Why a chain is no equilibrium problem.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Refusal {
-    /// Occurs when the chain is one bar that fits between the anchors: it cannot move, and the
-    /// anchors share the force along it in any way they like.
-    #[error(
-        "a single bar between two fixed points cannot move, and the force along it is indeterminate \
-         (length {} m, span {} m)", Readable(*length_m), Computed::of(*span_m)
-    )]
-    SingleBar {
-        /// Length of the bar.
-        length_m: f64,
-        /// Distance of the anchors.
-        span_m: f64,
-    },
-    /// Occurs when the anchors are further apart than the bars reach.
-    #[error(
-        "the anchors are {} m apart and the bars reach only {} m: {} m are missing",
-        Computed::of(*span_m), Computed::of(*total_length_m), Computed::difference(*span_m, *total_length_m)
-    )]
-    OutOfReach {
-        /// Distance of the anchors.
-        span_m: f64,
-        /// Sum of the lengths.
-        total_length_m: f64,
-    },
-    /// Occurs when the chain is straight and taut: it cannot move, and the force along it is
-    /// indeterminate.
-    #[error(
-        "the bars reach from anchor to anchor and no further (total length {} m, span \
-         {} m): the chain is straight and taut, and the force along it is indeterminate",
-        Computed::of(*total_length_m), Computed::of(*span_m)
-    )]
-    Taut {
-        /// Distance of the anchors.
-        span_m: f64,
-        /// Sum of the lengths.
-        total_length_m: f64,
-    },
-    /// Occurs when one bar is longer than the other bars and the span together can close.
-    #[error(
-        "bar {bar} is {} m long, longer than the other bars ({} m) and the span ({} m) together: \
-         the chain cannot close",
-        Readable(*length_m), Computed::of(*rest_m), Computed::of(*span_m)
-    )]
-    BarTooLong {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// Its length.
-        length_m: f64,
-        /// Sum of the other lengths.
-        rest_m: f64,
-        /// Distance of the anchors.
-        span_m: f64,
-    },
-    /// Occurs when one bar is exactly as long as the other bars and the span together: the chain
-    /// closes only folded on one straight line, and the force along it is indeterminate.
-    #[error(
-        "bar {bar} is {} m long, exactly as long as the other bars ({} m) and the span ({} m) \
-         together: the chain closes only folded on one line, and the force along it is indeterminate",
-        Readable(*length_m), Computed::of(*rest_m), Computed::of(*span_m)
-    )]
-    Folded {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// Its length.
-        length_m: f64,
-        /// Sum of the other lengths.
-        rest_m: f64,
-        /// Distance of the anchors.
-        span_m: f64,
-    },
-    /// Occurs when the anchors are so far from the origin that the rounding of their coordinates
-    /// decides whether the chain can hang, or cannot close, or is straight.
-    #[error(
-        "the coordinates of the anchors reach {} m, where doubles place the anchors only to \
-         {rounding_m:e} m, and the bars are only {margin_m:e} m away from being straight",
-        Readable(*coordinate_m)
-    )]
-    Unresolved {
-        /// The largest coordinate.
-        coordinate_m: f64,
-        /// What its rounding can change the span by.
-        rounding_m: f64,
-        /// What is left when the bars are stretched out or folded on one line; negative if they do
-        /// not reach.
-        margin_m: f64,
-    },
-    /// Occurs when no bar has mass: nothing hangs.
-    #[error("no bar has mass: without weight every position is an equilibrium")]
-    NoMass,
-    /// Occurs when all mass is at the anchors, which carry its weight: nothing hangs between them.
-    #[error(
-        "all the weight of this chain rests on its two anchors: the energy is the same in every \
-         position, and every position is an equilibrium"
-    )]
-    WeightOnAnchors,
-}
 
 impl Problem {
     /// Accept a chain, or say why it has no answer.
@@ -136,33 +36,39 @@ impl Problem {
     ///
     /// [`Refusal`], with the numbers it rests on.
     pub fn new(chain: Chain) -> Result<Self, Refusal> {
-        if chain.bars().len() > 1 && chain.bars().iter().all(|bar| bar.mass_kg() <= 0.0) {
-            return Err(Refusal::NoMass);
+        let bars = chain.bars();
+        if bars.len() > 1 && bars.iter().all(|bar| bar.mass_kg() <= 0.0) {
+            return Err(Refusal::NoLoad);
         }
-        if chain.bars().len() > 1
-            && (1..chain.bars().len()).all(|joint| carries_nothing(&chain, joint))
-        {
-            return Err(Refusal::WeightOnAnchors);
+        if bars.len() > 1 && (1..bars.len()).all(|joint| carries_nothing(&chain, joint)) {
+            return Err(Refusal::LoadOnAnchors);
         }
-        let span_m = chain.anchors().span_m();
-        let total_length_m = chain.total_length_m();
-        match margin(&chain, total_length_m, total_length_m - span_m)? {
-            Margin::Negative => return Err(Refusal::OutOfReach { span_m, total_length_m }),
-            Margin::Zero => {
-                return Err(match chain.bars() {
-                    [bar] => Refusal::SingleBar { length_m: bar.length_m(), span_m },
-                    _ => Refusal::Taut { span_m, total_length_m },
-                });
+        let distance_m = chain.anchors().span_m();
+        let reach_m = chain.total_length_m();
+        let joint = bars.len();
+        let (from, to) = ("0".to_owned(), joint.to_string());
+        match margin(&chain, reach_m, reach_m - distance_m)? {
+            Margin::Negative => {
+                return Err(Refusal::OutOfReach { from, to, joint, distance_m, reach_m });
             }
+            Margin::Zero if joint == 1 => return Err(Refusal::NothingMoves),
+            Margin::Zero => return Err(Refusal::Taut { from, to, joint, distance_m, reach_m }),
             Margin::Positive => {}
         }
-        let (index, length_m) = longest(chain.bars());
-        let bar = index + 1;
-        let others = chain.bars().iter().enumerate().filter(|(k, _)| *k != index);
-        let rest_m = crate::sum(others.map(|(_, other)| other.length_m()));
-        match margin(&chain, total_length_m, span_m - length_m + rest_m)? {
-            Margin::Negative => Err(Refusal::BarTooLong { bar, length_m, rest_m, span_m }),
-            Margin::Zero => Err(Refusal::Folded { bar, length_m, rest_m, span_m }),
+        let (k, length_m) = longest(bars);
+        let others = bars.iter().enumerate().filter(|(other, _)| *other != k);
+        let rest_m = crate::sum(others.map(|(_, other)| other.length_m()).chain([distance_m]));
+        let (member, from, to) = (k + 1, k.to_string(), (k + 1).to_string());
+        // The loop over the anchors, the other way round.
+        let way = || {
+            let joints = (0..=k).rev().chain((k + 1..=joint).rev());
+            shortened(joints.map(|joint| joint.to_string()).collect())
+        };
+        match margin(&chain, reach_m, rest_m - length_m)? {
+            Margin::Negative => {
+                Err(Refusal::TooLong { member, from, to, length_m, rest_m, way: way() })
+            }
+            Margin::Zero => Err(Refusal::Folded { member, from, to, length_m, way: way() }),
             Margin::Positive => Ok(Self(chain)),
         }
     }

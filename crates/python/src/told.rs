@@ -2,9 +2,9 @@
 //! numbers under the names that the library gives them.
 
 use funicular::{DerivativesError, Error, PointError, SimulateError};
-use model::system::{SystemError, SystemRefusal};
+use model::system::{Refusal, SystemError};
 use model::system_file::{SystemFileError, SystemFileErrorKind};
-use model::{BarError, ChainError, NoCensus, Refusal};
+use model::{BarError, NoCensus};
 use validate::foreign::GivenError;
 
 /// What an exception is made of.
@@ -104,10 +104,8 @@ fn parts(error: &Error) -> Parts {
     match error {
         Error::File(error) => file(error),
         Error::Bar(error) | Error::Point(PointError::Bar { error, .. }) => bar(error),
-        Error::Chain(error) => chain(error),
         Error::System(error) | Error::Point(PointError::System(error)) => system(error),
         Error::Refused(refusal) => refused(refusal),
-        Error::SystemRefused(refusal) => system_refused(refusal),
         Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
         Error::ChainsOnly { what } => ("ChainsOnly", fields!(what)),
         Error::Unsolved(answer) => {
@@ -124,7 +122,7 @@ fn parts(error: &Error) -> Parts {
             let (text, help, column) = (&error.text, &error.help, error.column());
             ("ParameterError", fields!(text, help, column))
         }
-        Error::Point(PointError::SystemRefused(refusal)) => system_refused(refusal),
+        Error::Point(PointError::Refused(refusal)) => refused(refusal),
         Error::Derivatives(
             DerivativesError::NoNumber { text } | DerivativesError::NoParameter { text },
         ) => ("DerivativesError", fields!(text)),
@@ -156,10 +154,8 @@ fn failures(failures: impl Iterator<Item = funicular::Failure>) -> Vec<(&'static
 fn file(error: &SystemFileError) -> Parts {
     let (class, mut all) = match error.kind() {
         SystemFileErrorKind::Bar(error) => bar(error),
-        SystemFileErrorKind::Chain(error) => chain(error),
         SystemFileErrorKind::System(error) => system(error),
         SystemFileErrorKind::Refused(refusal) => refused(refusal),
-        SystemFileErrorKind::SystemRefused(refusal) => system_refused(refusal),
         _ => ("FileError", vec![]),
     };
     let (file, key, help) = (error.file(), error.key(), error.help());
@@ -182,18 +178,6 @@ fn bar(error: &BarError) -> Parts {
     ("BarError", fields)
 }
 
-fn chain(error: &ChainError) -> Parts {
-    let fields = match error {
-        ChainError::Gravity { gravity_m_s2 } => fields!(gravity_m_s2),
-        ChainError::Anchor { coordinate_m } => fields!(coordinate_m),
-        ChainError::Overflow { quantity } => fields!(quantity),
-        ChainError::Underflow { quantity, total } => fields!(quantity, total),
-        ChainError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
-        _ => vec![],
-    };
-    ("ChainError", fields)
-}
-
 fn system(error: &SystemError) -> Parts {
     let fields = match error {
         SystemError::Gravity { gravity_m_s2 } => fields!(gravity_m_s2),
@@ -205,6 +189,8 @@ fn system(error: &SystemError) -> Parts {
         SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
         SystemError::UnknownJoint { member, name } => fields!(member, name),
         SystemError::SelfLoop { member, joint } => fields!(member, joint),
+        SystemError::Overflow { quantity } => fields!(quantity),
+        SystemError::Underflow { quantity, total } => fields!(quantity, total),
         SystemError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],
     };
@@ -213,50 +199,30 @@ fn system(error: &SystemError) -> Parts {
 
 fn refused(refusal: &Refusal) -> Parts {
     match refusal {
-        Refusal::SingleBar { length_m, span_m } => ("SingleBar", fields!(length_m, span_m)),
-        Refusal::OutOfReach { span_m, total_length_m } => {
-            let missing_m = span_m - total_length_m;
-            ("OutOfReach", fields!(span_m, total_length_m, missing_m))
-        }
-        Refusal::Taut { span_m, total_length_m } => ("Taut", fields!(span_m, total_length_m)),
-        Refusal::BarTooLong { bar, length_m, rest_m, span_m } => {
-            ("BarTooLong", fields!(bar, length_m, rest_m, span_m))
-        }
-        Refusal::Folded { bar, length_m, rest_m, span_m } => {
-            ("Folded", fields!(bar, length_m, rest_m, span_m))
-        }
+        Refusal::Unconnected { name, joint } => ("Unconnected", fields!(name, joint)),
+        Refusal::Falls { name, joint, joints } => ("Falls", fields!(name, joint, joints)),
+        Refusal::NothingMoves => ("NothingMoves", vec![]),
         Refusal::Unresolved { coordinate_m, rounding_m, margin_m } => {
             ("Unresolved", fields!(coordinate_m, rounding_m, margin_m))
         }
-        Refusal::NoMass => ("NoLoad", vec![]),
-        Refusal::WeightOnAnchors => ("LoadOnAnchors", vec![]),
-        _ => ("Refused", vec![]),
-    }
-}
-
-fn system_refused(refusal: &SystemRefusal) -> Parts {
-    match refusal {
-        SystemRefusal::Unconnected { name, joint } => ("Unconnected", fields!(name, joint)),
-        SystemRefusal::Falls { name, joint, joints } => ("Falls", fields!(name, joint, joints)),
-        SystemRefusal::NothingMoves => ("NothingMoves", vec![]),
-        SystemRefusal::NoLoad => ("NoLoad", vec![]),
-        SystemRefusal::LoadOnAnchors => ("LoadOnAnchors", vec![]),
-        SystemRefusal::OutOfReach { from, to, distance_m, reach_m, .. } => {
+        Refusal::NoLoad => ("NoLoad", vec![]),
+        Refusal::LoadOnAnchors => ("LoadOnAnchors", vec![]),
+        Refusal::OutOfReach { from, to, distance_m, reach_m, .. } => {
             let (span_m, total_length_m) = (*distance_m, *reach_m);
             let (from_joint, to_joint, missing_m) = (from, to, span_m - total_length_m);
             ("OutOfReach", fields!(span_m, total_length_m, missing_m, from_joint, to_joint))
         }
-        SystemRefusal::Taut { from, to, distance_m, reach_m, .. } => {
+        Refusal::Taut { from, to, distance_m, reach_m, .. } => {
             let (span_m, total_length_m) = (*distance_m, *reach_m);
             let (from_joint, to_joint) = (from, to);
             ("Taut", fields!(span_m, total_length_m, from_joint, to_joint))
         }
-        SystemRefusal::TooLong { member, from, to, length_m, rest_m, way } => {
+        Refusal::TooLong { member, from, to, length_m, rest_m, way } => {
             let (bar, from_joint, to_joint) = (member, from, to);
             let bar = *bar;
             ("BarTooLong", fields!(bar, length_m, rest_m, from_joint, to_joint, way))
         }
-        SystemRefusal::Folded { member, from, to, length_m, way } => {
+        Refusal::Folded { member, from, to, length_m, way } => {
             let (bar, from_joint, to_joint) = (*member, from, to);
             ("Folded", fields!(bar, length_m, from_joint, to_joint, way))
         }

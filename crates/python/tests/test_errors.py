@@ -17,15 +17,14 @@ def test_refusals_carry_their_numbers():
     with pytest.raises(fn.OutOfReach) as error:
         chain(end=(3.5, 0, 0))
     assert (error.value.span_m, error.value.total_length_m, error.value.missing_m) == (3.5, 2.0, 1.5)
-    assert error.value.from_joint is None and isinstance(error.value, ValueError)
+    assert (error.value.from_joint, error.value.to_joint) == ("0", "2") and isinstance(error.value, ValueError)
     with pytest.raises(fn.Taut):
         chain(end=(2, 0, 0))
-    with pytest.raises(fn.SingleBar) as error:
+    with pytest.raises(fn.NothingMoves):
         fn.System(lengths=[1], masses=[1], end=(1, 0, 0))
-    assert error.value.length_m == 1.0
     with pytest.raises(fn.BarTooLong) as error:
         chain(lengths=[5, 1])
-    assert (error.value.bar, error.value.length_m, error.value.rest_m) == (1, 5.0, 1.0)
+    assert (error.value.bar, error.value.length_m, error.value.rest_m) == (1, 5.0, 2.0)
     with pytest.raises(fn.Folded):
         chain(lengths=[2, 1])
     with pytest.raises(fn.NoLoad):

@@ -49,6 +49,8 @@ def test_the_lock_is_released():
     ids=["census", "sweep", "simulate", "trace", "solve_many"],
 )
 def test_ctrl_c_stops_long_work(work):
+    # What is started in the background of a shell ignores it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     begun = time.monotonic()

@@ -1,7 +1,7 @@
 //! Numbers that are out of range, and bars whose numbers are not checked yet.
 
 use model::budget::OutOfMemory;
-use model::system::{PrestressError, SystemError, SystemRefusal};
+use model::system::{PrestressError, Refusal, SystemError};
 use model::{Bar, BarError};
 
 use crate::parameter::number::{BarField, Number, Which};
@@ -55,7 +55,7 @@ pub enum PointError {
     System(#[from] SystemError),
     /// Occurs when the system has no equilibrium: a part falls, lengths do not close a loop.
     #[error(transparent)]
-    SystemRefused(#[from] Box<SystemRefusal>),
+    Refused(#[from] Box<Refusal>),
 }
 
 /// The rows, from 0, that get another count, the last one first, with it.

@@ -88,7 +88,7 @@ impl Census {
     ///
     /// # Errors
     ///
-    /// [`Error::Census`] when a chain is too long, [`Error::SystemRefused`] when a system has no
+    /// [`Error::Census`] when a chain is too long, [`Error::Refused`] when a system has no
     /// equilibrium, [`Error::SystemCensus`] when it has no census: nets that move in too many ways,
     /// level loads on a chain, elastic bars. What cannot be decided is no error: it is listed, and
     /// the census is not complete.

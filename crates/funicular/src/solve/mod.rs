@@ -115,7 +115,7 @@ impl Solve {
     ///
     /// # Errors
     ///
-    /// [`Error::SystemRefused`] when the system has no equilibrium; [`Error::ChainsOnly`] when the
+    /// [`Error::Refused`] when the system has no equilibrium; [`Error::ChainsOnly`] when the
     /// full equations are asked for of another system or next to a drawing; [`Error::Unsolved`] when no
     /// solver has an answer; if one has, [`SolveAnswer::failures`] says why the other has none.
     pub fn run(&self, problem: &Problem) -> Result<SolveAnswer, Error> {

@@ -251,9 +251,9 @@ fn bad_input_is_refused_with_its_reason() {
     let nowhere = folder("nowhere").join("missing").join("figure.svg");
     let directory = folder("directory");
     let table = [
-        (&[single.as_str()][..], "cannot move"),
+        (&[single.as_str()][..], "nothing can move"),
         (&[short.as_str()], "m are missing"),
-        (&[weightless.as_str()], "no bar has mass"),
+        (&[weightless.as_str()], "no mass and no force act"),
         (&["no-such-file.toml"], "no-such-file.toml"),
         (&["--case", "no-such-case"], "no case named"),
         (&[], "required"),

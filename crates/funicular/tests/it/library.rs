@@ -105,7 +105,10 @@ fn errors_are_joined_and_say_what_they_said() {
     let anchors = Anchors { start_m: [0.0; 3], end_m: [3.0, 0.0, 0.0] };
     let chain = Chain::new("short", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0).unwrap(); 2]);
     let refused = Problem::try_from(chain.unwrap()).unwrap_err();
-    assert!(matches!(refused, Error::Refused(model::Refusal::OutOfReach { .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Error::Refused(model::system::Refusal::OutOfReach { .. })),
+        "{refused:?}"
+    );
     let file = Problem::parse("name = 1", "chain.toml").unwrap_err();
     assert!(file.to_string().starts_with("chain.toml:1:"), "{file}");
     let long = Census::new().max_bars(3).run(&Problem::case("ten-equal-bars").unwrap());
@@ -152,6 +155,6 @@ fn a_batch_takes_chains_and_systems_alike() {
     assert!(lamp.agrees() && lamp.is_decided() && !lamp.check_failed());
     // By the triangle 3, 4, 5.
     assert!((lamp.equilibria()[0].axial_n[1] - 12.5).abs() < 1e-9);
-    assert!(matches!(answers[1], Err(Error::SystemRefused(_))));
+    assert!(matches!(answers[1], Err(Error::Refused(_))));
     assert!(answers[2].as_ref().is_ok_and(SolveAnswer::agrees));
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use lagrange::Seed;
 use lagrange::condensed::{CondensedError, Settings, Solution, solve};
 use model::{
-    Anchors, Bar, Chain, InPlane, InSpace, Problem, Refusal, STANDARD_GRAVITY_M_S2, Status, Vector,
+    Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Status, Vector,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -336,7 +336,7 @@ fn special_shapes() {
     ];
     let anchors = Anchors { start_m: [0.0; 3], end_m: [0.5, 1.0, 1.0] };
     let chain = Chain::new("test", 1.0, anchors, bars).unwrap();
-    assert!(matches!(Problem::new(chain), Err(Refusal::WeightOnAnchors)));
+    assert!(matches!(Problem::new(chain), Err(model::system::Refusal::LoadOnAnchors)));
 }
 
 /// Nearly straight chains: the pull follows $\sqrt{\mathrm{var}\,b/(2\,\mathrm{slack})}$ with all

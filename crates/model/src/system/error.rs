@@ -7,7 +7,7 @@ use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{SMALLEST_TOTAL, Vector};
 
-/// Why a system cannot be built.
+/// Why a system, or a chain, cannot be built.
 ///
 /// Members are counted from 1, joints are named.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -297,7 +297,7 @@ fn quoted(names: &[String]) -> String {
 }
 
 /// Solvers square lengths and forces.
-const LARGEST_TOTAL: f64 = 1e150;
+pub(crate) const LARGEST_TOTAL: f64 = 1e150;
 
 /// How far from 1 the length of a direction may be: the rounding of its three components.
 pub(crate) const UNIT_TOLERANCE: f64 = 8.0 * f64::EPSILON;

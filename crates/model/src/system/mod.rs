@@ -35,6 +35,7 @@ mod tolerance;
 
 pub use answer::{SystemEquilibrium, SystemStability};
 pub use builder::SystemBuilder;
+pub(crate) use error::LARGEST_TOTAL;
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use jam::Joined;
@@ -43,7 +44,8 @@ pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
 pub use member::{Kind, LENGTH_ROUNDING, Member, MemberProperties, Misfit, PointLoad};
 pub use name::Name;
 pub use prestress::{Prestress, PrestressError};
-pub use refusal::SystemRefusal;
+pub use refusal::Refusal;
+pub(crate) use refusal::shortened;
 pub use rope::{Rope, RopeFault};
 pub use row::Row;
 pub use strength::{Strength, StrengthError};

@@ -5,14 +5,16 @@ use std::collections::HashSet;
 use super::graph::Graph;
 use super::{Joint, Kind, Support, System};
 use crate::Vector;
+use crate::number::Brief;
+use crate::problem::ANCHOR_ROUNDING;
 use crate::readable::{Computed, Readable};
 
-/// Why a system has no equilibrium to be found.
+/// Why a system, or a chain, has no equilibrium to be found.
 ///
 /// Members are counted from 1, joints are named.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum SystemRefusal {
+pub enum Refusal {
     /// Occurs when no member meets a joint.
     #[error("no member meets joint {name:?}")]
     Unconnected {
@@ -86,6 +88,22 @@ pub enum SystemRefusal {
         /// The shortest way from the one to the other over members.
         reach_m: f64,
     },
+    /// Occurs when the anchors are so far from the origin that the rounding of their coordinates decides whether what lies
+    /// between them can hang, or cannot close, or is straight.
+    #[error(
+        "the coordinates of the anchors reach {} m, where doubles place the anchors only to \
+         {} m, and the bars are only {} m away from being straight",
+        Readable(*coordinate_m), Brief(*rounding_m), Brief(*margin_m)
+    )]
+    Unresolved {
+        /// The largest coordinate.
+        coordinate_m: f64,
+        /// What its rounding can change the distance of two anchors by.
+        rounding_m: f64,
+        /// What is left when the members are stretched out or folded on one line; negative if they do
+        /// not reach.
+        margin_m: f64,
+    },
     /// Occurs when a rope is no longer than the straight way past the anchors that it runs over.
     #[error(
         "the rope (member {member}) is {} m long, and the way past the anchors that it meets {} m: {}",
@@ -157,11 +175,11 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemRefusal`] with the numbers it rests on.
+    /// [`Refusal`] with the numbers it rests on.
     ///
     /// ```
     /// use model::Bar;
-    /// use model::system::{Joint, Member, System, SystemRefusal};
+    /// use model::system::{Joint, Member, System, Refusal};
     /// let joints = vec![
     ///     Joint::anchor("A", [0.0, 0.0, 0.0]),
     ///     Joint::free("P"),
@@ -172,23 +190,23 @@ impl System {
     /// let system = System::new("too short", 9.81, joints, members)?;
     /// assert!(matches!(
     ///     system.refusal(),
-    ///     Err(SystemRefusal::OutOfReach { distance_m: 3.0, reach_m: 2.0, .. })
+    ///     Err(Refusal::OutOfReach { distance_m: 3.0, reach_m: 2.0, .. })
     /// ));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn refusal(&self) -> Result<(), SystemRefusal> {
+    pub fn refusal(&self) -> Result<(), Refusal> {
         let graph = Graph::new(self);
         self.connected(&graph)?;
         if self.joints().iter().all(|joint| joint.support.is_fixed()) {
-            return Err(SystemRefusal::NothingMoves);
+            return Err(Refusal::NothingMoves);
         }
         // Elastic members have an energy of their own, without any load.
         let elastic = self.members().iter().any(|member| member.stiffness_n.is_some());
         if self.is_unloaded() && !elastic {
-            return Err(SystemRefusal::NoLoad);
+            return Err(Refusal::NoLoad);
         }
         if self.is_loaded_on_supports_alone() && !elastic {
-            return Err(SystemRefusal::LoadOnAnchors);
+            return Err(Refusal::LoadOnAnchors);
         }
         self.anchors_in_reach(&graph)?;
         self.ropes_reach()?;
@@ -227,15 +245,15 @@ impl System {
             })
     }
 
-    fn connected(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
+    fn connected(&self, graph: &Graph<'_>) -> Result<(), Refusal> {
         let joints = self.joints();
         if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).len() == 0) {
-            return Err(SystemRefusal::Unconnected { name: joints[joint].name.to_string(), joint });
+            return Err(Refusal::Unconnected { name: joints[joint].name.to_string(), joint });
         }
         for part in graph.components() {
             if part.iter().all(|joint| joints[*joint].support.at_m().is_none()) {
                 let (joint, joints_of_part) = (part[0], part.len());
-                return Err(SystemRefusal::Falls {
+                return Err(Refusal::Falls {
                     name: joints[joint].name.to_string(),
                     joint,
                     joints: joints_of_part,
@@ -245,7 +263,7 @@ impl System {
         Ok(())
     }
 
-    fn anchors_in_reach(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
+    fn anchors_in_reach(&self, graph: &Graph<'_>) -> Result<(), Refusal> {
         let joints = self.joints();
         let anchors: Vec<usize> =
             (0..joints.len()).filter(|joint| joints[*joint].support.is_fixed()).collect();
@@ -261,7 +279,11 @@ impl System {
                 let distance_m = self.distance_m(start, joint);
                 let ends = || (joints[start].name.to_string(), joints[joint].name.to_string());
                 let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
-                if (reach_m - distance_m).abs() <= near {
+                let places = [start, joint].map(|k| joints[k].support.at_m().unwrap_or_default());
+                let coordinate_m = places.as_flattened().iter().fold(0.0, |a, x| x.abs().max(a));
+                let rounding_m = ANCHOR_ROUNDING * coordinate_m;
+                let margin_m = reach_m - distance_m;
+                if margin_m.abs() <= near.max(rounding_m) {
                     let way = ways.way(joint);
                     let parts =
                         way.iter().map(|k| (*k, ways.get(*k).unwrap_or_default() / reach_m));
@@ -269,26 +291,29 @@ impl System {
                     if self.holds_inner(graph, &way, slack) {
                         continue;
                     }
+                    if margin_m.abs() > near {
+                        return Err(Refusal::Unresolved { coordinate_m, rounding_m, margin_m });
+                    }
                     let (from, to) = ends();
-                    return Err(SystemRefusal::Taut { from, to, joint, distance_m, reach_m });
+                    return Err(Refusal::Taut { from, to, joint, distance_m, reach_m });
                 }
                 if reach_m < distance_m {
                     let (from, to) = ends();
-                    return Err(SystemRefusal::OutOfReach { from, to, joint, distance_m, reach_m });
+                    return Err(Refusal::OutOfReach { from, to, joint, distance_m, reach_m });
                 }
             }
         }
         Ok(())
     }
 
-    fn ropes_reach(&self) -> Result<(), SystemRefusal> {
+    fn ropes_reach(&self) -> Result<(), Refusal> {
         let ropes = self.members().iter().enumerate().filter(|(_, member)| member.rope.is_some());
         for (k, rope) in ropes {
             let held = || rope.path().filter(|joint| self.joints()[*joint].support.is_fixed());
             let way_m = held().zip(held().skip(1)).map(|(a, b)| self.distance_m(a, b)).sum::<f64>();
             let length_m = rope.greatest_length_m();
             if way_m >= length_m * (1.0 - crate::STRAIGHT_TOLERANCE) {
-                return Err(SystemRefusal::ShortRope { member: k + 1, length_m, way_m });
+                return Err(Refusal::ShortRope { member: k + 1, length_m, way_m });
             }
         }
         Ok(())
@@ -347,7 +372,7 @@ impl System {
         !inner.is_empty() && inner.iter().all(|joint| graph.meets(*joint, &along, &held))
     }
 
-    fn loops_close(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
+    fn loops_close(&self, graph: &Graph<'_>) -> Result<(), Refusal> {
         for (k, member) in self.members().iter().enumerate() {
             if !member.keeps_apart() {
                 continue;
@@ -364,9 +389,9 @@ impl System {
             let (from, to) = (name(member.from), name(member.to));
             let way = shortened(ways.way(member.to).into_iter().map(name).collect());
             return Err(if folded {
-                SystemRefusal::Folded { member: number, from, to, length_m, way }
+                Refusal::Folded { member: number, from, to, length_m, way }
             } else {
-                SystemRefusal::TooLong { member: number, from, to, length_m, rest_m, way }
+                Refusal::TooLong { member: number, from, to, length_m, rest_m, way }
             });
         }
         Ok(())
@@ -382,7 +407,7 @@ fn short_or_taut(length_m: f64, way_m: f64) -> String {
 }
 
 /// At most six names, with the number of those left out in the middle.
-fn shortened(mut names: Vec<String>) -> Vec<String> {
+pub(crate) fn shortened(mut names: Vec<String>) -> Vec<String> {
     if names.len() > 6 {
         let left_out = names.len() - 5;
         names.splice(3..3 + left_out, [format!("{left_out} more")]);

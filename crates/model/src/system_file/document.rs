@@ -20,7 +20,8 @@ use super::source::Source;
 use super::strength;
 use super::table::Table;
 use super::tolerance;
-use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
+use crate::system::{Refusal, SystemError};
+use crate::{Anchors, Bar, BarError, Chain, Problem, STANDARD_GRAVITY_M_S2};
 
 const ROOT_KEYS: &[&str] = &[
     "name",
@@ -106,7 +107,7 @@ impl Source<'_> {
         let loaded = loads::of_chain(&root, &chain)?;
         match Problem::new(chain) {
             // The loads may be all that weighs; the system's own check says so if nothing does.
-            Ok(_) | Err(Refusal::NoMass | Refusal::WeightOnAnchors) => {}
+            Ok(_) | Err(Refusal::NoLoad | Refusal::LoadOnAnchors) => {}
             Err(found) => return Err(refusal(&root, found, &places)),
         }
         match loaded.refusal() {
@@ -114,7 +115,7 @@ impl Source<'_> {
             Err(refusal) => {
                 let key = ["loads", "floor_m"].into_iter().find(|key| root.get(key).is_some());
                 let key = key.unwrap_or("bars");
-                Err(root.error(Kind::SystemRefused(refusal), key))
+                Err(root.error(Kind::Refused(refusal), key))
             }
         }
     }
@@ -153,20 +154,18 @@ fn chain_of(root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
     let end = table.get("end_m").map_or(0..0, Spanned::span);
 
     let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
-        let kind = Kind::Chain(error);
-        match error {
-            ChainError::Gravity { .. } => root.error(kind, "gravity_m_s2"),
-            ChainError::Anchor { .. } => {
-                let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
+        let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
+        let (at, key) = match error {
+            SystemError::Gravity { .. } => (root, "gravity_m_s2"),
+            SystemError::Coordinate { .. } => {
                 let key = if start_is_good { "end_m" } else { "start_m" };
-                table.component_error(kind, key, f64::is_finite)
+                return table.component_error(Kind::System(error), key, f64::is_finite);
             }
-            ChainError::Overflow { quantity: "span" } => table.error(kind, "end_m"),
-            _ => match &origin {
-                Origin::Tables(_) => root.error(kind, "bars"),
-                Origin::File(_) => root.error(kind, "bars_file"),
-            },
-        }
+            SystemError::Overflow { quantity: "span" } => (&table, "end_m"),
+            _ if matches!(origin, Origin::Tables(_)) => (root, "bars"),
+            _ => (root, "bars_file"),
+        };
+        at.error(Kind::System(error), key)
     })?;
     Ok((chain, Places { end, bars: origin }))
 }
@@ -199,10 +198,10 @@ fn refusal(root: &Table<'_>, refusal: Refusal, places: &Places) -> SystemFileErr
         Refusal::OutOfReach { .. } | Refusal::Taut { .. } | Refusal::Unresolved { .. } => {
             return root.error_at(Kind::Refused(refusal), "anchors.end_m", places.end.clone());
         }
-        Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
-        Refusal::SingleBar { .. } | Refusal::NoMass | Refusal::WeightOnAnchors => None,
+        Refusal::TooLong { member, .. } | Refusal::Folded { member, .. } => Some(member),
+        _ => None,
     };
-    let massless = refusal == Refusal::NoMass;
+    let massless = refusal == Refusal::NoLoad;
     let kind = Kind::Refused(refusal);
     match (&places.bars, bar) {
         (Origin::Tables(tables), None) if massless => {

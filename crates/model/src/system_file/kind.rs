@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use crate::BarError;
 use crate::budget::OutOfMemory;
 use crate::readable::Readable;
-use crate::system::{PrestressError, RopeFault, SystemError, SystemRefusal};
-use crate::{BarError, ChainError, Refusal};
+use crate::system::{PrestressError, Refusal, RopeFault, SystemError};
 
 /// What the program knows, and what it does not.
 pub const SCOPE: &str = "known are joints without friction, bars, cables and struts, rigid or with a stiffness \
@@ -281,18 +281,12 @@ pub enum SystemFileErrorKind {
     /// Occurs when a member has no unstretched length that goes with its prestress.
     #[error(transparent)]
     Prestress(PrestressError),
-    /// Occurs when the chain cannot be built.
-    #[error(transparent)]
-    Chain(ChainError),
-    /// Occurs when the chain is no equilibrium problem.
-    #[error(transparent)]
-    Refused(Refusal),
     /// Occurs when the system cannot be built.
     #[error(transparent)]
     System(SystemError),
     /// Occurs when the system is no equilibrium problem.
     #[error(transparent)]
-    SystemRefused(SystemRefusal),
+    Refused(Refusal),
 }
 
 impl SystemFileErrorKind {
@@ -334,7 +328,7 @@ impl SystemFileErrorKind {
                 "mass_kg hangs a mass there, force_n = [x, y, z] pulls with a constant force"
             }
             Self::System(error) => return system_help(error).map(str::to_owned),
-            Self::SystemRefused(refusal) => system_refusal_help(refusal),
+            Self::Refused(refusal) => refusal_help(refusal),
             Self::NoFolder { .. } => "write the bars as [[bars]], or read the system from its file",
             Self::TooLong { .. } => {
                 "equal bars in a row are written once, with `count`; many different ones as columns, \
@@ -374,8 +368,6 @@ impl SystemFileErrorKind {
                 "without inertia_kg_m2 a bar has the moments [0, m l^2/12, m l^2/12] of a slender one"
             }
             Self::Prestress(error) => return prestress_help(*error).map(str::to_owned),
-            Self::Chain(error) => return chain_help(error).map(str::to_owned),
-            Self::Refused(refusal) => refusal_help(refusal),
             Self::Json(_) => {
                 "an object with the keys of the TOML file: {\"joints\": {...}, \"bars\": [...]}; names \
                  and keys in double quotes, no comments, no comma behind the last"
@@ -401,17 +393,6 @@ fn place_in_file(row: usize, column: Option<&str>) -> String {
 /// What to do about masses of which the lightest is lost.
 const MASS_RANGE_HELP: &str =
     "check the units: masses are in kilograms; a mass that does not count may be 0";
-
-fn chain_help(error: &ChainError) -> Option<&'static str> {
-    match error {
-        ChainError::NoBars => Some("describe every bar under a line [[bars]]"),
-        ChainError::Overflow { .. } | ChainError::Underflow { .. } => {
-            Some("check the units: lengths are in metres, masses in kilograms")
-        }
-        ChainError::MassRange { .. } => Some(MASS_RANGE_HELP),
-        ChainError::Gravity { .. } | ChainError::Anchor { .. } => None,
-    }
-}
 
 fn prestress_help(error: PrestressError) -> Option<&'static str> {
     match error {
@@ -455,38 +436,22 @@ fn rope_help(fault: &RopeFault) -> Option<&'static str> {
     }
 }
 
-fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
-    match refusal {
-        SystemRefusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
-        SystemRefusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
-        SystemRefusal::NothingMoves => "leave one joint without at_m",
-        SystemRefusal::NoLoad => {
-            "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"
-        }
-        SystemRefusal::LoadOnAnchors => "give a load to a joint that can move along it",
-        SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
-            "move the anchors together or lengthen the bars"
-        }
-        SystemRefusal::ShortRope { .. } => "lengthen the rope, or move the anchors together",
-        SystemRefusal::TooLong { .. } | SystemRefusal::Folded { .. } => {
-            "shorten this bar, or lengthen another of the loop"
-        }
-    }
-}
-
 fn refusal_help(refusal: &Refusal) -> &'static str {
     match refusal {
-        Refusal::SingleBar { .. } => "use at least two bars",
+        Refusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
+        Refusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
+        Refusal::NothingMoves => "leave one joint without at_m, or use at least two bars",
+        Refusal::NoLoad => {
+            "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"
+        }
+        Refusal::LoadOnAnchors => "give a load to a joint that can move along it",
+        Refusal::Unresolved { .. } => "put the origin near the system",
         Refusal::OutOfReach { .. } | Refusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"
         }
-        Refusal::BarTooLong { .. } | Refusal::Folded { .. } => {
-            "shorten this bar, lengthen another, or move the anchors apart"
-        }
-        Refusal::Unresolved { .. } => "put the origin near the chain",
-        Refusal::NoMass => "give at least one bar a mass",
-        Refusal::WeightOnAnchors => {
-            "give a bar a mass whose centre is not on an anchor, or a joint a load"
+        Refusal::ShortRope { .. } => "lengthen the rope, or move the anchors together",
+        Refusal::TooLong { .. } | Refusal::Folded { .. } => {
+            "shorten this bar, lengthen another of the loop, or move anchors of it apart"
         }
     }
 }

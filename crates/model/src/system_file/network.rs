@@ -23,7 +23,7 @@ use super::tolerance::{self, Tolerances};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
-    Joint, Member, Name, PointLoad, RopeFault, Shares, Support, System, SystemError, SystemRefusal,
+    Joint, Member, Name, PointLoad, Refusal, RopeFault, Shares, Support, System, SystemError,
     UNIT_TOLERANCE,
 };
 
@@ -426,22 +426,22 @@ impl Reading<'_> {
         let room = root.source().budget.fits_solve(&system);
         room.map_err(|error| root.error(Kind::Memory(error), key))?;
         system.refusal().map_err(|refusal| match &refusal {
-            SystemRefusal::Unconnected { joint, .. }
-            | SystemRefusal::Falls { joint, .. }
-            | SystemRefusal::OutOfReach { joint, .. }
-            | SystemRefusal::Taut { joint, .. } => {
+            Refusal::Unconnected { joint, .. }
+            | Refusal::Falls { joint, .. }
+            | Refusal::OutOfReach { joint, .. }
+            | Refusal::Taut { joint, .. } => {
                 let joint = *joint;
-                at_joint(Kind::SystemRefused(refusal), joint)
+                at_joint(Kind::Refused(refusal), joint)
             }
-            SystemRefusal::TooLong { member, .. }
-            | SystemRefusal::Folded { member, .. }
-            | SystemRefusal::ShortRope { member, .. } => {
+            Refusal::TooLong { member, .. }
+            | Refusal::Folded { member, .. }
+            | Refusal::ShortRope { member, .. } => {
                 let member = *member;
-                at_member(Kind::SystemRefused(refusal), member, "")
+                at_member(Kind::Refused(refusal), member, "")
             }
             _ => {
                 let key = if root.get("joints").is_some() { "joints" } else { "joints_file" };
-                root.error(Kind::SystemRefused(refusal), key)
+                root.error(Kind::Refused(refusal), key)
             }
         })?;
         Ok(system)

@@ -1,9 +1,7 @@
 //! What bars, chains and problems refuse, with the numbers of the refusal.
 
-use model::system::{Joint, Member, System, SystemError};
-use model::{
-    Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, SMALLEST_TOTAL, STRAIGHT_TOLERANCE,
-};
+use model::system::{Joint, Member, Refusal, System, SystemError};
+use model::{Anchors, Bar, BarError, Chain, Problem, SMALLEST_TOTAL, STRAIGHT_TOLERANCE};
 
 const HERE: Anchors = Anchors { start_m: [0.0; 3], end_m: [0.0; 3] };
 
@@ -72,30 +70,34 @@ fn bars_accept_the_ends_of_their_ranges() {
 #[test]
 fn chains_refuse_numbers_out_of_range() {
     let build = |gravity, anchors, bars| Chain::new("", gravity, anchors, bars);
-    assert_eq!(build(9.81, HERE, vec![]), Err(ChainError::NoBars));
+    assert_eq!(build(9.81, HERE, vec![]), Err(SystemError::NoMembers));
     for gravity_m_s2 in [0.0, -9.81, f64::INFINITY] {
         assert_eq!(
             build(gravity_m_s2, HERE, vec![bar(1.0)]),
-            Err(ChainError::Gravity { gravity_m_s2 })
+            Err(SystemError::Gravity { gravity_m_s2 })
         );
     }
-    assert!(matches!(build(f64::NAN, HERE, vec![bar(1.0)]), Err(ChainError::Gravity { .. })));
+    assert!(matches!(build(f64::NAN, HERE, vec![bar(1.0)]), Err(SystemError::Gravity { .. })));
     for k in 0..3 {
         let mut anchors = HERE;
         anchors.end_m[k] = f64::NEG_INFINITY;
         assert_eq!(
             build(9.81, anchors, vec![bar(1.0)]),
-            Err(ChainError::Anchor { coordinate_m: f64::NEG_INFINITY })
+            Err(SystemError::Coordinate {
+                name: "1".to_owned(),
+                joint: 1,
+                coordinate_m: f64::NEG_INFINITY
+            })
         );
     }
 }
 
 #[test]
 fn chains_refuse_totals_that_overflow_or_vanish() {
-    let long = Bar::new(f64::MAX, 0.0, 0.0, [0.0; 3]).unwrap();
-    let heavy = Bar::new(1.0, f64::MAX, 0.0, [0.0; 3]).unwrap();
-    let far = Anchors { start_m: [-f64::MAX, 0.0, 0.0], end_m: [f64::MAX, 0.0, 0.0] };
-    let overflow = |quantity| Err(ChainError::Overflow { quantity });
+    let long = Bar::new(1e150, 0.0, 0.0, [0.0; 3]).unwrap();
+    let heavy = Bar::new(1.0, 1e150, 0.0, [0.0; 3]).unwrap();
+    let far = Anchors { start_m: [-1e150, 0.0, 0.0], end_m: [1e150, 0.0, 0.0] };
+    let overflow = |quantity| Err(SystemError::Overflow { quantity });
     let build = |anchors, bars: &[Bar]| Chain::new("", 1.0, anchors, bars.to_vec());
     assert_eq!(build(far, &[bar(1.0)]), overflow("span"));
     assert_eq!(build(HERE, &[long, long]), overflow("total length"));
@@ -103,7 +105,7 @@ fn chains_refuse_totals_that_overflow_or_vanish() {
     assert_eq!(build(HERE, &[heavy, bar(1.0)]), overflow("total weight times total length"));
     assert!(build(HERE, &[long]).is_ok(), "long and massless");
 
-    let underflow = |quantity, total| Err(ChainError::Underflow { quantity, total });
+    let underflow = |quantity, total| Err(SystemError::Underflow { quantity, total });
     let least = SMALLEST_TOTAL;
     let with = |length, mass| Bar::new(length, mass, 0.0, [0.0; 3]).unwrap();
     assert!(build(HERE, &[with(least, 1.0)]).is_ok());
@@ -124,7 +126,7 @@ fn masses_that_are_lost_in_others_are_refused() {
     let with = |mass| Bar::new(1.0, mass, 0.5, [0.0; 3]).unwrap();
     let build = |light: f64| Chain::new("", 1.0, HERE, vec![with(light), with(0.0), with(1.0)]);
     let lost = (-53.0_f64).exp2();
-    let refused = ChainError::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
+    let refused = SystemError::MassRange { lightest_kg: lost, heaviest_kg: 1.0 };
     assert_eq!(build(lost), Err(refused));
     assert!(build(lost.next_up()).is_ok());
     // The same at joints.
@@ -139,7 +141,8 @@ fn masses_that_are_lost_in_others_are_refused() {
 
 #[test]
 fn taut_is_equal_up_to_rounding_and_no_more() {
-    let taut = Refusal::Taut { span_m: 3.0, total_length_m: 3.0 };
+    let (from, to, joint) = ("0".to_owned(), "3".to_owned(), 3);
+    let taut = Refusal::Taut { from, to, joint, distance_m: 3.0, reach_m: 3.0 };
     assert_eq!(refusal(apart(3.0), &[1.0, 1.5, 0.5]), taut);
     // 0.1 + 0.2 is not 0.3 in doubles; the decimals mean a taut chain.
     assert!(matches!(refusal(apart(0.3), &[0.1, 0.2]), Refusal::Taut { .. }));
@@ -149,54 +152,53 @@ fn taut_is_equal_up_to_rounding_and_no_more() {
     assert!(matches!(refusal(apart(3.0 - 0.9 * step), &[1.0; 3]), Refusal::Taut { .. }));
     assert!(matches!(refusal(apart(3.0 + 0.9 * step), &[1.0; 3]), Refusal::Taut { .. }));
     assert!(accepted(apart(3.0 - 1.5 * step), &[1.0; 3]));
-    let span_m = 3.0 + 1.5 * step;
-    let out = Refusal::OutOfReach { span_m, total_length_m: 3.0 };
-    assert_eq!(refusal(apart(span_m), &[1.0; 3]), out);
+    let far = refusal(apart(3.0 + 1.5 * step), &[1.0; 3]);
+    assert!(matches!(far, Refusal::OutOfReach { reach_m: 3.0, .. }), "{far}");
 }
 
 #[test]
 fn folded_is_equal_up_to_rounding_and_no_more() {
-    let folded = Refusal::Folded { bar: 2, length_m: 3.0, rest_m: 1.0, span_m: 2.0 };
-    assert_eq!(refusal(apart(2.0), &[0.5, 3.0, 0.5]), folded);
-    let too_long = Refusal::BarTooLong { bar: 3, length_m: 3.5, rest_m: 1.0, span_m: 2.0 };
-    assert_eq!(refusal(apart(2.0), &[0.5, 0.5, 3.5]), too_long);
+    let names = |all: &str| all.chars().map(String::from).collect::<Vec<_>>();
+    let folded = |member: usize, length_m: f64, way: &str| {
+        let [from, to] = [member - 1, member].map(|joint| joint.to_string());
+        Refusal::Folded { member, from, to, length_m, way: names(way) }
+    };
+    let too_long = |member: usize, length_m: f64, rest_m: f64, way: &str| {
+        let [from, to] = [member - 1, member].map(|joint| joint.to_string());
+        Refusal::TooLong { member, from, to, length_m, rest_m, way: names(way) }
+    };
+    assert_eq!(refusal(apart(2.0), &[0.5, 3.0, 0.5]), folded(2, 3.0, "1032"));
+    assert_eq!(refusal(apart(2.0), &[0.5, 0.5, 3.5]), too_long(3, 3.5, 3.0, "2103"));
     let step = 4.0 * STRAIGHT_TOLERANCE;
     assert!(matches!(refusal(apart(2.0), &[0.5, 3.0 - 0.9 * step, 0.5]), Refusal::Folded { .. }));
     assert!(matches!(refusal(apart(2.0), &[0.5, 3.0 + 0.9 * step, 0.5]), Refusal::Folded { .. }));
     assert!(accepted(apart(2.0), &[0.5, 3.0 - 1.5 * step, 0.5]));
     assert!(matches!(
         refusal(apart(2.0), &[0.5, 3.0 + 1.5 * step, 0.5]),
-        Refusal::BarTooLong { bar: 2, .. }
+        Refusal::TooLong { member: 2, .. }
     ));
     // Two equal bars from one point back to it can only fold; the first of them is named.
-    let back = Refusal::Folded { bar: 1, length_m: 1.0, rest_m: 1.0, span_m: 0.0 };
-    assert_eq!(refusal(HERE, &[1.0, 1.0]), back);
-    let uneven = Refusal::BarTooLong { bar: 2, length_m: 1.5, rest_m: 1.0, span_m: 0.0 };
-    assert_eq!(refusal(HERE, &[1.0, 1.5]), uneven);
+    assert_eq!(refusal(HERE, &[1.0, 1.0]), folded(1, 1.0, "021"));
+    assert_eq!(refusal(HERE, &[1.0, 1.5]), too_long(2, 1.5, 1.0, "102"));
     assert!(accepted(HERE, &[1.0, 1.0, 1.0]));
-    let triangle = Refusal::Folded { bar: 2, length_m: 2.0, rest_m: 2.0, span_m: 0.0 };
-    assert_eq!(refusal(HERE, &[1.0, 2.0, 1.0]), triangle);
+    assert_eq!(refusal(HERE, &[1.0, 2.0, 1.0]), folded(2, 2.0, "1032"));
 }
 
 #[test]
 fn single_bars_are_refused_for_what_they_are() {
-    assert_eq!(refusal(apart(2.0), &[2.0]), Refusal::SingleBar { length_m: 2.0, span_m: 2.0 });
-    assert_eq!(
-        refusal(apart(2.0), &[1.0]),
-        Refusal::OutOfReach { span_m: 2.0, total_length_m: 1.0 }
-    );
-    let too_long = Refusal::BarTooLong { bar: 1, length_m: 3.0, rest_m: 0.0, span_m: 2.0 };
-    assert_eq!(refusal(apart(2.0), &[3.0]), too_long);
+    assert_eq!(refusal(apart(2.0), &[2.0]), Refusal::NothingMoves);
+    assert!(matches!(refusal(apart(2.0), &[1.0]), Refusal::OutOfReach { .. }));
+    assert!(matches!(refusal(apart(2.0), &[3.0]), Refusal::TooLong { member: 1, rest_m: 2.0, .. }));
     let massless = Bar::homogeneous(2.0, 0.0).unwrap();
     let single = Chain::new("", 1.0, apart(2.0), vec![massless]).unwrap();
-    assert!(matches!(Problem::new(single), Err(Refusal::SingleBar { .. })));
+    assert_eq!(Problem::new(single), Err(Refusal::NothingMoves));
 }
 
 #[test]
 fn chains_without_mass_are_refused_before_their_shape() {
     let massless = vec![Bar::homogeneous(1.0, 0.0).unwrap(); 3];
     let far = Chain::new("", 1.0, apart(9.0), massless.clone()).unwrap();
-    assert_eq!(Problem::new(far), Err(Refusal::NoMass));
+    assert_eq!(Problem::new(far), Err(Refusal::NoLoad));
     let mut one = massless;
     one[1] = bar(1.0);
     assert!(Problem::new(Chain::new("", 1.0, apart(2.0), one).unwrap()).is_ok());
@@ -208,7 +210,7 @@ fn weight_on_the_anchors_alone_is_refused_and_weight_beside_them_is_not() {
         let bars = bars.map(|(mass, centre)| Bar::new(1.0, mass, centre, [0.0; 3]).unwrap());
         Problem::new(Chain::new("", 1.0, apart(1.5), bars.to_vec()).unwrap())
     };
-    let refused = Err(Refusal::WeightOnAnchors);
+    let refused = Err(Refusal::LoadOnAnchors);
     assert_eq!(problem([(2.0, 0.0), (0.0, 0.5), (3.0, 1.0)]), refused);
     assert_eq!(problem([(0.0, 0.7), (0.0, 0.5), (3.0, 1.0)]), refused);
     // The least part of a weight at a joint that can move, from either side, is one.
@@ -231,7 +233,7 @@ fn refusals_do_not_depend_on_the_unit_of_length() {
         assert!(matches!(refusal(apart(3.0 * scale), &lengths), Refusal::Taut { .. }));
         assert!(matches!(refusal(apart(4.0 * scale), &lengths), Refusal::OutOfReach { .. }));
         let long = [scale, 5.0 * scale, scale];
-        assert!(matches!(refusal(apart(2.0 * scale), &long), Refusal::BarTooLong { bar: 2, .. }));
+        assert!(matches!(refusal(apart(2.0 * scale), &long), Refusal::TooLong { member: 2, .. }));
     }
 }
 
@@ -255,7 +257,7 @@ fn far_anchors_leave_the_span_uncertain() {
     );
     assert!(matches!(refusal(at(1e12, 2.0), &[1.0, 0.99]), Refusal::OutOfReach { .. }));
     assert!(matches!(refusal(at(1e12, 2.0), &[3.0001, 1.0]), Refusal::Unresolved { .. }));
-    assert!(matches!(refusal(at(1e12, 2.0), &[3.01, 1.0]), Refusal::BarTooLong { .. }));
+    assert!(matches!(refusal(at(1e12, 2.0), &[3.01, 1.0]), Refusal::TooLong { .. }));
     // So far away that the anchors coincide.
     assert!(matches!(refusal(at(1e20, 2.0), &[1.0; 3]), Refusal::Unresolved { .. }));
 }
@@ -290,4 +292,24 @@ fn totals_keep_what_is_small_beside_the_large() {
     bars[0] = bar(1e9);
     let chain = Chain::new("uneven", 9.81, HERE, bars).unwrap();
     assert!((chain.total_length_m() - (1e9 + 1e-3)).abs() <= 1e9 * f64::EPSILON);
+}
+
+/// A chain is refused as the joints and members that it is, to the number; a single bar for that nothing moves.
+#[test]
+fn a_chain_and_its_system_are_refused_alike() {
+    for (anchors, lengths) in [
+        (apart(3.5), &[1.0; 3][..]),
+        (apart(3.0), &[1.0; 3]),
+        (apart(2.0), &[0.5, 3.0, 0.5]),
+        (apart(2.0), &[0.5, 0.5, 3.5]),
+        (HERE, &[1.0, 1.5]),
+        (apart(2.0), &[2.0]),
+        (apart(2.0), &[1.0, 1.0, 9.0, 1.0, 1.0, 1.0, 1.0]),
+        (Anchors { start_m: [1e12, 0.0, 0.0], end_m: [1e12 + 2.0, 0.0, 0.0] }, &[1.0, 1.0001]),
+    ] {
+        let bars = lengths.iter().map(|length_m| bar(*length_m)).collect();
+        let chain = Chain::new("", 9.81, anchors, bars).unwrap();
+        let system = System::from(&chain).refusal();
+        assert_eq!(Problem::new(chain).map(|_| ()), system, "{lengths:?}");
+    }
 }

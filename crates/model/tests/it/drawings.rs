@@ -1,7 +1,7 @@
 //! Structures as they are drawn: places, planes, lengths; and what is no drawing.
 
 use model::Bar;
-use model::system::{Joint, Member, Support, System, SystemError, SystemRefusal};
+use model::system::{Joint, Member, Refusal, Support, System, SystemError};
 use model::system_file::{Described, parse, write_network};
 
 /// A braced square, a bar between its two tops hanging in the middle of two.
@@ -122,7 +122,7 @@ fn chord(braced: bool) -> System {
 fn straight_chords_are_refused_only_where_nothing_else_holds_them() {
     assert_eq!(chord(true).refusal(), Ok(()));
     // A post that stands on the middle holds nothing.
-    assert!(matches!(chord(false).refusal(), Err(SystemRefusal::Taut { .. })));
+    assert!(matches!(chord(false).refusal(), Err(Refusal::Taut { .. })));
     // A cable from 1 m above the middle holds it where it is no longer than that; one that is slack there does not.
     let beside = |third: Member| {
         let mut joints = chord(false).joints().to_vec();
@@ -136,7 +136,7 @@ fn straight_chords_are_refused_only_where_nothing_else_holds_them() {
     for cable in [long(1.001), long(3.0)] {
         let stretched = Member::cable(3, 2, cable).with_stiffness(1e4);
         for member in [Member::cable(2, 3, cable), stretched] {
-            assert!(matches!(beside(member), Err(SystemRefusal::Taut { .. })));
+            assert!(matches!(beside(member), Err(Refusal::Taut { .. })));
         }
     }
     assert_eq!(beside(Member::cable(2, 3, long(0.999)).with_stiffness(1e4)), Ok(()));
@@ -156,5 +156,5 @@ fn straight_chords_are_refused_only_where_nothing_else_holds_them() {
         System::new("folded", 10.0, joints, members).unwrap()
     };
     assert_eq!(with_long(true).refusal(), Ok(()));
-    assert!(matches!(with_long(false).refusal(), Err(SystemRefusal::Folded { .. })));
+    assert!(matches!(with_long(false).refusal(), Err(Refusal::Folded { .. })));
 }

@@ -115,27 +115,28 @@ fn errors_about_bars_in_a_file_stand_where_they_belong() {
         (
             "mass_kg,length_m\n1,0.5\n1,3.5\n1,0.5\n",
             format!(
-                "{csv}:3:1: bar 2 is 3.5 m long, longer than the other bars (1 m) and the span \
-                 (2 m) together: the chain cannot close"
+                "{csv}:3:1: member 2 from \"1\" to \"2\" is 3.5 m long, and the rest of a loop through it \
+                 (1, 0, 3, 2) only 3 m: the loop cannot close, 0.5 m are missing"
             ),
         ),
         (
             "length_m,mass_kg\n1,0\n2,0\n",
             format!(
-                "{toml}:1:13: bars_file: no bar has mass: without weight every position is an equilibrium"
+                "{toml}:1:13: bars_file: no mass and no force act on the system: without load every \
+                 position is an equilibrium"
             ),
         ),
         (
             "length_m,mass_kg\n0.5,1\n0.5,1\n",
             format!(
-                "{toml}:4:9: anchors.end_m: the anchors are 2 m apart and the bars reach only 1 m: 1 m are \
-                 missing"
+                "{toml}:4:9: anchors.end_m: the anchors \"0\" and \"2\" are 2 m apart and the members between \
+                 them reach only 1 m: 1 m are missing"
             ),
         ),
         (
             "length_m,mass_kg\n1e-300,1\n",
             format!(
-                "{toml}:1:13: bars_file: the total length of this chain, 1e-300 in SI units, is too small for \
+                "{toml}:1:13: bars_file: the total length of this system, 1e-300 in SI units, is too small for \
                  double precision (least: 1.0020841800044864e-292)"
             ),
         ),
@@ -175,7 +176,10 @@ fn a_reader_of_another_kind_is_asked_first() {
     assert_eq!(error.to_string(), format!("{shown}:1:13: bars_file: row 7 is bad"));
 
     let error = by(&of([9.0, 1.0])).unwrap_err();
-    assert!(error.to_string().contains("bars.table: row 1: bar 1 is 9 m long"), "{error}");
+    assert!(
+        error.to_string().contains("bars.table: row 1: member 1 from \"0\" to \"1\" is 9 m long"),
+        "{error}"
+    );
     assert_eq!(error.line(), Some("bars_file = \"bars.table\""));
 
     // A file that it does not know is read as columns.

@@ -1,7 +1,7 @@
 //! Ropes over rings and pulleys: read, written, and refused where they are none.
 
 use model::Bar;
-use model::system::{Joint, Kind, Member, PointLoad, Support, System, SystemError, SystemRefusal};
+use model::system::{Joint, Kind, Member, PointLoad, Refusal, Support, System, SystemError};
 use model::system_file::{Described, parse, write_network};
 
 /// A ring on a rope between two anchors, with more keys of the rope.
@@ -112,12 +112,12 @@ fn ropes_that_do_not_reach_past_their_pulleys_are_refused() {
     assert_eq!(over_pulleys(7.5).refusal(), Ok(()));
     for (length_m, words) in [(6.8, "0.2 m are missing"), (7.0, "straight and taut")] {
         let refused = over_pulleys(length_m).refusal().unwrap_err();
-        let SystemRefusal::ShortRope { member, way_m, .. } = refused else { panic!("{refused}") };
+        let Refusal::ShortRope { member, way_m, .. } = refused else { panic!("{refused}") };
         assert!(member == 1 && (way_m - 7.0).abs() < 1e-14);
         assert!(refused.to_string().contains(words), "{refused}");
     }
     // The ends alone are too far apart.
-    assert!(matches!(over_pulleys(6.0).refusal(), Err(SystemRefusal::OutOfReach { .. })));
+    assert!(matches!(over_pulleys(6.0).refusal(), Err(Refusal::OutOfReach { .. })));
 }
 
 /// Two joints on these supports as one.

@@ -183,12 +183,12 @@ fn numbers_out_of_range() {
     }
     check(
         &barred("[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, nan, -2]"),
-        "f:3:13: anchors.end_m[2]: the coordinates of an anchor must be finite, got NaN m",
+        "f:3:13: anchors.end_m[2]: the coordinates of joint \"3\" must be finite, got NaN m",
         "nan",
     );
     check(
         &barred("[anchors]\nstart_m = [-1.7e308, 0, 0]\nend_m = [1.7e308, 0, 0]"),
-        "f:3:9: anchors.end_m: the span of this chain is larger than a double can hold",
+        "f:3:9: anchors.end_m: the span of this system is above 1e150: its square is more than a double can hold",
         "[1.7e308, 0, 0]",
     );
 }
@@ -269,7 +269,7 @@ fn keys_given_twice_name_the_first() {
 fn bars_in_other_shapes() {
     check(
         "bars = []\n[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2]\n",
-        "f:1:8: bars: a chain needs at least one bar",
+        "f:1:8: bars: a system needs at least one member",
         "[]",
     );
     check(
@@ -335,7 +335,7 @@ fn values_of_stranger_types() {
     );
     check(
         &anchored("[[bars]]\nlength_m = 1e-300\nmass_kg = 1\ncount = 3\n"),
-        "f:4:1: bars: the total length of this chain, 3e-300 in SI units, is too small for double precision \
+        "f:4:1: bars: the total length of this system, 3e-300 in SI units, is too small for double precision \
          (least: 1.0020841800044864e-292)",
         "[[bars]]",
     );

@@ -391,8 +391,8 @@ def solve(
 
     Raises
     ------
-    ShapeError, BarError, ChainError : numbers out of range
-    Refused : no equilibrium problem: OutOfReach, Taut, BarTooLong, Folded, SingleBar, NoLoad, ...
+    ShapeError, BarError, SystemError : numbers out of range
+    Refused : no equilibrium problem: OutOfReach, Taut, BarTooLong, Folded, NothingMoves, NoLoad, ...
     Unsolved : no solver that was asked has an answer; ``failures`` says why
 
     Examples

@@ -20,7 +20,6 @@ __all__ = [
     "AnswerError",
     "BarError",
     "BarTooLong",
-    "ChainError",
     "ChainsOnly",
     "ClusterError",
     "Error",
@@ -39,7 +38,6 @@ __all__ = [
     "Refused",
     "SettingError",
     "ShapeError",
-    "SingleBar",
     "StoreError",
     "SweepError",
     "SystemError",
@@ -121,17 +119,8 @@ class BarError(InputError):
     moment_kg_m2: float
 
 
-class ChainError(InputError):
-    """A number of a chain is out of range, or a total overflows or vanishes."""
-
-    gravity_m_s2: float
-    coordinate_m: float
-    quantity: str
-    total: float
-
-
 class SystemError(InputError):
-    """A number of a system is out of range, or a member names a joint that is not there."""
+    """A number of a system is out of range, a total overflows or vanishes, or a member names a joint that is not there."""
 
     name: str
     joint: int
@@ -140,6 +129,9 @@ class SystemError(InputError):
     mass_kg: float
     coordinate_m: float
     component_n: float
+    gravity_m_s2: float
+    quantity: str
+    total: float
 
 
 class FileError(InputError):
@@ -209,29 +201,25 @@ class Taut(Refused):
     to_joint: str
 
 
-class SingleBar(Refused):
-    """A single bar between two anchors cannot move, and the force along it is indeterminate."""
-
-    length_m: float
-    span_m: float
-
-
 class BarTooLong(Refused):
-    """A bar is longer than the rest of the loop through it: the loop cannot close."""
+    """A bar is longer than the rest of a loop through it (``way``, names of joints): the loop cannot close."""
 
     bar: int
     length_m: float
     rest_m: float
-    span_m: float
+    from_joint: str
+    to_joint: str
+    way: list[str]
 
 
 class Folded(Refused):
-    """A bar is just as long as the rest of the loop through it: it closes on one line only."""
+    """A bar is just as long as the rest of a loop through it: it closes on one line only."""
 
     bar: int
     length_m: float
-    rest_m: float
-    span_m: float
+    from_joint: str
+    to_joint: str
+    way: list[str]
 
 
 class Unresolved(Refused):

@@ -61,7 +61,7 @@ class System:
 
     Raises
     ------
-    ShapeError, BarError, ChainError : numbers out of range
+    ShapeError, BarError, SystemError : numbers out of range
     Refused : no equilibrium problem (OutOfReach, Taut, BarTooLong, ...), with the numbers as attributes
 
     Examples
@@ -73,7 +73,7 @@ class System:
     >>> fn.System(lengths=[1, 1], masses=[1, 1], end=(3, 0, 0))
     Traceback (most recent call last):
     ...
-    funicular.errors.OutOfReach: the anchors are 3 m apart and the bars reach only 2 m: 1 m are missing
+    funicular.errors.OutOfReach: the anchors "0" and "2" are 3 m apart and the members between them reach only 2 m: 1 m are missing
     """
 
     _problem: _native.Problem

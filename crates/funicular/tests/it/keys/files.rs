@@ -107,7 +107,10 @@ fn several_files() {
     let rest = rest.join("\n");
     let mut output = Output::lines("solve of several files, refused", "several_files", &rest);
     output.is("file", json!(["falls.toml", "far.toml"]));
-    output.says("error", &["moves on without end", "4 m apart and the bars reach only 2 m"]);
+    output.says(
+        "error",
+        &["moves on without end", "4 m apart and the members between them reach only 2 m"],
+    );
     output.is("help", "move the anchors together or lengthen the bars");
     output.done();
 }
