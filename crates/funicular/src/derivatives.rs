@@ -4,14 +4,14 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use branches::{BarField, JointField, Number, Which};
-use lagrange::network::{self, Gradient, Settings};
+use lagrange::network::{self, Gradient};
 use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
 use crate::csv::quoted;
-use crate::equilibria::next_to;
+use crate::equilibria::resting;
 use crate::error::Error;
 use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
@@ -151,10 +151,7 @@ impl Derivatives {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();
         system.refusal()?;
-        let solution = match system.drawing() {
-            Some(drawing_m) => next_to(&system, &drawing_m)?,
-            None => network::solve(&system, &Settings::default())?,
-        };
+        let solution = resting(&system)?;
         Ok(DerivativesAnswer { system, solution })
     }
 }

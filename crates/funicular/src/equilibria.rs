@@ -3,7 +3,6 @@
 use census::Settings;
 use census::network::SystemCensus;
 use lagrange::network::{self, Seed};
-use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 use validate::systems::{ask_with, quick_census};
@@ -42,27 +41,22 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     Ok(Equilibria { list, complete: false })
 }
 
-/// The equilibrium of `lagrange` next to a drawing, where both solvers agree on one: the one that `solve` shows. Else
-/// what `lagrange` finds by itself.
-pub(crate) fn next_to(
-    system: &System,
-    drawing_m: &[Vector],
-) -> Result<network::Solution, network::Error> {
+/// The equilibrium that `solve` shows, the lowest or the one next to the drawing, where both solvers agree on it, with the
+/// equations of `lagrange` there. Else what `lagrange` finds by itself.
+pub(crate) fn resting(system: &System) -> Result<network::Solution, network::Error> {
     let settings = network::Settings::default();
-    let alone = || network::solve_from(system, &Seed::at(drawing_m.to_vec()), &settings);
-    // Without loads the drawing may be all that there is.
-    if system.is_unloaded() {
-        return alone();
-    }
     let question = Question { census: UseCensus::Never, ..Question::default() };
     let answer = ask_with(system, &question, &|_| {});
     match answer.equilibria.into_iter().next() {
         Some(found) if answer.agreement.is_some_and(|agreement| agreement.agrees()) => {
             let SystemEquilibrium { joints_m, axial_n, .. } = found;
             let seed = Seed { axial_n: Some(axial_n), ..Seed::at_rest(joints_m) };
-            network::solve_from(system, &seed, &settings).or_else(|_| alone())
+            network::solve_from(system, &seed, &settings)
         }
-        _ => alone(),
+        _ => match system.drawing() {
+            Some(drawing_m) => network::solve_from(system, &Seed::at(drawing_m), &settings),
+            None => network::solve(system, &settings),
+        },
     }
 }
 

@@ -74,7 +74,10 @@ pub(crate) fn settle(
     let refused = |refusal: Refusal| Unsettled {
         outcome: match refusal {
             Refusal::Unconnected { .. } | Refusal::Falls { .. } => Outcome::Falls,
-            Refusal::NothingMoves | Refusal::NoLoad | Refusal::LoadOnAnchors => Outcome::NoLoad,
+            Refusal::NothingMoves
+            | Refusal::NoLoad
+            | Refusal::LoadOnAnchors
+            | Refusal::LoadsCancel => Outcome::NoLoad,
             _ => Outcome::Unknown,
         },
         reason: refusal.to_string(),

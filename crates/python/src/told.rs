@@ -205,7 +205,7 @@ fn refused(refusal: &Refusal) -> Parts {
         Refusal::Unresolved { coordinate_m, rounding_m, margin_m } => {
             ("Unresolved", fields!(coordinate_m, rounding_m, margin_m))
         }
-        Refusal::NoLoad => ("NoLoad", vec![]),
+        Refusal::NoLoad | Refusal::LoadsCancel => ("NoLoad", vec![]),
         Refusal::LoadOnAnchors => ("LoadOnAnchors", vec![]),
         Refusal::OutOfReach { from, to, distance_m, reach_m, .. } => {
             let (span_m, total_length_m) = (*distance_m, *reach_m);

@@ -83,9 +83,13 @@ pub(super) fn smooth<Q: Equations>(
     branches(equations, metric, [a, &before], &mut all)?;
     // A limit exchanges stability; on a side path of a pitchfork the parameter turns where it meets
     // the other one: both halves are alike, and the load does not act on the mode.
-    let alike = index[0] == index[1] && load_on_mode <= OFF;
-    let kind = if alike { Kind::Branch } else { Kind::Limit };
-    all.push(Singular { at, kind, index, turns: true, mode, load_on_mode });
+    // Where neither holds the load is the same all along, as what is slack moves, and its turn is rounding.
+    let kind = match (index[0] == index[1], load_on_mode <= OFF) {
+        (true, true) => Some(Kind::Branch),
+        (true, false) => None,
+        (false, _) => Some(Kind::Limit),
+    };
+    all.extend(kind.map(|kind| Singular { at, kind, index, turns: true, mode, load_on_mode }));
     branches(equations, metric, [&after, b], &mut all)?;
     Some(all)
 }

@@ -2,7 +2,7 @@
 
 use branches::Variation;
 use branches::load::{self, NoPath};
-use lagrange::network::{Equations, Settings, Side, solve};
+use lagrange::network::{Equations, Side};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
@@ -10,7 +10,7 @@ use validate::systems::Near;
 
 use super::enclosed::loads_alone;
 use super::load::LoadError;
-use crate::equilibria::next_to;
+use crate::equilibria::resting;
 
 /// Step of the difference for how supports move.
 const GIVEN: f64 = 1e-3;
@@ -54,11 +54,7 @@ impl<'a> Family<'a> {
         });
         equations.set(&system);
         let drawing_m = system.drawing();
-        let found = match &drawing_m {
-            Some(at_m) => next_to(&system, at_m),
-            None => solve(&system, &Settings::default()),
-        };
-        let start = match (found, &drawing_m) {
+        let start = match (resting(&system), &drawing_m) {
             (Ok(found), drawing_m) => {
                 let near = drawing_m.as_ref().map(|m| Near::of(&system, m, &found.equilibrium));
                 if let Some(Near { joint, moved_m, .. }) = near.filter(|near| !near.is_neighbour) {

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use funicular::prelude::*;
-use funicular::{DerivativesError, Outcome};
+use funicular::{DerivativesError, LoadEventKind, Outcome};
 use model::{STANDARD_GRAVITY_M_S2 as G, SolverName};
 use serde_json::{Value, json};
 
@@ -194,4 +194,91 @@ fn solve_looks_a_boom_up_in_its_list() {
         );
         assert!((found.joints_m[2][2] + 1.92).abs() < 1e-9, "{:?}", found.joints_m);
     }
+}
+
+/// A boom with a counterweight over a pulley stands in balance, or hangs lower: what `solve` shows is what derivatives and
+/// load paths are of, and what jams has none.
+#[test]
+fn derivatives_and_paths_are_of_what_solve_shows() {
+    let boom = |pulley: [f64; 3], boom: [f64; 3], counter: [f64; 2]| {
+        let [mass_kg, length_m, at_top_kg] = boom;
+        let [counter_kg, rope_m] = counter;
+        let text = json!({
+            "joints": { "A": { "at_m": [0, 0, 0] }, "K": { "at_m": pulley }, "T": { "mass_kg": at_top_kg },
+                "W": { "mass_kg": counter_kg } },
+            "bars": [{ "from": "A", "to": "T", "length_m": length_m, "mass_kg": mass_kg },
+                { "from": "T", "to": "W", "kind": "cable", "length_m": rope_m, "via": ["K"] }],
+        });
+        edited::problem(&text)
+    };
+    let low = boom([0.734, -0.248, 1.521], [2.75, 1.9182, 10.62], [13.01, 3.5456]);
+    let answer = Solve::new().run(&low).unwrap();
+    assert!(answer.agrees());
+    let z_m = answer.equilibria()[0].joints_m[2][2];
+    assert!((z_m + 1.689_68).abs() < 1e-5, "{z_m}");
+    let found = Derivatives::new().run(&low).unwrap();
+    assert!((found.equilibrium().joints_m[2][2] - z_m).abs() < 1e-9);
+    let trace = Trace::new().vary("loads=1..1.01").unwrap().run(&low).unwrap();
+    let first = &trace.load_paths().unwrap().paths()[0].points[0];
+    assert!((first.joints_m[2][2] - z_m).abs() < 1e-9 && trace.checks_agree());
+}
+
+/// Cables and ropes alone have a convex energy: where one goes slack under a load that stays, no direction falls and nothing
+/// branches, whatever rounding makes of pivots that vanish.
+#[test]
+fn no_rope_loses_its_stability() {
+    for (lifted, most) in [
+        (
+            json!({ "C": { "at_m": [0, 0, 0] }, "B": { "at_m": [2, 0, 0] }, "R": { "mass_kg": 1, "force_n": [0, 0, 1] },
+            "S": { "mass_kg": 1 } }),
+            30,
+        ),
+        (
+            json!({ "C": { "at_m": [0, 0, 0] }, "B": { "at_m": [4, 0, 1] }, "R": { "mass_kg": 10, "force_n": [0, 0, 1] } }),
+            90,
+        ),
+    ] {
+        let mut bars =
+            vec![json!({ "from": "C", "to": "B", "kind": "cable", "length_m": 5, "via": ["R"] })];
+        if lifted.get("S").is_some() {
+            bars.push(
+                json!({ "from": "R", "to": "S", "kind": "cable", "length_m": 1, "mass_kg": 0 }),
+            );
+        }
+        let problem = edited::problem(&json!({ "joints": lifted, "bars": bars }));
+        let vary = format!("joints.R.force_n.z=0..{most}");
+        let trace = Trace::new().vary(&vary).unwrap().run(&problem).unwrap();
+        let path = &trace.load_paths().unwrap().paths()[0];
+        assert!(path.points.iter().all(|point| point.index == 0), "{trace}");
+        assert!(path.events.iter().all(|event| event.kind == LoadEventKind::Kink), "{trace}");
+        assert!(trace.checks_agree(), "{trace}");
+    }
+}
+
+/// A support that moves is where energies are counted from.
+#[test]
+fn paths_along_the_first_support_are_confirmed() {
+    let joints =
+        json!({ "A": { "at_m": [0, 0, 0] }, "B": { "at_m": [4, 0, 1] }, "R": { "mass_kg": 10 } });
+    let bars = json!([{ "from": "A", "to": "B", "kind": "cable", "length_m": 5, "via": ["R"] }]);
+    let problem = edited::problem(&json!({ "joints": joints, "bars": bars }));
+    let trace = Trace::new().vary("joints.A.at_m.z=0..-0.2").unwrap().run(&problem).unwrap();
+    assert!(trace.checks_agree(), "{trace}");
+}
+
+/// 2 kg on a ring, beside it a cable that just reaches it: half of the weight is 9.807 N on each side, and -2e-13 N in the cable
+/// are rounding.
+#[test]
+fn a_cable_that_just_reaches_is_no_violation() {
+    let joints = json!({ "A": { "at_m": [0.5, 0, 0.5] }, "B": { "at_m": [0, 0.5, 0.5] }, "R": { "mass_kg": 2 } });
+    let bars = json!([
+        { "from": "B", "to": "R", "kind": "cable", "length_m": 3.5, "mass_kg": 0 },
+        { "from": "B", "to": "A", "kind": "cable", "length_m": 7, "via": ["R"] },
+    ]);
+    let answer =
+        Solve::new().run(&edited::problem(&json!({ "joints": joints, "bars": bars }))).unwrap();
+    assert!(answer.agrees(), "{answer}");
+    // Both strands lean by √(1/8) over 3.5 m.
+    let pull_n = G / (1.0 - 0.125 / 12.25_f64).sqrt();
+    assert!((answer.equilibria()[0].axial_n[1] - pull_n).abs() < 1e-9, "{answer}");
 }

@@ -64,7 +64,8 @@ impl Solver<'_> {
         for kick in 0..ASSEMBLIES {
             let Some(state) = self.fits_at(from, kick) else { continue };
             let Ok(other) = self.with_signs(state, Patience::Full) else { continue };
-            let [lower, known] = [&other, &run].map(|run| run.state.energy(&self.framework));
+            let [lower, known] =
+                [&other, &run].map(|run| run.state.energy(&self.framework, &Vector3::zeros()));
             if lower < known - LESS * known.abs().max(1.0) {
                 run = other;
             }

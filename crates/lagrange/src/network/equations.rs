@@ -210,14 +210,18 @@ impl Equations {
     }
 
     /// Factorise $J$ at these unknowns, with springs of a large stiffness in the place of lengths:
-    /// the number of directions in which the energy falls, by the signs of its pivots. Nothing where
+    /// the number of directions in which the energy falls, by the signs of its pivots. Where no member
+    /// pushes the energy is convex, and there are none, whatever rounding leaves of pivots that vanish. Nothing where
     /// the factor is not finite.
     pub fn factorise(&mut self, y: &[f64]) -> Option<usize> {
         let state = self.state(y);
         let residual = Residual::new(&self.framework, &state);
         self.derivative =
             Derivative::elastic(&self.framework, &mut self.stiffness, &state, &residual);
-        self.derivative.as_ref().map(|_| self.stiffness.negative_pivots())
+        let pushes = (self.framework.links.iter().zip(&state.axial).zip(&state.taut))
+            .any(|((link, axial), taut)| *taut && link.kind != Kind::Cable && *axial < 0.0);
+        let index = if pushes { self.stiffness.negative_pivots() } else { 0 };
+        self.derivative.as_ref().map(|_| index)
     }
 
     /// The solution of $J y = r$ by the last factor: exact for elastic members, a preconditioner

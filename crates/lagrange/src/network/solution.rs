@@ -295,7 +295,9 @@ impl Answer<'_> {
     pub fn equilibrium(self, stability: SystemStability, evidence: Evidence) -> SystemEquilibrium {
         let Self { system, framework, mut state, directions, left } = self;
         let units = framework.units;
-        let energy_j = state.energy(framework) * units.force_n * units.length_m;
+        // Units of another system of the same joints have another origin.
+        let from = (Vector3::from(system.reference_m()) - units.origin_m) / units.length_m;
+        let energy_j = state.energy(framework, &from) * units.force_n * units.length_m;
         let members = system.members();
         let (mut start_forces_n, mut end_forces_n) =
             (Vec::with_capacity(members.len()), Vec::with_capacity(members.len()));

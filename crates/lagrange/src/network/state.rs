@@ -62,9 +62,10 @@ impl State {
             .collect()
     }
 
-    /// Potential energy from the origin: loads, and $c N^2/2$ of elastic members.
-    pub fn energy(&self, framework: &Framework) -> f64 {
-        let loads = framework.nodes.iter().zip(&self.places).map(|(n, at)| -n.load.dot(at));
+    /// Potential energy from this place: loads, and $c N^2/2$ of elastic members.
+    pub fn energy(&self, framework: &Framework, from: &Vector3<f64>) -> f64 {
+        let loads = framework.nodes.iter().zip(&self.places);
+        let loads = loads.map(|(node, at)| -node.load.dot(&(at - from)));
         let stored = framework.links[..framework.members()]
             .iter()
             .zip(&self.axial)

@@ -52,6 +52,11 @@ pub enum Refusal {
          every position is an equilibrium"
     )]
     LoadOnAnchors,
+    /// Occurs when the loads at every joint that can move cancel, as weight and buoyancy do, but for the rounding of their sum.
+    #[error(
+        "the loads of every joint that can move cancel but for rounding: every position is an equilibrium"
+    )]
+    LoadsCancel,
     /// Occurs when two anchors are further apart than the members between them reach.
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach only {} m: \
@@ -160,6 +165,9 @@ pub enum Refusal {
     },
 }
 
+/// What rounding leaves of loads that cancel, over their sizes.
+const CANCELS: f64 = 8.0 * f64::EPSILON;
+
 /// Anchors times members up to which all pairs of anchors are held against the members between
 /// them: a tenth of a second. What is not found here the solvers find.
 const PAIRS: usize = 2_000_000;
@@ -208,6 +216,9 @@ impl System {
         if self.is_loaded_on_supports_alone() && !elastic {
             return Err(Refusal::LoadOnAnchors);
         }
+        if self.loads_cancel() && !elastic {
+            return Err(Refusal::LoadsCancel);
+        }
         self.anchors_in_reach(&graph)?;
         self.ropes_reach()?;
         self.loops_close(&graph)
@@ -243,6 +254,37 @@ impl System {
                 on_supports(body.centre_m(), weight(body.mass_kg()))
                     && member.loads.iter().all(|load| on_supports(load.at_m, load.force_n))
             })
+    }
+
+    /// Whether nothing but rounding is left of the loads at the joints that can move, by the lever rule.
+    fn loads_cancel(&self) -> bool {
+        // A sum for each joint, and the sizes of what is summed up.
+        let mut loads = vec![([0.0_f64; 3], 0.0_f64); self.joints().len()];
+        let mut add = |joint: usize, part: f64, load_n: Vector| {
+            let (sum, size) = &mut loads[joint];
+            for (sum, x) in sum.iter_mut().zip(load_n) {
+                *sum += part * x;
+                *size += (part * x).abs();
+            }
+        };
+        let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * self.gravity_m_s2()];
+        for (k, joint) in self.joints().iter().enumerate() {
+            add(k, 1.0, weight(joint.mass_kg));
+            add(k, 1.0, joint.force_n);
+        }
+        for member in self.members() {
+            let body = &member.body;
+            let mut on_member = |at_m: f64, load_n: Vector| {
+                let part = at_m / body.length_m();
+                add(member.from, 1.0 - part, load_n);
+                add(member.to, part, load_n);
+            };
+            on_member(body.centre_m(), weight(body.mass_kg()));
+            member.loads.iter().for_each(|load| on_member(load.at_m, load.force_n));
+        }
+        self.joints().iter().zip(loads).all(|(joint, (sum, size))| {
+            joint.support.is_fixed() || sum.iter().all(|x| x.abs() <= CANCELS * size)
+        })
     }
 
     fn connected(&self, graph: &Graph<'_>) -> Result<(), Refusal> {

@@ -445,6 +445,7 @@ fn refusal_help(refusal: &Refusal) -> &'static str {
             "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"
         }
         Refusal::LoadOnAnchors => "give a load to a joint that can move along it",
+        Refusal::LoadsCancel => "give a load that is not balanced where it acts",
         Refusal::Unresolved { .. } => "put the origin near the system",
         Refusal::OutOfReach { .. } | Refusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"

@@ -294,6 +294,25 @@ fn totals_keep_what_is_small_beside_the_large() {
     assert!((chain.total_length_m() - (1e9 + 1e-3)).abs() <= 1e9 * f64::EPSILON);
 }
 
+/// 10 kg and 98.0665 N upwards, at a joint or by the halves of the bars beside it, leave rounding; a hundred times that is a load.
+#[test]
+fn loads_that_cancel_are_none() {
+    for (bar_kg, joint_kg, up_n, refused) in [
+        (0.0, 10.0, 98.0665, true),
+        (4.0, 6.0, 98.0665, true),
+        (0.0, 10.0, 98.0665 * (1.0 - 1e-13), false),
+        (0.0, 10.0, 98.0, false),
+    ] {
+        let bar = Bar::homogeneous(1.0, bar_kg).unwrap();
+        let lifted = Joint::free("P").with_mass(joint_kg).with_force([0.0, 0.0, up_n]);
+        let ends = [Joint::anchor("A", [0.0; 3]), Joint::anchor("B", [1.0, 0.0, 0.0])];
+        let joints = ends.into_iter().chain([lifted]).collect();
+        let members = vec![Member::bar(0, 2, bar), Member::bar(1, 2, bar)];
+        let system = System::new("", 9.80665, joints, members).unwrap();
+        assert_eq!(system.refusal() == Err(Refusal::LoadsCancel), refused, "{bar_kg} {up_n}");
+    }
+}
+
 /// A chain is refused as the joints and members that it is, to the number; a single bar for that nothing moves.
 #[test]
 fn a_chain_and_its_system_are_refused_alike() {

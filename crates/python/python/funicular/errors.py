@@ -231,7 +231,7 @@ class Unresolved(Refused):
 
 
 class NoLoad(Refused):
-    """Nothing has weight and no force acts: every position is an equilibrium."""
+    """Nothing has weight and no force acts, or all loads cancel where they act: every position is an equilibrium."""
 
 
 class LoadOnAnchors(Refused):

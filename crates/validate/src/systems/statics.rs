@@ -235,7 +235,7 @@ fn member(
         let off = local.part((axial_n - followed).abs(), largest_n);
         found.note(|s| &mut s.derived, off, place);
     }
-    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
+    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local), place, found);
 }
 
 /// A rope over rings and pulleys: at each of its ends it pulls with its tension along its span there. Inside,
@@ -269,7 +269,7 @@ fn rope(
         let excess_n = norm(jam.pull_n) - axial_n;
         found.note(|s| &mut s.law, local.part(excess_n, unit_n), place);
     }
-    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
+    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local), place, found);
 }
 
 /// The law of one member: its length, or its force, or that one of both vanishes.
@@ -278,7 +278,7 @@ fn law(
     distance_m: f64,
     axial_n: f64,
     unit_n: f64,
-    (rounding_m, rounding_n): (f64, f64),
+    (rounding_m, local): (f64, Local),
     place: Place,
     found: &mut SystemStatics,
 ) {
@@ -286,8 +286,13 @@ fn law(
     let longer = beyond(distance_m - length_m, rounding_m) / length_m;
     let shorter = beyond(length_m - distance_m, rounding_m) / length_m;
     let of_force = |violation: f64, rounding: f64| {
-        let excess = beyond(violation, rounding_n + rounding);
+        let excess = beyond(violation, local.rounding_n + rounding);
         if excess <= 0.0 { 0.0 } else { excess / unit_n.max(excess) }
+    };
+    // A force that should vanish has no size of its own: what acts at the ends has.
+    let vanishing = |axial_n: f64| {
+        let excess = beyond(axial_n, local.rounding_n);
+        if excess <= 0.0 { 0.0 } else { excess / unit_n.max(local.most_n / BORNE).max(excess) }
     };
     if let Some(stiffness_n) = member.stiffness_n {
         // From the numbers given, F at the length d, and not from the unstretched length l that the
@@ -312,9 +317,9 @@ fn law(
     };
     // `max` forgets NaN, and the distance has it.
     found.note(|s| &mut s.length, worse(length, 0.0 * distance_m), place);
-    found.note(|s| &mut s.law, of_force(sign, 0.0), place);
+    found.note(|s| &mut s.law, vanishing(sign), place);
     // Of a member that is slack and yet carries a force the smaller of both is wrong.
-    found.note(|s| &mut s.law, slack.min(of_force(axial_n.abs(), 0.0)), place);
+    found.note(|s| &mut s.law, slack.min(vanishing(axial_n.abs())), place);
 }
 
 /// What is left over at every joint.

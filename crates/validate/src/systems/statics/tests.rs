@@ -230,12 +230,17 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
 /// may be off by a quarter of a metre, and its force by half a newton, of 4 N.
 #[test]
 fn the_laws_of_members_are_those_of_their_kinds() {
-    let told = |kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
-        let body = Bar::homogeneous(8.0, 0.0).unwrap();
-        let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
-        let mut found = SystemStatics::NOTHING;
-        law(&member, distance_m, axial_n, 4.0, (0.25, 0.5), Place::Member(1), &mut found);
-        [found.length, found.law]
+    let acting =
+        |acts_n: f64, kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
+            let local = Local { rounding_n: 0.5, most_n: BORNE * acts_n, least_n: 0.0 };
+            let body = Bar::homogeneous(8.0, 0.0).unwrap();
+            let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
+            let mut found = SystemStatics::NOTHING;
+            law(&member, distance_m, axial_n, 4.0, (0.25, local), Place::Member(1), &mut found);
+            [found.length, found.law]
+        };
+    let told = |kind, stiffness_n, distance_m, axial_n| {
+        acting(1.0, kind, stiffness_n, distance_m, axial_n)
     };
     let spring = |kind: Kind, distance_m: f64, axial_n: f64, wanted: f64| {
         let [length, law] = told(kind, Some(16.0), distance_m, axial_n);
@@ -272,6 +277,10 @@ fn the_laws_of_members_are_those_of_their_kinds() {
     rigid(Kind::Strut, 7.0, 3.0, [part, 0.625]);
     rigid(Kind::Strut, 9.0, -3.0, [0.0, part]);
     rigid(Kind::Strut, 13.0, -1.0, [0.0, 0.125]);
+    // What should vanish is measured by what acts at the joints, 20 N, where that is more.
+    close(acting(20.0, Kind::Cable, None, 9.0, -3.0)[1], 2.5 / 20.0);
+    close(acting(20.0, Kind::Strut, None, 9.0, -2.0)[1], 1.5 / 20.0);
+    close(acting(20.0, Kind::Cable, Some(16.0), 7.0, 3.0)[1], 0.5);
 }
 
 /// A has (1, 2, 4) N of the ground and gives (1, 2, 3) N; B has (2, -1, 4) N and its weight of 30 N,
