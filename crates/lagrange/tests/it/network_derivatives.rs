@@ -1,8 +1,11 @@
 //! Derivatives of equilibria against central differences.
 
-use lagrange::network::{Change, Derivatives, Error, Parameter, Settings, Solution, solve};
+use lagrange::network::{
+    Change, Derivatives, Error, Parameter, Seed, Settings, Solution, solve, solve_from,
+};
 use model::Bar;
 use model::system::{Joint, Member, PointLoad, Support, System};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::network::{bar, cable, close};
 
@@ -314,4 +317,41 @@ fn what_is_not_smooth_is_refused() {
     let soft = || vec![bar(0, 1, 2.0, 0.0).with_stiffness(20.0)];
     assert_eq!(refused(weight(), soft(), Some(-3.0)), touches);
     assert_eq!(refused(weight(), soft(), Some(-3.1)), None);
+}
+
+/// Four legs that strain by some 1e-8 under their load: moves by forces are those of the stiffness `Σ EA/l u uᵀ`, whose
+/// relative error from the forces of the legs is of that size.
+#[test]
+fn legs_that_are_stiff_for_their_load() {
+    let feet = [
+        [1.3374, -0.1462, 0.0383],
+        [-0.0948, 1.0016, -0.0656],
+        [-1.1738, 0.404, 0.0873],
+        [0.323, -1.334, -0.0584],
+    ];
+    let stiffnesses_n = [68_788_943.0, 97_671_300.0, 163_533_960.0, 18_747_626.0];
+    let apex = Vector3::new(0.0, 0.0, 1.0037);
+    let mut joints: Vec<Joint> =
+        (feet.iter().enumerate()).map(|(k, foot)| Joint::anchor(format!("A{k}"), *foot)).collect();
+    joints.push(Joint::free("P").with_force([0.088, -0.047, -1.386]));
+    let mut stiffness = Matrix3::zeros();
+    let mut members = vec![];
+    for (k, (foot, ea_n)) in feet.iter().zip(stiffnesses_n).enumerate() {
+        let leg = apex - Vector3::from(*foot);
+        members.push(bar(k, 4, leg.norm(), 0.0).with_stiffness(ea_n));
+        stiffness += leg * leg.transpose() * (ea_n / leg.norm().powi(3));
+    }
+    let system = System::new("legs", 9.80665, joints, members).unwrap();
+    let solution =
+        solve_from(&system, &Seed::at([&feet[..], &[apex.into()]].concat()), &Settings::default())
+            .unwrap();
+    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+    let moves = stiffness.try_inverse().unwrap();
+    for axis in 0..3 {
+        let change = derivatives.change(Parameter::Force { joint: 4, axis }).unwrap();
+        let told = Vector3::from(change.joints_m[4]);
+        assert!((told - moves.column(axis)).norm() < 1e-6 * moves.norm(), "{told} {moves}");
+        let change = derivatives.change(Parameter::Length { member: axis });
+        assert!(change.is_ok(), "{change:?}");
+    }
 }
