@@ -282,3 +282,22 @@ fn a_cable_that_just_reaches_is_no_violation() {
     let pull_n = G / (1.0 - 0.125 / 12.25_f64).sqrt();
     assert!((answer.equilibria()[0].axial_n[1] - pull_n).abs() < 1e-9, "{answer}");
 }
+
+/// A ring beside a pulley, 9 cm from it, and rings that jam elsewhere than one solver looked first: each solver is asked again
+/// next to what the other has found.
+#[test]
+fn a_jam_that_one_solver_alone_sees_is_looked_at_again() {
+    let joints = json!({ "A": { "at_m": [0, 0, 0] }, "C": { "at_m": [0.15, 0, -1.9] }, "P": { "mass_kg": 2 },
+        "W": { "mass_kg": 6 } });
+    let bars = json!([
+        { "from": "A", "to": "P", "kind": "cable", "length_m": 2, "mass_kg": 0 },
+        { "from": "C", "via": ["P"], "to": "W", "kind": "cable", "length_m": 4 },
+    ]);
+    let answer =
+        Solve::new().run(&edited::problem(&json!({ "joints": joints, "bars": bars }))).unwrap();
+    assert!(answer.agrees(), "{answer}");
+    let [_, c, p, w] = answer.equilibria()[0].joints_m[..] else { panic!("four joints") };
+    // The rope keeps its length, W hangs below the ring.
+    let span_m = ((c[0] - p[0]).powi(2) + (c[2] - p[2]).powi(2)).sqrt();
+    assert!((span_m + p[2] - w[2] - 4.0).abs() < 1e-12 && span_m > 0.09, "{span_m}");
+}

@@ -89,6 +89,7 @@ impl SystemFailure {
                 Lagrange::NotConverged { .. }
                     | Lagrange::Unstable { .. }
                     | Lagrange::Escapes { .. }
+                    | Lagrange::Jammed { .. }
             ),
             Self::Energy(error) => matches!(
                 error,
@@ -98,6 +99,7 @@ impl SystemFailure {
                     | Energy::Stalled { .. }
                     | Energy::NoMinimum { .. }
                     | Energy::NoMinimumNear { .. }
+                    | Energy::Jammed { .. }
             ),
             Self::Full(_) => false,
         }
