@@ -56,7 +56,9 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
             agreement.verdict
         );
-        let turning = match agreement.turned_parts {
+        // What lies on its vertical turns without a move.
+        let neutral = equilibria.first().map_or(0, |first| first.stability.neutral);
+        let turning = match agreement.turned_parts.min(neutral) {
             0 => None,
             1 => Some(
                 "One part turns freely about a vertical: each turn of it is an equilibrium."
