@@ -142,9 +142,9 @@ pub enum MotionError {
     },
     /// Occurs when the constraints of a step are not met to rounding: the step is too long.
     #[error(
-        "at t = {time_s} s a step of {step_s} s does not meet the lengths (off by {off} after \
+        "at t = {} s a step of {} s does not meet the lengths (off by {} after \
          {iterations} corrections): take a shorter step",
-        off = Brief(*off)
+        Brief(*time_s), Brief(step_s.abs()), Brief(*off)
     )]
     StepTooLong {
         /// Time at the beginning of the step.
@@ -159,8 +159,9 @@ pub enum MotionError {
     /// Occurs when a step is far too long for the oscillations of the elastic members: it would be
     /// taken in more than ten thousand parts.
     #[error(
-        "a step of {step_s} s is too long for the oscillations of the elastic members, which allow \
-         {longest_s:.1e} s: take steps of at most {most_s:.1e} s, or less stiff members"
+        "a step of {} s is too long for the oscillations of the elastic members, which allow \
+         {} s: take steps of at most {} s, or less stiff members",
+        Brief(*step_s), Brief(*longest_s), Brief(*most_s)
     )]
     Stiff {
         /// The step.
@@ -172,7 +173,8 @@ pub enum MotionError {
     },
     /// Occurs when speeds overflow: a force is too large for what it moves.
     #[error(
-        "at t = {time_s} s a step of {step_s} s leads to speeds beyond all numbers: are forces and masses right?"
+        "at t = {} s a step of {} s leads to speeds beyond all numbers: are forces and masses right?",
+        Brief(*time_s), Brief(step_s.abs())
     )]
     Overflow {
         /// Time at the beginning of the step.
