@@ -46,31 +46,34 @@ impl Problem {
         let distance_m = chain.anchors().span_m();
         let reach_m = chain.total_length_m();
         let joint = bars.len();
-        let (from, to) = ("0".to_owned(), joint.to_string());
+        let named = |from: usize, to: usize| (from.to_string(), to.to_string());
         match margin(&chain, reach_m, reach_m - distance_m)? {
             Margin::Negative => {
+                let (from, to) = named(0, joint);
                 return Err(Refusal::OutOfReach { from, to, joint, distance_m, reach_m });
             }
             Margin::Zero if joint == 1 => return Err(Refusal::NothingMoves),
-            Margin::Zero => return Err(Refusal::Taut { from, to, joint, distance_m, reach_m }),
+            Margin::Zero => {
+                let (from, to) = named(0, joint);
+                return Err(Refusal::Taut { from, to, joint, distance_m, reach_m });
+            }
             Margin::Positive => {}
         }
         let (k, length_m) = longest(bars);
         let others = bars.iter().enumerate().filter(|(other, _)| *other != k);
         let rest_m = crate::sum(others.map(|(_, other)| other.length_m()).chain([distance_m]));
-        let (member, from, to) = (k + 1, k.to_string(), (k + 1).to_string());
-        // The loop over the anchors, the other way round.
-        let way = || {
-            let joints = (0..=k).rev().chain((k + 1..=joint).rev());
-            shortened(joints.map(|joint| joint.to_string()).collect())
-        };
-        match margin(&chain, reach_m, rest_m - length_m)? {
-            Margin::Negative => {
-                Err(Refusal::TooLong { member, from, to, length_m, rest_m, way: way() })
-            }
-            Margin::Zero => Err(Refusal::Folded { member, from, to, length_m, way: way() }),
-            Margin::Positive => Ok(Self(chain)),
+        let found = margin(&chain, reach_m, rest_m - length_m)?;
+        if matches!(found, Margin::Positive) {
+            return Ok(Self(chain));
         }
+        let ((from, to), member) = (named(k, k + 1), k + 1);
+        // The loop over the anchors, the other way round.
+        let joints = (0..=k).rev().chain((k + 1..=joint).rev());
+        let way = shortened(joints.map(|joint| joint.to_string()).collect());
+        Err(match found {
+            Margin::Negative => Refusal::TooLong { member, from, to, length_m, rest_m, way },
+            _ => Refusal::Folded { member, from, to, length_m, way },
+        })
     }
 
     /// The chain.
