@@ -220,8 +220,8 @@ impl Shape<'_> {
         let places = self.places();
         let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", |x| places.short(x));
         let mut text = format!("Lowest joint: {}, at {at}.\n", (self.name)(extremes.lowest_joint));
-        // Writing to a String cannot fail.
-        if let Some(Sag { depth_m, joint, ends }) = extremes.sag {
+        // Writing to a String cannot fail. What stands above all lines does not sag.
+        if let Some(Sag { depth_m, joint, ends }) = extremes.sag.filter(|sag| sag.depth_m >= 0.0) {
             let [from, to] = ends.map(|end| (self.name)(end));
             let below = if from == to {
                 format!("the lowest support, {from}")
