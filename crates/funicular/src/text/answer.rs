@@ -177,8 +177,16 @@ fn question(solution: &SolveAnswer) -> String {
         None if proved => "; it is the lowest of all (proved)".to_owned(),
         None => String::new(),
     };
-    wrapped(&format!("{found}{lower}."), 0) + "\n" + &again(solution.asked_again())
+    // As past a limit load.
+    let way = match near.moved > FAR {
+        true => " The way there: funicular trace --vary loads=0.01..1",
+        false => "",
+    };
+    wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
+
+/// A joint that has moved by more than this part of the shortest member there is far from where it was drawn.
+const FAR: f64 = 0.25;
 
 /// What is said of the forces besides the rungs, with a mark and of what.
 fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
