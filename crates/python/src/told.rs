@@ -252,7 +252,7 @@ fn simulate(error: &SimulateError) -> Parts {
     let fields = match error {
         SimulateError::Time { what, value_s } => fields!(what, value_s),
         SimulateError::Steps { steps } => fields!(steps),
-        SimulateError::NoSuchJoint { name } => fields!(name),
+        SimulateError::NoSuchJoint { name } | SimulateError::PushedAnchor { name } => fields!(name),
         SimulateError::NoSuchEquilibrium { label, labels } => fields!(label, labels),
         SimulateError::AngleCount { given, bars } => fields!(given, bars),
         SimulateError::Angles { off, bar, joint } => fields!(off, bar, joint),

@@ -37,22 +37,22 @@ pub struct Simulate {
           value_parser = from)]
     pub from: From,
     /// How long, s; with --seeds the longest time until rest
-    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, allow_negative_numbers = true)]
     pub time: f64,
     /// Length of a step, s; taken in parts where elastic members need shorter ones
-    #[arg(long, value_name = "S", default_value_t = 1e-3)]
+    #[arg(long, value_name = "S", default_value_t = 1e-3, allow_negative_numbers = true)]
     pub step: f64,
     /// Time between stored times, s; a thousandth of the whole if not given
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub store: Option<f64>,
     /// Order in the step: 2, or 4 for five times and 8 for seventeen times the work
     #[arg(long, value_name = "P", default_value = "2", value_parser = order)]
     pub order: Order,
     /// Drag of a medium, 1/s: momentum falls at this rate
-    #[arg(long, value_name = "C", default_value_t = 0.0)]
+    #[arg(long, value_name = "C", default_value_t = 0.0, allow_negative_numbers = true)]
     pub damping: f64,
     /// Friction in the joints, N m s
-    #[arg(long, value_name = "K", default_value_t = 0.0)]
+    #[arg(long, value_name = "K", default_value_t = 0.0, allow_negative_numbers = true)]
     pub friction: f64,
     /// Push a joint at the beginning: JOINT=X,Y,Z with the impulse in N s; joints of a chain are
     /// called 0, 1, 2 ... May be given several times

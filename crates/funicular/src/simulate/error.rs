@@ -34,6 +34,12 @@ pub enum SimulateError {
         /// The name as given.
         name: String,
     },
+    /// Occurs when a joint that is to be pushed is held.
+    #[error("joint {name:?} is an anchor: a push does not move it")]
+    PushedAnchor {
+        /// The name.
+        name: String,
+    },
     /// Occurs when there is no equilibrium of this number.
     #[error("there is no equilibrium {label:?}; there are {}", labels.join(", "))]
     NoSuchEquilibrium {

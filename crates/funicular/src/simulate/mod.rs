@@ -242,6 +242,9 @@ impl Simulate {
         let mut impulses = vec![[0.0; 3]; system.joints().len()];
         for (name, impulse) in &self.pushes {
             let joint = joint(system, name)?;
+            if system.joints()[joint].support.is_fixed() {
+                return Err(SimulateError::PushedAnchor { name: name.clone() }.into());
+            }
             for k in 0..3 {
                 impulses[joint][k] += impulse[k];
             }

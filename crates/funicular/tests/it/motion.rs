@@ -181,6 +181,8 @@ fn simulate_refuses_what_it_cannot_do_and_says_why() {
         (vec!["--from", "nowhere"], "equilibrium:2"),
         (vec!["--push", "P=0,0,1"], "there is no joint \"P\""),
         (vec!["--push", "1=0,0"], "JOINT=X,Y,Z"),
+        (vec!["--push", "0=0,0,1"], "is an anchor: a push does not move it"),
+        (vec!["--time", "-1"], "must be positive"),
         (vec!["--time", "0"], "must be positive"),
         (vec!["--damping=-1"], "zero or positive"),
         (vec!["--out", "motion.txt"], ".csv, .parquet or .pvd"),
