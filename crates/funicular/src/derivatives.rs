@@ -146,7 +146,7 @@ impl Derivatives {
     ///
     /// # Errors
     ///
-    /// [`Error::Refused`] when there is none, [`Error::Network`] when it is not found.
+    /// [`Error::Refused`] when there is none, [`Error::Lagrange`] when it is not found.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();
@@ -173,7 +173,7 @@ impl DerivativesAnswer {
     ///
     /// # Errors
     ///
-    /// [`Error::Network`] where the equilibrium has no derivatives: it is degenerate, or an anchor
+    /// [`Error::Lagrange`] where the equilibrium has no derivatives: it is degenerate, or an anchor
     /// cannot move alone.
     pub fn anchor_stiffness(&self) -> Result<Vec<AnchorStiffness>, Error> {
         let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
@@ -211,7 +211,7 @@ impl DerivativesAnswer {
     /// # Errors
     ///
     /// [`Error::Derivatives`] when the text names no such number, [`Error::Parameter`] when the
-    /// joint is not there, [`Error::Network`] where there are no derivatives.
+    /// joint is not there, [`Error::Lagrange`] where there are no derivatives.
     pub fn gradient(&self, of: &str) -> Result<NumberGradient, Error> {
         let found = &self.solution.equilibrium;
         let mut by_joints = vec![[0.0; 3]; self.system.joints().len()];
@@ -235,7 +235,7 @@ impl DerivativesAnswer {
     ///
     /// # Errors
     ///
-    /// [`Error::Network`] where the equilibrium has no derivatives.
+    /// [`Error::Lagrange`] where the equilibrium has no derivatives.
     ///
     /// # Panics
     ///
@@ -291,7 +291,7 @@ impl DerivativesAnswer {
     /// # Errors
     ///
     /// [`Error::Parameter`] when the system has no such number, [`Error::Derivatives`] when there
-    /// are no derivatives by it, [`Error::Network`] where the equilibrium has none.
+    /// are no derivatives by it, [`Error::Lagrange`] where the equilibrium has none.
     pub fn change(&self, by: &str) -> Result<ParameterChange, Error> {
         let (number, parameter, scale) = self.parameter(by)?;
         let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;

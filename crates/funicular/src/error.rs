@@ -78,12 +78,9 @@ pub enum Error {
     /// Occurs when the tolerance of an answer from elsewhere is out of range.
     #[error(transparent)]
     Tolerance(#[from] validate::foreign::ToleranceError),
-    /// Occurs when `lagrange`, asked alone, has no answer.
+    /// Occurs when `lagrange`, asked alone, has no answer, or no derivatives of it.
     #[error(transparent)]
-    Lagrange(#[from] lagrange::SolveError),
-    /// Occurs when `lagrange`, asked alone for the condensed system, has no answer.
-    #[error(transparent)]
-    Condensed(#[from] lagrange::condensed::CondensedError),
+    Lagrange(#[from] lagrange::Error),
     /// Occurs when `energy`, asked alone, has no answer.
     #[error(transparent)]
     Energy(#[from] energy::Error),
@@ -157,9 +154,6 @@ pub enum Error {
     #[cfg(feature = "branches")]
     #[error(transparent)]
     Derivatives(#[from] crate::derivatives::DerivativesError),
-    /// Occurs when `lagrange`, asked alone for a system, has no answer or no derivatives of it.
-    #[error(transparent)]
-    Network(#[from] lagrange::network::Error),
     /// Occurs when no equilibrium can be followed.
     #[cfg(feature = "branches")]
     #[error(transparent)]

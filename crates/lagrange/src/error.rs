@@ -1,6 +1,7 @@
 //! What can go wrong in a solve.
 
 use model::number::Brief;
+use model::system::Misfit;
 use serde::Serialize;
 
 use crate::settings::SettingsError;
@@ -8,33 +9,35 @@ use crate::settings::SettingsError;
 /// Why no equilibrium was returned. `Ok` always means converged.
 ///
 /// ```
-/// use lagrange::{Seed, Settings, SolveError, solve_from};
+/// use lagrange::{Error, Seed, Settings, solve_from};
 /// let four = Seed::planar(&[0.0; 4]);
 /// let error = solve_from(&model::cases::paper(), &four, &Settings::default()).unwrap_err();
-/// assert_eq!(error, SolveError::SeedLength { expected: 3, got: 4 });
+/// assert_eq!(error, Error::SeedLength { of: "bars", expected: 3, got: 4 });
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum SolveError {
+pub enum Error {
     /// Occurs when a setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
-    /// Occurs when the seed has not three angles for each bar.
-    #[error("the seed holds the angles of {got} bars, the chain has {expected}")]
+    /// Occurs when the seed has not one place for each joint, not one force for each member, or not three angles for each bar.
+    #[error("the seed holds {got} {of}, the system has {expected}")]
     SeedLength {
-        /// Bars of the chain.
+        /// `joints`, `members`, or `bars`.
+        of: &'static str,
+        /// Those of the system.
         expected: usize,
-        /// Bars of the seed.
+        /// Those of the seed.
         got: usize,
     },
-    /// Occurs when an angle of the seed is infinite or not a number.
-    #[error("the seed of bar {bar} has an angle of {angle_rad} rad")]
+    /// Occurs when a place, a force or an angle of the seed is infinite or not a number.
+    #[error("the seed is not finite at {of} {number}")]
     SeedNotFinite {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// The angle as given.
-        angle_rad: f64,
+        /// `joint`, `member`, or `bar`.
+        of: &'static str,
+        /// Its number, from 1.
+        number: usize,
     },
     /// Occurs when every run of Newton's method stopped at a local minimum of the residual that is
     /// no root, or ran out of steps.
@@ -66,18 +69,240 @@ pub enum SolveError {
         /// The moment that the equations do not see.
         moment: f64,
     },
-    /// Occurs when every equilibrium that was found is unstable, though a stable one was asked for.
-    #[error("only unstable equilibria found: {found} of them, the last of index {index}")]
-    Unstable {
-        /// How many.
-        found: usize,
-        /// Morse index of the last.
-        index: usize,
-    },
     /// Occurs when the singular value decomposition of the Jacobian does not converge.
     #[error("the singular values of the Jacobian (size {size}) did not converge")]
     Spectrum {
         /// Rows of the Jacobian.
         size: usize,
     },
+    /// Occurs when the passes over the bars ran out, or the iteration stopped at rounding errors
+    /// larger than the settings allow.
+    #[error(
+        "the chain does not close: off by {closure} of its length after {passes} passes",
+        closure = Brief(*closure)
+    )]
+    NotClosed {
+        /// Distance of the last joint from its anchor, relative to the total length; NaN when no
+        /// closed shape was near.
+        closure: f64,
+        /// Passes over the bars.
+        passes: usize,
+    },
+    /// Occurs when a force or the energy is larger than a double can hold.
+    #[error("a force of this chain is larger than a double can hold")]
+    Overflow,
+    /// Occurs when the supports of connected joints let them move along their total load.
+    #[error(
+        "joint {joint} and {} connected with it fall: no support resists {load_n} N of their load",
+        if *joints == 1 { "the joint".to_owned() } else { format!("the {joints} joints") },
+        load_n = Brief(*load_n)
+    )]
+    Falls {
+        /// Name of the first joint of the component.
+        joint: String,
+        /// Joints of the component.
+        joints: usize,
+        /// The part of the load that no support resists, N.
+        load_n: f64,
+    },
+    /// Occurs when a joint moves on without end and the energy falls: only struts, which cannot
+    /// pull, connect it with the joints that are held.
+    #[error(
+        "joint {joint} moves on without end: it was {distance_m} m away when it was given up",
+        distance_m = Brief(*distance_m)
+    )]
+    Escapes {
+        /// Name of the joint.
+        joint: String,
+        /// Its last distance from the first supported joint, m.
+        distance_m: f64,
+    },
+    /// Occurs when two held joints are further apart than the members between them reach.
+    #[error(
+        "{distance_m} m between {from} and {to}, and the members between them reach {reach_m} m"
+    )]
+    TooShort {
+        /// Name of a held joint.
+        from: String,
+        /// Name of another.
+        to: String,
+        /// Distance of the two, m.
+        distance_m: f64,
+        /// Length of the shortest path of members between them, m.
+        reach_m: f64,
+    },
+    /// Occurs when an inextensible member between two anchors has not the length of their distance,
+    /// or, as a cable, is shorter, or, as a strut, longer.
+    #[error("member {member} of {length_m} m is held at both ends, {distance_m} m apart")]
+    HeldMisfit {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Its length, m.
+        length_m: f64,
+        /// Distance of its ends, m.
+        distance_m: f64,
+    },
+    /// Occurs when no load acts and no member is stretched: every shape is in equilibrium.
+    #[error(
+        "no load acts on any joint that can move, and no member is stretched: nothing decides the shape"
+    )]
+    Unloaded,
+    /// Occurs when the iteration ends before balance and lengths hold.
+    #[error(
+        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance} of \
+         the loads there, the length of member {member} by {misfit_m} m",
+        unbalance = Brief(*unbalance), misfit_m = Brief(*misfit_m)
+    )]
+    NotConverged {
+        /// Sparse factorisations.
+        iterations: usize,
+        /// Name of the joint that is least in balance.
+        joint: String,
+        /// What is left there, in units of the loads of the joint (of the mean load, where that is
+        /// more).
+        unbalance: f64,
+        /// Number of the member whose length is furthest off, from 1.
+        member: usize,
+        /// How far, m.
+        misfit_m: f64,
+    },
+    /// Occurs when a ring runs to the end of a span of its rope, where friction-free spans have no
+    /// direction and the balance has a corner.
+    #[error(
+        "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
+         direction for its force"
+    )]
+    Jammed {
+        /// Number of the rope among the members, from 1.
+        member: usize,
+        /// Name of one joint.
+        from: String,
+        /// Name of the other.
+        to: String,
+    },
+    /// Occurs when the lengths of inextensible members overdetermine the shape, and the shape that
+    /// meets them best is off by more than their tolerances.
+    #[error("{}", misfit_text(misfits))]
+    Misfit {
+        /// The members that overdetermine the shape, the largest misfit for its tolerance first.
+        misfits: Vec<Misfit>,
+    },
+    /// Occurs when forces are so large beside the loads that rounding of them is no small part of
+    /// the loads: nothing but rounding decides them.
+    #[error(
+        "member {member} would bear {force_n} N, {ratio} times the loads: so near to a singular shape \
+         the forces are not decided by numbers of sixteen digits",
+        force_n = Brief(*force_n), ratio = Brief(*ratio)
+    )]
+    Absurd {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Its axial force, N.
+        force_n: f64,
+        /// Its size over the loads and what elastic members bear.
+        ratio: f64,
+    },
+    /// Occurs when the set of joints that lie on the floor does not settle.
+    #[error("which joints lie on the floor is still open after {rounds} rounds")]
+    Floor {
+        /// Rounds made.
+        rounds: usize,
+    },
+    /// Occurs when only unstable equilibria were found, though the hanging one was asked for.
+    #[error("only unstable equilibria found, the last of index {index}")]
+    Unstable {
+        /// Morse index of the last.
+        index: usize,
+    },
+    /// Occurs when the work that a solve may do is done.
+    #[error(
+        "the work is spent: factors with {spent} entries together were computed, and max_work is {max_work}"
+    )]
+    Work {
+        /// Entries of all factors.
+        spent: u64,
+        /// What [`Settings::max_work`](crate::network::Settings::max_work) allows.
+        max_work: u64,
+    },
+    /// Occurs when the factor of the matrix cannot be held in memory.
+    #[error("no memory for the factor of a matrix of {unknowns} unknowns")]
+    Memory {
+        /// Unknowns of the matrix.
+        unknowns: usize,
+    },
+    /// Occurs when derivatives are asked for at an equilibrium that a motion leaves at rest: a part
+    /// that turns freely about the vertical, for one.
+    #[error(
+        "no derivative here: {motions} independent motions meet no stiffness, as where a part turns freely; \
+         where it comes to rest is no function of the parameters"
+    )]
+    FreeMotion {
+        /// Number of independent motions.
+        motions: usize,
+    },
+    /// Occurs when derivatives are asked for where equilibrium leaves the forces open.
+    #[error(
+        "no derivative here: {dimension} independent self-stresses leave the forces open, and the lengths of \
+         rigid members cannot change one by one"
+    )]
+    OpenForces {
+        /// Number of independent self-stresses.
+        dimension: usize,
+    },
+    /// Occurs when derivatives are asked for where a cable or strut has just its length and bears
+    /// no force but that of its own weight.
+    #[error(
+        "no derivative here: member {member} has just its length and bears no force but that of its own weight; a change to one side \
+         loads it, to the other it is slack, and the derivatives of both sides differ"
+    )]
+    JustTaut {
+        /// Number of the member, from 1.
+        member: usize,
+    },
+    /// Occurs when derivatives are asked for where a joint just touches the floor.
+    #[error(
+        "no derivative here: joint {joint} just touches the floor, which does not push it; a change to one \
+         side lifts it, to the other it is pushed, and the derivatives of both sides differ"
+    )]
+    JustTouches {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// Occurs when derivatives are asked for where there are none: an inextensible member between
+    /// the anchors that are to move, or equations that are singular beyond what is counted.
+    #[error(
+        "no derivative here: the equations leave {left} of a change; a motion without stiffness, a \
+         self-stress or a rigid member that an anchor would stretch does that",
+        left = Brief(*left)
+    )]
+    NoDerivative {
+        /// The part of the change that no step takes away.
+        left: f64,
+    },
+    /// Occurs when the derivative by the place of a joint is asked for that is no anchor.
+    #[error("joint {joint} is no anchor: its place is no parameter")]
+    NotAnAnchor {
+        /// Name of the joint.
+        joint: String,
+    },
+}
+
+fn misfit_text(misfits: &[Misfit]) -> String {
+    let Some(worst) = misfits.first() else {
+        return "the lengths of inextensible members do not fit together".into();
+    };
+    let beyond = misfits.iter().filter(|misfit| misfit.misfit_m.abs() > misfit.within_m);
+    let more = match beyond.count().saturating_sub(1) {
+        0 => String::new(),
+        1 => ", and one more is off".into(),
+        more => format!(", and {more} more are off"),
+    };
+    format!(
+        "rigid members have lengths that fit no shape: at best the ends of member {} are {} m further apart \
+         than its length, and it may be off by {} m{more}; say how far the lengths are known \
+         (length_tolerance_m), or how stiff the members are (stiffness_n)",
+        worst.member + 1,
+        Brief(worst.misfit_m),
+        Brief(worst.within_m)
+    )
 }

@@ -6,7 +6,7 @@
 //! // lambda_3, the vertical force of the ground on bar 1, in mg.
 //! assert!((found.lambda[2] / 9.80665 - 2.312944292241838).abs() < 1e-13);
 //! assert_eq!(found.equilibrium.stability.index_in_space, 0);
-//! # Ok::<(), lagrange::SolveError>(())
+//! # Ok::<(), lagrange::Error>(())
 //! ```
 //!
 //! The unknowns are the paper's own. Each of n bars has six coordinates, eq. (21); each of the n +
@@ -111,7 +111,7 @@ mod thresholds;
 
 pub use constraints::{constraint_functions, constraint_matrix};
 pub use effort::Effort;
-pub use error::SolveError;
+pub use error::Error;
 pub use load::load_vector;
 pub use rotation::{direction, direction_gradient, direction_hessian, rotation};
 pub use seed::Seed;

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use model::Problem;
 use nalgebra::Vector3;
 
-use crate::error::SolveError;
+use crate::error::Error;
 use crate::spin::regular_angles;
 
 /// Angles ψ, θ, φ of each bar, rad.
@@ -15,7 +15,7 @@ use crate::spin::regular_angles;
 /// let near_e2 = Seed::planar(&[1.3, -0.7, -0.3]);
 /// let found = solve_from(&model::cases::paper(), &near_e2, &Settings::default())?;
 /// assert_eq!(found.equilibrium.stability.index_in_space, 2);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seed {
@@ -121,13 +121,13 @@ impl Seed {
     }
 
     /// Check against the number of bars.
-    pub(crate) fn check(&self, bars: usize) -> Result<(), SolveError> {
+    pub(crate) fn check(&self, bars: usize) -> Result<(), Error> {
         if self.angles.len() != bars {
-            return Err(SolveError::SeedLength { expected: bars, got: self.angles.len() });
+            return Err(Error::SeedLength { of: "bars", expected: bars, got: self.angles.len() });
         }
         for (index, angles) in self.angles.iter().enumerate() {
-            if let Some(angle_rad) = angles.iter().copied().find(|angle| !angle.is_finite()) {
-                return Err(SolveError::SeedNotFinite { bar: index + 1, angle_rad });
+            if angles.iter().any(|angle| !angle.is_finite()) {
+                return Err(Error::SeedNotFinite { of: "bar", number: index + 1 });
             }
         }
         Ok(())

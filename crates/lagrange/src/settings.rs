@@ -36,7 +36,7 @@ pub struct Settings {
     pub max_relaxation_steps: usize,
     /// A bar is described by other angles when the length of its [`spin`](crate::spin()) falls
     /// below this, near gimbal lock. With 0 the paper's angles are kept whatever happens, and its
-    /// false roots are met: they end in [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
+    /// false roots are met: they end in [`Error::FalseRoot`](crate::Error::FalseRoot).
     ///
     /// Default 0.1. Range 0 to 0.9.
     pub lock_margin: f64,

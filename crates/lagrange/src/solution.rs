@@ -5,7 +5,7 @@ use nalgebra::{DVector, Vector3};
 
 use crate::constraints::coordinates;
 use crate::effort::Effort;
-use crate::error::SolveError;
+use crate::error::Error;
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::reduced::Reduced;
@@ -21,7 +21,7 @@ use crate::system::relative_residual;
 /// assert_eq!((found.q.len(), found.lambda.len(), found.nullity), (18, 12, 4));
 /// // lambda_3, the vertical reaction at the first anchor, mg.
 /// assert!((found.lambda[2] / 9.80665 - 2.312944292241838).abs() < 1e-13);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
@@ -53,7 +53,7 @@ impl Solution {
         reduced: &Reduced,
         effort: Effort,
         residual_history: Vec<f64>,
-    ) -> Result<Self, SolveError> {
+    ) -> Result<Self, Error> {
         let chain = problem.chain();
         let units = Units::total(chain);
         let (mechanism, point) = (Mechanism::si(chain), &reduced.here);

@@ -5,7 +5,7 @@ use std::time::Instant;
 use model::{InSpace, Problem, Stability};
 
 use crate::effort::Effort;
-use crate::error::SolveError;
+use crate::error::Error;
 use crate::indeterminate;
 use crate::mechanism::{Mechanism, Units};
 use crate::newton::{Ending, newton};
@@ -36,7 +36,7 @@ const LAST_HANDOVER: f64 = 1e-12;
 /// // V of the paper counts from 6 mgl lower; here mgl = 9.80665 J.
 /// assert!((found.energy_j() / 9.80665 + 6.0 - 2.335_468_651_999_305).abs() < 1e-12);
 /// assert!(found.effort().iterations < 10);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver<'p> {
@@ -68,7 +68,7 @@ enum Attempt {
 /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
 /// assert!(found.residual() <= 1e-13);
 /// assert_eq!(found.solution()?.nullity, 4);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Converged<'s> {
@@ -80,14 +80,14 @@ impl<'p> Solver<'p> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Settings`] when a setting is out of range.
+    /// [`Error::Settings`] when a setting is out of range.
     ///
     /// ```
     /// use lagrange::{Settings, Solver};
     /// let unusable = Settings { max_iterations: 0, ..Default::default() };
     /// assert!(Solver::new(&model::cases::paper(), &unusable).is_err());
     /// ```
-    pub fn new(problem: &'p Problem, settings: &Settings) -> Result<Self, SolveError> {
+    pub fn new(problem: &'p Problem, settings: &Settings) -> Result<Self, Error> {
         settings.validate()?;
         let chain = problem.chain();
         let units = Units::total(chain);
@@ -108,7 +108,7 @@ impl<'p> Solver<'p> {
     ///
     /// # Errors
     ///
-    /// [`SolveError`]: a seed that does not fit, or no convergence.
+    /// [`Error`]: a seed that does not fit, or no convergence.
     ///
     /// ```
     /// use lagrange::{Seed, Settings, Solver};
@@ -118,9 +118,9 @@ impl<'p> Solver<'p> {
     /// let one = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?.energy_j();
     /// let other = solver.solve(&Seed::planar(&[-0.3, -0.7, 1.3]))?.energy_j();
     /// assert!((one - other).abs() < 1e-13);
-    /// # Ok::<(), lagrange::SolveError>(())
+    /// # Ok::<(), lagrange::Error>(())
     /// ```
-    pub fn solve(&mut self, seed: &Seed) -> Result<Converged<'_>, SolveError> {
+    pub fn solve(&mut self, seed: &Seed) -> Result<Converged<'_>, Error> {
         let clock = Instant::now();
         seed.check(self.reduced.carried.len())?;
         self.reset();
@@ -145,20 +145,20 @@ impl<'p> Solver<'p> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Unstable`] or [`SolveError::Stagnated`] when nothing stable is found.
+    /// [`Error::Unstable`] or [`Error::Stagnated`] when nothing stable is found.
     ///
     /// ```
     /// use lagrange::{Settings, Solver};
     /// let problem = model::cases::paper();
     /// let mut solver = Solver::new(&problem, &Settings::default())?;
     /// assert_eq!(solver.solve_stable()?.stability().index_in_space, 0);
-    /// # Ok::<(), lagrange::SolveError>(())
+    /// # Ok::<(), lagrange::Error>(())
     /// ```
-    pub fn solve_stable(&mut self) -> Result<Converged<'_>, SolveError> {
+    pub fn solve_stable(&mut self) -> Result<Converged<'_>, Error> {
         let clock = Instant::now();
         let seed = Seed::arc(self.problem);
         self.reset();
-        let (mut found, mut last) = (0, None);
+        let mut last = None;
         loop {
             self.relax_from(&seed);
             let ending = self.newton()?;
@@ -169,11 +169,10 @@ impl<'p> Solver<'p> {
                 if stability.in_space == InSpace::Stable {
                     return Ok(Converged { solver: self });
                 }
-                found += 1;
                 last = Some(stability.index_in_space);
             }
             if self.effort.relaxations > self.settings.relaxations {
-                let unstable = last.map(|index| SolveError::Unstable { found, index });
+                let unstable = last.map(|index| Error::Unstable { index });
                 return Err(unstable.unwrap_or_else(|| self.stagnated()));
             }
         }
@@ -186,13 +185,13 @@ impl<'p> Solver<'p> {
     }
 
     /// Runs of Newton's method until one ends at no false root.
-    fn newton(&mut self) -> Result<Ending, SolveError> {
+    fn newton(&mut self) -> Result<Ending, Error> {
         for _ in 0..ESCAPES {
             match self.attempt() {
                 Attempt::Equilibrium => return Ok(Ending::Converged),
                 Attempt::Stagnated => return Ok(Ending::Stagnated),
                 Attempt::FalseRoot { bar, moment } if self.settings.lock_margin <= 0.0 => {
-                    return Err(SolveError::FalseRoot { bar: bar + 1, moment });
+                    return Err(Error::FalseRoot { bar: bar + 1, moment });
                 }
                 Attempt::FalseRoot { .. } => {
                     self.effort.false_roots += 1;
@@ -238,8 +237,8 @@ impl<'p> Solver<'p> {
         self.effort.iterations += steps;
     }
 
-    fn stagnated(&self) -> SolveError {
-        SolveError::Stagnated {
+    fn stagnated(&self) -> Error {
+        Error::Stagnated {
             residual: self.reduced.norm(),
             iterations: self.effort.iterations,
             relaxations: self.effort.relaxations,
@@ -259,7 +258,7 @@ impl Converged<'_> {
     /// let mut solver = Solver::new(&problem, &Settings::default())?;
     /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
     /// assert!((found.energy_j() / 9.80665 + 3.664531348000695).abs() < 1e-12);
-    /// # Ok::<(), lagrange::SolveError>(())
+    /// # Ok::<(), lagrange::Error>(())
     /// ```
     #[must_use]
     pub fn energy_j(&self) -> f64 {
@@ -297,8 +296,8 @@ impl Converged<'_> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Spectrum`] when their iteration does not converge.
-    pub fn solution(&self) -> Result<Solution, SolveError> {
+    /// [`Error::Spectrum`] when their iteration does not converge.
+    pub fn solution(&self) -> Result<Solution, Error> {
         let Solver { problem, settings, reduced, effort, history, .. } = self.solver;
         Solution::new(problem, settings, reduced, *effort, history.clone())
     }
@@ -308,7 +307,7 @@ impl Converged<'_> {
 ///
 /// # Errors
 ///
-/// [`SolveError`]; `Ok` means converged.
+/// [`Error`]; `Ok` means converged.
 ///
 /// ```
 /// use lagrange::{Seed, Settings, solve_from};
@@ -318,13 +317,9 @@ impl Converged<'_> {
 /// assert_eq!(found.equilibrium.stability.in_plane, model::InPlane::Maximum);
 /// let [psi, _, phi] = found.angles_rad[0]; // theta = pi/2: both turn in the plane
 /// assert!(((psi + phi).to_degrees() - 73.920_588_792_231_34).abs() < 1e-12);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
-pub fn solve_from(
-    problem: &Problem,
-    seed: &Seed,
-    settings: &Settings,
-) -> Result<Solution, SolveError> {
+pub fn solve_from(problem: &Problem, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     Solver::new(problem, settings)?.solve(seed)?.solution()
 }
 
@@ -332,15 +327,15 @@ pub fn solve_from(
 ///
 /// # Errors
 ///
-/// [`SolveError`]; `Ok` means converged and stable.
+/// [`Error`]; `Ok` means converged and stable.
 ///
 /// ```
 /// let found = lagrange::solve(&model::cases::paper(), &lagrange::Settings::default())?;
 /// // The two anchors carry the three bars, eq. (40).
 /// let reactions = found.equilibrium.reactions_n;
 /// assert!((reactions.start[2] + reactions.end[2] - 3.0 * 9.80665).abs() < 1e-12);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
-pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, SolveError> {
+pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, Error> {
     Solver::new(problem, settings)?.solve_stable()?.solution()
 }

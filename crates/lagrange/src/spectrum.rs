@@ -5,7 +5,7 @@ use model::Chain;
 use nalgebra::{DMatrix, DVector};
 
 use crate::constraints::PER_BAR;
-use crate::error::SolveError;
+use crate::error::Error;
 use crate::mechanism::{Mechanism, Units};
 use crate::point::{Metric, Point};
 use crate::stability::neutral_motions;
@@ -42,7 +42,7 @@ pub struct Spectrum {
 ///
 /// # Errors
 ///
-/// [`SolveError::Spectrum`] when the decomposition does not converge.
+/// [`Error::Spectrum`] when the decomposition does not converge.
 ///
 /// # Panics
 ///
@@ -55,13 +55,9 @@ pub struct Spectrum {
 /// let found = solve_from(&problem, &seed, &Settings::default())?;
 /// let spectrum = spectrum(problem.chain(), &found.q, &found.lambda)?;
 /// assert_eq!((spectrum.singular_values.len(), spectrum.nullity), (30, 4));
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
-pub fn spectrum(
-    chain: &Chain,
-    q: &DVector<f64>,
-    lambda: &DVector<f64>,
-) -> Result<Spectrum, SolveError> {
+pub fn spectrum(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>) -> Result<Spectrum, Error> {
     let units = Units::mean(chain);
     let scale = |(row, value): (usize, &f64)| {
         if row % PER_BAR < 3 { value / units.length } else { *value }
@@ -71,10 +67,10 @@ pub fn spectrum(
 }
 
 impl Spectrum {
-    fn of(jacobian: &DMatrix<f64>) -> Result<Self, SolveError> {
+    fn of(jacobian: &DMatrix<f64>) -> Result<Self, Error> {
         let size = jacobian.nrows();
         let found = singular_values(jacobian);
-        let singular_values = found.ok_or(SolveError::Spectrum { size })?;
+        let singular_values = found.ok_or(Error::Spectrum { size })?;
         let largest = singular_values.first().copied().unwrap_or(0.0);
         let regular =
             singular_values.iter().filter(|value| **value > ZERO_SINGULAR_VALUE * largest).count();
@@ -83,7 +79,7 @@ impl Spectrum {
     }
 
     /// Singular values of the reduced Jacobian, in units of the total length and weight.
-    pub(crate) fn reduced(mechanism: &Mechanism, point: &Point) -> Result<Self, SolveError> {
+    pub(crate) fn reduced(mechanism: &Mechanism, point: &Point) -> Result<Self, Error> {
         let angles = 3 * mechanism.bars();
         let mut jacobian = DMatrix::zeros(angles + 3, angles + 3);
         for (index, (bar, length)) in point.bars.iter().zip(&mechanism.lengths).enumerate() {

@@ -34,7 +34,7 @@ use crate::rotation::direction_hessian;
 /// let found = lagrange::solve(&problem, &Default::default())?;
 /// let residual = lagrange::residual(problem.chain(), &found.q, &found.lambda);
 /// assert!(residual.len() == 30 && residual.amax() < 1e-13);
-/// # Ok::<(), lagrange::SolveError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[must_use]
 pub fn residual<T: RealField + Copy>(

@@ -20,7 +20,7 @@ pub enum ExampleError {
         /// The equilibrium.
         near: &'static str,
         /// What it says.
-        error: lagrange::SolveError,
+        error: lagrange::Error,
     },
     /// Occurs when `energy` finds no minimum.
     #[error("energy: {0}")]

@@ -166,10 +166,10 @@ fn by_lagrange(example: &Example, seeds: &[[[f64; 3]; 3]]) -> Vec<Result<Outcome
 }
 
 /// A short name of the way a solve ends, to count by.
-fn reason(error: &lagrange::SolveError) -> &'static str {
+fn reason(error: &lagrange::Error) -> &'static str {
     match error {
-        lagrange::SolveError::Stagnated { .. } => "stopped at a local minimum of the residual",
-        lagrange::SolveError::FalseRoot { .. } => "ended at a false root of the paper's equations",
+        lagrange::Error::Stagnated { .. } => "stopped at a local minimum of the residual",
+        lagrange::Error::FalseRoot { .. } => "ended at a false root of the paper's equations",
         _ => "another error",
     }
 }

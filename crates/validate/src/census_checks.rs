@@ -7,7 +7,7 @@
 //! that no configuration has less energy, none more.
 
 use census::{Census, Interval};
-use lagrange::{Seed, Settings, SolveError, Solver};
+use lagrange::{Error, Seed, Settings, Solver};
 use model::{Chain, Equilibrium, NoCertificate, Problem, Vector};
 use numerics::vector::worse;
 
@@ -116,7 +116,7 @@ pub struct Visit {
 ///
 /// # Errors
 ///
-/// [`SolveError`] of the first start that does not converge.
+/// [`Error`] of the first start that does not converge.
 ///
 /// # Panics
 ///
@@ -132,7 +132,7 @@ pub struct Visit {
 /// }
 /// # Ok::<(), census::CensusError>(())
 /// ```
-pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, SolveError> {
+pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, Error> {
     let chain = problem.chain();
     let mut solver = Solver::new(problem, &Settings::default())?;
     let listed = census.equilibria.iter().enumerate();

@@ -103,9 +103,7 @@ impl Failure {
             Error::Disagreed => Self { diagnostic: error.into(), exit: Exit::CheckFailed },
             Error::Unsolved(_)
             | Error::Lagrange(_)
-            | Error::Condensed(_)
             | Error::Energy(_)
-            | Error::Network(_)
             | Error::Basins(_)
             | Error::Reproduction(_)
             | Error::Report(_)

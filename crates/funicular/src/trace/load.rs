@@ -39,7 +39,7 @@ pub enum LoadError {
     Numbers(PointError),
     /// Occurs when `lagrange` has no equilibrium at the start.
     #[error("no equilibrium at the start of the path: {0}")]
-    Solver(#[from] lagrange::network::Error),
+    Solver(#[from] lagrange::Error),
     /// Occurs when the equilibrium at the start is another one than the shape given shows.
     #[error(
         "the equilibrium at the start of the path is not next to the shape given: joint {joint} is {moved_m} m away",

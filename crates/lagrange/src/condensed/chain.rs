@@ -37,7 +37,7 @@ const COMFORTABLE: Range<f64> = 1e-60..1e60;
 /// // The chain carries 2.3129 of its three weights on the first anchor.
 /// let ground_n = chain.pull(&Settings::default())?.ground_n();
 /// assert!((ground_n[2] / 9.80665 - 2.312944292241838).abs() < 1e-14);
-/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Condensed {

@@ -55,7 +55,6 @@ mod bracket;
 mod catenary;
 mod chain;
 mod compression;
-mod error;
 mod folded;
 mod kernel;
 mod loads;
@@ -74,7 +73,6 @@ mod units;
 mod vectors;
 
 pub use chain::Condensed;
-pub use error::CondensedError;
 pub use pull::Pull;
 pub use settings::Settings;
 pub use solve::{Solution, Solver, solve};

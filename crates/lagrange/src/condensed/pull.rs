@@ -5,11 +5,11 @@ use std::ops::Range;
 use model::Vector;
 
 use super::chain::Condensed;
-use super::error::CondensedError;
 use super::newton::{Budget, Root};
 use super::regime::Regime;
 use super::settings::Settings;
 use super::system::Closure;
+use crate::error::Error;
 use crate::thresholds::UPRIGHT;
 
 /// Which bars are not in tension.
@@ -34,7 +34,7 @@ pub(super) enum Signs {
 /// // E1: the third bar props the chain up, 2.3129 of the three weights hang on the first anchor.
 /// assert_eq!(pull.compressed(), [2]);
 /// assert!((pull.ground_n()[2] / 9.80665 - 2.312944292241838).abs() < 1e-14);
-/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pull {
@@ -148,7 +148,7 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// [`CondensedError::Settings`] for settings out of range, [`CondensedError::NotClosed`] when
+    /// [`Error::Settings`] for settings out of range, [`Error::NotClosed`] when
     /// the passes over the bars run out.
     ///
     /// ```
@@ -158,16 +158,15 @@ impl Condensed {
     /// let weight = model::STANDARD_GRAVITY_M_S2;
     /// assert!(x.abs() < 1e-15 && (y / weight + 0.648944835933934).abs() < 1e-14);
     /// assert!((z / weight - 2.312944292241838).abs() < 1e-14);
-    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// # Ok::<(), lagrange::Error>(())
     /// ```
-    pub fn pull(&self, settings: &Settings) -> Result<Pull, CondensedError> {
+    pub fn pull(&self, settings: &Settings) -> Result<Pull, Error> {
         settings.validate()?;
         let mut budget = Budget::of(settings);
         let found = Regime::of(self).solve(self, &mut budget);
-        let pull =
-            found.ok_or(CondensedError::NotClosed { closure: f64::NAN, passes: budget.spent })?;
+        let pull = found.ok_or(Error::NotClosed { closure: f64::NAN, passes: budget.spent })?;
         let finite = pull.ground_n.iter().all(|component| component.is_finite());
-        if finite { Ok(pull) } else { Err(CondensedError::Overflow) }
+        if finite { Ok(pull) } else { Err(Error::Overflow) }
     }
 
     /// The pull of a chain whose forces are indeterminate; `None` for any other.

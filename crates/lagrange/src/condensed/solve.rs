@@ -6,11 +6,11 @@ use std::time::Instant;
 use model::{Equilibrium, Evidence, ForceUncertainty, Problem, SolverName, UncertaintyCause};
 
 use super::chain::Condensed;
-use super::error::CondensedError;
 use super::pull::Pull;
 use super::settings::Settings;
 use super::stability::second_order;
 use super::vectors::{Totals, Vectors};
+use crate::error::Error;
 use crate::thresholds::REPORTED_FORCE_ERROR;
 
 /// What the residual is.
@@ -29,7 +29,7 @@ pub struct Solution {
 ///
 /// # Errors
 ///
-/// [`CondensedError`]: settings out of range; passes over the bars that ran out, or a chain that
+/// [`Error`]: settings out of range; passes over the bars that ran out, or a chain that
 /// is farther from its anchor than the settings allow; a force too large for a double.
 ///
 /// ```
@@ -41,9 +41,9 @@ pub struct Solution {
 /// let ground = solution.pull.ground_n();
 /// assert!((ground[1] / weight + 0.648944835933934).abs() < 1e-14);
 /// assert!((ground[2] / weight - 2.312944292241838).abs() < 1e-14);
-/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
-pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, CondensedError> {
+pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, Error> {
     Solver::default().solve(problem, settings)
 }
 
@@ -60,7 +60,7 @@ pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, Condens
 /// solver.take_back(first);
 /// let second = solver.solve(&model::cases::paper(), &Settings::default())?;
 /// assert_eq!(second.equilibrium.energy_j, energy_j);
-/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// # Ok::<(), lagrange::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Solver {
@@ -87,11 +87,7 @@ impl Solver {
     /// # Errors
     ///
     /// Those of [`solve`](solve()).
-    pub fn solve(
-        &mut self,
-        problem: &Problem,
-        settings: &Settings,
-    ) -> Result<Solution, CondensedError> {
+    pub fn solve(&mut self, problem: &Problem, settings: &Settings) -> Result<Solution, Error> {
         let begun = Instant::now();
         let chain = match self.chain.take() {
             Some(chain) => chain.again(problem),
@@ -119,15 +115,15 @@ impl Condensed {
         mut memory: Vectors,
         pull: &Pull,
         settings: &Settings,
-    ) -> Result<Equilibrium, CondensedError> {
+    ) -> Result<Equilibrium, Error> {
         let Totals { reactions_n, energy_j, closure } = self.vectors(pull, &mut memory);
         let passes = pull.passes();
         if closure.is_nan() || closure > settings.closure {
-            return Err(CondensedError::NotClosed { closure, passes });
+            return Err(Error::NotClosed { closure, passes });
         }
         let finite = reactions_n.start.iter().chain(&reactions_n.end).all(|x| x.is_finite());
         if !(finite && energy_j.is_finite()) {
-            return Err(CondensedError::Overflow);
+            return Err(Error::Overflow);
         }
         let second = second_order(self, pull);
         let mut evidence = Evidence::new(RESIDUAL_OF, closure, settings.closure, passes);

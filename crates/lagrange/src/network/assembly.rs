@@ -5,7 +5,6 @@ use std::iter;
 use model::system::Kind;
 use nalgebra::Vector3;
 
-use super::error::Error;
 use super::fitted::fitted_forces;
 use super::framework::Link;
 use super::newton::{Patience, Run};
@@ -13,6 +12,7 @@ use super::readings::{clearer, nearly};
 use super::signs::{SIGN_CHANGES, signs_mended};
 use super::solve::{KICKS, Solver};
 use super::state::State;
+use crate::error::Error;
 
 /// Starts of the search for places where lengths fit, the moves of joints for them in units of the
 /// mean length, and the part of its length by which a member may be off where it ends.

@@ -15,10 +15,10 @@
 
 use nalgebra::Vector3;
 
-use super::error::Error;
 use super::framework::Framework;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 use crate::thresholds::{GOLDEN, SUM_ROUNDING};
 
 /// The cut where lengths are taken as they are: a line with a slack of 1e-10 of its span, whose

@@ -6,9 +6,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::Error;
 use super::framework::{Framework, Link};
 use super::stiffness::Stiffness;
+use crate::error::Error;
 use model::system::Kind;
 
 /// Iterations. Each costs a scalar factorisation, an eighth of a step of what follows; nets that

@@ -27,7 +27,6 @@ use model::Vector;
 use model::system::{Kind, System};
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::Error;
 use super::framework::Framework;
 use super::newton::{Derivative, Step};
 use super::residual::Residual;
@@ -35,6 +34,7 @@ use super::smooth;
 use super::solution::Solution;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 use crate::thresholds::SUM_ROUNDING;
 
 /// The linear system is solved when this part of the right-hand side is left, or less.

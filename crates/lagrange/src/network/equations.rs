@@ -10,7 +10,6 @@ use model::Vector;
 use model::system::{Kind, System, SystemEquilibrium};
 use nalgebra::Vector3;
 
-use super::error::Error;
 use super::floor::lift;
 use super::framework::{Framework, Units};
 use super::newton::{Derivative, Step, with_held};
@@ -20,6 +19,7 @@ use super::settings::Settings;
 use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 use crate::larger::larger;
 
 /// A cable of a drawing that misses its length by less than this part of it is taut.

@@ -17,7 +17,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::decided::{Decided, SHARP};
 use super::directions::Directions;
-use super::error::Error;
 use super::framework::{Framework, Lying, Node, across};
 use super::residual::Residual;
 use super::second_order::{PLANE, SecondOrder, self_stresses};
@@ -25,6 +24,7 @@ use super::settings::Settings;
 use super::solution::{Found, NO_FORCE, NO_PART, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.

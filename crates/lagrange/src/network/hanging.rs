@@ -31,10 +31,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::cone::{Block, Pair, Scaling};
 use super::densities::{by_densities, pulls};
-use super::error::Error;
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 use model::system::Kind;
 
 /// First length of a member in the programme, where it is as long as it may be or longer: this

@@ -10,10 +10,10 @@ use model::Jam;
 use model::system::{Joined, System};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::error::Error;
 use super::framework::Framework;
 use super::solution::{Answer, Solution};
 use super::state::State;
+use crate::error::Error;
 
 /// Rounding of forces over the largest.
 const ROUNDING: f64 = 1e-9;

@@ -75,7 +75,6 @@ mod derivatives;
 mod directions;
 mod elements;
 mod equations;
-mod error;
 mod fitted;
 mod floor;
 mod framework;
@@ -102,9 +101,9 @@ mod stiffness;
 mod weak;
 mod work;
 
+pub use crate::error::Error;
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use equations::{Equations, Side};
-pub use error::Error;
 pub use seed::Seed;
 pub use settings::Settings;
 pub use solution::{Forces, Solution};

@@ -8,9 +8,9 @@ use model::system::{Kind, System};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
-use super::error::Error;
 use super::framework::{Framework, Link};
 use super::state::State;
+use crate::error::Error;
 
 /// A component falls when its supports leave it this part of its load.
 const UNHELD: f64 = 1e-12;

@@ -9,7 +9,6 @@ use model::system::Misfit;
 
 use super::assembly::NEARLY;
 use super::decided::{Decided, SHARP, WIDEST, cuts};
-use super::error::Error;
 use super::framework::Framework;
 use super::newton::{Patience, Run, polish};
 use super::residual::Residual;
@@ -17,6 +16,7 @@ use super::signs::signs_mended;
 use super::solution::NO_FORCE;
 use super::solve::Solver;
 use super::state::State;
+use crate::error::Error;
 
 /// Residual at which misfits are looked at for the first time: they are known to about its square
 /// root where motions are weak, and to it elsewhere, and tolerances are 1e-9 and more.

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 
 use super::decided::Decided;
-use super::error::Error;
 use super::framework::Framework;
 use super::state::State;
+use crate::error::Error;
 use crate::larger::larger;
 use model::system::System;
 

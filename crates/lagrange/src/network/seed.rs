@@ -3,7 +3,7 @@
 use model::Vector;
 use model::system::System;
 
-use super::error::Error;
+use crate::error::Error;
 
 /// Places of the joints, and axial forces if they are known.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,6 @@
 use model::system::Kind;
 
 use super::decided::Decided;
-use super::error::Error;
 use super::framework::{Framework, Link};
 use super::newton::{Patience, Run, polish};
 use super::settings::Settings;
@@ -11,6 +10,7 @@ use super::solution::NO_FORCE;
 use super::solve::Solver;
 use super::state::State;
 use super::weak;
+use crate::error::Error;
 
 /// Changes of the set of taut members before the iteration counts as failed.
 pub(super) const SIGN_CHANGES: usize = 30;

@@ -8,11 +8,11 @@
 
 use model::system::{Kind, System};
 
-use super::error::Error;
 use super::framework::Framework;
 use super::residual::Residual;
 use super::solution::{NO_FORCE, NO_SLACK, Solution};
 use super::state::State;
+use crate::error::Error;
 
 /// Refuse an equilibrium without derivatives.
 pub(super) fn check(

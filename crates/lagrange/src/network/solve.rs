@@ -7,7 +7,6 @@ use nalgebra::Vector3;
 
 use super::densities::by_densities;
 use super::elements;
-use super::error::Error;
 use super::fitted::fitted_forces;
 use super::floor::{above, below};
 use super::framework::{Framework, Link};
@@ -24,6 +23,7 @@ use super::signs::signs_mended;
 use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::error::Error;
 
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;

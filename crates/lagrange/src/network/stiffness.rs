@@ -11,11 +11,11 @@ use matrices::sparse::{Ldlt, Pivots};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
-use super::error::Error;
 use super::framework::Framework;
 use super::law::by_direction;
 use super::order::by_degree;
 use super::work::Work;
+use crate::error::Error;
 
 /// A pivot below this fraction of the largest diagonal entry is no pivot: the direction is left out
 /// of the solve. Some fifty rounding errors.

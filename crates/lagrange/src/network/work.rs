@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use super::error::Error;
+use crate::error::Error;
 
 /// What a solve has spent, of what it may spend; shared by all frameworks made for it.
 #[derive(Debug, Clone)]

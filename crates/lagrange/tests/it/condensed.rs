@@ -5,8 +5,9 @@
 
 use std::f64::consts::PI;
 
+use lagrange::Error;
 use lagrange::Seed;
-use lagrange::condensed::{CondensedError, Settings, Solution, solve};
+use lagrange::condensed::{Settings, Solution, solve};
 use model::{
     Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Status, Vector,
 };
@@ -411,9 +412,9 @@ fn a_million_bars_close_and_balance() {
 fn failures_are_typed() {
     let problem = model::cases::paper();
     let few = Settings { max_passes: 1, ..Settings::default() };
-    assert!(matches!(solve(&problem, &few), Err(CondensedError::NotClosed { .. })));
+    assert!(matches!(solve(&problem, &few), Err(Error::NotClosed { .. })));
     let bad = Settings { closure: f64::NAN, ..Settings::default() };
-    assert!(matches!(solve(&problem, &bad), Err(CondensedError::Settings(_))));
+    assert!(matches!(solve(&problem, &bad), Err(Error::Settings(_))));
 }
 
 /// Anchors a hair apart over a chain much longer: two strands side by side. By symmetry equal

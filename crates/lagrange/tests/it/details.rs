@@ -3,7 +3,7 @@
 use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed::{self, Solver};
 use lagrange::network::{Derivatives, Parameter, solve};
-use lagrange::{Seed, Settings, SolveError, solve_from};
+use lagrange::{Error, Seed, Settings, solve_from};
 use model::system::{Joint, Member, Support, System};
 use model::{Anchors, Bar, Chain, Problem};
 use rand::RngExt;
@@ -138,7 +138,7 @@ fn searches_for_what_is_stable_end() {
             ..Default::default()
         };
         let error = lagrange::solve(&problem, &hasty).unwrap_err();
-        let SolveError::Stagnated { relaxations: made, .. } = error else { panic!("{error}") };
+        let Error::Stagnated { relaxations: made, .. } = error else { panic!("{error}") };
         assert_eq!(made, relaxations + 1);
     }
 }

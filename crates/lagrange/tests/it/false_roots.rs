@@ -1,7 +1,7 @@
 //! The paper's equations have roots that are no equilibria: where cos θ = cos φ = 0 they lose a
 //! moment balance. Shown by building one, from the equations alone.
 
-use lagrange::{Seed, Settings, SolveError, relative_residual, solve_from};
+use lagrange::{Error, Seed, Settings, relative_residual, solve_from};
 use model::cases;
 use nalgebra::{DVector, Matrix3, Vector3};
 use rand::RngExt;
@@ -82,7 +82,7 @@ fn thirty_equations_hold_and_a_bar_is_not_in_balance() {
     let seed = Seed::spatial(angles.to_vec());
     let kept = Settings { lock_margin: 0.0, ..Default::default() };
     let refused = solve_from(&problem, &seed, &kept);
-    assert!(matches!(refused, Err(SolveError::FalseRoot { bar: 1, .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::FalseRoot { bar: 1, .. })), "{refused:?}");
     let found = solve_from(&problem, &seed, &Settings::default()).unwrap();
     assert_eq!(found.nullity, 4);
     assert!(found.effort.reparametrisations > 0);

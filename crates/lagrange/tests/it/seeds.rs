@@ -1,6 +1,6 @@
 //! Random seeds: how many converge, and to what.
 
-use lagrange::{Seed, Settings, SolveError, Solver, solve_from};
+use lagrange::{Error, Seed, Settings, Solver, solve_from};
 use model::cases;
 
 use crate::common::{MG, planar_seed, problem, spatial_seed, stream};
@@ -71,13 +71,16 @@ fn the_same_seed_gives_the_same_bits() {
 fn seeds_that_do_not_fit_are_refused() {
     let problem = cases::paper();
     let solve = |seed: &Seed| solve_from(&problem, seed, &Settings::default()).unwrap_err();
-    assert_eq!(solve(&Seed::planar(&[0.0; 4])), SolveError::SeedLength { expected: 3, got: 4 });
+    assert_eq!(
+        solve(&Seed::planar(&[0.0; 4])),
+        Error::SeedLength { of: "bars", expected: 3, got: 4 }
+    );
     let bad = solve(&Seed::planar(&[0.0, f64::INFINITY, 0.0]));
-    assert_eq!(bad, SolveError::SeedNotFinite { bar: 2, angle_rad: f64::INFINITY });
+    assert_eq!(bad, Error::SeedNotFinite { of: "bar", number: 2 });
     let bad = Settings { tolerance: 0.0, ..Default::default() };
     assert!(matches!(
         solve_from(&problem, &Seed::planar(&[0.0; 3]), &bad),
-        Err(SolveError::Settings(_))
+        Err(Error::Settings(_))
     ));
     let out = survey(&problem, [Seed::planar(&[0.0])], &Settings::default());
     assert_eq!((out.converged, out.rejected, out.lost), (0, 1, vec![0]));

@@ -1,6 +1,6 @@
 //! Counts over many seeds: how many converge, to which equilibrium, in how many steps.
 
-use lagrange::{Seed, Settings, SolveError, Solver};
+use lagrange::{Error, Seed, Settings, Solver};
 use model::Problem;
 
 /// Energies closer than this, relative to the total weight times the total length, are the same
@@ -98,8 +98,8 @@ pub fn survey(
                 survey.count(effort.iterations, group, SAME_ENERGY * unit_j);
                 continue;
             }
-            Err(SolveError::FalseRoot { .. }) => survey.false_roots += 1,
-            Err(SolveError::SeedLength { .. } | SolveError::SeedNotFinite { .. }) => {
+            Err(Error::FalseRoot { .. }) => survey.false_roots += 1,
+            Err(Error::SeedLength { .. } | Error::SeedNotFinite { .. }) => {
                 survey.rejected += 1;
             }
             Err(_) => survey.stagnated += 1,

@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use lagrange::batch::{Batch, BatchSettings};
-use lagrange::{Seed, Settings, SolveError, condensed};
+use lagrange::{Error, Seed, Settings, condensed};
 use model::{Ends, Finish, Problem, Status};
 use rand::RngExt;
 use samples::{General, Line, Shape, assert_frozen, random_chain};
@@ -119,11 +119,11 @@ fn work_of_large_chains() {
 /// residuals kept, indices in space, nullities, decades of the conditions.
 type Full = [i64; 11];
 
-fn add(row: &mut Full, outcome: Result<lagrange::Solution, SolveError>) {
+fn add(row: &mut Full, outcome: Result<lagrange::Solution, Error>) {
     row[0] += 1;
     let found = match outcome {
         Ok(found) => found,
-        Err(SolveError::Stagnated { iterations, relaxations, .. }) => {
+        Err(Error::Stagnated { iterations, relaxations, .. }) => {
             row[2] += iterations as i64;
             row[4] += relaxations as i64;
             return;

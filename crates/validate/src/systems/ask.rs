@@ -39,10 +39,7 @@ pub struct SystemAnswer {
 pub enum SystemFailure {
     /// Occurs when `lagrange` has no answer.
     #[error("lagrange: {0}")]
-    Lagrange(#[from] lagrange::network::Error),
-    /// Occurs when `lagrange` is asked for the paper's equations of a row, and has no answer.
-    #[error("lagrange: {0}")]
-    Full(#[from] lagrange::SolveError),
+    Lagrange(#[from] lagrange::Error),
     /// Occurs when `energy` has no answer.
     #[error("energy: {0}")]
     Energy(#[from] energy::network::Error),
@@ -54,7 +51,7 @@ impl SystemFailure {
     pub fn is_misfit(&self) -> bool {
         matches!(
             self,
-            Self::Lagrange(lagrange::network::Error::Misfit { .. })
+            Self::Lagrange(lagrange::Error::Misfit { .. })
                 | Self::Energy(energy::network::Error::Misfit { .. })
         )
     }
@@ -64,7 +61,7 @@ impl SystemFailure {
     pub fn falls(&self) -> bool {
         matches!(
             self,
-            Self::Lagrange(lagrange::network::Error::Falls { .. })
+            Self::Lagrange(lagrange::Error::Falls { .. })
                 | Self::Energy(energy::network::Error::Falls { .. })
         )
     }
@@ -74,7 +71,7 @@ impl SystemFailure {
     pub fn is_unloaded(&self) -> bool {
         matches!(
             self,
-            Self::Lagrange(lagrange::network::Error::Unloaded)
+            Self::Lagrange(lagrange::Error::Unloaded)
                 | Self::Energy(energy::network::Error::NoLoad)
         )
     }
@@ -82,7 +79,7 @@ impl SystemFailure {
     /// Whether the search went astray, which another start may mend: no refusal, and no limit of work or memory.
     fn is_astray(&self) -> bool {
         use energy::network::Error as Energy;
-        use lagrange::network::Error as Lagrange;
+        use lagrange::Error as Lagrange;
         match self {
             Self::Lagrange(error) => matches!(
                 error,
@@ -101,7 +98,6 @@ impl SystemFailure {
                     | Energy::NoMinimumNear { .. }
                     | Energy::Jammed { .. }
             ),
-            Self::Full(_) => false,
         }
     }
 
@@ -109,7 +105,7 @@ impl SystemFailure {
     #[must_use]
     pub fn solver(&self) -> SolverName {
         match self {
-            Self::Lagrange(_) | Self::Full(_) => SolverName::LAGRANGE,
+            Self::Lagrange(_) => SolverName::LAGRANGE,
             Self::Energy(_) => SolverName::ENERGY,
         }
     }

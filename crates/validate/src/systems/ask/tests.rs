@@ -34,7 +34,7 @@ fn what_is_refuted_does_not_agree_and_what_has_no_answer_is_not_decided() {
     refuted.equilibria[1].evidence.ladder.refute(0.5);
     assert!(refuted.check_failed() && !refuted.agrees() && refuted.is_decided());
     let mut without = good.clone();
-    without.failures.push(lagrange::SolveError::SeedLength { expected: 3, got: 2 }.into());
+    without.failures.push(lagrange::Error::SeedLength { of: "bars", expected: 3, got: 2 }.into());
     assert!(!without.is_decided() && !without.check_failed());
     assert_eq!(without.failures[0].solver(), SolverName::LAGRANGE);
     // A proof by a box is worth as much as a residual; one of both is enough, of every answer.
