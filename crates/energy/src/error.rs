@@ -1,6 +1,8 @@
 //! Why there is no answer.
 
+use model::Vector;
 use model::number::Brief;
+use model::system::Misfit;
 use serde::Serialize;
 
 /// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
@@ -23,6 +25,31 @@ pub enum Error {
         /// Largest allowed value.
         high: f64,
     },
+    /// Occurs when a system has no member.
+    #[error("the system has no member")]
+    NoMember,
+    /// Occurs when no force acts and no member is strained: nothing decides the shape.
+    #[error("no force acts on the system, and no member is strained: nothing decides its shape")]
+    NoLoad,
+    /// Occurs when the direction of a support is zero, infinite or not a number.
+    #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
+    Direction {
+        /// Name of the joint.
+        joint: String,
+        /// The direction as given.
+        direction: Vector,
+    },
+    /// Occurs when a part of the system is free to move for ever along its load.
+    #[error(
+        "the part of the system with joint {joint} falls for ever: its supports leave it free to move along \
+         a force of {force_n} N"
+    )]
+    Falls {
+        /// Name of a joint of the part.
+        joint: String,
+        /// Force along the motion, N.
+        force_n: f64,
+    },
     /// Occurs when a seed has not one direction (or angle) per bar.
     #[error("a seed needs one direction for each of the {bars} bars, got {given}")]
     SeedSize {
@@ -38,7 +65,7 @@ pub enum Error {
         /// Number of the bar, from 1.
         bar: usize,
         /// The direction as given.
-        direction: model::Vector,
+        direction: Vector,
     },
     /// Occurs when an angle of the paper's example is infinite or not a number.
     #[error("the angles of a seed must be finite, got {angle_rad} rad")]
@@ -52,7 +79,7 @@ pub enum Error {
          {iterations} corrections",
         gap = Brief(*gap)
     )]
-    NotClosed {
+    SeedNotClosed {
         /// Distance left, in units of the total length.
         gap: f64,
         /// Corrections made.
@@ -63,7 +90,7 @@ pub enum Error {
         "not converged after {iterations} iterations: projected gradient {gradient}",
         gradient = Brief(*gradient)
     )]
-    IterationLimit {
+    NotConverged {
         /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
@@ -79,7 +106,7 @@ pub enum Error {
          directions",
         gradient = Brief(*gradient), gap = Brief(*gap)
     )]
-    Stalled {
+    NoDescent {
         /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
@@ -101,14 +128,156 @@ pub enum Error {
         /// Distance of the end anchor from the line, in units of the total length.
         across: f64,
     },
+    /// Occurs when a seed has not one place per joint, or one that is not finite.
+    #[error("a seed needs a finite place for each of the {joints} joints, got {given}")]
+    Seed {
+        /// Joints of the system.
+        joints: usize,
+        /// Finite places of the seed.
+        given: usize,
+    },
+    /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a
+    /// loop that cannot be closed.
+    #[error(
+        "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found"
+    )]
+    NotClosed {
+        /// Number of the member with the largest misfit, from 1.
+        member: usize,
+        /// Its misfit, m.
+        misfit_m: f64,
+    },
+    /// Occurs when a ring runs to the end of a span of its rope: the energy has a corner there, and no
+    /// gradient that could vanish.
+    #[error(
+        "the rope (member {member}) jams: its span {span} has no length left, and the energy a corner there"
+    )]
+    Jammed {
+        /// Number of the rope among the members, from 1.
+        member: usize,
+        /// Number of the span, from 1.
+        span: usize,
+    },
+    /// Occurs when more inextensible members meet than decide the shape, and their lengths do not
+    /// fit each other within their tolerances.
+    #[error("{}", misfit_message(misfits))]
+    Misfit {
+        /// The members that would be under self-stress, the worst first.
+        misfits: Vec<Misfit>,
+    },
+    /// Occurs when the joints balance with forces so large beside the loads and the prestress of the
+    /// system that their rounding is no longer small beside these: next to a singular shape.
+    #[error(
+        "the lengths are kept with {ratio} times the loads in member {member} alone, of which nothing is \
+         certain: the shape is next to one that bears any forces",
+        ratio = Brief(*ratio)
+    )]
+    Absurd {
+        /// Number of the member with the largest force, from 1.
+        member: usize,
+        /// Its force over the sum of the loads and the largest force of an elastic member.
+        ratio: f64,
+    },
+    /// Occurs when joints are out of balance by more than a part of what loads them.
+    #[error(
+        "joint {joint} is out of balance by {unbalance} of its load",
+        unbalance = Brief(*unbalance)
+    )]
+    Unbalanced {
+        /// Name of the joint.
+        joint: String,
+        /// The unbalanced force over the load of the joint, or over the mean load where that is more.
+        unbalance: f64,
+    },
+    /// Occurs when the iterations are used up.
+    #[error(
+        "not converged after {iterations} iterations: unbalanced force {unbalance} of the largest, lengths \
+         off by {misfit}",
+        unbalance = Brief(*unbalance), misfit = Brief(*misfit)
+    )]
+    IterationLimit {
+        /// Iterations made.
+        iterations: u64,
+        /// Largest unbalanced force over the largest force.
+        unbalance: f64,
+        /// Largest misfit of a length over the length.
+        misfit: f64,
+    },
+    /// Occurs when the work of a minimisation is used up.
+    #[error(
+        "not converged within the work it may do: factors of {spent} numbers were computed, and max_work is \
+         {max_work}"
+    )]
+    Work {
+        /// Numbers in all factors computed.
+        spent: u64,
+        /// How many may be.
+        max_work: u64,
+    },
+    /// Occurs when no step lowers the energy and the residual is still above its tolerance.
+    #[error(
+        "no step lowers the energy any further: unbalanced force {unbalance} of the largest, lengths off \
+         by {misfit}",
+        unbalance = Brief(*unbalance), misfit = Brief(*misfit)
+    )]
+    Stalled {
+        /// Largest unbalanced force over the largest force.
+        unbalance: f64,
+        /// Largest misfit of a length over the length.
+        misfit: f64,
+    },
+    /// Occurs when the configuration found is no minimum: the energy falls in some directions.
+    #[error(
+        "the configuration found is no minimum: the energy falls in {index} independent directions"
+    )]
+    NoMinimum {
+        /// Number of independent directions in which the energy falls.
+        index: usize,
+    },
+    /// Occurs when the descent from a drawing leads far away from it: no minimum lies next to it.
+    #[error(
+        "no minimum near the drawing: the descent ends where joint {joint} is {moved_m} m away"
+    )]
+    NoMinimumNear {
+        /// Name of the joint.
+        joint: String,
+        /// How far it is from where it was drawn, m.
+        moved_m: f64,
+    },
+    /// Occurs when joints balance with a cable that pushes or a strut that pulls alone.
+    #[error(
+        "no minimum found: the joints would balance with {force_n} N in member {member}, which it cannot \
+         bear (a cable pulls, a strut pushes)"
+    )]
+    WrongSign {
+        /// Number of the member, from 1.
+        member: usize,
+        /// The axial force that would balance, tension positive, N.
+        force_n: f64,
+    },
+    /// Occurs when joints balance with a floor that pulls alone.
+    #[error(
+        "no minimum found: joint {joint} would balance with {force_n} N from the floor, which only pushes"
+    )]
+    FloorPulls {
+        /// Name of the joint.
+        joint: String,
+        /// The force that would balance, up positive, N.
+        force_n: f64,
+    },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
     NotFinite {
         /// Which number.
         quantity: &'static str,
     },
-    /// Occurs when argmin ends a run for a reason that this crate never gives it: an interrupt, a
-    /// timeout, a target cost, or an error of its own.
+    /// Occurs when there is not enough memory for the factorisation.
+    #[error("not enough memory to factorise a system of {coordinates} coordinates")]
+    Memory {
+        /// Coordinates of the system.
+        coordinates: usize,
+    },
+    /// Occurs when argmin ends a run for a reason that this crate never gives it.
     #[error("argmin ended the run: {reason}")]
     Ended {
         /// The reason, in argmin's words.
@@ -116,8 +285,26 @@ pub enum Error {
     },
 }
 
+/// The worst misfit with its numbers, how many more, and what helps.
+fn misfit_message(misfits: &[Misfit]) -> String {
+    let Some(Misfit { member, misfit_m, within_m }) = misfits.first() else {
+        return "the lengths do not fit each other".to_owned();
+    };
+    let over = misfits.iter().filter(|other| other.misfit_m.abs() > other.within_m).count();
+    format!(
+        "the lengths overdetermine the shape and do not fit each other: in the shape that meets them best \
+         member {} is {} m off, where {} m are allowed, and {} more are off by more than \
+         allowed; give the lengths more exactly, or their length_tolerance_m, or stiffness_n: then the \
+         self-stress is real",
+        member + 1,
+        Brief(*misfit_m),
+        Brief(*within_m),
+        over.saturating_sub(1),
+    )
+}
+
 impl Error {
-    /// The kind of the error in a few words, for counting.
+    /// The kind of an error of a chain in a few words, for counting.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         match self {
@@ -125,12 +312,13 @@ impl Error {
             Self::SeedSize { .. } | Self::SeedDirection { .. } | Self::SeedAngle { .. } => {
                 "bad seed"
             }
-            Self::NotClosed { .. } => "not closed",
-            Self::IterationLimit { .. } => "iteration limit",
-            Self::Stalled { .. } => "stalled",
+            Self::SeedNotClosed { .. } => "not closed",
+            Self::NotConverged { .. } => "iteration limit",
+            Self::NoDescent { .. } => "stalled",
             Self::NearlyFolded { .. } => "nearly folded",
             Self::NotFinite { .. } => "not finite",
             Self::Ended { .. } => "ended by argmin",
+            _ => "another error",
         }
     }
 }
@@ -151,9 +339,9 @@ mod tests {
             (Error::SeedSize { bars: 3, given: 2 }, seed),
             (Error::SeedDirection { bar: 1, direction: [0.0; 3] }, seed),
             (Error::SeedAngle { angle_rad: f64::NAN }, seed),
-            (Error::NotClosed { gap: 0.1, iterations: 3 }, "not closed"),
-            (Error::IterationLimit { iterations: 3, gradient: 0.1 }, "iteration limit"),
-            (Error::Stalled { iterations: 3, gradient: 0.1, gap: 0.0, directions: 1 }, "stalled"),
+            (Error::SeedNotClosed { gap: 0.1, iterations: 3 }, "not closed"),
+            (Error::NotConverged { iterations: 3, gradient: 0.1 }, "iteration limit"),
+            (Error::NoDescent { iterations: 3, gradient: 0.1, gap: 0.0, directions: 1 }, "stalled"),
             (Error::NearlyFolded { across: 1e-9 }, "nearly folded"),
             (Error::NotFinite { quantity: "energy" }, "not finite"),
             (Error::Ended { reason: "interrupt".to_owned() }, "ended by argmin"),

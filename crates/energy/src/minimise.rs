@@ -197,9 +197,9 @@ fn descend_to_line(
     }
     let start = links.unfolded(start);
     let moments = links.measure(&start);
-    let closed = links
-        .close(Shape { u: start, moments }, SEED_CORRECTIONS)
-        .map_err(|(gap, iterations)| Error::NotClosed { gap: gap / links.total(), iterations })?;
+    let closed = links.close(Shape { u: start, moments }, SEED_CORRECTIONS).map_err(
+        |(gap, iterations)| Error::SeedNotClosed { gap: gap / links.total(), iterations },
+    )?;
     let state =
         Executor::new(Objective { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
             .configure(|state: Run| {
@@ -214,14 +214,14 @@ fn descend_to_line(
     // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
     let asked = settings.max_iterations < Settings::default().max_iterations;
     let unsettled = match outcome(&state) {
-        Err(error @ Error::IterationLimit { .. }) if !asked => Some(error),
+        Err(error @ Error::NotConverged { .. }) if !asked => Some(error),
         outcome => outcome.map(|()| unsettled)?,
     };
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
             let gap = norm(shape.moments.gap);
             if gap > OPEN_PART * links.spare() {
-                return Err(Error::NotClosed {
+                return Err(Error::SeedNotClosed {
                     gap: gap / links.total(),
                     iterations: SEED_CORRECTIONS,
                 });
@@ -243,7 +243,7 @@ fn descend_to_line(
 fn outcome(state: &Run) -> Result<(), Error> {
     let iterations = state.get_iter();
     let gradient = state.get_gradient().map_or(f64::NAN, |slope| slope.residual());
-    let limit = Error::IterationLimit { iterations, gradient };
+    let limit = Error::NotConverged { iterations, gradient };
     verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
 }
 

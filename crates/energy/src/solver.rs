@@ -284,7 +284,7 @@ fn stalled(curvature: &Curvature, run: &Run) -> Error {
     let (iterations, gradient) = (run.get_iter(), slope.residual());
     let directions = curvature.index(slope.zero);
     let gap = norm(curvature.shape.moments.gap) / curvature.links.total();
-    Error::Stalled { iterations, gradient, gap, directions }
+    Error::NoDescent { iterations, gradient, gap, directions }
 }
 
 /// The current iterate; `init` puts the first one in.

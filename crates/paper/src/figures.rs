@@ -158,7 +158,7 @@ fn by_energy(problem: &Problem, start: &'static str, angles: [f64; 3]) -> Option
             ..energy::Settings::default()
         };
         match energy::minimise_from(problem, &seed, &settings) {
-            Err(energy::Error::IterationLimit { gradient, .. }) => residuals.push(gradient),
+            Err(energy::Error::NotConverged { gradient, .. }) => residuals.push(gradient),
             Err(_) => return None,
             Ok(found) => {
                 residuals.push(found.work.gradient);

@@ -76,7 +76,7 @@ pub fn minimise(
         return Err(Error::NotFinite { quantity: "last iterate" });
     };
     let Along { gradient, curvature, .. } = Along::at(place);
-    let limit = Error::IterationLimit { iterations: state.get_iter(), gradient: gradient.abs() };
+    let limit = Error::NotConverged { iterations: state.get_iter(), gradient: gradient.abs() };
     verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })?;
     let [theta_rad, alpha_rad] = place;
     Ok(ExampleMinimum {
@@ -292,7 +292,7 @@ impl Solver<Example, Iterate> for CurveNewton {
                 return Ok((state.param(place).gradient(along.gradient).cost(value), None));
             }
         }
-        Err(Error::Stalled {
+        Err(Error::NoDescent {
             iterations: state.get_iter(),
             gradient: size,
             gap: closure(place[0], place[1]).abs(),
@@ -373,7 +373,7 @@ mod tests {
         let short = Settings { max_iterations: 1, ..settings };
         assert!(matches!(
             minimise(-1.0, 1.0, &short),
-            Err(Error::IterationLimit { iterations: 1, .. })
+            Err(Error::NotConverged { iterations: 1, .. })
         ));
         assert!(minimise(1e6, -1e6, &settings).is_ok());
     }

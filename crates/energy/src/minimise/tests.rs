@@ -19,7 +19,7 @@ fn straight(length: f64, span: f64) -> (Links, Vec<Vector>) {
 #[test]
 fn what_a_chain_lacks_is_a_part_of_its_length() {
     let (links, start) = straight(0.25, 1.3);
-    let Err(Error::NotClosed { gap, .. }) = descend(links, start, &Settings::default()) else {
+    let Err(Error::SeedNotClosed { gap, .. }) = descend(links, start, &Settings::default()) else {
         panic!("it does not close");
     };
     assert!((gap - 0.04).abs() < 1e-6, "{gap}");
@@ -32,7 +32,8 @@ fn a_chain_that_is_too_short_by_a_rounding_does_not_close() {
     for roundings in [2.0, 0.0] {
         let (links, start) = straight(0.2, 1.0 + roundings * f64::EPSILON);
         assert!((links.spare() + roundings * f64::EPSILON).abs() <= 0.0);
-        let Err(Error::NotClosed { gap, .. }) = descend_to_line(links, start, &Settings::default())
+        let Err(Error::SeedNotClosed { gap, .. }) =
+            descend_to_line(links, start, &Settings::default())
         else {
             panic!("it does not close");
         };

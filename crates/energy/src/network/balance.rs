@@ -7,7 +7,7 @@
 
 use model::system::System;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::Frame;
 use crate::network::polish::rounding_floor;
 use crate::network::shape::{NO_STRAIN, Shape, largest};

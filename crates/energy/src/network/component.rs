@@ -3,7 +3,7 @@
 use model::Vector;
 use model::system::System;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::{Frame, Spot};
 use crate::thresholds::{NO_STRAIN, ZERO};
 use crate::vector::{along, dot, norm, scaled, unit};

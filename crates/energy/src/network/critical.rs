@@ -9,7 +9,7 @@ use model::Vector;
 use model::system::{Kind, System};
 use nalgebra::DVector;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::minimise::seeded;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use matrices::sparse::{Ldlt, Pivots, minimum_degree};
 use model::Vector;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::{Rod, Spot, strands};
 use crate::network::work::Meter;
 use crate::vector::{along, dot};

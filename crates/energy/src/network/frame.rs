@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::law::Excess;
 use crate::network::work::Meter;
 use crate::thresholds::ZERO;

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
 use model::system::Kind;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::Excess;

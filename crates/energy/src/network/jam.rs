@@ -10,7 +10,7 @@ use model::system::{Joined, System};
 use model::{Jam, Vector};
 use nalgebra::{DMatrix, DVector};
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::{Frame, end_loads_n, free_axes, loads_n};
 use crate::network::shape::Shape;
 use crate::network::solution::Solution;

@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 use model::system::{Kind, Misfit};
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::{Frame, Rod};
 use crate::network::law::Excess;
 use crate::network::newton::Newton;

@@ -7,9 +7,9 @@ use argmin::core::{Executor, State};
 use model::Vector;
 use model::system::System;
 
+use crate::error::Error;
 use crate::minimise::{unwrapped, verdict};
 use crate::network::component::check_held;
-use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};

@@ -69,7 +69,6 @@
 mod balance;
 mod component;
 mod critical;
-mod error;
 mod factor;
 mod frame;
 mod interior;
@@ -90,8 +89,8 @@ mod start;
 mod weak;
 mod work;
 
+pub use crate::error::Error;
 pub use critical::{Critical, critical};
-pub use error::Error;
 pub use minimise::{minimise, minimise_from, minimise_near};
 pub use settings::Settings;
 pub use solution::{Forces, Solution, Work};

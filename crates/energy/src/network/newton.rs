@@ -23,7 +23,7 @@ use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
 
 use model::system::Kind;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::{Excess, Softened};

@@ -1,6 +1,6 @@
 //! What the caller may choose.
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::stability::DENSE;
 
 /// How to minimise. Valid settings come from [`Default`] and pass [`Settings::validate`].

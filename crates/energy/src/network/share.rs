@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use model::Vector;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::Frame;
 use crate::network::law::Excess;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, ForceChoice, InSpace, Rigidity, SelfStresses, SolverName, Vector};
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::frame::{Frame, end_loads_n};
 use crate::network::limit::Limit;
 use crate::network::minimise::Minimum;

@@ -9,7 +9,7 @@
 
 use model::Vector;
 
-use crate::network::error::Error;
+use crate::error::Error;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::{Frame, Rod, Spot};
 use crate::network::shape::Shape;

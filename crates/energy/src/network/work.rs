@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
-use crate::network::error::Error;
+use crate::error::Error;
 
 /// The meter of one minimisation: copies of it run together.
 #[derive(Debug, Clone, Default)]

@@ -255,7 +255,7 @@ fn bad_seeds_and_settings_are_refused_with_their_numbers() {
     let upside_down = Seed::angles(&chain, &[3.0, 1.5, 0.5]).unwrap();
     assert!(matches!(
         minimise_from(&chain, &upside_down, &short).unwrap_err(),
-        Error::IterationLimit { iterations: 1, .. }
+        Error::NotConverged { iterations: 1, .. }
     ));
     // However few are asked for, and however near that was.
     let iterations = minimise_from(&chain, &upside_down, &settings).unwrap().work.iterations;
@@ -263,7 +263,7 @@ fn bad_seeds_and_settings_are_refused_with_their_numbers() {
         let short = Settings { max_iterations, ..settings };
         let refused = minimise_from(&chain, &upside_down, &short).unwrap_err();
         assert!(
-            matches!(refused, Error::IterationLimit { iterations, .. } if iterations == max_iterations),
+            matches!(refused, Error::NotConverged { iterations, .. } if iterations == max_iterations),
             "{max_iterations}: {refused}"
         );
     }

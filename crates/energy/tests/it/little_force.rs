@@ -376,7 +376,7 @@ fn a_refusal_names_what_failed() {
     match minimise(&problem, &Settings::default()) {
         // Solved, every bar lies along its force.
         Ok(solution) => assert!(misaligned(&problem, &solution) < 1e-6),
-        Err(Error::Stalled { gradient, directions, .. }) => {
+        Err(Error::NoDescent { gradient, directions, .. }) => {
             assert!(gradient > 1e-12 || directions > 0, "{gradient:e} {directions}");
         }
         Err(other) => panic!("{other}"),

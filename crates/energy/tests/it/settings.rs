@@ -61,7 +61,7 @@ fn systems_refuse_settings_out_of_range() {
         (network::Settings { max_iterations: 0, ..good }, ("max_iterations", 1.0, u64::MAX as f64)),
     ] {
         let refused = |error| match error {
-            network::Error::Setting { field, low, high, .. } => (field, low, high),
+            Error::Setting { field, low, high, .. } => (field, low, high),
             other => panic!("{other}"),
         };
         assert_eq!(refused(network::minimise(&system, &settings).unwrap_err()), expected);

@@ -42,7 +42,7 @@ pub enum SystemFailure {
     Lagrange(#[from] lagrange::Error),
     /// Occurs when `energy` has no answer.
     #[error("energy: {0}")]
-    Energy(#[from] energy::network::Error),
+    Energy(#[from] energy::Error),
 }
 
 impl SystemFailure {
@@ -52,7 +52,7 @@ impl SystemFailure {
         matches!(
             self,
             Self::Lagrange(lagrange::Error::Misfit { .. })
-                | Self::Energy(energy::network::Error::Misfit { .. })
+                | Self::Energy(energy::Error::Misfit { .. })
         )
     }
 
@@ -62,7 +62,7 @@ impl SystemFailure {
         matches!(
             self,
             Self::Lagrange(lagrange::Error::Falls { .. })
-                | Self::Energy(energy::network::Error::Falls { .. })
+                | Self::Energy(energy::Error::Falls { .. })
         )
     }
 
@@ -71,14 +71,13 @@ impl SystemFailure {
     pub fn is_unloaded(&self) -> bool {
         matches!(
             self,
-            Self::Lagrange(lagrange::Error::Unloaded)
-                | Self::Energy(energy::network::Error::NoLoad)
+            Self::Lagrange(lagrange::Error::Unloaded) | Self::Energy(energy::Error::NoLoad)
         )
     }
 
     /// Whether the search went astray, which another start may mend: no refusal, and no limit of work or memory.
     fn is_astray(&self) -> bool {
-        use energy::network::Error as Energy;
+        use energy::Error as Energy;
         use lagrange::Error as Lagrange;
         match self {
             Self::Lagrange(error) => matches!(

@@ -114,7 +114,7 @@ pub(super) fn next_to(
         let keeps = !stays && there.moved <= FAR;
         if found.solver == SolverName::ENERGY && !there.is_neighbour && !keeps && elsewhere() {
             let Near { joint, moved_m, .. } = there;
-            *answer = Err(energy::network::Error::NoMinimumNear { joint, moved_m }.into());
+            *answer = Err(energy::Error::NoMinimumNear { joint, moved_m }.into());
         }
     }
     Some(first)
