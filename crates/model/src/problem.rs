@@ -17,7 +17,8 @@ pub(crate) const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
 /// A chain for which the question "where does it come to rest, with which forces?" has an answer.
 ///
 /// ```
-/// use model::{Anchors, Bar, Chain, Problem, Refusal};
+/// use model::system::Refusal;
+/// use model::{Anchors, Bar, Chain, Problem};
 /// let anchors = Anchors { start_m: [0.0; 3], end_m: [3.5, 0.0, 0.0] };
 /// let chain = Chain::new("too short", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 3])?;
 /// assert!(matches!(
