@@ -178,10 +178,8 @@ fn question(solution: &SolveAnswer) -> String {
         None => String::new(),
     };
     // As past a limit load.
-    let way = match near.moved > FAR {
-        true => " The way there: funicular trace --vary loads=0.01..1",
-        false => "",
-    };
+    let way =
+        if near.moved > FAR { " The way there: funicular trace --vary loads=0.01..1" } else { "" };
     wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
 

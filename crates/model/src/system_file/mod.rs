@@ -57,7 +57,7 @@
 //!
 //! # Refusals
 //!
-//! What is no equilibrium problem is refused with the numbers of its [`Refusal`](crate::Refusal): at
+//! What is no equilibrium problem is refused with the numbers of its [`Refusal`](crate::system::Refusal): at
 //! `anchors.end_m` if the bars do not reach, at the bar that is too long, at `bars` if none has mass.
 //!
 //! # Errors
