@@ -32,6 +32,8 @@ const REFINED: f64 = 3e-6;
 /// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
 /// a correction: it is made so long that it leaves least.
 const POOR_SWEEP: f64 = 0.1;
+/// What rounding leaves of a solve at best, with room: more than this is worth a factor.
+const ROUNDED: f64 = 1e-13;
 /// A step is halved at most so many times.
 const HALVINGS: usize = 24;
 
@@ -86,12 +88,13 @@ pub(super) fn polish(
     mut decided: Option<&mut Decided>,
 ) -> Run {
     let mut run = Run::within(framework, with_held(framework, state), decided.as_deref_mut());
-    let (mut merit, mut slow) = (run.residual.merit, 0);
+    let (mut merit, mut slow, mut anew) = (run.residual.merit, 0, false);
     while run.steps < settings.max_iterations && !framework.work.is_spent() {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
-        // What is left of rounding goes with the factor of the last step.
-        let derivative = if done && run.steps > 0 {
+        // What is left of rounding goes with the factor of the last step, where that was near enough.
+        let last = done && run.steps > 0 && !anew;
+        let derivative = if last {
             Some(Derivative::unfactored(framework, &run.state, &run.residual))
         } else {
             Derivative::new(framework, stiffness, &run.state, &run.residual)
@@ -103,7 +106,13 @@ pub(super) fn polish(
         let Some((step, _)) = step else { break };
         run.steps += 1;
         let next = search(framework, &run, &step, done, decided.as_deref_mut());
-        let Some((state, residual)) = next else { break };
+        let Some((state, residual)) = next else {
+            anew = last && run.residual.size() > ROUNDED;
+            if anew {
+                continue;
+            }
+            break;
+        };
         (run.state, run.residual) = (state, residual);
         if let Some(decided) = decided.as_deref_mut() {
             decided.renew(framework, &run.state);

@@ -13,6 +13,9 @@ use model::system::System;
 /// larger, near a singular shape, against this part of them: the tolerance is then some fifty
 /// roundings of these forces.
 const OF_FORCES: f64 = 1e-2;
+/// Far from the origin rounded places turn a member by a rounding of this part of their distance over its length; the
+/// forces of a long truss are large there.
+const FAR: f64 = 8.0;
 /// But never against more than this many times the loads: what rounding of larger forces leaves
 /// over is a part of the loads that matters.
 const OF_LOADS: f64 = 1e6;
@@ -105,8 +108,10 @@ impl Residual {
 fn units<'a>(framework: &'a Framework, state: &State) -> impl Iterator<Item = f64> + 'a {
     let mut forces = vec![0.0; framework.nodes.len()];
     for (link, axial) in framework.links.iter().zip(&state.axial) {
-        forces[link.from] += axial.abs();
-        forces[link.to] += axial.abs();
+        let far = [link.from, link.to].map(|joint| state.places[joint].amax());
+        let turned = (far[0].max(far[1]) / (FAR * link.length)).max(1.0);
+        forces[link.from] += axial.abs() * turned;
+        forces[link.to] += axial.abs() * turned;
     }
     let least = framework.least_scale(state);
     framework.nodes.iter().zip(forces).map(move |(node, force)| {

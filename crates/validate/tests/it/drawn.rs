@@ -560,3 +560,57 @@ fn a_brace_of_the_length_that_is_drawn_bears_nothing() {
         }
     }
 }
+
+/// Straight trusses of up to 350 panels, of rigid bars: a length that is off by its rounding moves the middle by as many
+/// squares of panels, and the chords bear as many squares of loads. Both solvers stay where it is drawn; the force in the
+/// middle of the lower chord is the moment there over the height.
+#[test]
+fn long_trusses_stay_where_they_are_drawn() {
+    for panels in [42_u32, 50, 60, 70, 77, 80, 350] {
+        let (x, height) = (f64::from, 3.0_f64.sqrt() / 2.0);
+        let lower: Vec<Vector> = (0..=panels).map(|k| [x(k), 0.0, 0.0]).collect();
+        let upper: Vec<Vector> = (0..panels).map(|k| [x(k) + 0.5, 0.0, height]).collect();
+        let (first, last) = (0, panels as usize);
+        let mut joints: Vec<Joint> = (0..=last)
+            .map(|k| match k {
+                0 => Joint::anchor("b0", lower[0]),
+                _ if k == last => Joint::free(format!("b{k}"))
+                    .held_by(Support::Line { at_m: lower[k], direction: [1.0, 0.0, 0.0] }),
+                _ => Joint::free(format!("b{k}")).with_mass(1.0),
+            })
+            .collect();
+        joints.extend((0..last).map(|k| Joint::free(format!("t{k}"))));
+        // In the plane of the drawing.
+        for joint in joints.iter_mut().skip(1).filter(|joint| joint.support == Support::Free) {
+            let at_m = [0.0; 3];
+            *joint = joint.clone().held_by(Support::Plane { at_m, normal: [0.0, 1.0, 0.0] });
+        }
+        let places: Vec<Vector> = lower.iter().chain(&upper).copied().collect();
+        let bar = |a: usize, b: usize| Member::bar(a, b, Bar::homogeneous(1.0, 0.0).unwrap());
+        let top = |k: usize| last + 1 + k;
+        let mut members = vec![];
+        for k in first..last {
+            members.extend([bar(k, k + 1), bar(k, top(k)), bar(top(k), k + 1)]);
+        }
+        members.extend((1..last).map(|k| bar(top(k - 1), top(k))));
+        let system = System::new("truss", G, joints, members).unwrap();
+        let system = system.drawn_at(&places).unwrap();
+        let answer = neighbour(&system);
+        for found in &answer.equilibria {
+            let off = found.joints_m.as_flattened().iter().zip(places.as_flattened());
+            let off = off.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+            assert!(off < 1e-9, "{panels} panels, {}: {off} m", found.solver);
+        }
+        // Between the supports n - 1 loads of 1 kg; the upper joint over the middle of a panel of an odd number.
+        let middle = last / 2;
+        let (at, loads) = (x(panels / 2) + 0.5, x(panels) - 1.0);
+        let moment = G * (0.5 * loads * at - (1..=middle).map(|k| at - k as f64).sum::<f64>());
+        let force = axial(
+            &system,
+            &answer.equilibria[0],
+            &format!("b{middle}"),
+            &format!("b{}", middle + 1),
+        );
+        assert!((force / (moment / height) - 1.0).abs() < 1e-9, "{panels} panels: {force} N");
+    }
+}
