@@ -18,7 +18,11 @@ pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
         let [x, y, z] = at_m;
         let [px, py, mut pz] = forces[k];
         pz -= masses[k] * shape.system.gravity_m_s2();
+        let pushed = shape.reactions_n.get(k).is_some_and(|push| norm(*push) > 0.0);
         let held = match joint.support {
+            Support::Free if pushed => {
+                return refuse(format!("floor that pushes (joint {:?})", joint.name));
+            }
             Support::Free => false,
             Support::Fixed { .. } => true,
             Support::Line { .. } | Support::Plane { .. } => {

@@ -190,3 +190,16 @@ fn every_command_takes_a_drawing() {
         "{said}"
     );
 }
+
+/// A graph for COMPAS has no floor: its push would be left over at the joint.
+#[test]
+fn what_a_floor_pushes_is_no_graph_for_compas() {
+    let folder = tempfile::tempdir().unwrap();
+    let system = "floor_m = -1\n[joints]\nA = { at_m = [0, 0, 0] }\nP = { mass_kg = 2 }\n[[bars]]\nfrom = \"A\"\n\
+                  to = \"P\"\nlength_m = 3\nmass_kg = 0\nkind = \"cable\"\n";
+    std::fs::write(folder.path().join("low.toml"), system).unwrap();
+    let (code, _, said) = run(folder.path(), &["convert", "low.toml", "--to", "low.json"]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("has no floor that pushes (joint \"P\")"), "{said}");
+    assert!(!folder.path().join("low.json").exists());
+}
