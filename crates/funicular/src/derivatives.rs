@@ -11,7 +11,7 @@ use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
 use crate::csv::quoted;
-use crate::equilibria::resting;
+use crate::equilibria::as_solved;
 use crate::error::Error;
 use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
@@ -151,7 +151,7 @@ impl Derivatives {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();
         system.refusal()?;
-        let solution = resting(&system)?;
+        let solution = as_solved(&system)?;
         Ok(DerivativesAnswer { system, solution })
     }
 }

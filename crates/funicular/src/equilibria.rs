@@ -43,7 +43,7 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 
 /// The equilibrium that `solve` shows, the lowest or the one next to the drawing, where both solvers agree on it, with the
 /// equations of `lagrange` there. Else what `lagrange` finds by itself.
-pub(crate) fn resting(system: &System) -> Result<network::Solution, network::Error> {
+pub(crate) fn as_solved(system: &System) -> Result<network::Solution, network::Error> {
     let settings = network::Settings::default();
     let question = Question { census: UseCensus::Never, ..Question::default() };
     let answer = ask_with(system, &question, &|_| {});
