@@ -1,7 +1,7 @@
 //! What can go wrong in a solve.
 
 use model::number::Brief;
-use model::system::Misfit;
+use model::system::{Misfit, RunTogether};
 use serde::Serialize;
 
 use crate::settings::SettingsError;
@@ -168,18 +168,8 @@ pub enum Error {
     },
     /// Occurs when a ring runs to the end of a span of its rope, where friction-free spans have no
     /// direction and the balance has a corner.
-    #[error(
-        "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
-         direction for its force"
-    )]
-    Jammed {
-        /// Number of the rope among the members, from 1.
-        member: usize,
-        /// Name of one joint.
-        from: String,
-        /// Name of the other.
-        to: String,
-    },
+    #[error(transparent)]
+    Jammed(#[from] RunTogether),
     /// Occurs when the lengths of inextensible members overdetermine the shape, and the shape that
     /// meets them best is off by more than their tolerances.
     #[error("{}", misfit_text(misfits))]

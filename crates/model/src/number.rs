@@ -121,11 +121,25 @@ pub struct Brief(pub f64);
 
 impl Display for Brief {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self(x) = *self;
-        let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-        if x.abs() <= 0.0 {
-            f.write_str("0")
-        } else if (SMALL..MANY).contains(&x.abs()) {
+        Rounded { value: self.0, digits: 4 }.fmt(f)
+    }
+}
+
+/// A number to so many significant digits, with a power of ten where zeros would hide them; zero has no sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rounded {
+    /// The number.
+    pub value: f64,
+    /// The digits, at least 1.
+    pub digits: usize,
+}
+
+impl Display for Rounded {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { value, digits } = *self;
+        let text = format!("{value:.*e}", digits.saturating_sub(1));
+        let rounded = text.parse().unwrap_or(value) + 0.0;
+        if rounded.abs() <= 0.0 || (LEAST..MANY).contains(&rounded.abs()) {
             write!(f, "{rounded}")
         } else {
             write!(f, "{rounded:e}")
@@ -133,8 +147,9 @@ impl Display for Brief {
     }
 }
 
-/// From here on zeros would hide the digits.
-const MANY: f64 = 1e6;
+/// Below this, and from that on, zeros would hide the digits of a number in a sentence.
+const LEAST: f64 = 1e-4;
+const MANY: f64 = 1e9;
 
 /// Significant digits of a number that is not a whole number.
 const COUNTED: usize = 4;

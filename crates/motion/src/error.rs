@@ -1,6 +1,7 @@
 //! Why a system does not move here, or a motion ends.
 
 use model::number::Brief;
+use model::system::RunTogether;
 
 /// Why a system cannot be set in motion, or a step cannot be taken.
 ///
@@ -21,18 +22,8 @@ pub enum MotionError {
     },
     /// Occurs when a ring of a taut rope runs to the end of a span: a span of no length has no
     /// direction for its force.
-    #[error(
-        "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
-         direction for its force"
-    )]
-    Jammed {
-        /// Number of the rope among the members, from 1.
-        member: usize,
-        /// Name of one joint.
-        from: String,
-        /// Name of the other.
-        to: String,
-    },
+    #[error(transparent)]
+    Jammed(#[from] RunTogether),
     /// Occurs when an inextensible cable or strut about whose equilibrium a system oscillates is
     /// neither taut, with a force that is more than rounding, nor slack: on one side it would hold
     /// its ends, on the other it would not, and no small motion is linear.

@@ -1,7 +1,7 @@
 //! A motion in time.
 
 use model::Vector;
-use model::system::System;
+use model::system::{RunTogether, System};
 
 use crate::composition::parts;
 use crate::contacts::{Contacts, Impact};
@@ -434,11 +434,11 @@ pub(crate) fn at_the_beginning(mechanism: &Mechanism, failure: Failure) -> Motio
         Failure::NotMet { corrections, off } => {
             MotionError::NotClosed { iterations: corrections, off }
         }
-        Failure::Jammed { span } => MotionError::Jammed {
+        Failure::Jammed { span } => MotionError::Jammed(RunTogether {
             member: mechanism.owner(span.member) + 1,
             from: mechanism.name(span.a),
             to: mechanism.name(span.b),
-        },
+        }),
     }
 }
 

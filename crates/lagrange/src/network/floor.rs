@@ -205,7 +205,7 @@ pub(super) fn above(
 /// Whether a floor may hold what this says of a system without one.
 fn catches(error: &Error) -> bool {
     use Error::{Escapes, Jammed, NotConverged, Unstable};
-    matches!(error, Escapes { .. } | Jammed { .. } | NotConverged { .. } | Unstable { .. })
+    matches!(error, Escapes { .. } | Jammed(_) | NotConverged { .. } | Unstable { .. })
 }
 
 /// Which joints lie below the floor or on it, m.

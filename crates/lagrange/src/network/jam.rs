@@ -7,7 +7,7 @@
 
 use matrices::dense::{apply, least_squares};
 use model::Jam;
-use model::system::{Joined, System};
+use model::system::{Joined, RunTogether, System};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::framework::Framework;
@@ -30,7 +30,8 @@ pub(super) fn joined(
 ) -> Result<Solution, Error> {
     let whole = (!framework.ropes.is_empty()).then(|| framework.clone());
     let found = solve(system, framework, None);
-    let (Some(whole), Err(Error::Jammed { member, from, to })) = (whole, &found) else {
+    let (Some(whole), Err(Error::Jammed(RunTogether { member, from, to }))) = (whole, &found)
+    else {
         return found;
     };
     let [Some(a), Some(b)] = [from, to].map(|name| system.joint(name)) else { return found };
@@ -52,7 +53,7 @@ fn corner(
         let joined = system.joined(&pairs)?;
         match solve(&joined.system, whole.joined(&joined), Some(&joined)) {
             Ok(solution) => return apart(system, whole, &joined, solution),
-            Err(Error::Jammed { from, to, .. }) => {
+            Err(Error::Jammed(RunTogether { from, to, .. })) => {
                 pair = [system.joint(&from)?, system.joint(&to)?];
             }
             Err(_) => return None,

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use matrices::dense::eigen_of_three;
-use model::system::{Kind, System};
+use model::system::{Kind, RunTogether, System};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
@@ -159,7 +159,7 @@ pub(super) fn jammed(system: &System, framework: &Framework, state: &State) -> O
     let span = short.min_by(|a, b| part(*a).total_cmp(&part(*b)))?;
     let link = &framework.links[span];
     let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.to_string());
-    Some(Error::Jammed { member: framework.member_of(span) + 1, from, to })
+    Some(RunTogether { member: framework.member_of(span) + 1, from, to }.into())
 }
 
 /// Two anchors that are further apart than inextensible bars and cables between them reach, if

@@ -6,7 +6,7 @@
 //! the sum of its spans. Elsewhere numbers that a
 //! factorisation may give all the same are one of many, or those of one side.
 
-use model::system::{Kind, System};
+use model::system::{Kind, RunTogether, System};
 
 use super::framework::Framework;
 use super::residual::Residual;
@@ -26,7 +26,7 @@ pub(super) fn check(
         let mut spans = system.members()[jam.member].spans().skip(jam.span);
         let joints = spans.next().unwrap_or_default();
         let [from, to] = joints.map(|joint| system.joints()[joint].name.to_string());
-        return Err(Error::Jammed { member: jam.member + 1, from, to });
+        return Err(RunTogether { member: jam.member + 1, from, to }.into());
     }
     let motions = solution.equilibrium.stability.neutral;
     if motions > 0 {

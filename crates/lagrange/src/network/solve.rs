@@ -327,7 +327,7 @@ impl<'a> Solver<'a> {
                 // An equilibrium, if not where it came to rest.
                 (Ok(run), _) | (Err(_), Ok(run)) => Ok(run),
                 // From elsewhere it may not have run together.
-                (Err(_), Err(first @ Error::Jammed { .. })) => Err(first),
+                (Err(_), Err(first @ Error::Jammed(_))) => Err(first),
                 (Err(error @ Error::NotConverged { .. }), _) => Err(jam.unwrap_or(error)),
                 (Err(error), _) => Err(error),
             };

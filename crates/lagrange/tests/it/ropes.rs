@@ -4,7 +4,7 @@ use lagrange::network::{
     Derivatives, Error, Forces, Parameter, Seed, Settings, Solution, solve, solve_from,
 };
 use model::Bar;
-use model::system::{Joint, Member, System};
+use model::system::{Joint, Member, RunTogether, System};
 use samples::RopeSample;
 
 use crate::network::{close, near};
@@ -71,7 +71,7 @@ fn joints_that_run_together_are_held_by_less_than_the_tension() {
             near(jam.pull_n, *pull_n);
         }
         let derivatives = Derivatives::new(&sample.system, &found).map(|_| ());
-        assert!(matches!(derivatives, Err(Error::Jammed { member: 1, .. })), "{name}");
+        assert!(matches!(derivatives, Err(Error::Jammed(RunTogether { member: 1, .. }))), "{name}");
         let drawn = found.equilibrium.joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]);
         let near = solve_from(&sample.system, &Seed::at(drawn.collect()), &Settings::default());
         holds(&sample, &near.unwrap_or_else(|error| panic!("{name}: {error}")));

@@ -46,7 +46,7 @@ pub use name::Name;
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::Refusal;
 pub(crate) use refusal::shortened;
-pub use rope::{Rope, RopeFault};
+pub use rope::{Rope, RopeFault, RunTogether};
 pub use row::Row;
 pub use strength::{Strength, StrengthError};
 pub use symmetry::Part;

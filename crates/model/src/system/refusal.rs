@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::graph::Graph;
-use super::{Joint, Kind, Support, System};
+use super::{Kind, Support, System};
 use crate::Vector;
 use crate::number::Brief;
 use crate::problem::ANCHOR_ROUNDING;
@@ -213,11 +213,8 @@ impl System {
         if self.is_unloaded() && !elastic {
             return Err(Refusal::NoLoad);
         }
-        if self.is_loaded_on_supports_alone() && !elastic {
-            return Err(Refusal::LoadOnAnchors);
-        }
-        if self.loads_cancel() && !elastic {
-            return Err(Refusal::LoadsCancel);
+        if !elastic {
+            self.loads_decide()?;
         }
         self.anchors_in_reach(&graph)?;
         self.ropes_reach()?;
@@ -235,33 +232,16 @@ impl System {
             && self.members().iter().all(|m| m.loads.iter().all(|load| still(load.force_n)))
     }
 
-    /// Whether no joint feels a load along a way that it can move, its own or one of a member: a
-    /// question about the data as they stand, without rounding. A load on a member is felt by both
-    /// its joints unless it acts at one of them.
-    fn is_loaded_on_supports_alone(&self) -> bool {
-        let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg];
-        let rests = |joint: usize, load: Vector| self.joints()[joint].support.bears(load);
-        let own = |(k, joint): (usize, &Joint)| {
-            rests(k, weight(joint.mass_kg)) && rests(k, joint.force_n)
-        };
-        self.joints().iter().enumerate().all(own)
-            && self.members().iter().all(|member| {
-                let body = &member.body;
-                let on_supports = |at_m: f64, load: Vector| {
-                    (at_m >= body.length_m() || rests(member.from, load))
-                        && (at_m <= 0.0 || rests(member.to, load))
-                };
-                on_supports(body.centre_m(), weight(body.mass_kg()))
-                    && member.loads.iter().all(|load| on_supports(load.at_m, load.force_n))
-            })
-    }
-
-    /// Whether nothing but rounding is left of the loads at the joints that can move, by the lever rule.
-    fn loads_cancel(&self) -> bool {
-        // A sum for each joint, and the sizes of what is summed up.
-        let mut loads = vec![([0.0_f64; 3], 0.0_f64); self.joints().len()];
+    /// Refuse where no joint feels a load along a way that it can move, its own or by the lever rule one of a member, or
+    /// where nothing but rounding is left of what it feels.
+    fn loads_decide(&self) -> Result<(), Refusal> {
+        // Of each joint the sum of what its support does not bear, and the sizes of what is summed up.
+        let mut felt = vec![([0.0_f64; 3], 0.0_f64); self.joints().len()];
         let mut add = |joint: usize, part: f64, load_n: Vector| {
-            let (sum, size) = &mut loads[joint];
+            if self.joints()[joint].support.bears(load_n) {
+                return;
+            }
+            let (sum, size) = &mut felt[joint];
             for (sum, x) in sum.iter_mut().zip(load_n) {
                 *sum += part * x;
                 *size += (part * x).abs();
@@ -282,9 +262,11 @@ impl System {
             on_member(body.centre_m(), weight(body.mass_kg()));
             member.loads.iter().for_each(|load| on_member(load.at_m, load.force_n));
         }
-        self.joints().iter().zip(loads).all(|(joint, (sum, size))| {
-            joint.support.is_fixed() || sum.iter().all(|x| x.abs() <= CANCELS * size)
-        })
+        if felt.iter().all(|(_, size)| *size <= 0.0) {
+            return Err(Refusal::LoadOnAnchors);
+        }
+        let cancels = |(sum, size): &(Vector, f64)| sum.iter().all(|x| x.abs() <= CANCELS * size);
+        if felt.iter().all(cancels) { Err(Refusal::LoadsCancel) } else { Ok(()) }
     }
 
     fn connected(&self, graph: &Graph<'_>) -> Result<(), Refusal> {

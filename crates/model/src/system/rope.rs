@@ -1,5 +1,7 @@
 //! Ropes: members that run over rings and pulleys.
 
+use serde::Serialize;
+
 use super::error::SystemError;
 use super::{Joint, Kind, Member, System};
 
@@ -11,6 +13,21 @@ use super::{Joint, Kind, Member, System};
 pub struct Rope {
     /// The joints between its ends, in their order; one joint may stand here more than once.
     pub via: Vec<usize>,
+}
+
+/// A ring has run to the end of a span of its rope: the span has no direction for its force.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
+#[error(
+    "the rope (member {member}) jams: {from} and {to} run together, and the span between them has no \
+     direction for its force"
+)]
+pub struct RunTogether {
+    /// Number of the rope among the members, from 1.
+    pub member: usize,
+    /// Name of one joint.
+    pub from: String,
+    /// Name of the other.
+    pub to: String,
 }
 
 /// Why a rope is none that is modelled here.

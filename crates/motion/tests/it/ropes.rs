@@ -1,6 +1,6 @@
 //! Ropes over rings and pulleys in motion and about equilibria, against closed forms and differences of energies.
 
-use model::system::{Joint, Member, System};
+use model::system::{Joint, Member, RunTogether, System};
 use model::{Bar, Vector};
 use motion::{
     Contact, EquilibriumBox, MotionError, Order, Settings, Simulation, enclose_modes, lowest_modes,
@@ -79,7 +79,7 @@ fn a_weight_that_reaches_its_pulley_jams() {
                 break jam;
             }
         };
-        let told = MotionError::Jammed { member: 1, from: "E".to_owned(), to: "Q".to_owned() };
+        let told = RunTogether { member: 1, from: "E".to_owned(), to: "Q".to_owned() }.into();
         assert_eq!(jam, told);
         near(weights.time_s(), (25.0 / G).sqrt(), 1.01 * step_s);
     }
@@ -89,9 +89,9 @@ fn a_weight_that_reaches_its_pulley_jams() {
         let mut jammed = at.clone();
         (jammed[2], jammed[3]) = ([0.0, 0.0, -below_m], [1.0, 0.0, 0.0]);
         let refused = Simulation::new(&system, &jammed, Settings::default()).err().unwrap();
-        assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
+        assert!(matches!(refused, MotionError::Jammed(RunTogether { member: 1, .. })), "{refused}");
         let refused = modes(&system, &jammed, None).unwrap_err();
-        assert!(matches!(refused, MotionError::Jammed { member: 1, .. }), "{refused}");
+        assert!(matches!(refused, MotionError::Jammed(RunTogether { member: 1, .. })), "{refused}");
     }
 }
 
@@ -324,7 +324,7 @@ fn impacts_on_a_rope_take_energy() {
         let begin_j = thrown.energy_j();
         for _ in 0..2000 {
             if let Err(stop) = thrown.step(1e-3) {
-                assert!(matches!(stop, MotionError::Jammed { .. }), "{path:?}: {stop}");
+                assert!(matches!(stop, MotionError::Jammed(_)), "{path:?}: {stop}");
                 break;
             }
             let now_m = length(&thrown.snapshot().joints_m);

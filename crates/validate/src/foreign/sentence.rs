@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use model::Place;
-use model::number::Brief;
+use model::number::{Brief, Rounded};
 use model::system::System;
 
 use super::bounds::STORED;
@@ -84,23 +84,9 @@ impl Law {
     }
 }
 
-/// A number to so many digits, without an exponent where it is short; zero has no sign.
-fn written(f: &mut Formatter<'_>, number: f64, digits: usize) -> fmt::Result {
-    let rounded: f64 = format!("{number:.digits$e}").parse().unwrap_or(number) + 0.0;
-    if rounded.abs() < 1e9 && (rounded.abs() >= 1e-4 || rounded.abs() <= 0.0) {
-        write!(f, "{rounded}")
-    } else {
-        write!(f, "{rounded:e}")
-    }
-}
-
 /// Enough digits to see a difference of 1e-9 of a length.
-struct Digits(f64);
-
-impl Display for Digits {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        written(f, self.0, 9)
-    }
+fn fine(value: f64) -> Rounded {
+    Rounded { value, digits: 10 }
 }
 
 struct Force([f64; 3]);
@@ -109,7 +95,7 @@ impl Display for Force {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for (before, part) in ["(", ", ", ", "].into_iter().zip(self.0) {
             f.write_str(before)?;
-            written(f, part, 6)?;
+            write!(f, "{}", Rounded { value: part, digits: 7 })?;
         }
         f.write_str(") N")
     }
@@ -136,39 +122,39 @@ impl Violation {
     #[must_use]
     pub fn what(&self) -> String {
         match self.law {
-            Law::Support => format!("{} m off its support", Digits(self.value)),
-            Law::BelowFloor => format!("{} m below the floor", Digits(self.value)),
+            Law::Support => format!("{} m off its support", fine(self.value)),
+            Law::BelowFloor => format!("{} m below the floor", fine(self.value)),
             Law::FloorPulls { force_n } => {
-                format!("the floor would have to pull it down with {} N", Digits(force_n))
+                format!("the floor would have to pull it down with {} N", fine(force_n))
             }
             Law::Length { length_m, distance_m } => {
                 let more = if distance_m > length_m { "more" } else { "less" };
                 format!(
                     "its joints are {} m apart, {} m {more} than its length of {} m",
-                    Digits(distance_m),
-                    Digits(self.value),
-                    Digits(length_m)
+                    fine(distance_m),
+                    fine(self.value),
+                    fine(length_m)
                 )
             }
             Law::Elongation { force_n, elastic_n } => format!(
                 "carries {} N, and its elongation gives {} N",
-                Digits(force_n),
-                Digits(elastic_n)
+                fine(force_n),
+                fine(elastic_n)
             ),
             Law::Sign { force_n } if force_n < 0.0 => {
-                format!("a cable that pushes with {} N", Digits(-force_n))
+                format!("a cable that pushes with {} N", fine(-force_n))
             }
-            Law::Sign { force_n } => format!("a strut that pulls with {} N", Digits(force_n)),
+            Law::Sign { force_n } => format!("a strut that pulls with {} N", fine(force_n)),
             Law::Slack { force_n, length_m, distance_m } => format!(
                 "carries {} N, though its joints are {} m apart and its length is {} m",
-                Digits(force_n),
-                Digits(distance_m),
-                Digits(length_m)
+                fine(force_n),
+                fine(distance_m),
+                fine(length_m)
             ),
             Law::Tension { member, sides_n: [before_n, after_n] } => format!(
                 "the rope (member {member}) pulls with {} N on one side and {} N on the other",
-                Digits(before_n),
-                Digits(after_n)
+                fine(before_n),
+                fine(after_n)
             ),
             Law::Balance { left_n } => format!("{} are left over", Force(left_n)),
             Law::Reaction { given_n, wanted_n } => format!(
@@ -199,7 +185,7 @@ impl Judgement {
                 "The answer has no forces: those that balance best leave {} N (root of the sum of squares over \
                  the joints), the largest of them is {} N.",
                 Brief(best.residual_n),
-                Digits(best.largest_n)
+                fine(best.largest_n)
             ),
         }
     }

@@ -85,7 +85,7 @@ impl SystemFailure {
                 Lagrange::NotConverged { .. }
                     | Lagrange::Unstable { .. }
                     | Lagrange::Escapes { .. }
-                    | Lagrange::Jammed { .. }
+                    | Lagrange::Jammed(_)
             ),
             Self::Energy(error) => matches!(
                 error,

@@ -34,3 +34,4 @@ mod rows;
 mod statics;
 mod tensegrities;
 mod third_road;
+mod trusses;

@@ -349,7 +349,11 @@ fn refusals_of_lagrange_for_frames() {
             &["member 2 would bear 3.5 N, 4.5 times the loads"],
         ),
         of(
-            &Error::Jammed { member: 3, from: "P".into(), to: "D".into() },
+            &Error::from(model::system::RunTogether {
+                member: 3,
+                from: "P".into(),
+                to: "D".into(),
+            }),
             &["the rope (member 3) jams: P and D run together"],
         ),
     ];

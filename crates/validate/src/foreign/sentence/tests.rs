@@ -58,7 +58,7 @@ fn numbers_are_written_short() {
         (-2.5e12, "-2.5e12"),
         (1.000_000_000_04, "1"),
     ] {
-        assert_eq!(Digits(number).to_string(), text);
+        assert_eq!(fine(number).to_string(), text);
     }
     assert_eq!(Force([1.0 / 3.0, 2e-5, -1e9]).to_string(), "(0.3333333, 2e-5, -1e9) N");
 }
