@@ -104,7 +104,7 @@ fn open_pushes(
 ) -> Option<Vec<bool>> {
     let floor_m = system.floor_m()?;
     // What iterations leave of lengths adds to the rounding.
-    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium, floor_m)
+    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium.joints_m, floor_m)
         + solution.residual * framework.units.length_m;
     let joints = framework.nodes.iter().zip(&solution.equilibrium.joints_m);
     let touches = joints.zip(lies).map(|((node, at_m), lies)| {
@@ -158,8 +158,8 @@ fn with_open_pushes(
 }
 
 /// Largest coordinate of a joint or the floor, m.
-fn largest_coordinate_m(answer: &SystemEquilibrium, floor_m: f64) -> f64 {
-    answer.joints_m.iter().flatten().fold(floor_m.abs(), |most, x| most.max(x.abs()))
+fn largest_coordinate_m(joints_m: &[[f64; 3]], floor_m: f64) -> f64 {
+    joints_m.iter().flatten().fold(floor_m.abs(), |most, x| most.max(x.abs()))
 }
 
 /// Largest force of a member or load, N.
@@ -211,8 +211,9 @@ fn catches(error: &Error) -> bool {
 /// Which joints lie below the floor or on it, m.
 pub(super) fn below(system: &System, framework: &Framework, joints_m: &[[f64; 3]]) -> Vec<bool> {
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let depth_m = ON_FLOOR * largest_coordinate_m(joints_m, floor_m);
     let joints = joints_m.iter().zip(&framework.nodes);
-    joints.map(|(at_m, node)| at_m[2] <= floor_m && lift(node).is_some()).collect()
+    joints.map(|(at_m, node)| at_m[2] <= floor_m + depth_m && lift(node).is_some()).collect()
 }
 
 /// The joints that lie on the floor in the next round.
@@ -224,7 +225,7 @@ fn mended(
     together: bool,
 ) -> Vec<bool> {
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-    let depth_m = ON_FLOOR * largest_coordinate_m(answer, floor_m);
+    let depth_m = ON_FLOOR * largest_coordinate_m(&answer.joints_m, floor_m);
     let least_n = NO_FORCE * largest_n(framework, answer);
     let mut next = lies.to_vec();
     let mut pulled = Vec::new();

@@ -17,6 +17,8 @@ use model::system::Kind;
 
 /// First $\rho$ in units of the mean $|N|/l$: members stretch by some percent.
 const FIRST_PENALTY: f64 = 30.0;
+/// The same where the state is to be kept: members stretch by some hundredth of a percent.
+const NEAR_PENALTY: f64 = 1e4;
 /// Growth of $\rho$ when the lengths get better too slowly, and what is too slowly.
 const PENALTY_GROWTH: f64 = 5.0;
 const SLOW: f64 = 0.25;
@@ -61,8 +63,22 @@ pub(super) struct Rest {
 }
 
 /// Settle from a state.
-pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, mut state: State) -> Rest {
-    let mut penalty = Penalty::new(framework, &state);
+pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, state: State) -> Rest {
+    settle_from(framework, stiffness, state, FIRST_PENALTY)
+}
+
+/// The same next to a state with its forces: no member gets softer on the way than it is, by much.
+pub(super) fn settle_near(framework: &Framework, stiffness: &mut Stiffness, state: State) -> Rest {
+    settle_from(framework, stiffness, state, NEAR_PENALTY)
+}
+
+fn settle_from(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    mut state: State,
+    first: f64,
+) -> Rest {
+    let mut penalty = Penalty::new(framework, &state, first);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
     let (mut lost, mut restless) = (None, 0);
     for _ in 0..ROUNDS {
@@ -105,7 +121,7 @@ struct Penalty {
 }
 
 impl Penalty {
-    fn new(framework: &Framework, state: &State) -> Self {
+    fn new(framework: &Framework, state: &State, first: f64) -> Self {
         let densities =
             framework.links.iter().zip(&state.axial).map(|(l, axial)| axial.abs() / l.length);
         let mean = densities.sum::<f64>() / framework.links.len().max(1) as f64;
@@ -114,7 +130,7 @@ impl Penalty {
         let bases = framework.nodes.iter().map(|node| node.base.amax()).fold(0.0, f64::max);
         let lengths: f64 = framework.links.iter().map(|link| link.length).sum();
         let reach = FAR * (bases + lengths);
-        Self { rho: FIRST_PENALTY * mean, first: FIRST_PENALTY * mean, mean, offsets, reach }
+        Self { rho: first * mean, first: first * mean, mean, offsets, reach }
     }
 
     fn lost(&self, places: &[Vector3<f64>]) -> Option<usize> {

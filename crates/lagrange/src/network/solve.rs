@@ -18,7 +18,7 @@ use super::readings::nearly;
 use super::second_order::SecondOrder;
 use super::seed::Seed;
 use super::settings::Settings;
-use super::settle::settle;
+use super::settle::{settle, settle_near};
 use super::signs::signs_mended;
 use super::solution::{Found, Solution};
 use super::state::State;
@@ -187,20 +187,26 @@ fn reached(
     let to_fit = seed.axial_n.is_none() && !seed.at_rest && !system.is_unloaded();
     let drawn = to_fit.then(|| start.clone());
     let start = if to_fit { solver.closed(start) } else { start };
-    let found = match (solver.with_signs(start.clone(), Patience::Full), drawn) {
+    let found = match (solver.with_signs(start.clone(), Patience::Full), &drawn) {
         // Cables that are drawn a little too short may be slack, and not drawn badly.
         (Err(error @ Error::NotConverged { .. }), Some(drawn)) if start.places != drawn.places => {
-            solver.with_signs(drawn, Patience::Full).map_err(|_| error)
+            solver.with_signs(drawn.clone(), Patience::Full).map_err(|_| error)
         }
         (found, _) => found,
     };
+    let one_sided = solver.framework.links.iter().any(|link| link.kind != Kind::Bar);
     let run = match found {
-        // With loads what a search ends in may be far from the seed.
+        // With bars alone what a search ends in may be far from the seed. Cables and struts may change to and fro between two
+        // sets that are both wrong, where what each holds is not stable.
         Err(error @ Error::NotConverged { .. })
-            if !solver.framework.ropes.is_empty() || system.is_unloaded() =>
+            if one_sided || !solver.framework.ropes.is_empty() || system.is_unloaded() =>
         {
             // From where it comes to rest, unless that is a corner.
-            let rest = settle(&solver.framework, &mut solver.stiffness, start);
+            let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
+            let rest = match drawn {
+                Some(drawn) => settle_near(framework, stiffness, drawn),
+                None => settle(framework, stiffness, start),
+            };
             solver.factorisations += rest.factorisations;
             if system.is_unloaded() && rest.fits && is_idle(&solver.framework, &rest.state) {
                 return Err(Error::Unloaded);
@@ -391,7 +397,10 @@ impl<'a> Solver<'a> {
             let length = self.framework.whole(k, |span| directions[span].1);
             let misfit = (length / link.length - 1.0).abs();
             let stiff = link.compliance <= STIFF * link.length;
-            unloaded.taut[k] = stiff && (link.kind == Kind::Bar || misfit <= LOOSE);
+            // What is stretched in the drawing by its prestress is as long there as it ought to be.
+            let member = &self.system.members()[self.framework.member_of(k)];
+            unloaded.taut[k] =
+                stiff && member.prestress.is_none() && (link.kind == Kind::Bar || misfit <= LOOSE);
             off = off.max(if unloaded.taut[k] { misfit } else { 0.0 });
         }
         if off <= MISDRAWN {

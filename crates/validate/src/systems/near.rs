@@ -1,6 +1,6 @@
 //! The question of a drawing: the equilibrium next to a shape, and whether what was found is it.
 
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{SolverName, Vector, sum};
 use serde::Serialize;
 
@@ -20,6 +20,10 @@ const TURNED: f64 = 0.25;
 
 /// Places on the straight way from the drawing to the answer at which the energy is looked at.
 const STATIONS: u32 = 32;
+
+/// Steps that bring lengths to what they ought to be, and what is left of them then, over the lengths.
+const FITS: usize = 8;
+const FITTED: f64 = 1e-11;
 
 /// A barrier below this part of the change of the energy along the way is rounding.
 const BARRIER: f64 = 1e-6;
@@ -42,7 +46,7 @@ pub struct Near {
     pub moved_m: f64,
     /// That joint.
     pub joint: String,
-    /// How far the energy rises on the straight way from the drawing to the equilibrium, J: a
+    /// How far the energy rises on the way from the drawing to the equilibrium on which members change their lengths evenly, J: a
     /// structure that has snapped through has passed a barrier. Nothing where there is none, or
     /// where rigid members have no energy.
     pub barrier_j: Option<f64>,
@@ -146,22 +150,152 @@ pub(super) fn is_below(system: &System, drawing_m: &[Vector], answer: &SystemEqu
     answer.energy_j < potential_j(system, system.members(), drawing_m)
 }
 
-/// How far the energy rises on the straight way between two shapes, J, if it rises and falls again.
+/// How far the energy rises on the way between two shapes, J, if it rises and falls again: on the straight one, and, where it
+/// does there, on one beside it on which no member gets longer or shorter than on its way from one length to the other. A stiff bar
+/// that turns is shorter on the straight way, and has as much energy there as the whole structure; one that snaps through has
+/// to be.
 fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64> {
     if system.members().iter().any(|member| member.stiffness_n.is_none()) {
         return None;
     }
-    let at = |station: u32| {
-        let part = f64::from(station) / f64::from(STATIONS);
+    let straight = |part: f64| -> Vec<Vector> {
         let places = from_m.iter().zip(to_m);
-        let between = places.map(|(a, b)| plus(*a, times(part, minus(*b, *a))));
-        potential_j(system, system.members(), &between.collect::<Vec<_>>())
+        places.map(|(a, b)| plus(*a, times(part, minus(*b, *a)))).collect()
+    };
+    let beside = |part: f64| fitted(system, [from_m, to_m], part, straight(part));
+    rise_j(system, &straight).and_then(|_| rise_j(system, &beside))
+}
+
+/// How far the energy rises on a way of places over a part from 0 to 1, J, if it rises and falls again.
+fn rise_j(system: &System, way: &dyn Fn(f64) -> Vec<Vector>) -> Option<f64> {
+    let at = |station: u32| {
+        let places_m = way(f64::from(station) / f64::from(STATIONS));
+        potential_j(system, system.members(), &places_m)
     };
     let (start, end) = (at(0), at(STATIONS));
     let top = (1..STATIONS).map(at).fold(f64::NEG_INFINITY, f64::max);
     let rise = top - start.max(end);
     let rounding = SUMMED * (start.abs() + top.abs() + end.abs());
     (rise > rounding.max(BARRIER * (start - end).abs())).then_some(rise)
+}
+
+/// Places moved as little as may be, so that every member is as long as on its way between its lengths in two shapes: Newton's
+/// steps, each by conjugate gradients for the least squares.
+fn fitted(
+    system: &System,
+    shapes_m: [&[Vector]; 2],
+    part: f64,
+    mut places_m: Vec<Vector>,
+) -> Vec<Vector> {
+    let members = system.members();
+    let wanted: Vec<f64> = members
+        .iter()
+        .map(|member| {
+            let [from_m, to_m] = shapes_m.map(|places| length_m(member, places));
+            from_m + part * (to_m - from_m)
+        })
+        .collect();
+    for _ in 0..FITS {
+        let off: Vec<f64> = members
+            .iter()
+            .zip(&wanted)
+            .map(|(member, wanted_m)| wanted_m - length_m(member, &places_m))
+            .collect();
+        let worst = members.iter().zip(&off).map(|(m, off)| off.abs() / m.body.length_m());
+        if worst.fold(0.0, worse) <= FITTED {
+            break;
+        }
+        let rows = Rows::new(system, &places_m);
+        let moves = rows.least_squares(&off);
+        for (at, by) in places_m.iter_mut().zip(moves) {
+            *at = plus(*at, by);
+        }
+    }
+    places_m
+}
+
+/// The derivatives of the lengths of members by the places of joints: of each member its spans with their directions.
+struct Rows<'a> {
+    system: &'a System,
+    spans: Vec<Vec<(usize, usize, Vector)>>,
+}
+
+impl<'a> Rows<'a> {
+    fn new(system: &'a System, places_m: &[Vector]) -> Self {
+        let row = |member: &Member| {
+            let span = |[a, b]: [usize; 2]| {
+                let d = minus(places_m[b], places_m[a]);
+                (a, b, times(norm(d).max(f64::MIN_POSITIVE).recip(), d))
+            };
+            member.spans().map(span).collect()
+        };
+        Self { system, spans: system.members().iter().map(row).collect() }
+    }
+
+    /// By how much moves make each member longer.
+    fn longer(&self, moves: &[Vector]) -> Vec<f64> {
+        let row = |spans: &Vec<(usize, usize, Vector)>| {
+            sum(spans.iter().map(|(a, b, u)| dot(*u, minus(moves[*b], moves[*a]))))
+        };
+        self.spans.iter().map(row).collect()
+    }
+
+    /// The transposed product: what members pull at the joints, as far as these may move.
+    fn pulls(&self, forces: &[f64]) -> Vec<Vector> {
+        let mut pulls = vec![[0.0; 3]; self.system.joints().len()];
+        for (spans, force) in self.spans.iter().zip(forces) {
+            for (a, b, u) in spans {
+                pulls[*a] = plus(pulls[*a], times(-force, *u));
+                pulls[*b] = plus(pulls[*b], times(*force, *u));
+            }
+        }
+        for (pull, joint) in pulls.iter_mut().zip(self.system.joints()) {
+            *pull = match joint.support {
+                Support::Free => *pull,
+                Support::Fixed { .. } => [0.0; 3],
+                Support::Line { direction, .. } => along(*pull, direction),
+                Support::Plane { normal, .. } => minus(*pull, along(*pull, normal)),
+            };
+        }
+        pulls
+    }
+
+    /// The least moves that make members longer by this much, as nearly as they can.
+    fn least_squares(&self, longer: &[f64]) -> Vec<Vector> {
+        let square = |all: &[Vector]| sum(all.iter().map(|v| dot(*v, *v)));
+        let mut moves = vec![[0.0; 3]; self.system.joints().len()];
+        let mut left = longer.to_vec();
+        let mut gradient = self.pulls(&left);
+        let (mut way, mut size) = (gradient.clone(), square(&gradient));
+        let enough = FITTED * FITTED * size;
+        for _ in 0..3 * moves.len() {
+            let by = self.longer(&way);
+            let length = size / sum(by.iter().map(|x| x * x));
+            if !length.is_finite() {
+                break;
+            }
+            for (at, step) in moves.iter_mut().zip(&way) {
+                *at = plus(*at, times(length, *step));
+            }
+            for (off, by) in left.iter_mut().zip(&by) {
+                *off -= length * by;
+            }
+            gradient = self.pulls(&left);
+            let next = square(&gradient);
+            if next <= enough {
+                break;
+            }
+            let kept = next / size;
+            way = gradient.iter().zip(&way).map(|(g, w)| plus(*g, times(kept, *w))).collect();
+            size = next;
+        }
+        moves
+    }
+}
+
+/// The part of a vector along a direction.
+fn along(v: Vector, direction: Vector) -> Vector {
+    times(dot(v, direction) / dot(direction, direction), direction)
 }
 
 /// Energy of the loads and of the elastic ones of these members at these places, J.

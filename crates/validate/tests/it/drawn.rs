@@ -473,3 +473,40 @@ fn what_has_snapped_through_is_no_neighbour() {
     // Less the 4 m that the load has sunk there.
     assert!((near.barrier_j.unwrap() - (800.0 - 4e-3)).abs() < 1e-9, "{near:?}");
 }
+
+/// A mast of 10 m between a force of 2 kN and a guy of EA = 40 kN, which turns by a tenth of its length. As long as it keeps
+/// its length it leans to where the guy has the moment of the force: on the straight way there it is 0.3 % shorter, and a stiff
+/// one would store far more than the guy. Of two bars that have snapped through the barrier is on every way.
+#[test]
+fn a_stiff_bar_that_turns_has_passed_no_barrier() {
+    let mast = |stiffness_n: f64| {
+        let joints = vec![
+            Joint::anchor("base", [0.0; 3]),
+            Joint::anchor("guy", [-10.0, 0.0, 0.0]),
+            Joint::free("top").with_force([2000.0, 0.0, 0.0]).near([0.0, 0.0, 10.0]),
+        ];
+        let joints = joints.into_iter().map(|joint| {
+            let is_top = joint.support == Support::Free;
+            let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+            if is_top { joint.held_by(plane) } else { joint }
+        });
+        let bar = |from: usize, length_m: f64, stiffness_n: f64| {
+            Member::bar(from, 2, Bar::homogeneous(length_m, 0.0).unwrap())
+                .with_stiffness(stiffness_n)
+        };
+        let guy = bar(1, 200.0_f64.sqrt(), 4e4).of_kind(Kind::Cable);
+        let members = vec![bar(0, 10.0, stiffness_n), guy];
+        System::new("mast", G, joints.collect(), members).unwrap()
+    };
+    // The moments about the base of a rigid mast that leans by x: 2000 z = N 10 z / l, l² = 200 + 20 x.
+    let length_m = |x: f64| (200.0 + 20.0 * x).sqrt();
+    let rest = |x: f64| 4e4 * (length_m(x) / 200.0_f64.sqrt() - 1.0) * 10.0 / length_m(x) - 2000.0;
+    let rigid = samples::root(rest, [0.0, 5.0]);
+    for stiffness_n in [1e7, 1e8, 1e9] {
+        let answer = neighbour(&mast(stiffness_n));
+        for found in &answer.equilibria {
+            let x = found.joints_m[2][0];
+            assert!((x - rigid).abs() < 1e5 / stiffness_n, "{stiffness_n}: {x}, {rigid}");
+        }
+    }
+}
