@@ -9,10 +9,12 @@ use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
+use validate::systems::Near;
 
 use crate::csv::quoted;
 use crate::equilibria::as_solved;
 use crate::error::Error;
+use crate::observable::Observable;
 use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
 
@@ -114,10 +116,10 @@ fn by_name<S: Serializer>(list: &[(String, Vector)], serializer: S) -> Result<S:
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DerivativesError {
-    /// Occurs when the text names no number of an equilibrium.
+    /// Occurs when the text names a number without derivatives.
     #[error(
-        "`{text}` is no number of the equilibrium: `joints.NAME.at_m.x` (y, z) is a coordinate of a \
-         joint that moves, `bars.K.axial_n` the axial force of bar K, from 1"
+        "there are no derivatives of `{text}`: there are some of `joints.NAME.x` (y, z), a coordinate of a joint that \
+         moves, and of `bars.K.axial_n`, the axial force of bar K, from 1"
     )]
     NoNumber {
         /// The text.
@@ -146,17 +148,28 @@ impl Derivatives {
     ///
     /// # Errors
     ///
-    /// [`Error::Refused`] when there is none, [`Error::Lagrange`] when it is not found.
+    /// [`Error::Refused`] when there is none, [`Error::Lagrange`] when it is not found, [`Error::Disagreed`] when the solvers
+    /// disagree on it.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
         problem.fits(BYTES_PER_MEMBER)?;
         let system = problem.system();
         system.refusal()?;
-        let solution = as_solved(&system)?;
-        Ok(DerivativesAnswer { system, solution })
+        let (solution, disagreed) = as_solved(&system);
+        if disagreed {
+            return Err(Error::Disagreed);
+        }
+        Ok(DerivativesAnswer { system, solution: solution? })
     }
 }
 
 impl DerivativesAnswer {
+    /// Whether the equilibrium is the neighbour of the shape that is drawn, if one is.
+    #[must_use]
+    pub fn is_neighbour(&self) -> bool {
+        let drawing_m = self.system.drawing();
+        drawing_m.is_none_or(|at| Near::of(&self.system, &at, self.equilibrium()).is_neighbour)
+    }
+
     /// The equilibrium.
     #[must_use]
     pub fn equilibrium(&self) -> &SystemEquilibrium {
@@ -253,10 +266,12 @@ impl DerivativesAnswer {
             list.push(Derivative { parameter: number.to_string(), value, unit });
         };
         let bar = |k: usize, field| Number::Bar(Which::One(k + 1), field);
+        // What the file has acts by so much.
+        let acts = self.system.permanent_factor();
         for (k, member) in self.system.members().iter().enumerate() {
             add(bar(k, BarField::Length), gradient.by_length[k]);
             if member.rope.is_none() {
-                add(bar(k, BarField::Mass), gradient.by_mass[k]);
+                add(bar(k, BarField::Mass), acts * gradient.by_mass[k]);
             }
             if member.stiffness_n.is_some() {
                 add(bar(k, BarField::Stiffness), gradient.by_stiffness[k]);
@@ -273,10 +288,10 @@ impl DerivativesAnswer {
                 }
                 continue;
             }
-            let weight = -self.system.gravity_m_s2() * gradient.by_force[k][2];
+            let weight = -acts * self.system.gravity_m_s2() * gradient.by_force[k][2];
             add(number(JointField::Mass), weight);
             for axis in 0..3 {
-                add(number(JointField::Force(axis)), gradient.by_force[k][axis]);
+                add(number(JointField::Force(axis)), acts * gradient.by_force[k][axis]);
             }
         }
         list
@@ -313,13 +328,14 @@ impl DerivativesAnswer {
     fn parameter(&self, text: &str) -> Result<(Number, network::Parameter, f64), Error> {
         let number = self.checked(text)?;
         let joint = |name: &str| self.system.joint(name);
+        let acts = self.system.permanent_factor();
         let is_rope = |member: usize| self.system.members()[member].rope.is_some();
         let (parameter, scale) = match &branches::resolved(&self.system, &number) {
             Number::Bar(Which::One(bar), BarField::Length) => {
                 (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
             }
             Number::Bar(Which::One(bar), BarField::Mass) if !is_rope(bar - 1) => {
-                (Some(network::Parameter::Mass { member: bar - 1 }), 1.0)
+                (Some(network::Parameter::Mass { member: bar - 1 }), acts)
             }
             Number::Bar(Which::One(bar), BarField::Prestress) => {
                 (Some(network::Parameter::Prestress { member: bar - 1 }), 1.0)
@@ -333,11 +349,11 @@ impl DerivativesAnswer {
             }
             Number::Joint(name, JointField::Force(axis)) => {
                 let of = |joint| network::Parameter::Force { joint, axis: *axis };
-                (joint(name).map(of), 1.0)
+                (joint(name).map(of), acts)
             }
             Number::Joint(name, JointField::Mass) => {
                 let of = |joint| network::Parameter::Force { joint, axis: 2 };
-                (joint(name).map(of), -self.system.gravity_m_s2())
+                (joint(name).map(of), -acts * self.system.gravity_m_s2())
             }
             _ => (None, 1.0),
         };
@@ -355,22 +371,13 @@ impl DerivativesAnswer {
 
     /// The number of the equilibrium that a path names.
     fn number(&self, text: &str) -> Result<Of, Error> {
-        let none = || DerivativesError::NoNumber { text: text.to_owned() };
-        if let Some(bar) = text.strip_prefix("bars.").and_then(|rest| rest.strip_suffix(".axial_n"))
-        {
-            let bar = bar.parse::<usize>().ok().and_then(|bar| bar.checked_sub(1));
-            let bar = bar.filter(|bar| *bar < self.system.members().len());
-            return Ok(Of::Axial(bar.ok_or_else(none)?));
+        match Observable::parse(text, &self.system)? {
+            Observable::Axial(member, 0) => Ok(Of::Axial(member)),
+            Observable::Place(joint, axis) if !self.system.joints()[joint].support.is_fixed() => {
+                Ok(Of::Place(joint, axis))
+            }
+            _ => Err(DerivativesError::NoNumber { text: text.to_owned() }.into()),
         }
-        let parameter = parsed(text).map_err(|_| none())?;
-        let Number::Joint(name, JointField::Place(axis)) = parameter.number else {
-            return Err(none().into());
-        };
-        let joint = self.system.joint(&name).ok_or_else(none)?;
-        if self.system.joints()[joint].support.is_fixed() {
-            return Err(none().into());
-        }
-        Ok(Of::Place(joint, axis))
     }
 }
 

@@ -42,13 +42,14 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 }
 
 /// The equilibrium that `solve` shows, the lowest or the one next to the drawing, where both solvers agree on it, with the
-/// equations of `lagrange` there. Else what `lagrange` finds by itself.
-pub(crate) fn as_solved(system: &System) -> Result<network::Solution, network::Error> {
+/// equations of `lagrange` there. Else what `lagrange` finds by itself, and whether they disagree.
+pub(crate) fn as_solved(system: &System) -> (Result<network::Solution, network::Error>, bool) {
     let settings = network::Settings::default();
     let question = Question { census: UseCensus::Never, ..Question::default() };
     let answer = ask_with(system, &question, &|_| {});
-    match answer.equilibria.into_iter().next() {
-        Some(found) if answer.agreement.is_some_and(|agreement| agreement.agrees()) => {
+    let agrees = answer.agreement.map(|agreement| agreement.agrees());
+    let solution = match answer.equilibria.into_iter().next() {
+        Some(found) if agrees == Some(true) => {
             let SystemEquilibrium { joints_m, axial_n, .. } = found;
             let seed = Seed { axial_n: Some(axial_n), ..Seed::at_rest(joints_m) };
             network::solve_from(system, &seed, &settings)
@@ -57,7 +58,8 @@ pub(crate) fn as_solved(system: &System) -> Result<network::Solution, network::E
             Some(drawing_m) => network::solve_from(system, &Seed::at(drawing_m), &settings),
             None => network::solve(system, &settings),
         },
-    }
+    };
+    (solution, agrees == Some(false))
 }
 
 /// All equilibria by a census, if that is complete: of a row of at most `max_bars` bars, or of another

@@ -1,7 +1,7 @@
 //! The axial force along a member that bears weight: not the same at both ends.
 
 use crate::Vector;
-use crate::system::{System, SystemEquilibrium};
+use crate::system::{Kind, System, SystemEquilibrium};
 
 /// The axial force of a member at its ends and its extremes along the member, N, tension positive.
 ///
@@ -88,7 +88,8 @@ impl SystemEquilibrium {
     /// The axial force along every member.
     ///
     /// The weight of a member whose centre is in its middle counts as spread over it, which puts its extremes at loads and ends;
-    /// of another one it counts as acting at the centre.
+    /// of another one it counts as acting at the centre. A cable that is slack and a strut that is loose bear nothing along them:
+    /// each joint carries its part of their weight.
     #[must_use]
     pub fn axial_forces(&self, system: &System) -> Vec<AxialForce> {
         (0..system.members().len()).map(|member| self.axial_force(system, member)).collect()
@@ -102,8 +103,9 @@ impl SystemEquilibrium {
     #[must_use]
     pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {
         let member = &system.members()[k];
-        if member.rope.is_some() {
-            // One tension from end to end.
+        let is_idle = member.kind != Kind::Bar && self.axial_n[k].abs() <= 0.0;
+        if is_idle || member.rope.is_some() {
+            // One tension from end to end, or none.
             return AxialForce::along(Default::default(), Default::default(), self.axial_n[k], []);
         }
         let ends_m = (self.joints_m[member.from], self.joints_m[member.to]);

@@ -96,13 +96,21 @@ impl Unchecked {
                 Number::Floor => new.floor_m = Some(*value),
                 Number::Joint(name, field) => {
                     if let Some(joint) = base.joint(name) {
-                        set_joint(&mut new.joints[joint], *field, *value);
+                        set_joint(
+                            base,
+                            joint,
+                            &mut new.joints[joint],
+                            (*field, *value),
+                            factors.loads,
+                        );
                     }
                 }
                 Number::Bar(which, field) if *field != BarField::Count => {
                     let named = new.members.iter_mut().enumerate();
+                    let acts = matches!(field, BarField::Mass | BarField::Inertia(_));
+                    let value = if acts { base.permanent_factor() * value } else { *value };
                     for (_, member) in named.filter(|(k, _)| which.has(k + 1)) {
-                        member.set(*field, *value);
+                        member.set(*field, value);
                     }
                 }
                 // Factors are set before, counts come last; what is of no row of bars is refused before.
@@ -124,15 +132,28 @@ impl Factors {
     const NONE: Self = Self { loads: 1.0, lengths: 1.0 };
 }
 
-fn set_joint(joint: &mut Joint, field: JointField, value: f64) {
+/// Set a number of a joint as its file has it: other loads there, times their factor, are beside it.
+fn set_joint(
+    base: &System,
+    number: usize,
+    joint: &mut Joint,
+    (field, value): (JointField, f64),
+    loads: f64,
+) {
+    let (factor, own) = (base.permanent_factor(), base.own_load(number));
+    let set = |total: &mut f64, own: Option<f64>| {
+        *total = own.map_or(factor * value, |own| *total + factor * (value - loads * own));
+    };
     match field {
         JointField::Place(axis) => {
             if let Some(at_m) = place(&mut joint.support) {
                 at_m[axis] = value;
             }
         }
-        JointField::Mass => joint.mass_kg = value,
-        JointField::Force(axis) => joint.force_n[axis] = value,
+        JointField::Mass => set(&mut joint.mass_kg, own.map(|(mass_kg, _)| mass_kg)),
+        JointField::Force(axis) => {
+            set(&mut joint.force_n[axis], own.map(|(_, force_n)| force_n[axis]));
+        }
         // Of the rows that meet there.
         JointField::Share => {}
     }

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use funicular::text::derivatives::stiffness;
-use funicular::{AnchorStiffness, Summary};
-use model::system::System;
+use funicular::{AnchorStiffness, DerivativesAnswer, Summary};
 use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
@@ -27,8 +26,9 @@ Examples:
 
 Exit codes:
   0  done
+  1  the solvers disagree
   2  bad input or usage
-  3  the solver has no answer, or the equilibrium no derivatives";
+  3  the solver has no answer, it is not the neighbour of the shape given, or it has no derivatives";
 
 /// `funicular derivatives`.
 #[derive(Debug, Args)]
@@ -71,28 +71,39 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let Input { problem, files } = arguments.input.read()?;
     output::check(arguments.csv.iter().map(PathBuf::as_path), &files)?;
     let derivatives = funicular::Derivatives::new().run(&problem)?;
-    let system = derivatives.system();
     if let Some(of) = &arguments.of {
         let found = derivatives.gradient(of)?;
         if let Some(path) = &arguments.csv {
             output::write_stream(path, |file| found.write_csv(file))?;
         }
-        return print(arguments.printed.is_json(), system, &found.to_string(), &found);
+        return print(arguments, &derivatives, &found.to_string(), &found);
     }
     if let Some(by) = &arguments.by {
         let found = derivatives.change(by)?;
-        return print(arguments.printed.is_json(), system, &found.to_string(), &found);
+        return print(arguments, &derivatives, &found.to_string(), &found);
     }
     let anchors = Anchors { anchors: derivatives.anchor_stiffness()? };
-    print(arguments.printed.is_json(), system, &stiffness(&anchors.anchors), &anchors)
+    print(arguments, &derivatives, &stiffness(&anchors.anchors), &anchors)
 }
 
-fn print(json: bool, system: &System, text: &str, found: &impl Serialize) -> Result<Exit, Failure> {
-    if json {
+fn print(
+    arguments: &Arguments,
+    of: &DerivativesAnswer,
+    text: &str,
+    found: &impl Serialize,
+) -> Result<Exit, Failure> {
+    let system = of.system();
+    if arguments.printed.is_json() {
         let (schema_version, system) = (funicular::SCHEMA_VERSION, Summary::new(system));
         output::print_json(&Object { schema_version, system, found })?;
     } else {
         output::print(&format!("{}\n{text}", Printable(system.name())))?;
     }
-    Ok(Exit::Done)
+    if of.is_neighbour() {
+        return Ok(Exit::Done);
+    }
+    eprintln!(
+        "warning: the equilibrium is not the neighbour of the shape given: see `funicular solve`"
+    );
+    Ok(Exit::Undecided)
 }

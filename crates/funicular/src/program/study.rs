@@ -48,7 +48,8 @@ A system with joints by name has besides
   --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
   --vary loads=1,1.35                       --vary lengths=1,1.001
 are factors of all masses and forces, or lengths, but those that vary themselves: these are what they say.
-Forces on bars and directions of supports do not vary.
+Forces on bars and directions of supports do not vary. [[loads]] at a joint and the factors of a load case stay beside what
+varies there. Lengths that a drawing gives stay when a support moves: it settles.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
   --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
 are a range and a row of a system, by the joints at its ends. A rider between two rows of one rope

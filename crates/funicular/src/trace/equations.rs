@@ -54,7 +54,7 @@ impl<'a> Family<'a> {
         });
         equations.set(&system);
         let drawing_m = system.drawing();
-        let start = match (as_solved(&system), &drawing_m) {
+        let start = match (as_solved(&system).0, &drawing_m) {
             (Ok(found), drawing_m) => {
                 let near = drawing_m.as_ref().map(|m| Near::of(&system, m, &found.equilibrium));
                 if let Some(Near { joint, moved_m, .. }) = near.filter(|near| !near.is_neighbour) {

@@ -154,8 +154,8 @@ fn what_has_no_derivative_is_refused() {
     }
 
     let table: [(&[&str], _); 6] = [
-        (&["--of", "joints.A.at_m.x"], "no number of the equilibrium"),
-        (&["--of", "bars.9.axial_n"], "no number of the equilibrium"),
+        (&["--of", "joints.A.at_m.x"], "no derivatives of `joints.A.at_m.x`"),
+        (&["--of", "bars.9.axial_n"], "there is no bar `9`"),
         (&["--by", "gravity_m_s2"], "no derivatives by `gravity_m_s2`"),
         (&["--by", "bars.*.mass_kg"], "no derivatives by `bars.*.mass_kg`"),
         (&["--by", "joints.lamps.mass_kg"], "did you mean `lamp`"),

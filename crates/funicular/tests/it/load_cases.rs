@@ -73,6 +73,57 @@ fn a_case_without_an_answer_leaves_the_others() {
     assert!(!found.is_decided() && found.is_strong() == Some(false));
 }
 
+/// What is wanted over a parameter.
+type Wanted<'a> = &'a dyn Fn(f64) -> f64;
+
+/// A number is what it is in the file: it acts by the factor of the case, and beside the loads.
+#[test]
+fn numbers_vary_beside_the_loads_of_a_case() {
+    let pole = Problem::parse(POLE, "pole.toml").unwrap();
+    let gale = pole.in_case("gale").unwrap();
+    for (problem, [wind, factor]) in [(&pole, [75.0, 1.0]), (&gale, [150.0, 2.0])] {
+        let pull =
+            |force_n: f64, mass_kg: f64| (wind + factor * force_n).hypot(factor * 10.0 * mass_kg);
+        let all: [(&str, f64, Wanted<'_>, f64); 3] = [
+            (
+                "joints.P.mass_kg",
+                10.0,
+                &|mass_kg| pull(0.0, mass_kg),
+                100.0 * factor * factor * 10.0,
+            ),
+            ("joints.P.force_n.y", 0.0, &|force_n| pull(force_n, 10.0), wind * factor),
+            // Half of it hangs on the middle.
+            (
+                "bars.1.mass_kg",
+                0.0,
+                &|mass_kg| pull(0.0, 10.0 + 0.5 * mass_kg),
+                500.0 * factor * factor,
+            ),
+        ];
+        let derivatives = Derivatives::new().run(problem).unwrap();
+        let gradient = derivatives.gradient("bars.1.axial_n").unwrap();
+        for (parameter, own, wanted, slope) in all {
+            let values = [own, own + 1.5];
+            let vary = format!("{parameter}={},{}", values[0], values[1]);
+            let study = Study::new().vary(&vary).unwrap().of("bars.1.axial_n");
+            let found = study.run(problem).unwrap();
+            let pulls: Vec<f64> = found.shapes().map(|shape| shape.of[0].unwrap()).collect();
+            assert!(pulls.len() == 2 && near(pulls[0], wanted(values[0])), "{vary}: {pulls:?}");
+            assert!(near(pulls[1], wanted(values[1])), "{vary}: {pulls:?}");
+            let trace = Trace::new().vary(&format!("{parameter}={own}..{}", values[1])).unwrap();
+            let found = trace.run(problem).unwrap();
+            let points = &found.load_paths().unwrap().paths()[0].points;
+            let [first, last] =
+                [points.first(), points.last()].map(|point| point.unwrap().axial_n[0]);
+            assert!(near(first, wanted(own)) && near(last, wanted(values[1])), "{first} {last}");
+            let slope = slope / pull(0.0, 10.0);
+            assert!(near(gradient.by(parameter).unwrap().value, slope), "{parameter}: {gradient}");
+            let change = derivatives.change(parameter).unwrap();
+            assert!(near(change.axial_n[0], slope), "{parameter}: {change:?}");
+        }
+    }
+}
+
 #[test]
 fn every_command_takes_a_load_case() {
     let folder = tempfile::tempdir().unwrap();

@@ -47,8 +47,12 @@ pub struct LoadCase {
 }
 
 /// The named loads of a system, and its cases.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct LoadCases {
+    /// The factor by which weights, and loads without a name, act.
+    permanent: f64,
+    /// Mass and force of each joint with loads, without any of them.
+    own: Vec<(usize, f64, Vector)>,
     loads: Vec<NamedLoad>,
     cases: Vec<LoadCase>,
     /// Mass and force of each joint with a named load, without it.
@@ -153,12 +157,19 @@ impl System {
         cases: Vec<LoadCase>,
     ) -> Result<Self, SystemError> {
         self.check_loads(&loads, &cases)?;
+        let on_joints = |load: &NamedLoad| match &load.on {
+            LoadOn::Joints { joints, .. } => joints.clone(),
+            LoadOn::Members { .. } => vec![],
+        };
+        let own = loads.iter().flat_map(on_joints);
+        let own = own.map(|k| (k, self.joints[k].mass_kg, self.joints[k].force_n)).collect();
         let (unnamed, loads): (Vec<_>, Vec<_>) =
             loads.into_iter().partition(|load| load.name == PERMANENT);
         for load in unnamed {
             load.act(1.0, &mut self.joints, &mut self.members);
         }
-        let mut kept = LoadCases { loads, cases, ..LoadCases::default() };
+        let (joints, members) = (vec![], vec![]);
+        let mut kept = LoadCases { permanent: 1.0, own, loads, cases, joints, members };
         for load in &kept.loads {
             match &load.on {
                 LoadOn::Joints { joints, .. } => kept.joints.extend(
@@ -218,6 +229,20 @@ impl System {
     /// The same with other tolerances of its joints.
     pub(crate) fn with_joints(self, joints: Vec<Joint>) -> Self {
         Self { joints, row: super::row::Once::default(), ..self }
+    }
+
+    /// The factor by which weights act, and loads without a name: that of the load case ([`in_case`](Self::in_case)), else 1.
+    #[must_use]
+    pub fn permanent_factor(&self) -> f64 {
+        self.load_cases.as_ref().map_or(1.0, |all| all.permanent)
+    }
+
+    /// Mass, kg, and force, N, of a joint as it has them itself, without factors and loads; `None` where there are no loads at
+    /// it.
+    #[must_use]
+    pub fn own_load(&self, joint: usize) -> Option<(f64, Vector)> {
+        let own = &self.load_cases.as_ref()?.own;
+        own.iter().find(|(k, ..)| *k == joint).map(|(_, mass_kg, force_n)| (*mass_kg, *force_n))
     }
 
     /// The loads by name.
@@ -287,6 +312,10 @@ impl System {
         joints.iter_mut().zip(largest).for_each(|(joint, by)| joint.scale_tolerances(by));
         let title = format!("{}, {name}", self.name);
         let system = Self::new(title, self.gravity_m_s2, joints, members)?;
-        Ok(Self { floor_m: self.floor_m, ..system })
+        let own = self.load_cases.as_ref().map_or_else(Vec::new, |all| all.own.clone());
+        let (loads, cases, joints, members) = (vec![], vec![], vec![], vec![]);
+        let permanent = case.factor(PERMANENT);
+        let load_cases = LoadCases { permanent, own, loads, cases, joints, members };
+        Ok(Self { floor_m: self.floor_m, load_cases: Some(Box::new(load_cases)), ..system })
     }
 }

@@ -99,7 +99,7 @@ impl Display for NoAnswer {
 impl Display for NoCensus {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotAsked => f.write_str("no interval proof was tried (`funicular census` does)"),
+            Self::NotAsked => f.write_str("no census was taken (`funicular census` takes one, where there can be one)"),
             Self::TooManyBars { bars, limit } => {
                 write!(f, "no census: {bars} bars, and the limit is {limit}")
             }
