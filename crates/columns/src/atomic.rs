@@ -277,7 +277,9 @@ impl Part {
         let mut builder = tempfile::Builder::new();
         builder.prefix(&prefix).suffix(UNFINISHED).rand_bytes(RANDOM);
         let mut growing = growing();
-        let (made, path) = make(&mut builder, folder.unwrap_or(Path::new(".")))?;
+        // Without the name of the part, which nobody has asked for.
+        let (made, path) = make(&mut builder, folder.unwrap_or(Path::new(".")))
+            .map_err(|error| io::Error::from(error.kind()))?;
         growing.push(path.clone());
         Ok((Self { path, target }, made))
     }

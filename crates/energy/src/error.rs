@@ -139,7 +139,8 @@ pub enum Error {
     /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a
     /// loop that cannot be closed.
     #[error(
-        "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found"
+        "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found",
+        misfit_m = Brief(*misfit_m)
     )]
     NotClosed {
         /// Number of the member with the largest misfit, from 1.
@@ -236,7 +237,8 @@ pub enum Error {
     },
     /// Occurs when the descent from a drawing leads far away from it: no minimum lies next to it.
     #[error(
-        "no minimum near the drawing: the descent ends where joint {joint} is {moved_m} m away"
+        "no minimum near the drawing: the descent ends where joint {joint} is {moved_m} m away",
+        moved_m = Brief(*moved_m)
     )]
     NoMinimumNear {
         /// Name of the joint.

@@ -111,9 +111,9 @@ fn lagrange(system: &System, places_m: &[Vector]) -> End {
     match solve_from(system, &Seed::at(places_m.to_vec()), &lagrange::network::Settings::default())
     {
         Ok(found) => end(found.equilibrium),
-        Err(Error::NotConverged { .. } | Error::Work { .. }) => {
-            End::failed(Failure::IterationLimit)
-        }
+        // It ends where no step helps.
+        Err(Error::NotConverged { iterations, .. }) => after(iterations, Failure::Stalled),
+        Err(Error::Work { .. }) => End::failed(Failure::IterationLimit),
         Err(_) => End::failed(Failure::Stalled),
     }
 }
@@ -122,11 +122,15 @@ fn energy(system: &System, places_m: &[Vector]) -> End {
     use energy::network::{Error, minimise_from};
     match minimise_from(system, places_m, &energy::network::Settings::default()) {
         Ok(found) => end(found.equilibrium),
-        Err(Error::IterationLimit { .. } | Error::Work { .. }) => {
-            End::failed(Failure::IterationLimit)
-        }
+        Err(Error::IterationLimit { iterations, .. }) => after(iterations, Failure::IterationLimit),
+        Err(Error::Work { .. }) => End::failed(Failure::IterationLimit),
         Err(_) => End::failed(Failure::Stalled),
     }
+}
+
+/// A failure with the steps it took.
+fn after(steps: impl TryInto<u16>, failure: Failure) -> End {
+    End { steps: steps.try_into().unwrap_or(u16::MAX), ..End::failed(failure) }
 }
 
 fn end(found: SystemEquilibrium) -> End {

@@ -10,8 +10,12 @@ pub(super) const WRONG: f64 = 1e-10;
 /// A point with the conditions that change sides there.
 pub(super) type Switching<S> = (Here, Vec<S>);
 
+/// What is left of a condition where it is said to vanish, over what it was before and after.
+const VANISHES: f64 = 1e-3;
+
 /// The first point between two at which conditions change sides, with these; `None` when
-/// none does.
+/// none does. Without conditions where they change without coming to zero, as the force of a row that is pulled straight jumps
+/// from one infinity to the other: then the points are not of one path.
 pub(super) fn kink<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
@@ -25,6 +29,8 @@ pub(super) fn kink<Q: Equations>(
     if !wrong.contains(&true) {
         return Ok(None);
     }
+    let sizes = begin.iter().zip(&at_end).map(|((_, a), (_, b))| a.abs().max(b.abs()));
+    let least: Vec<f64> = sizes.map(|size| -WRONG.max(VANISHES * size)).collect();
     // Each round finds where one of them is at zero to rounding.
     for _ in 0..begin.len() {
         // The one that is estimated to change first; others that change before it come next.
@@ -43,8 +49,8 @@ pub(super) fn kink<Q: Equations>(
         at_end = equations.sides(&at.y, at.t)?;
         end = at;
     }
-    let sides = at_end.iter().zip(&wrong);
-    let sides = sides.filter(|((_, value), wrong)| **wrong && *value <= WRONG);
-    let sides: Vec<_> = sides.map(|((side, _), _)| *side).collect();
-    Ok((!sides.is_empty()).then_some((end, sides)))
+    let changed = |k: &usize| wrong[*k] && at_end[*k].1 <= WRONG;
+    let jumps = (0..at_end.len()).filter(changed).any(|k| at_end[k].1 < least[k]);
+    let sides = (0..at_end.len()).filter(|k| !jumps && changed(k)).map(|k| at_end[k].0);
+    Ok(Some((end, sides.collect())))
 }

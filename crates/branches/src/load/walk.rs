@@ -157,8 +157,12 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             };
             let turn = self.turn(&here, &next);
             let kink = kink(self.equations, self.metric, &here, &next)?;
-            let to = kink.as_ref().map_or(&next, |(at, _)| at);
-            match self.smooth(&here, to)? {
+            let passed = match &kink {
+                Some((_, sides)) if sides.is_empty() => Passed::Gap,
+                Some((at, _)) => self.smooth(&here, at)?,
+                None => self.smooth(&here, &next)?,
+            };
+            match passed {
                 Passed::On => {}
                 Passed::End(end) => return Ok(end),
                 Passed::Gap if long > SHORTEST * FIRST => {

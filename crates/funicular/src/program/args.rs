@@ -71,7 +71,7 @@ pub struct Cli {
     /// Work that each solver may do for one system: numbers in all factors of its matrices, or bars
     /// times passes over a row between two anchors, which is iterations times size. What needs more
     /// ends without an answer (exit code 3). If not given, 10000000000: up to an hour or so
-    #[arg(long, value_name = "N", global = true, hide_short_help = true)]
+    #[arg(long, value_name = "N", global = true, hide_short_help = true, value_parser = crate::memory::work)]
     pub max_work: Option<std::num::NonZeroU64>,
 }
 

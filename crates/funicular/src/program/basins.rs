@@ -46,18 +46,18 @@ pub struct Arguments {
     /// Starts along each side
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
     pub size: u32,
-    /// The two bars whose angles are the axes
-    #[arg(long, value_name = "I,J", num_args = 1, value_delimiter = ',', default_value = "1,2")]
+    /// The two bars of a chain whose angles are the axes [default: 1,2]
+    #[arg(long, value_name = "I,J", num_args = 1, value_delimiter = ',')]
     pub bars: Vec<usize>,
-    /// Starting angle of all other bars, degrees from the descending vertical
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub others: f64,
+    /// Starting angle of all other bars of a chain, degrees from the descending vertical [default: 0]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
+    pub others: Option<f64>,
     /// The joint whose place is the start, of a system that is no chain [default: its first free joint]
     #[arg(long, value_name = "NAME")]
     pub joint: Option<String>,
-    /// The plane in which its start varies
-    #[arg(long, value_enum, default_value_t)]
-    pub plane: Plane,
+    /// The plane in which its start varies [default: xz]
+    #[arg(long, value_enum)]
+    pub plane: Option<Plane>,
     /// Write the pictures into this folder (made if it is not there)
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -71,15 +71,25 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
     let Input { problem, files } = arguments.input.read()?;
-    let [i, j] = arguments.bars[..] else {
-        return Err(Failure::bad_input("--bars wants two bars, as in --bars 1,2"));
+    let is_chain = problem.row().is_some();
+    if is_chain && (arguments.joint.is_some() || arguments.plane.is_some()) {
+        let what = "--joint and --plane are for systems by name: of a chain the angles of two bars vary, --bars";
+        return Err(Failure::bad_input(what));
+    }
+    if !is_chain && (arguments.others.is_some() || !arguments.bars.is_empty()) {
+        let what = "--bars and --others are for chains between two anchors: of other systems the place of a joint \
+                    varies, --joint and --plane";
+        return Err(Failure::bad_input(what));
+    }
+    let [i, j] = match arguments.bars[..] {
+        [] => [1, 2],
+        [i, j] => [i, j],
+        _ => return Err(Failure::bad_input("--bars wants two bars, as in --bars 1,2")),
     };
-    let basins = Basins::new().size(arguments.size).bars([i, j]).others_deg(arguments.others);
-    let basins = basins.plane(arguments.plane);
-    let basins = match &arguments.joint {
-        Some(name) => basins.joint(name),
-        None => basins,
-    };
+    let basins = Basins::new().size(arguments.size).bars([i, j]);
+    let basins = basins.others_deg(arguments.others.unwrap_or_default());
+    let basins = basins.plane(arguments.plane.unwrap_or_default());
+    let basins = arguments.joint.iter().fold(basins, |basins, name| basins.joint(name));
     basins.check(&problem)?;
     output::make_folder(&arguments.out)?;
     let solvers = [SolverName::LAGRANGE, SolverName::ENERGY];

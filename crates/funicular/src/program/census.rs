@@ -58,7 +58,7 @@ pub struct Census {
     /// that is at most 100 MB of JSON
     #[arg(long, value_name = "WHAT", value_enum)]
     pub list: Option<list::What>,
-    /// Refuse, before the census, lists that would probably be larger
+    /// Refuse, before the census of a chain of more than 12 bars, lists that would probably be larger
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, default_value = "4GB")]
     pub max_output: u64,
     #[command(flatten)]

@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         output::write_stream(&arguments.to, |to| found.write_csv(to))?;
         "a table of joints"
     };
-    let verdict = found.agreement().map_or_else(String::new, |both| format!("; {}", both.verdict));
-    output::print(&format!("{}: {what}{verdict}\n", arguments.to.display()))?;
+    let remarks = solve::remarks(&found);
+    output::print(&format!("{}: {what}{remarks}\n", arguments.to.display()))?;
     Ok(solve::verdict(&found))
 }

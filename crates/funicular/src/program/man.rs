@@ -28,7 +28,8 @@ pub fn run(arguments: &Man) -> Result<Exit, Failure> {
         // Once built, a command has the name of the program before its own.
         let name = command.get_display_name().unwrap_or(command.get_name());
         let file = arguments.out.join(format!("{name}.1"));
-        let page = Page::new(command);
+        // What the short help leaves out has its text here.
+        let page = Page::new(command.mut_args(|argument| argument.hide_short_help(false)));
         output::write_stream(&file, |to| page.render(to))?;
     }
     output::print(&format!("{pages} pages in {}\n", arguments.out.display()))?;

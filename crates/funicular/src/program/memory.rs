@@ -1,6 +1,10 @@
 //! How much memory the program may come to need.
 
+use std::num::NonZeroU64;
+
 use model::system_file::limit_memory;
+
+use crate::sweep::count;
 
 /// Units of `--max-memory`, bytes.
 const UNITS: [(&str, u64); 3] = [("GB", 1_000_000_000), ("MB", 1_000_000), ("kB", 1_000)];
@@ -14,6 +18,11 @@ pub fn parse(text: &str) -> Result<u64, String> {
     number
         .and_then(|number| number.checked_mul(unit))
         .ok_or_else(|| "a whole number of GB, MB or kB is wanted, as 4GB".to_owned())
+}
+
+/// What `--max-work` takes: a whole number, with or without an exponent.
+pub fn work(text: &str) -> Result<NonZeroU64, String> {
+    count(text).map(|number| NonZeroU64::new(number).unwrap_or(NonZeroU64::MIN))
 }
 
 /// Hold the program to so much.

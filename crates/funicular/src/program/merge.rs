@@ -63,8 +63,9 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
         output::print_json(&json_object(&manifest, &summary, &arguments.out))?;
     } else {
         let proof = format!(
-            "{} parts of {} shards: nothing is missing, nothing double, every digest as recorded.\n",
+            "{} part{} of {} shards: nothing is missing, nothing double, every digest as recorded.\n",
             summary.parts.len(),
+            if summary.parts.len() == 1 { "" } else { "s" },
             arguments.folders.len()
         );
         let tables = funicular::text::sweep::summary(&manifest, &summary);

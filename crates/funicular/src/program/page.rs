@@ -68,13 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let found = page.run(&problem)?;
     drop(progress);
     output::write_whole(&arguments.out, found.html())?;
-    let agreed = found.answer().agreement().map(|agreement| format!("; {}", agreement.verdict));
-    let line = format!(
-        "{}: {}{}\n",
-        arguments.out.display(),
-        found.contents(),
-        agreed.unwrap_or_default()
-    );
-    output::print(&line)?;
+    let remarks = solve::remarks(found.answer());
+    output::print(&format!("{}: {}{remarks}\n", arguments.out.display(), found.contents()))?;
     Ok(solve::verdict(found.answer()))
 }

@@ -19,8 +19,8 @@ pub struct Printed {
     /// them are comments); json is --json
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t, conflicts_with = "json")]
     pub format: Format,
-    /// Units of what is printed, not of JSON and files: `kN,mm`. Known are N, kN, MN, kgf, lbf; m, mm,
-    /// cm, km, ft, in; J, kJ, MJ; kg, g, t, lb
+    /// Units of tables and of what `solve` says below them, not of other sentences, JSON and files: `kN,mm`. Known are
+    /// N, kN, MN, kgf, lbf; m, mm, cm, km, ft, in; J, kJ, MJ; kg, g, t, lb
     #[arg(long, value_name = "UNITS", value_delimiter = ',', value_parser = unit)]
     pub units: Vec<Unit>,
     /// ASCII characters alone, as where the locale (LC_ALL, LC_CTYPE, LANG) names another set than UTF-8

@@ -14,6 +14,7 @@ use funicular::text::motion::Summary;
 use funicular::{Animation, Error, ForceTable, Frames, Order, Problem, Start};
 use model::Vector;
 use model::system::System;
+use motion::MotionError;
 
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
@@ -209,10 +210,19 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     });
     drop(progress);
     let interrupted = stop.load(Ordering::SeqCst);
-    // What is there is replaced by a result alone: a motion up to a step that fails is none.
-    let parts = moved?.parts_of_step;
+    // What is there is replaced by a result alone: a motion up to a step that fails is none, but one to where a ring runs to
+    // the end of its span.
+    let (parts, jam) = match moved {
+        Ok(moved) => (moved.parts_of_step, None),
+        Err(Error::Motion(MotionError::Jammed(jam))) if kept.summary.has_begun() => (1, Some(jam)),
+        Err(error) => return Err(error.into()),
+    };
     kept.finish(arguments)?;
     output::print(&kept.summary.text(&system, interrupted, parts))?;
+    if let Some(jam) = jam {
+        output::print(&format!("The motion ends before {} s: {jam}.\n", short(arguments.time)))?;
+        return Ok(Exit::Undecided);
+    }
     Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
 }
 

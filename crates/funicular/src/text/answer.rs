@@ -44,8 +44,7 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         text += &in_a_line(&answers);
     }
     for failure in solution.failures() {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "No answer of {failure}");
+        text += &(wrapped(&format!("No answer of {failure}"), 2) + "\n");
     }
     if let Some(agreement) = solution.agreement() {
         let [joints_m, forces_n, energy_j] =

@@ -45,6 +45,12 @@ impl Summary {
         self.laws_off = self.laws_off.max(now.laws.largest());
     }
 
+    /// Whether anything but the start is stored.
+    #[must_use]
+    pub fn has_begun(&self) -> bool {
+        self.stored > 1
+    }
+
     /// The text, of steps that were taken in so many parts each.
     #[must_use]
     pub fn text(&self, system: &System, interrupted: bool, parts_of_step: u32) -> String {

@@ -4,6 +4,7 @@ use std::fmt::{self, Write as _};
 
 use model::number::Number;
 
+use super::census::plural;
 use super::printable::Printable;
 use super::tables::{numbers_from, short, table, wrapped};
 use crate::csv::Numbers;
@@ -21,9 +22,10 @@ impl fmt::Display for StudyAnswer {
 
 fn text(found: &StudyAnswer) -> String {
     let mut text = format!(
-        "{}: {} points of {}\n",
+        "{}: {} {} of {}\n",
         Printable(found.name()),
         found.points().len(),
+        plural(found.points().len(), "point", "points"),
         Printable(&found.parameters().join(", "))
     );
     for path in 1..=found.paths() {
@@ -37,8 +39,10 @@ fn text(found: &StudyAnswer) -> String {
     let most = Number::size(most, 1);
     text += &wrapped(
         &format!(
-            "\n{shapes} shapes, of which both solvers agree on {agreed} (joints to {most} m at worst); \
-             {refused} points without a shape"
+            "\n{shapes} {}, of which both solvers agree on {agreed} (joints to {most} m at worst); {refused} {} \
+             without a shape",
+            plural(shapes, "shape", "shapes"),
+            plural(refused, "point", "points")
         ),
         0,
     );

@@ -4,6 +4,7 @@ use std::fmt::{self, Write as _};
 
 use branches::{Continuation, Event, EventKind, PointStatus};
 
+use super::census::plural;
 use super::tables;
 use crate::trace::TraceAnswer;
 
@@ -190,7 +191,8 @@ fn table(trace: &Continuation) -> String {
     if unloaded > 0 {
         let _ = writeln!(
             text,
-            "{unloaded} times a bar changes between tension and compression (--json has them)"
+            "{unloaded} {} a bar changes between tension and compression (--json has them)",
+            plural(unloaded, "time", "times")
         );
     }
     text

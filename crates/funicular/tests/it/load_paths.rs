@@ -382,6 +382,27 @@ fn a_path_ends_where_it_says() {
     assert!(none[0].end != LoadEnd::Range && none[0].points.last().unwrap().values[0] > -1e-3);
 }
 
+/// Two slings of 1.5 m are straight when their ends are 3 m apart: no force would be large enough, and what lies beyond, with
+/// as large a push, is no point of the path.
+#[test]
+fn a_path_ends_before_slings_are_straight() {
+    let sling = |end: &str| {
+        format!("[[bars]]\nfrom = \"{end}\"\nto = \"P\"\nlength_m = 1.5\nkind = \"cable\"\n")
+    };
+    let file =
+        "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0] }\nP = { mass_kg = 200 }\n"
+            .to_owned();
+    let problem = light(&(file + &sling("A") + &sling("B")));
+    let found = Trace::new().vary("joints.B.at_m.x=2..4").unwrap().run(&problem).unwrap();
+    let path = &found.load_paths().unwrap().paths()[0];
+    assert!(path.end == LoadEnd::Lost && path.confirmed.statics < 1e-9, "{found}");
+    for at in &path.points {
+        assert!(at.joints_m[2][2] < 0.0 && at.axial_n.iter().all(|n| *n > 0.0), "{at:?}");
+    }
+    let [x, z] = [0, 2].map(|k| path.points.last().unwrap().joints_m[2][k]);
+    assert!(x > 1.499 && z > -0.06, "{x}, {z}");
+}
+
 #[test]
 fn where_no_path_begins_the_error_says_why() {
     let run = |file: &str, vary: &str| {

@@ -106,6 +106,26 @@ fn weights_over_a_pulley_in_motion() {
     assert!(refused.contains("jams"), "{refused}");
 }
 
+/// Released 1 m below their pulleys 5 kg falls by G/8 and 3 kg rises, until at 2/√(G/4) s it is at its pulley.
+#[test]
+fn a_motion_ends_where_a_weight_comes_to_its_pulley() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let text = "joints = { D = { at_m = [0, 0, 0] }, P = { mass_kg = 5 }, Q = { mass_kg = 3 } }\n\
+                bars = [{ from = 'P', via = ['D'], to = 'Q', length_m = 2, kind = 'cable' }]";
+    std::fs::write(at("weights.toml"), text).unwrap();
+    std::fs::write(at("above.csv"), "joint,x_m,y_m,z_m\nD,0,0,0\nP,0,0,-1\nQ,0,0,-1\n").unwrap();
+    let release = ["simulate", "weights.toml", "--from", "above.csv", "--time", "2"];
+    let more = ["--step", "1e-3", "--store", "0.01", "--out", "ends.csv"];
+    let (code, said, error) = crate::run::run(folder.path(), &[&release[..], &more[..]].concat());
+    assert_eq!(code, Some(3), "{said}{error}");
+    assert!(said.contains("The motion ends before 2 s: the rope (member 1) jams"), "{said}");
+    let rows = std::fs::read_to_string(at("ends.csv")).unwrap();
+    let last: f64 = rows.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
+    let end_s = (8.0 / G).sqrt();
+    assert!(last < end_s && last > end_s - 0.02, "{last} of {end_s}");
+}
+
 /// `T = W/(2 cos a)` with `sin a = d/L`, over the length and over the place of an end; without the rope the ring
 /// falls.
 #[test]

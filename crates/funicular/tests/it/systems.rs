@@ -197,20 +197,26 @@ fn what_is_open_of_forces_is_told_bar_by_bar() {
 #[test]
 fn members_without_force_are_named() {
     let folder = folder("systems-idle");
-    // The lamp hangs 4 m deep: a third cable to it may be longer, and a strut shorter.
-    let more = |kind: &str, length: f64| {
+    // The lamp hangs 4 m deep: a third cable to it may be longer, and a strut shorter. What weight it has its ends carry.
+    let more = |kind: &str, length: f64, mass: f64| {
         let text = LAMP.replace("[joints]\n", "[joints]\nC = { at_m = [0, 0, 0] }\n")
             + &format!(
-                "[[bars]]\nfrom = \"C\"\nto = \"the, lamp\"\nlength_m = {length:?}\nmass_kg = 0\nkind = \"{kind}\"\n"
+                "[[bars]]\nfrom = \"C\"\nto = \"the, lamp\"\nlength_m = {length:?}\nmass_kg = {mass:?}\nkind = \"{kind}\"\n"
             );
         std::fs::write(folder.join("more.toml"), text).unwrap();
+        let bars =
+            json(&ran(&folder, &["solve", "more.toml", "--json"]))["equilibria"][0]["bars"].take();
+        let idle = bars.as_array().unwrap().last().unwrap().clone();
+        assert!(number(&idle["axial_max_n"]).abs() <= 0.0, "{idle}");
         let output = ran(&folder, &["solve", "more.toml"]);
         String::from_utf8(output.stdout).unwrap()
     };
-    let said = more("cable", 4.5);
-    assert!(said.contains(" slack "), "{said}");
-    let said = more("strut", 3.5);
-    assert!(said.contains(" loose "), "{said}");
+    for mass in [0.0, 0.3] {
+        let said = more("cable", 4.5, mass);
+        assert!(said.contains(" slack "), "{said}");
+        let said = more("strut", 3.5, mass);
+        assert!(said.contains(" loose "), "{said}");
+    }
 }
 
 /// A spatial net from above and one side has all three axes of the world, from the top two.

@@ -23,8 +23,9 @@ motion_outcome, a number in `equilibria` of the manifest, or -1 not at rest when
 -4 at rest where nothing is listed; motion_iterations, the time until rest in spans of `release.span_s` of the manifest;
 motion_residual, what is left of motion; motion_energy_j.
 
-Exit codes: 0 done; 1 positions rest where a complete list has nothing; 2 bad input; 3 not written; 130 interrupted, and
---resume goes on. How many are not at rest when the time is up is told, and is no error.
+Exit codes: 0 done; 1 positions rest where a complete list has nothing; 2 bad input; 3 not written, or a ring runs to the
+end of its span, where the motion ends; 130 interrupted, and --resume goes on. How many are not at rest when the time is
+up is said, and is no error. Where many end without a possible step take a shorter --step.
 
   funicular simulate chain.toml --seeds 1e5 --damping 2 --time 60 --step 5e-3 --out ends   which position ends where";
 
