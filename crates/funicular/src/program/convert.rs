@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         output::write_stream(&arguments.to, |to| found.write_csv(to))?;
         "a table of joints"
     };
-    let remarks = solve::remarks(&found);
+    let remarks = funicular::text::remarks(&found);
     output::print(&format!("{}: {what}{remarks}\n", arguments.to.display()))?;
     Ok(solve::verdict(&found))
 }

@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let found = page.run(&problem)?;
     drop(progress);
     output::write_whole(&arguments.out, found.html())?;
-    let remarks = solve::remarks(found.answer());
+    let remarks = funicular::text::remarks(found.answer());
     output::print(&format!("{}: {}{remarks}\n", arguments.out.display(), found.contents()))?;
     Ok(solve::verdict(found.answer()))
 }

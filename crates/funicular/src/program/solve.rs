@@ -287,15 +287,6 @@ fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
     Err(error.into())
 }
 
-/// What is known of an answer, to stand behind the name of a file.
-pub fn remarks(answer: &SolveAnswer) -> String {
-    let verdict = answer.agreement().map(|both| both.verdict.to_string());
-    let missing = answer.failures().iter().map(|failure| format!("no answer of {failure}"));
-    let is_far = answer.near().is_some_and(|near| !near.is_neighbour);
-    let far = is_far.then(|| "not the neighbour of the shape given".to_owned());
-    verdict.into_iter().chain(missing).chain(far).map(|remark| "; ".to_owned() + &remark).collect()
-}
-
 /// A failed check is worse than an answer that is missing or has not converged.
 pub fn verdict(answer: &SolveAnswer) -> Exit {
     Exit::of(answer.check_failed(), answer.is_decided())

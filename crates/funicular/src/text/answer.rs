@@ -148,6 +148,16 @@ fn again(asked_again: &[SolverName]) -> String {
     ) + "\n"
 }
 
+/// What is known of an answer, to stand behind what is made of it.
+#[must_use]
+pub fn remarks(answer: &SolveAnswer) -> String {
+    let verdict = answer.agreement().map(|both| both.verdict.to_string());
+    let missing = answer.failures().iter().map(|failure| format!("no answer of {failure}"));
+    let is_far = answer.near().is_some_and(|near| !near.is_neighbour);
+    let far = is_far.then(|| "not the neighbour of the shape given".to_owned());
+    verdict.into_iter().chain(missing).chain(far).map(|remark| "; ".to_owned() + &remark).collect()
+}
+
 /// In a line which question this answers.
 fn question(solution: &SolveAnswer) -> String {
     let proved = solution.equilibria().iter().any(|e| e.evidence.ladder.optimal.is_reached());
@@ -165,7 +175,7 @@ fn question(solution: &SolveAnswer) -> String {
     });
     let stays = solution.equilibria().first().is_some_and(|e| e.stability.index_in_space == 0);
     let found = if near.is_neighbour && stays && !solution.check_failed() {
-        format!("The stable equilibrium nearest to the shape given ({moved})")
+        format!("The stable equilibrium next to the shape given ({moved})")
     } else if near.is_neighbour {
         format!("An equilibrium near the shape given ({moved})")
     } else {

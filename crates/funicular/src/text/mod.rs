@@ -32,8 +32,8 @@ mod trace;
 
 use model::system::System;
 
-pub use answer::answer;
 pub(crate) use answer::facts;
+pub use answer::{answer, remarks};
 
 /// The member of a system that is nearest to breaking, in a sentence.
 pub(crate) fn weakest(system: &System, weakest: &crate::Weakest) -> String {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use census::network::{Range, ToleranceRanges};
 
+use super::answer::remarks;
 use super::printable::Printable;
 use super::shape::{PRINTED, percent};
 use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
@@ -23,6 +24,14 @@ impl fmt::Display for TolerancesAnswer {
         let numbers = counted(system.uncertain().len(), "uncertain number");
         let title = format!("{}: over the tolerances of {numbers}", Printable(system.name()));
         writeln!(f, "{}\n", wrapped(&title, 0))?;
+        if self.answer().check_failed() || !self.answer().is_decided() {
+            let remarks = remarks(self.answer());
+            let line = format!(
+                "The equilibrium of the numbers given: {}.",
+                remarks.trim_start_matches("; ")
+            );
+            writeln!(f, "{}\n", wrapped(&line, 0))?;
+        }
         match self.ranges() {
             Ok(ranges) => self.proved(f, ranges)?,
             Err(reason) => {

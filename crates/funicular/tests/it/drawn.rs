@@ -105,7 +105,7 @@ fn a_shape_is_csv_or_an_answer_or_a_grid() {
     // From standard input, and a line for people.
     let (code, out, _) = run(at, &["solve", "gable.json", "--near", "-"], UP);
     assert!(
-        code == Some(0) && out.contains("The stable equilibrium nearest to the shape given"),
+        code == Some(0) && out.contains("The stable equilibrium next to the shape given"),
         "{out}"
     );
     assert!(

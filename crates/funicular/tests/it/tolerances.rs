@@ -114,6 +114,27 @@ fn the_program_prints_them_in_eighty_columns() {
     }
 }
 
+/// Ranges of a gable that has snapped through are of what hangs below, and say so.
+#[test]
+fn ranges_of_another_shape_than_is_drawn_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "plane = \"xz\"\n\
+                joints = { A = { at_m = [-1, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { near_m = [0, 0, 0.8], mass_kg = 800 } }\n\
+                bars = [{ from = \"A\", to = \"P\", mass_kg = 0, stiffness_n = 1e4 },\n\
+                { from = \"P\", to = \"B\", mass_kg = 0, stiffness_n = 1e4 }]\n\
+                tolerances = { length_tolerance_m = 1e-6 }\n";
+    std::fs::write(folder.path().join("gable.toml"), text).unwrap();
+    let (code, said, _) = run(folder.path(), &["solve", "gable.toml", "--tolerances"]);
+    assert_eq!(code, Some(3), "{said}");
+    says(
+        &said,
+        &[
+            "The equilibrium of the numbers given: agreed; not the neighbour of the shape",
+            "exactly one equilibrium is near",
+        ],
+    );
+}
+
 #[test]
 fn what_has_no_ranges_says_why() {
     let folder = tempfile::tempdir().unwrap();

@@ -51,7 +51,7 @@ pub struct Near {
     /// where rigid members have no energy.
     pub barrier_j: Option<f64>,
     /// Whether it is the neighbour of the drawing: no joint has moved by half a member, or no member has turned by a
-    /// quarter of its length, and no barrier lies between.
+    /// quarter of its length, and no barrier lies between; or it is the only one, of cables alone.
     pub is_neighbour: bool,
     /// The energy of a lower equilibrium, J, where one was looked for and found.
     pub lower_j: Option<f64>,

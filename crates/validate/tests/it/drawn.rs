@@ -510,3 +510,23 @@ fn a_stiff_bar_that_turns_has_passed_no_barrier() {
         }
     }
 }
+
+/// Cables alone have one shape: also drawn upside down, 4.7 m from where it hangs, it is no other one.
+#[test]
+fn the_only_shape_of_cables_is_next_to_any_drawing() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0).near([1.0, 0.0, 3.0]),
+    ];
+    let rope = |kind: Kind| {
+        let bar = |from| Member::bar(from, 2, Bar::homogeneous(2.0, 0.0).unwrap()).of_kind(kind);
+        System::new("rope", G, joints.clone(), vec![bar(0), bar(1)]).unwrap()
+    };
+    for found in &neighbour(&rope(Kind::Cable)).equilibria {
+        close(&found.joints_m[2], &[1.0, 0.0, -3.0_f64.sqrt()], 1e-9);
+    }
+    // Bars stand.
+    let answer = ask(&rope(Kind::Bar), Solvers::Both, &|_| {});
+    assert!(answer.equilibria[0].joints_m[2][2] > 0.0 || !answer.near.unwrap().is_neighbour);
+}
