@@ -1,5 +1,6 @@
 //! The question of a drawing: the equilibrium next to a shape, and whether what was found is it.
 
+use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{SolverName, Vector, sum};
 use serde::Serialize;
@@ -21,9 +22,11 @@ const TURNED: f64 = 0.25;
 /// Places on the straight way from the drawing to the answer at which the energy is looked at.
 const STATIONS: u32 = 32;
 
-/// Steps that bring lengths to what they ought to be, and what is left of them then, over the lengths.
+/// Steps that bring lengths to what they ought to be, what is left of them then, over the lengths, and what makes their matrix
+/// definite where it is not, in units of a member.
 const FITS: usize = 8;
 const FITTED: f64 = 1e-11;
+const RIDGE: f64 = 1e-13;
 
 /// A barrier below this part of the change of the energy along the way is rounding.
 const BARRIER: f64 = 1e-6;
@@ -162,13 +165,17 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
         let places = from_m.iter().zip(to_m);
         places.map(|(a, b)| plus(*a, times(part, minus(*b, *a)))).collect()
     };
-    let beside = |part: f64| fitted(system, [from_m, to_m], part, straight(part));
-    rise_j(system, &straight).and_then(|_| rise_j(system, &beside))
+    let rise_j = |way: &mut dyn FnMut(f64) -> Vec<Vector>| rise_j(system, way);
+    let barrier_j = rise_j(&mut |part| straight(part))?;
+    match Fit::new(system, [from_m, to_m]) {
+        Some(mut fit) => rise_j(&mut |part| fit.at(part, straight(part))),
+        None => Some(barrier_j),
+    }
 }
 
 /// How far the energy rises on a way of places over a part from 0 to 1, J, if it rises and falls again.
-fn rise_j(system: &System, way: &dyn Fn(f64) -> Vec<Vector>) -> Option<f64> {
-    let at = |station: u32| {
+fn rise_j(system: &System, way: &mut dyn FnMut(f64) -> Vec<Vector>) -> Option<f64> {
+    let mut at = |station: u32| {
         let places_m = way(f64::from(station) / f64::from(STATIONS));
         potential_j(system, system.members(), &places_m)
     };
@@ -179,118 +186,99 @@ fn rise_j(system: &System, way: &dyn Fn(f64) -> Vec<Vector>) -> Option<f64> {
     (rise > rounding.max(BARRIER * (start - end).abs())).then_some(rise)
 }
 
-/// Places moved as little as may be, so that every member is as long as on its way between its lengths in two shapes: Newton's
-/// steps, each by conjugate gradients for the least squares.
-fn fitted(
-    system: &System,
-    shapes_m: [&[Vector]; 2],
-    part: f64,
-    mut places_m: Vec<Vector>,
-) -> Vec<Vector> {
-    let members = system.members();
-    let wanted: Vec<f64> = members
-        .iter()
-        .map(|member| {
-            let [from_m, to_m] = shapes_m.map(|places| length_m(member, places));
-            from_m + part * (to_m - from_m)
-        })
-        .collect();
-    for _ in 0..FITS {
-        let off: Vec<f64> = members
-            .iter()
-            .zip(&wanted)
-            .map(|(member, wanted_m)| wanted_m - length_m(member, &places_m))
-            .collect();
-        let worst = members.iter().zip(&off).map(|(m, off)| off.abs() / m.body.length_m());
-        if worst.fold(0.0, worse) <= FITTED {
-            break;
-        }
-        let rows = Rows::new(system, &places_m);
-        let moves = rows.least_squares(&off);
-        for (at, by) in places_m.iter_mut().zip(moves) {
-            *at = plus(*at, by);
-        }
-    }
-    places_m
-}
-
-/// The derivatives of the lengths of members by the places of joints: of each member its spans with their directions.
-struct Rows<'a> {
+/// Places between two shapes at which every member is as long as on its way between its lengths there, by Newton's steps for the
+/// least squares: $(J^T J + \\varepsilon) x = J^T r$ with the derivatives $J$ of the lengths and what they lack, $r$.
+struct Fit<'a> {
     system: &'a System,
-    spans: Vec<Vec<(usize, usize, Vector)>>,
+    lengths_m: [Vec<f64>; 2],
+    factor: Ldlt,
 }
 
-impl<'a> Rows<'a> {
-    fn new(system: &'a System, places_m: &[Vector]) -> Self {
-        let row = |member: &Member| {
-            let span = |[a, b]: [usize; 2]| {
-                let d = minus(places_m[b], places_m[a]);
-                (a, b, times(norm(d).max(f64::MIN_POSITIVE).recip(), d))
-            };
-            member.spans().map(span).collect()
-        };
-        Self { system, spans: system.members().iter().map(row).collect() }
-    }
+/// The spans of a member, each with its joints and the direction from one to the other.
+type Spans = Vec<(usize, usize, Vector)>;
 
-    /// By how much moves make each member longer.
-    fn longer(&self, moves: &[Vector]) -> Vec<f64> {
-        let row = |spans: &Vec<(usize, usize, Vector)>| {
-            sum(spans.iter().map(|(a, b, u)| dot(*u, minus(moves[*b], moves[*a]))))
-        };
-        self.spans.iter().map(row).collect()
-    }
-
-    /// The transposed product: what members pull at the joints, as far as these may move.
-    fn pulls(&self, forces: &[f64]) -> Vec<Vector> {
-        let mut pulls = vec![[0.0; 3]; self.system.joints().len()];
-        for (spans, force) in self.spans.iter().zip(forces) {
-            for (a, b, u) in spans {
-                pulls[*a] = plus(pulls[*a], times(-force, *u));
-                pulls[*b] = plus(pulls[*b], times(*force, *u));
-            }
+impl<'a> Fit<'a> {
+    /// `None` for systems that are too large.
+    fn new(system: &'a System, shapes_m: [&[Vector]; 2]) -> Option<Self> {
+        if system.members().len() > MEMBERS {
+            return None;
         }
-        for (pull, joint) in pulls.iter_mut().zip(self.system.joints()) {
-            *pull = match joint.support {
-                Support::Free => *pull,
-                Support::Fixed { .. } => [0.0; 3],
-                Support::Line { direction, .. } => along(*pull, direction),
-                Support::Plane { normal, .. } => minus(*pull, along(*pull, normal)),
-            };
-        }
-        pulls
+        let lengths_m = shapes_m.map(|places_m| lengths_m(system, places_m));
+        let Entries { starts, rows, .. } = square(system, &spans(system, shapes_m[0]));
+        let order = minimum_degree(&starts, &rows)?;
+        Some(Self { system, lengths_m, factor: Ldlt::new(&starts, &rows, &order)? })
     }
 
-    /// The least moves that make members longer by this much, as nearly as they can.
-    fn least_squares(&self, longer: &[f64]) -> Vec<Vector> {
-        let square = |all: &[Vector]| sum(all.iter().map(|v| dot(*v, *v)));
-        let mut moves = vec![[0.0; 3]; self.system.joints().len()];
-        let mut left = longer.to_vec();
-        let mut gradient = self.pulls(&left);
-        let (mut way, mut size) = (gradient.clone(), square(&gradient));
-        let enough = FITTED * FITTED * size;
-        for _ in 0..3 * moves.len() {
-            let by = self.longer(&way);
-            let length = size / sum(by.iter().map(|x| x * x));
-            if !length.is_finite() {
+    fn at(&mut self, part: f64, mut places_m: Vec<Vector>) -> Vec<Vector> {
+        let members = self.system.members();
+        let [from_m, to_m] = &self.lengths_m;
+        for _ in 0..FITS {
+            let now_m = lengths_m(self.system, &places_m);
+            let off_m: Vec<f64> = (0..members.len())
+                .map(|k| from_m[k] + part * (to_m[k] - from_m[k]) - now_m[k])
+                .collect();
+            let worst = members.iter().zip(&off_m).map(|(m, off)| off.abs() / m.body.length_m());
+            if worst.fold(0.0, worse) <= FITTED {
                 break;
             }
-            for (at, step) in moves.iter_mut().zip(&way) {
-                *at = plus(*at, times(length, *step));
-            }
-            for (off, by) in left.iter_mut().zip(&by) {
-                *off -= length * by;
-            }
-            gradient = self.pulls(&left);
-            let next = square(&gradient);
-            if next <= enough {
+            let spans = spans(self.system, &places_m);
+            let matrix = square(self.system, &spans);
+            if !self.factor.factorise(&matrix.values, Pivots::Positive) {
                 break;
             }
-            let kept = next / size;
-            way = gradient.iter().zip(&way).map(|(g, w)| plus(*g, times(kept, *w))).collect();
-            size = next;
+            let mut right = vec![0.0; 3 * places_m.len()];
+            for (spans, off_m) in spans.iter().zip(&off_m) {
+                for (row, value) in row(self.system, spans) {
+                    right[row] += value * off_m;
+                }
+            }
+            self.factor.solve(&mut right);
+            for (at, by) in places_m.iter_mut().zip(right.chunks(3)) {
+                *at = plus(*at, [by[0], by[1], by[2]]);
+            }
         }
-        moves
+        places_m
     }
+}
+
+fn lengths_m(system: &System, places_m: &[Vector]) -> Vec<f64> {
+    system.members().iter().map(|member| length_m(member, places_m)).collect()
+}
+
+fn spans(system: &System, places_m: &[Vector]) -> Vec<Spans> {
+    let span = |[a, b]: [usize; 2]| {
+        let d = minus(places_m[b], places_m[a]);
+        (a, b, times(norm(d).max(f64::MIN_POSITIVE).recip(), d))
+    };
+    system.members().iter().map(|member| member.spans().map(span).collect()).collect()
+}
+
+/// A row of the derivatives: three entries for each end of each span, as far as its joint may move.
+fn row<'a>(system: &'a System, spans: &'a Spans) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let ends = spans.iter().flat_map(|(a, b, u)| [(*a, times(-1.0, *u)), (*b, *u)]);
+    ends.flat_map(|(joint, pull)| {
+        let free = match system.joints()[joint].support {
+            Support::Free => pull,
+            Support::Fixed { .. } => [0.0; 3],
+            Support::Line { direction, .. } => along(pull, direction),
+            Support::Plane { normal, .. } => minus(pull, along(pull, normal)),
+        };
+        (0..3).map(move |axis| (3 * joint + axis, free[axis]))
+    })
+}
+
+/// The matrix of the least squares, its lower triangle.
+fn square(system: &System, spans: &[Spans]) -> Entries {
+    let size = 3 * system.joints().len();
+    let mut entries: Vec<(usize, usize, f64)> = (0..size).map(|k| (k, k, RIDGE)).collect();
+    for spans in spans {
+        let row: Vec<(usize, f64)> = row(system, spans).collect();
+        for (i, a) in &row {
+            let below = row.iter().filter(|(k, _)| k <= i);
+            entries.extend(below.map(|(k, b)| (*i, *k, a * b)));
+        }
+    }
+    Entries::new(size, &entries)
 }
 
 /// The part of a vector along a direction.
