@@ -337,3 +337,20 @@ fn a_second_factorisation_is_as_the_first() {
     assert!(again.factorise(values, Pivots::Signed));
     assert_eq!(bits(&again), bits(&once));
 }
+
+/// Places that are given twice, out of order, or not at all on the diagonal: as matrices are put together.
+#[test]
+fn any_pattern_has_an_order() {
+    let patterns: [&[(usize, usize)]; 3] = [
+        &[(1, 0), (1, 0), (1, 0), (1, 0), (2, 1), (2, 1), (3, 2), (2, 2)],
+        &[(3, 0), (1, 0), (2, 0)],
+        &[],
+    ];
+    for places in patterns {
+        let entries: Vec<_> = places.iter().map(|(row, column)| (*row, *column, 1.0)).collect();
+        let entries = Entries::new(4, &entries);
+        let mut order = minimum_degree(&entries.starts, &entries.rows).unwrap();
+        order.sort_unstable();
+        assert_eq!(order, [0, 1, 2, 3], "{places:?}");
+    }
+}
