@@ -83,6 +83,6 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         "a table of joints"
     };
     let remarks = funicular::text::remarks(&found);
-    output::print(&format!("{}: {what}{remarks}\n", arguments.to.display()))?;
+    output::print(&format!("{}: {what}; {remarks}\n", arguments.to.display()))?;
     Ok(solve::verdict(&found))
 }

@@ -69,6 +69,6 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     drop(progress);
     output::write_whole(&arguments.out, found.html())?;
     let remarks = funicular::text::remarks(found.answer());
-    output::print(&format!("{}: {}{remarks}\n", arguments.out.display(), found.contents()))?;
+    output::print(&format!("{}: {}; {remarks}\n", arguments.out.display(), found.contents()))?;
     Ok(solve::verdict(found.answer()))
 }

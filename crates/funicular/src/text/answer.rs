@@ -148,14 +148,14 @@ fn again(asked_again: &[SolverName]) -> String {
     ) + "\n"
 }
 
-/// What is known of an answer, to stand behind what is made of it.
+/// What is known of an answer, to stand with what is made of it.
 #[must_use]
 pub fn remarks(answer: &SolveAnswer) -> String {
     let verdict = answer.agreement().map(|both| both.verdict.to_string());
     let missing = answer.failures().iter().map(|failure| format!("no answer of {failure}"));
     let is_far = answer.near().is_some_and(|near| !near.is_neighbour);
     let far = is_far.then(|| "not the neighbour of the shape given".to_owned());
-    verdict.into_iter().chain(missing).chain(far).map(|remark| "; ".to_owned() + &remark).collect()
+    verdict.into_iter().chain(missing).chain(far).collect::<Vec<_>>().join("; ")
 }
 
 /// In a line which question this answers.

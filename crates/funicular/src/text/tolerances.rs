@@ -25,11 +25,7 @@ impl fmt::Display for TolerancesAnswer {
         let title = format!("{}: over the tolerances of {numbers}", Printable(system.name()));
         writeln!(f, "{}\n", wrapped(&title, 0))?;
         if self.answer().check_failed() || !self.answer().is_decided() {
-            let remarks = remarks(self.answer());
-            let line = format!(
-                "The equilibrium of the numbers given: {}.",
-                remarks.trim_start_matches("; ")
-            );
+            let line = format!("The equilibrium of the numbers given: {}.", remarks(self.answer()));
             writeln!(f, "{}\n", wrapped(&line, 0))?;
         }
         match self.ranges() {

@@ -403,6 +403,18 @@ fn a_path_ends_before_slings_are_straight() {
     assert!(x > 1.499 && z > -0.06, "{x}, {z}");
 }
 
+/// Of a chain of rigid bars that becomes taut no limit is one to first order: no sensitivity is one.
+#[test]
+fn a_chain_that_becomes_taut_has_no_sensitivities() {
+    let trace = Trace::new().vary("anchors.end_m.x=0.2..1.8").unwrap().of("joints.1.z");
+    let found = trace.run(&Problem::case("two-bars").unwrap()).unwrap();
+    let path = &found.load_paths().unwrap().paths()[0];
+    let limit = path.events.iter().find(|event| event.kind == LoadEventKind::Limit).unwrap();
+    assert!(path.confirmed.flat < path.confirmed.singular, "{found}");
+    assert!(limit.by_length.is_empty() && limit.by_place.is_empty(), "{limit:?}");
+    assert!(!found.to_string().contains("more length"), "{found}");
+}
+
 #[test]
 fn where_no_path_begins_the_error_says_why() {
     let run = |file: &str, vary: &str| {

@@ -16,9 +16,9 @@ use crate::thresholds::EARNED;
 use model::system::Kind;
 
 /// First $\rho$ in units of the mean $|N|/l$: members stretch by some percent.
-const FIRST_PENALTY: f64 = 30.0;
+pub(super) const FIRST_PENALTY: f64 = 30.0;
 /// The same where the state is to be kept: members stretch by some hundredth of a percent.
-const NEAR_PENALTY: f64 = 1e4;
+pub(super) const NEAR_PENALTY: f64 = 1e4;
 /// Growth of $\rho$ when the lengths get better too slowly, and what is too slowly.
 const PENALTY_GROWTH: f64 = 5.0;
 const SLOW: f64 = 0.25;
@@ -62,17 +62,8 @@ pub(super) struct Rest {
     pub lost: Option<usize>,
 }
 
-/// Settle from a state.
-pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, state: State) -> Rest {
-    settle_from(framework, stiffness, state, FIRST_PENALTY)
-}
-
-/// The same next to a state with its forces: no member gets softer on the way than it is, by much.
-pub(super) fn settle_near(framework: &Framework, stiffness: &mut Stiffness, state: State) -> Rest {
-    settle_from(framework, stiffness, state, NEAR_PENALTY)
-}
-
-fn settle_from(
+/// Settle from a state, with a first penalty.
+pub(super) fn settle(
     framework: &Framework,
     stiffness: &mut Stiffness,
     mut state: State,

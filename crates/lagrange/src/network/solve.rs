@@ -18,7 +18,7 @@ use super::readings::nearly;
 use super::second_order::SecondOrder;
 use super::seed::Seed;
 use super::settings::Settings;
-use super::settle::{settle, settle_near};
+use super::settle::{FIRST_PENALTY, NEAR_PENALTY, settle};
 use super::signs::signs_mended;
 use super::solution::{Found, Solution};
 use super::state::State;
@@ -187,15 +187,8 @@ fn reached(
     let to_fit = seed.axial_n.is_none() && !seed.at_rest && !system.is_unloaded();
     let drawn = to_fit.then(|| start.clone());
     let start = if to_fit { solver.closed(start) } else { start };
-    let found = match (solver.with_signs(start.clone(), Patience::Full), &drawn) {
-        // Cables that are drawn a little too short may be slack, and not drawn badly.
-        (Err(error @ Error::NotConverged { .. }), Some(drawn)) if start.places != drawn.places => {
-            solver.with_signs(drawn.clone(), Patience::Full).map_err(|_| error)
-        }
-        (found, _) => found,
-    };
     let one_sided = solver.framework.links.iter().any(|link| link.kind != Kind::Bar);
-    let run = match found {
+    let run = match solver.with_signs(start.clone(), Patience::Full) {
         // With bars alone what a search ends in may be far from the seed. Cables and struts may change to and fro between two
         // sets that are both wrong, where what each holds is not stable.
         Err(error @ Error::NotConverged { .. })
@@ -204,8 +197,8 @@ fn reached(
             // From where it comes to rest, unless that is a corner.
             let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
             let rest = match drawn {
-                Some(drawn) => settle_near(framework, stiffness, drawn),
-                None => settle(framework, stiffness, start),
+                Some(drawn) => settle(framework, stiffness, drawn, NEAR_PENALTY),
+                None => settle(framework, stiffness, start, FIRST_PENALTY),
             };
             solver.factorisations += rest.factorisations;
             if system.is_unloaded() && rest.fits && is_idle(&solver.framework, &rest.state) {
@@ -315,7 +308,7 @@ impl<'a> Solver<'a> {
         let mut found = Err(Error::Unloaded);
         for (tries, size) in KICKS.into_iter().enumerate() {
             let state = self.kicked(from, kick + tries, size);
-            let rest = settle(&self.framework, &mut self.stiffness, state);
+            let rest = settle(&self.framework, &mut self.stiffness, state, FIRST_PENALTY);
             self.factorisations += rest.factorisations;
             if let (Some(joint), Err(_)) = (rest.lost, &found) {
                 let distance_m = rest.state.places[joint].norm() * self.framework.units.length_m;

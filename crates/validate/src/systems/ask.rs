@@ -2,7 +2,7 @@
 
 use census::network::SystemCensus;
 use lagrange::network::Seed;
-use model::system::{Kind, Row, System, SystemEquilibrium};
+use model::system::{Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Quantity, Reason, Rung, SolverName, Status, Vector};
 use numerics::Interval;
 use serde::Serialize;
@@ -234,14 +234,11 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         verify(system, &mut equilibria);
         look_up(system, &listed, &mut equilibria);
     }
-    if let (Some(near), Some(first)) = (&mut near, equilibria.first()) {
-        // The energy of cables alone is convex: the lowest shape is the only one.
-        let is_convex = system.members().iter().all(|member| member.kind == Kind::Cable);
-        near.is_neighbour |= is_convex && first.evidence.ladder.optimal.is_reached();
-        if census != UseCensus::Never {
-            watch("the lowest equilibrium");
-            near.lower_j = lower_j(system, question, first);
-        }
+    if let (Some(near), Some(first)) = (&mut near, equilibria.first())
+        && census != UseCensus::Never
+    {
+        watch("the lowest equilibrium");
+        near.lower_j = lower_j(system, question, first);
     }
     SystemAnswer { equilibria, failures, agreement, near, asked_again }
 }

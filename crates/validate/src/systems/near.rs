@@ -80,13 +80,15 @@ impl Near {
             }
         }
         let barrier_j = barrier_j(system, drawing_m, &answer.joints_m);
+        // The energy of cables is convex, with all that is held and a floor: an equilibrium is the only one.
+        let is_only = system.members().iter().all(|member| member.kind == Kind::Cable);
+        let is_close = moved <= FAR || turned(system, drawing_m, &answer.joints_m) <= TURNED;
         Self {
             moved,
             moved_m,
             joint: system.joints()[at].name.to_string(),
             barrier_j,
-            is_neighbour: (moved <= FAR || turned(system, drawing_m, &answer.joints_m) <= TURNED)
-                && barrier_j.is_none(),
+            is_neighbour: is_only || is_close && barrier_j.is_none(),
             lower_j: None,
         }
     }
