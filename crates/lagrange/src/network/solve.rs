@@ -188,7 +188,16 @@ fn reached(
     let drawn = to_fit.then(|| start.clone());
     let start = if to_fit { solver.closed(start) } else { start };
     let one_sided = solver.framework.links.iter().any(|link| link.kind != Kind::Bar);
-    let run = match solver.with_signs(start.clone(), Patience::Full) {
+    let found = match (solver.with_signs(start.clone(), Patience::Full), &drawn) {
+        // Bars from far away may be led astray by being closed first.
+        (Err(error @ Error::NotConverged { .. }), Some(drawn))
+            if !one_sided && start.places != drawn.places =>
+        {
+            solver.with_signs(drawn.clone(), Patience::Full).map_err(|_| error)
+        }
+        (found, _) => found,
+    };
+    let run = match found {
         // With bars alone what a search ends in may be far from the seed. Cables and struts may change to and fro between two
         // sets that are both wrong, where what each holds is not stable.
         Err(error @ Error::NotConverged { .. })
