@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use census::Settings;
-use census::network::SystemCensus;
+use census::net::SystemCensus;
 use model::Bar;
 use model::system::{Joint, Member, System};
 

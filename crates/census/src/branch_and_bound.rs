@@ -6,7 +6,7 @@
 
 use numerics::{Interval, in_parallel};
 
-use crate::search::Progress;
+use crate::run::search::Progress;
 
 /// How far a search goes, and in what steps.
 pub(crate) struct Plan<T> {

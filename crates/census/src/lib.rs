@@ -67,34 +67,27 @@
 //! nothing is missing against what topology and duality say; [`sextic`] counts the equilibria of
 //! the paper's example by exact algebra.
 
+pub mod boxes;
 mod branch_and_bound;
-mod census;
-mod closure;
-mod count;
-mod enclosure;
-mod equilibrium;
 mod error;
-pub mod network;
-mod plane;
-mod search;
+pub mod net;
+mod run;
 mod settings;
-mod slack;
 
-pub use census::check::CheckError;
-pub use census::compact::CompactCensus;
-pub use census::estimate::Estimate;
-pub use census::expected_time_s;
-pub use census::position::Position;
-pub use census::{Census, Statistics};
-pub use count::morse::MorseError;
-pub use count::sextic;
-pub use count::topology::{Topology, TopologyError};
-pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
 pub use numerics::Interval;
-pub use plane::face::Face;
-pub use search::Progress;
-pub use search::undecided::{Reason, Undecided};
+pub use run::check::CheckError;
+pub use run::compact::CompactCensus;
+pub use run::count::morse::MorseError;
+pub use run::count::sextic;
+pub use run::count::topology::{Topology, TopologyError};
+pub use run::equilibrium::{Neighbourhood, ProvenEquilibrium};
+pub use run::estimate::Estimate;
+pub use run::plane::face::Face;
+pub use run::position::Position;
+pub use run::search::Progress;
+pub use run::search::undecided::{Reason, Undecided};
+pub use run::slack::families::SlackFamily;
+pub use run::slack::straight::StraightPosition;
+pub use run::{Census, Statistics, expected_time_s};
 pub use settings::Settings;
-pub use slack::families::SlackFamily;
-pub use slack::straight::StraightPosition;

@@ -14,7 +14,7 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use energy::network::{Settings, minimise};
+use energy::net::{Settings, minimise};
 use model::system::{Joint, Member, System};
 use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};

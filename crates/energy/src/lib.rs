@@ -22,7 +22,7 @@
 //! | first column of `[A_i]` | `u`, `directions` | - | (5) |
 //! | `V` | `energy_j` (from joint 0) | J | (v) |
 //! | `V / mgl` | [`example::potential`] (6 more) | `mgl` | (vi) |
-//! | - | `carried`, `h_i`: weight hanging on bar *i*, less one half | total weight | (v), see `links` |
+//! | - | `carried`, `h_i`: weight hanging on bar *i*, less one half | total weight | (v), see `scaled_chain` |
 //! | `sum l_i u_i = D` | `closure`, `gap` | total length | (i), (ii) |
 //! | `theta, alpha, beta` | `theta_rad`, `alpha_rad`, `beta_rad` | rad | (i)-(iv) |
 //! | (viii) | [`example::quadratic`], [`example::candidates`] | - | (viii) |
@@ -70,9 +70,9 @@
 //! | held | any other, and every chain with [`Motion::Plane`] | nothing | nothing |
 //!
 //! What only a solution can tell follows from it. All bars on one line through both anchors (two
-//! strands that just meet): their forces are the limit of anchors moved apart (`strands`). A bend
+//! strands that just meet): their forces are the limit of anchors moved apart (`straight_fold`). A bend
 //! that is too sharp for the groups of bars of a coarser chain: its bars are solved by themselves
-//! (`bend`).
+//! (`sharp_bend`).
 //!
 //! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`)
 //! runs the minimisation. The `Solver` is ours: argmin has none for constrained problems, and its
@@ -96,48 +96,17 @@
 //! forces appear in both, derived and written twice on purpose: that two programs which share no
 //! mechanics agree to the last digits is the experiment of this project. Do not deduplicate them.
 
-mod bend;
-mod bridged;
-mod closure;
-mod coarse;
-mod convergence;
-mod curvature;
+pub mod batch;
 mod error;
-mod folded;
-mod frame;
+pub mod example;
 mod lever;
-mod links;
-mod minimise;
-mod objective;
-mod plane;
-mod reaction;
-mod refine;
-mod regime;
-mod seed;
-mod settings;
-mod slope;
-mod solution;
-mod solver;
-mod stability;
-mod start;
-mod strands;
-mod symmetric;
+pub mod net;
+mod run;
 mod thresholds;
-mod triangle;
-mod twofold;
 mod vector;
 
-#[cfg(test)]
-mod derivative_tests;
-
-pub mod batch;
-pub mod example;
-pub mod network;
-
 pub use error::Error;
-pub use minimise::{minimise, minimise_from};
-pub use reaction::reaction_by_differences;
-pub use seed::Seed;
-pub use settings::{Motion, Settings};
-pub use solution::{Solution, Work};
-pub use stability::{SecondOrder, second_order};
+pub use run::{
+    Motion, SecondOrder, Seed, Settings, Solution, Work, minimise, minimise_from,
+    reaction_by_differences, second_order,
+};

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use branches::{BarField, JointField, Number, Which};
-use lagrange::network::{self, Gradient};
+use lagrange::net::{self, Gradient};
 use model::Vector;
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
@@ -22,7 +22,7 @@ use crate::problem::Problem;
 /// anchors, gradients of one number by all parameters, changes of everything by one parameter.
 ///
 /// They follow from one factorisation of the equations of equilibrium, by the solver `lagrange`
-/// (see [`lagrange::network::Derivatives`]), and hold as long as no slack member becomes taut and
+/// (see [`lagrange::net::Derivatives`]), and hold as long as no slack member becomes taut and
 /// no taut one slack.
 ///
 /// ```
@@ -53,7 +53,7 @@ pub struct Derivatives;
 #[derive(Debug, Clone, PartialEq)]
 pub struct DerivativesAnswer {
     system: Arc<System>,
-    solution: network::Solution,
+    solution: net::Solution,
 }
 
 /// The stiffness matrix of a pair of anchors.
@@ -189,7 +189,7 @@ impl DerivativesAnswer {
     /// [`Error::Lagrange`] where the equilibrium has no derivatives: it is degenerate, or an anchor
     /// cannot move alone.
     pub fn anchor_stiffness(&self) -> Result<Vec<AnchorStiffness>, Error> {
-        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let mut derivatives = net::Derivatives::new(&self.system, &self.solution)?;
         let joints = self.system.joints();
         let anchors: Vec<usize> =
             (0..joints.len()).filter(|k| joints[*k].support.is_fixed()).collect();
@@ -198,7 +198,7 @@ impl DerivativesAnswer {
         for joint in &anchors {
             let mut moved = Vec::with_capacity(3);
             for axis in 0..3 {
-                let parameter = network::Parameter::Anchor { joint: *joint, axis };
+                let parameter = net::Parameter::Anchor { joint: *joint, axis };
                 moved.push(derivatives.change(parameter)?.reactions_n);
             }
             columns.push(moved);
@@ -254,7 +254,7 @@ impl DerivativesAnswer {
     ///
     /// Where there are more or fewer derivatives than joints or members.
     pub fn pullback(&self, by_joints: &[Vector], by_axial: &[f64]) -> Result<Gradient, Error> {
-        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let mut derivatives = net::Derivatives::new(&self.system, &self.solution)?;
         Ok(derivatives.gradient(by_joints, by_axial)?)
     }
 
@@ -309,7 +309,7 @@ impl DerivativesAnswer {
     /// are no derivatives by it, [`Error::Lagrange`] where the equilibrium has none.
     pub fn change(&self, by: &str) -> Result<ParameterChange, Error> {
         let (number, parameter, scale) = self.parameter(by)?;
-        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let mut derivatives = net::Derivatives::new(&self.system, &self.solution)?;
         let change = derivatives.change(parameter)?;
         let joints = self.system.joints();
         let scaled = |v: Vector| v.map(|x| scale * x);
@@ -325,34 +325,34 @@ impl DerivativesAnswer {
     }
 
     /// A parameter as the solver has it, and what its derivatives are multiplied by.
-    fn parameter(&self, text: &str) -> Result<(Number, network::Parameter, f64), Error> {
+    fn parameter(&self, text: &str) -> Result<(Number, net::Parameter, f64), Error> {
         let number = self.checked(text)?;
         let joint = |name: &str| self.system.joint(name);
         let acts = self.system.permanent_factor();
         let is_rope = |member: usize| self.system.members()[member].rope.is_some();
         let (parameter, scale) = match &branches::resolved(&self.system, &number) {
             Number::Bar(Which::One(bar), BarField::Length) => {
-                (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
+                (Some(net::Parameter::Length { member: bar - 1 }), 1.0)
             }
             Number::Bar(Which::One(bar), BarField::Mass) if !is_rope(bar - 1) => {
-                (Some(network::Parameter::Mass { member: bar - 1 }), acts)
+                (Some(net::Parameter::Mass { member: bar - 1 }), acts)
             }
             Number::Bar(Which::One(bar), BarField::Prestress) => {
-                (Some(network::Parameter::Prestress { member: bar - 1 }), 1.0)
+                (Some(net::Parameter::Prestress { member: bar - 1 }), 1.0)
             }
             Number::Bar(Which::One(bar), BarField::Stiffness) => {
-                (Some(network::Parameter::Stiffness { member: bar - 1 }), 1.0)
+                (Some(net::Parameter::Stiffness { member: bar - 1 }), 1.0)
             }
             Number::Joint(name, JointField::Place(axis)) => {
-                let of = |joint| network::Parameter::Anchor { joint, axis: *axis };
+                let of = |joint| net::Parameter::Anchor { joint, axis: *axis };
                 (joint(name).map(of), 1.0)
             }
             Number::Joint(name, JointField::Force(axis)) => {
-                let of = |joint| network::Parameter::Force { joint, axis: *axis };
+                let of = |joint| net::Parameter::Force { joint, axis: *axis };
                 (joint(name).map(of), acts)
             }
             Number::Joint(name, JointField::Mass) => {
-                let of = |joint| network::Parameter::Force { joint, axis: 2 };
+                let of = |joint| net::Parameter::Force { joint, axis: 2 };
                 (joint(name).map(of), -acts * self.system.gravity_m_s2())
             }
             _ => (None, 1.0),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use census::network::{NoRanges, Range, ToleranceRanges};
+use census::boxes::{NoRanges, Range, ToleranceRanges};
 use model::system::{System, SystemEquilibrium};
 use rayon::prelude::*;
 use serde::Serialize;

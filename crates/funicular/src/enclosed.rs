@@ -81,7 +81,7 @@ fn proved(
         let refused = NotEnclosed::TooLarge { joints: moving, most: MOST_ENCLOSED_JOINTS };
         return Err(refused.to_string());
     }
-    let proof = census::network::prove(system, joints_m, axial_n)
+    let proof = census::boxes::prove(system, joints_m, axial_n)
         .map_err(|no_box| format!("the equilibrium is not proved: {no_box}"))?;
     // A box next to a fold may hold the neighbour. NaN is near to nothing.
     let distance_m = proof.beyond_m(joints_m);

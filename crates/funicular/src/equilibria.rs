@@ -1,8 +1,8 @@
 //! The equilibria of a problem, all of them where a census is complete.
 
 use census::Settings;
-use census::network::SystemCensus;
-use lagrange::network::{self, Seed};
+use census::net::SystemCensus;
+use lagrange::net::{self, Seed};
 use model::budget::BYTES_PER_MEMBER;
 use model::system::{System, SystemEquilibrium};
 use validate::systems::{ask_with, quick_census};
@@ -43,8 +43,8 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 
 /// The equilibrium that `solve` shows, the lowest or the one next to the drawing, where both solvers agree on it, with the
 /// equations of `lagrange` there. Else what `lagrange` finds by itself, and whether they disagree.
-pub(crate) fn as_solved(system: &System) -> (Result<network::Solution, network::Error>, bool) {
-    let settings = network::Settings::default();
+pub(crate) fn as_solved(system: &System) -> (Result<net::Solution, net::Error>, bool) {
+    let settings = net::Settings::default();
     let question = Question { census: UseCensus::Never, ..Question::default() };
     let answer = ask_with(system, &question, &|_| {});
     let agrees = answer.agreement.map(|agreement| agreement.agrees());
@@ -52,11 +52,11 @@ pub(crate) fn as_solved(system: &System) -> (Result<network::Solution, network::
         Some(found) if agrees == Some(true) => {
             let SystemEquilibrium { joints_m, axial_n, .. } = found;
             let seed = Seed { axial_n: Some(axial_n), ..Seed::at_rest(joints_m) };
-            network::solve_from(system, &seed, &settings)
+            net::solve_from(system, &seed, &settings)
         }
         _ => match system.drawing() {
-            Some(drawing_m) => network::solve_from(system, &Seed::at(drawing_m), &settings),
-            None => network::solve(system, &settings),
+            Some(drawing_m) => net::solve_from(system, &Seed::at(drawing_m), &settings),
+            None => net::solve(system, &settings),
         },
     };
     (solution, agrees == Some(false))

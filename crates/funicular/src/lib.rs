@@ -168,7 +168,7 @@ pub use self::trace::load::{
 };
 #[cfg(feature = "branches")]
 pub use self::trace::{Confirmed, PathProved, Trace, TraceAnswer};
-pub use ::census::network::{NoRanges, Range, ToleranceRanges};
+pub use ::census::boxes::{NoRanges, Range, ToleranceRanges};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]
@@ -186,7 +186,7 @@ pub use formats::export;
 pub use frames::Frames;
 pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
-pub use lagrange::network::Gradient;
+pub use lagrange::net::Gradient;
 pub use model::budget::limit_work;
 pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};

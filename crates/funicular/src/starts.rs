@@ -107,9 +107,8 @@ impl Follow for FromPlaces {
 }
 
 fn lagrange(system: &System, places_m: &[Vector]) -> End {
-    use lagrange::network::{Error, Seed, solve_from};
-    match solve_from(system, &Seed::at(places_m.to_vec()), &lagrange::network::Settings::default())
-    {
+    use lagrange::net::{Error, Seed, solve_from};
+    match solve_from(system, &Seed::at(places_m.to_vec()), &lagrange::net::Settings::default()) {
         Ok(found) => end(found.equilibrium),
         // It ends where no step helps.
         Err(Error::NotConverged { iterations, .. }) => after(iterations, Failure::Stalled),
@@ -119,8 +118,8 @@ fn lagrange(system: &System, places_m: &[Vector]) -> End {
 }
 
 fn energy(system: &System, places_m: &[Vector]) -> End {
-    use energy::network::{Error, minimise_from};
-    match minimise_from(system, places_m, &energy::network::Settings::default()) {
+    use energy::net::{Error, minimise_from};
+    match minimise_from(system, places_m, &energy::net::Settings::default()) {
         Ok(found) => end(found.equilibrium),
         Err(Error::IterationLimit { iterations, .. }) => after(iterations, Failure::IterationLimit),
         Err(Error::Work { .. }) => End::failed(Failure::IterationLimit),

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use census::network::{Depth, NoRanges, Range, ToleranceRanges, prove_ranges};
+use census::boxes::{Depth, NoRanges, Range, ToleranceRanges, prove_ranges};
 use model::InSpace;
 use model::system::{MemberTolerances, Strength, System, Uncertain, UncertainNumber};
 use serde::{Serialize, Serializer};

@@ -11,7 +11,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use lagrange::network::{Settings, solve};
+use lagrange::net::{Settings, solve};
 use model::Bar;
 use model::system::{Joint, Kind, Member, System};
 

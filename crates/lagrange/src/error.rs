@@ -211,7 +211,7 @@ pub enum Error {
     Work {
         /// Entries of all factors.
         spent: u64,
-        /// What [`Settings::max_work`](crate::network::Settings::max_work) allows.
+        /// What [`Settings::max_work`](crate::net::Settings::max_work) allows.
         max_work: u64,
     },
     /// Occurs when the factor of the matrix cannot be held in memory.

@@ -84,40 +84,19 @@
 
 pub mod batch;
 pub mod condensed;
-mod constraints;
 mod effort;
 mod error;
-mod indeterminate;
+mod full;
 mod larger;
-mod load;
-mod mechanism;
-mod multipliers;
-pub mod network;
-mod newton;
-mod point;
-mod reduced;
-mod relax;
-mod rotation;
-mod seed;
+pub mod net;
 mod settings;
-mod solution;
-mod solve;
-mod spectrum;
-mod spin;
-mod stability;
-mod step;
-mod system;
 mod thresholds;
 
-pub use constraints::{constraint_functions, constraint_matrix};
 pub use effort::Effort;
 pub use error::Error;
-pub use load::load_vector;
-pub use rotation::{direction, direction_gradient, direction_hessian, rotation};
-pub use seed::Seed;
+pub use full::{
+    Converged, Seed, Solution, Solver, Spectrum, constraint_functions, constraint_matrix,
+    direction, direction_gradient, direction_hessian, jacobian, load_vector, relative_residual,
+    residual, rotation, solve, solve_from, spectrum, spin,
+};
 pub use settings::{Settings, SettingsError};
-pub use solution::Solution;
-pub use solve::{Converged, Solver, solve, solve_from};
-pub use spectrum::{Spectrum, spectrum};
-pub use spin::spin;
-pub use system::{jacobian, relative_residual, residual};

@@ -102,10 +102,8 @@ fn main() -> Result<(), Failure> {
         let turned = |problem: &Problem| {
             timed(1, || energy::minimise(problem, &energy::Settings::default()))
         };
-        let forces =
-            timed(1, || lagrange::network::solve(&net, &lagrange::network::Settings::default()));
-        let places =
-            timed(1, || energy::network::minimise(&net, &energy::network::Settings::default()));
+        let forces = timed(1, || lagrange::net::solve(&net, &lagrange::net::Settings::default()));
+        let places = timed(1, || energy::net::minimise(&net, &energy::net::Settings::default()));
         let round = [
             condensed(&short)?,
             condensed(&long)?,

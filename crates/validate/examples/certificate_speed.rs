@@ -211,7 +211,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let (system, mut answer) = system(&plan)?;
         if kind == "energy" {
-            let found = energy::network::minimise(&system, &energy::network::Settings::default())?;
+            let found = energy::net::minimise(&system, &energy::net::Settings::default())?;
             answer = found.equilibrium;
         }
         let before_mb = peak_mb();

@@ -69,12 +69,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("members  lagrange/s  energy/s  clarabel/s  ratios        energies apart");
     for members in sizes {
         let system = net(members)?;
-        let (forces, lagrange_s) = timed(&clock, || {
-            lagrange::network::solve(&system, &lagrange::network::Settings::default())
-        })?;
-        let (places, energy_s) = timed(&clock, || {
-            energy::network::minimise(&system, &energy::network::Settings::default())
-        })?;
+        let (forces, lagrange_s) =
+            timed(&clock, || lagrange::net::solve(&system, &lagrange::net::Settings::default()))?;
+        let (places, energy_s) =
+            timed(&clock, || energy::net::minimise(&system, &energy::net::Settings::default()))?;
         let (cones, clarabel_s) = timed(&clock, || hang_as_cables(&system))?;
         let ours = forces.equilibrium.energy_j;
         let apart = [places.equilibrium.energy_j, cones.energy_j]

@@ -23,15 +23,15 @@ pub struct Question {
 
 impl Question {
     /// Settings of `lagrange` with the work that it may do.
-    pub(crate) fn lagrange(&self) -> lagrange::network::Settings {
-        let usual = lagrange::network::Settings::default();
-        lagrange::network::Settings { max_work: self.work(), ..usual }
+    pub(crate) fn lagrange(&self) -> lagrange::net::Settings {
+        let usual = lagrange::net::Settings::default();
+        lagrange::net::Settings { max_work: self.work(), ..usual }
     }
 
     /// The same of `energy`.
-    pub(crate) fn energy(&self) -> energy::network::Settings {
-        let usual = energy::network::Settings::default();
-        energy::network::Settings { max_work: self.work(), ..usual }
+    pub(crate) fn energy(&self) -> energy::net::Settings {
+        let usual = energy::net::Settings::default();
+        energy::net::Settings { max_work: self.work(), ..usual }
     }
 
     /// Settings of `lagrange` for the condensed equations of a row of so many bars.

@@ -9,7 +9,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use census::Settings;
-use census::network::{Open, SystemCensus, prove};
+use census::boxes::prove;
+use census::net::{Open, SystemCensus};
 
 const G: f64 = 10.0;
 
@@ -109,7 +110,7 @@ fn a_boom_on_a_tackle_has_its_closed_form() {
         let census = whole(&boom(strands, wind_n, Joint::free("P"), length_m));
         assert_eq!(census.equilibria.len(), expected.len(), "{strands} {wind_n}: {expected:?}");
         for (at, pull) in &expected {
-            let is = |one: &&census::network::SystemPosition| {
+            let is = |one: &&census::net::SystemPosition| {
                 let near = |k: usize| (one.joints_m[1][k].mid() - at[k]).abs() < 1e-10;
                 (0..3).all(near) && (one.axial_n[1].mid() - pull).abs() < 1e-9
             };
@@ -483,7 +484,7 @@ fn compared(system: &System, random: &mut ChaCha8Rng, starts: usize) -> [usize; 
     let (census, free) = (whole(system), Acting::new(system, vec![]).free);
     let found = found(system, random, starts);
     for at in &found {
-        let is = |one: &&census::network::SystemPosition| {
+        let is = |one: &&census::net::SystemPosition| {
             let places = free.iter().flat_map(|k| one.joints_m[*k].map(Interval::mid));
             let all = places.chain(one.axial_n.iter().map(|x| x.mid()));
             all.zip(at).all(|(a, b)| (a - b).abs() < 1e-7 * (1.0 + b.abs()))

@@ -3,7 +3,7 @@
 use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, NoBox, Vector};
 
-use census::network::{MAX_UNKNOWNS, SystemBox, prove};
+use census::boxes::{MAX_UNKNOWNS, SystemBox, prove};
 
 const G: f64 = 10.0;
 

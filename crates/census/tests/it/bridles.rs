@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use samples::assert_frozen;
 
 use census::Settings;
-use census::network::SystemCensus;
+use census::net::SystemCensus;
 
 use crate::nets::{bridle, found_of, taken, the_sum_is_the_same, work};
 

@@ -9,7 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use samples::assert_frozen;
 
 use census::Settings;
-use census::network::{Open, SystemCensus, prove};
+use census::boxes::prove;
+use census::net::{Open, SystemCensus};
 
 const G: f64 = 10.0;
 

@@ -1,6 +1,7 @@
 //! Ropes over rings and pulleys: one box, one equilibrium.
 
-use census::network::{SystemCensus, prove};
+use census::boxes::prove;
+use census::net::SystemCensus;
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, NoBox, Vector};
 

@@ -4,7 +4,8 @@ use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use model::{Anchors, Bar, Chain, NoCensus, Problem};
 use numerics::Interval;
 
-use census::network::{LoadedRow, SystemCensus, prove};
+use census::boxes::prove;
+use census::net::{LoadedRow, SystemCensus};
 use census::{Census, ProvenEquilibrium, Settings};
 
 const G: f64 = 10.0;

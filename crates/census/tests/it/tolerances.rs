@@ -1,6 +1,6 @@
 //! Ranges over tolerances: against closed forms, corners and draws.
 
-use census::network::{Depth, NoRanges, Range, prove, prove_ranges};
+use census::boxes::{Depth, NoRanges, Range, prove, prove_ranges};
 use model::system::{Joint, Member, System};
 use model::{Bar, Vector};
 use rand::{RngExt as _, SeedableRng as _};

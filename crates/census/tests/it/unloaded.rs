@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::support::{census, equal, problem};
-use census::network::SystemCensus;
+use census::net::SystemCensus;
 use census::{Census, ProvenEquilibrium, Settings};
 use model::system::System;
 use model::{Anchors, Bar, Chain, Problem};

@@ -5,7 +5,8 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
 
-use census::network::{SystemCensus, prove};
+use census::boxes::prove;
+use census::net::SystemCensus;
 use census::{Census, Interval, ProvenEquilibrium, Settings};
 use model::{Anchors, Bar, Chain, Problem};
 use samples::{General, Line, assert_frozen, stream};

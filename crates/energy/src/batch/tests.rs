@@ -12,9 +12,9 @@ use super::piece::{Piece, direction};
 use super::point::{Place, measure, slopes};
 use super::wide::{WIDTH, same};
 use super::{Batch, BatchSettings};
-use crate::minimise::minimise_from;
-use crate::seed::Seed;
-use crate::settings::{Motion, Settings};
+use crate::run::Seed;
+use crate::run::minimise_from;
+use crate::run::{Motion, Settings};
 
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
     let line = Line::PlaneOyz;

@@ -9,8 +9,8 @@ use argmin::core::{
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
 use crate::error::Error;
-use crate::minimise::{unwrapped, verdict};
-use crate::settings::Settings;
+use crate::run::Settings;
+use crate::run::{unwrapped, verdict};
 use crate::thresholds::{ROUNDING, STEP_ROUNDING};
 
 /// A local minimum of (vi) on the closure curve.

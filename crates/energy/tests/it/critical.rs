@@ -1,10 +1,10 @@
 //! What the energy says of a shape, against closed forms.
 
-use energy::network::{Critical, critical};
+use energy::net::{Critical, critical};
 use model::system::{Joint, Member, System};
 use model::{Bar, Vector};
 
-use crate::network_support::{bar, close};
+use crate::net_support::{bar, close};
 
 /// A lamp of 5 kg on two bars of 5 m between anchors 8 m apart, 50 N, and a cable of 7 m beside them.
 fn lamp(kind: fn(usize, usize, Bar) -> Member) -> System {

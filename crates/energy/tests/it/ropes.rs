@@ -1,8 +1,6 @@
 //! Ropes over rings and pulleys against closed forms.
 
-use energy::network::{
-    Forces, Settings, Solution, critical, minimise, minimise_from, minimise_near,
-};
+use energy::net::{Forces, Settings, Solution, critical, minimise, minimise_from, minimise_near};
 use model::Bar;
 use model::system::{Joint, Member, System};
 use samples::RopeSample;

@@ -1,7 +1,7 @@
 //! Lengths, masses and gravity times powers of two: not a digit of an answer changes.
 
 use energy::batch::{Batch, BatchSettings};
-use energy::network::{Settings, critical, minimise};
+use energy::net::{Settings, critical, minimise};
 use energy::{Motion, minimise_from};
 use model::cases::Exhibit;
 use model::system::{Kind, System};
@@ -10,7 +10,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::{General, scaled, scaled_chain};
 
-use crate::network_random::{bridle, net, ring, tree};
+use crate::net_random::{bridle, net, ring, tree};
 use crate::support::{random_seed, rng};
 
 /// Of lengths, masses and gravity.

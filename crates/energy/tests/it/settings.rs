@@ -1,7 +1,7 @@
 //! Every entry refuses settings out of range, by name and with the range.
 
 use energy::batch::{Batch, BatchSettings};
-use energy::{Error, Seed, Settings, minimise, minimise_from, network, reaction_by_differences};
+use energy::{Error, Seed, Settings, minimise, minimise_from, net, reaction_by_differences};
 
 type Refused = (&'static str, f64, f64);
 
@@ -53,19 +53,19 @@ fn batches_refuse_settings_out_of_range() {
 #[test]
 fn systems_refuse_settings_out_of_range() {
     let system = model::cases::exhibit("lamp").unwrap().system();
-    let good = network::Settings::default();
+    let good = net::Settings::default();
     let seed: Vec<_> = system.joints().iter().map(|_| [0.5, 0.0, -0.5]).collect();
     for (settings, expected) in [
-        (network::Settings { tolerance: 0.9e-15, ..good }, ("tolerance", 1e-15, 1e-3)),
-        (network::Settings { tolerance: 1.1e-3, ..good }, ("tolerance", 1e-15, 1e-3)),
-        (network::Settings { max_iterations: 0, ..good }, ("max_iterations", 1.0, u64::MAX as f64)),
+        (net::Settings { tolerance: 0.9e-15, ..good }, ("tolerance", 1e-15, 1e-3)),
+        (net::Settings { tolerance: 1.1e-3, ..good }, ("tolerance", 1e-15, 1e-3)),
+        (net::Settings { max_iterations: 0, ..good }, ("max_iterations", 1.0, u64::MAX as f64)),
     ] {
         let refused = |error| match error {
             Error::Setting { field, low, high, .. } => (field, low, high),
             other => panic!("{other}"),
         };
-        assert_eq!(refused(network::minimise(&system, &settings).unwrap_err()), expected);
-        let from = network::minimise_from(&system, &seed, &settings);
+        assert_eq!(refused(net::minimise(&system, &settings).unwrap_err()), expected);
+        let from = net::minimise_from(&system, &seed, &settings);
         assert_eq!(refused(from.unwrap_err()), expected);
     }
 }

@@ -3,7 +3,7 @@
 
 use std::borrow::Borrow;
 
-use census::network::{ChainCensus, SystemCensus};
+use census::net::{ChainCensus, SystemCensus};
 use census::{Interval, Position, ProvenEquilibrium};
 use model::system::{Row, System, SystemEquilibrium};
 use model::{Equilibrium, InPlane, Reason, SolverName, Status};

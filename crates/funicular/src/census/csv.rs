@@ -4,7 +4,7 @@ use std::borrow::Borrow;
 use std::io::{self, Write};
 
 use census::Interval;
-use census::network::ChainCensus;
+use census::net::ChainCensus;
 
 use super::answer::{CensusAnswer, Enclosures, Found, InRow};
 use crate::csv::{Numbers, quoted};

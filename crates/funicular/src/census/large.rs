@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use census::network::SystemCensus;
+use census::net::SystemCensus;
 use census::{CompactCensus, Interval};
 use model::system::System;
 use serde::Serialize;

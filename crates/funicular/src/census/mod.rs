@@ -9,7 +9,7 @@ pub use answer::{CensusAnswer, Enclosures, Found, InRow};
 pub use large::{LargeCensusAnswer, Line, List};
 pub use summary::{Chain, Check, EnergyUnit, Net, Open, Part, Slack, Summary};
 
-use census::network::{LoadedRow, SystemCensus};
+use census::net::{LoadedRow, SystemCensus};
 use census::{Progress, Settings};
 use model::NoCensus;
 use model::system::{Kind, System};

@@ -1,6 +1,6 @@
 //! What is known of the list of equilibria, as `funicular census --json` prints it.
 
-use census::network::{ChainCensus, NetCensus, PartCensus, SystemCensus};
+use census::net::{ChainCensus, NetCensus, PartCensus, SystemCensus};
 use census::{Face, Interval, Reason, SlackFamily, Statistics, StraightPosition, Undecided};
 use model::Chain as Bars;
 use model::system::System;

@@ -2,7 +2,7 @@
 
 mod change;
 
-use energy::network::{Settings, minimise, minimise_near};
+use energy::net::{Settings, minimise, minimise_near};
 use model::system::{Joint, Member, System};
 use model::{Bar, Vector};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,7 @@ mod list;
 
 use std::path::{Path, PathBuf};
 
-use census::network::{LoadedRow, bridle_seconds};
+use census::net::{LoadedRow, bridle_seconds};
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::picture::Seen;

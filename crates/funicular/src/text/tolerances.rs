@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use census::network::{Range, ToleranceRanges};
+use census::boxes::{Range, ToleranceRanges};
 
 use super::answer::remarks;
 use super::printable::Printable;

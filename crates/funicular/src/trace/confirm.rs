@@ -1,7 +1,7 @@
 //! What `energy` and the judge say of a load path that `lagrange` has followed.
 
 use branches::Variation;
-use energy::network::Critical;
+use energy::net::Critical;
 use model::system::{System, SystemEquilibrium};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -79,7 +79,7 @@ pub(super) fn confirm(
     let look = |(point, minimised): (&Point<'_>, &bool)| {
         let (values, equilibrium, ..) = point;
         let system = variation.unloaded(values).ok()?;
-        let critical = energy::network::critical(&system, &equilibrium.joints_m).ok().flatten();
+        let critical = energy::net::critical(&system, &equilibrium.joints_m).ok().flatten();
         let looked_at = *minimised && critical.is_some() && !system.is_unloaded();
         Some(Seen {
             load_n: load_n(&system),
@@ -141,8 +141,8 @@ fn load_n(system: &System) -> f64 {
 /// Whether the energy has its minimum here.
 fn is_minimum(system: &System, equilibrium: &SystemEquilibrium) -> bool {
     let at_m = &equilibrium.joints_m;
-    let settings = energy::network::Settings::default();
-    let Ok(found) = energy::network::minimise_near(system, at_m, &settings) else { return false };
+    let settings = energy::net::Settings::default();
+    let Ok(found) = energy::net::minimise_near(system, at_m, &settings) else { return false };
     let same = SAME * system.total_length_m();
     let pairs = found.equilibrium.joints_m.iter().zip(at_m);
     pairs.flat_map(|(a, b)| (0..3).map(move |k| (a[k] - b[k]).abs())).all(|off| off <= same)

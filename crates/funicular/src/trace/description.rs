@@ -2,7 +2,7 @@
 
 use branches::Variation;
 use branches::load::{End, Event, Kind, LoadPath as FollowedPath};
-use lagrange::network::Side;
+use lagrange::net::Side;
 use model::system::{System, SystemEquilibrium};
 use rayon::prelude::*;
 

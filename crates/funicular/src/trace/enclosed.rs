@@ -2,7 +2,7 @@
 //! start to the first of them.
 
 use branches::Variation;
-use census::network::{PathProof, SingularKind, prove_path, prove_singular};
+use census::boxes::{PathProof, SingularKind, prove_path, prove_singular};
 use model::NoBox;
 use model::system::{Joint, Member, System};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use branches::Variation;
 use branches::load::{self, NoPath};
-use lagrange::network::{Equations, Side};
+use lagrange::net::{Equations, Side};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;

@@ -391,11 +391,11 @@ fn what_solvers_reach_from_anywhere_is_in_balance() {
         let members = system.members().len() as u64;
         for start in 0..STARTS.min(2_000 / members) {
             let places = motion::random_places(&system, start);
-            let seed = lagrange::network::Seed::at(places.clone());
-            let settings = lagrange::network::Settings::default();
-            let lagrange = lagrange::network::solve_from(&system, &seed, &settings);
-            let settings = energy::network::Settings::default();
-            let energy = energy::network::minimise_from(&system, &places, &settings);
+            let seed = lagrange::net::Seed::at(places.clone());
+            let settings = lagrange::net::Settings::default();
+            let lagrange = lagrange::net::solve_from(&system, &seed, &settings);
+            let settings = energy::net::Settings::default();
+            let energy = energy::net::minimise_from(&system, &places, &settings);
             let energy = energy.map(|found| found.equilibrium).ok();
             let lagrange = lagrange.map(|found| found.equilibrium).ok();
             if let Some(found) = &energy {

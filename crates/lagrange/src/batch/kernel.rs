@@ -6,7 +6,7 @@
 
 use super::lanes::{LANES, LARGEST_ANGLE, Lanes, each};
 use super::numbers::Bar;
-use crate::multipliers::REGULARISATION;
+use crate::full::multipliers::REGULARISATION;
 use crate::thresholds::GOLDEN;
 
 /// One bar in all lanes.

@@ -12,11 +12,11 @@ use super::kernel::{Common, State, step};
 use super::lanes::{LANES, Lanes};
 use super::numbers::Numbers;
 use super::{Batch, BatchSettings};
-use crate::mechanism::{Mechanism, Units};
-use crate::multipliers::all_multipliers;
-use crate::seed::Seed;
+use crate::full::Seed;
+use crate::full::Solver;
+use crate::full::mechanism::{Mechanism, Units};
+use crate::full::multipliers::all_multipliers;
 use crate::settings::Settings;
-use crate::solve::Solver;
 
 /// A chain of random bars with its anchors in the plane OYZ.
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
@@ -53,8 +53,8 @@ fn one_step_is_that_of_the_full_system() {
             (q[6 * bar + 4], q[6 * bar + 5]) = (FRAC_PI_2, *phi);
         }
         let lambda = all_multipliers(&mechanism, &Vector3::new(0.0, pull[0], pull[1]));
-        let residual = crate::system::residual_of(&mechanism, &q, &lambda);
-        let jacobian = crate::system::jacobian_of(&mechanism, &q, &lambda);
+        let residual = crate::full::system::residual_of(&mechanism, &q, &lambda);
+        let jacobian = crate::full::system::jacobian_of(&mechanism, &q, &lambda);
         let rows = planar(bars);
         let matrix = DMatrix::from_fn(rows.len(), rows.len(), |i, j| jacobian[(rows[i], rows[j])]);
         let right = DVector::from_fn(rows.len(), |i, _| -residual[rows[i]]);

@@ -2,7 +2,7 @@
 
 use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed::{self, Solver};
-use lagrange::network::{Derivatives, Parameter, solve};
+use lagrange::net::{Derivatives, Parameter, solve};
 use lagrange::{Error, Seed, Settings, solve_from};
 use model::system::{Joint, Member, Support, System};
 use model::{Anchors, Bar, Chain, Problem};
@@ -96,7 +96,7 @@ fn what_lies_on_a_floor_pushes_it_with_its_weight() {
         let spring = Member::cable(0, 1, Bar::homogeneous(1.3, 0.0).unwrap());
         let system = System::new("weight", 10.0, joints, vec![spring.with_stiffness(40.0)]);
         let system = system.unwrap().with_floor(0.0).unwrap();
-        let found = solve(&system, &lagrange::network::Settings::default()).unwrap();
+        let found = solve(&system, &lagrange::net::Settings::default()).unwrap();
         let answer = &found.equilibrium;
         assert!(answer.joints_m[1][2].abs() < 1e-12 && answer.reactions_n[1][2] > 0.0);
         let mut derivatives = Derivatives::new(&system, &found).unwrap();
@@ -119,7 +119,7 @@ fn a_floor_ends_a_slide() {
     let cable = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap());
     let system = System::new("slide", 10.0, joints, vec![cable]).unwrap();
     let system = system.with_floor(0.0).unwrap();
-    let found = solve(&system, &lagrange::network::Settings::default()).unwrap();
+    let found = solve(&system, &lagrange::net::Settings::default()).unwrap();
     let [x, _, z] = found.equilibrium.joints_m[1];
     assert!((x - 2.0 / 3.0).abs() < 1e-12 && z.abs() < 1e-12, "{x} {z}");
     let [rx, ry, rz] = found.equilibrium.reactions_n[1];

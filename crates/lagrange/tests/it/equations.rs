@@ -1,6 +1,6 @@
 //! The equations of a system as others see them, against differences and closed forms.
 
-use lagrange::network::{Equations, Settings, Side, solve};
+use lagrange::net::{Equations, Settings, Side, solve};
 use model::Bar;
 use model::system::{Joint, Kind, Member, Support, System};
 use rand::RngExt;

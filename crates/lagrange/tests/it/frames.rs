@@ -3,7 +3,7 @@
 //!
 //! `FRAMES=600 cargo test --release -p lagrange --test it frames::` tries more of them.
 
-use lagrange::network::{Error, Forces, Settings, Solution, solve};
+use lagrange::net::{Error, Forces, Settings, Solution, solve};
 use model::system::{Joint, Member, System};
 use model::{Bar, ForceRange};
 use nalgebra::{DMatrix, DVector, Vector3};

@@ -1,13 +1,13 @@
 //! Ropes over rings and pulleys against closed forms.
 
-use lagrange::network::{
+use lagrange::net::{
     Derivatives, Error, Forces, Parameter, Seed, Settings, Solution, solve, solve_from,
 };
 use model::Bar;
 use model::system::{Joint, Member, RunTogether, System};
 use samples::RopeSample;
 
-use crate::network::{close, near};
+use crate::net::{close, near};
 
 fn holds(sample: &RopeSample, found: &Solution) {
     let answer = &found.equilibrium;

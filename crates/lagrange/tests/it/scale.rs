@@ -3,7 +3,7 @@
 
 use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed;
-use lagrange::network::{self, Solution};
+use lagrange::net::{self, Solution};
 use lagrange::{Settings, solve_from};
 use model::cases::Exhibit;
 use model::system::{Kind, Support, System};
@@ -12,7 +12,7 @@ use rand::RngExt;
 use samples::scaled_chain;
 
 use crate::common::{problem, spatial_seed, stream};
-use crate::network_random::random;
+use crate::net_random::random;
 
 /// Powers of two by which lengths, masses and gravity are multiplied.
 const FACTORS: [[f64; 3]; 3] = [[1024.0, 1.0, 1.0], [1.0, 0.0625, 1.0], [0.125, 64.0, 0.25]];
@@ -143,10 +143,10 @@ fn systems_scale_without_rounding() {
     systems.push(samples::legs([1e-3, 2e-3, 3e-3, 4e-3]));
     let mut answers = 0;
     for system in systems {
-        let one = network::solve(&system, &network::Settings::default());
+        let one = net::solve(&system, &net::Settings::default());
         for factors in FACTORS {
             let other = samples::scaled(&system, factors);
-            let other = network::solve(&other, &network::Settings::default());
+            let other = net::solve(&other, &net::Settings::default());
             match (&one, &other) {
                 (Ok(one), Ok(other)) => {
                     answers += 1;
@@ -191,7 +191,7 @@ fn floors_push_small_weights() {
         });
         let floor_m = lowest.fold(f64::INFINITY, f64::min) - 0.3;
         let on = |system: System| {
-            network::solve(&system.with_floor(floor_m).unwrap(), &network::Settings::default())
+            net::solve(&system.with_floor(floor_m).unwrap(), &net::Settings::default())
         };
         let other = on(samples::scaled(&system, factors));
         match (on(system), other) {

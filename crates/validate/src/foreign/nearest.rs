@@ -65,22 +65,18 @@ pub(super) fn nearest(
     watch: &dyn Fn(&str),
 ) -> Nearest {
     watch("lagrange from the answer's positions");
-    let seed = lagrange::network::Seed {
+    let seed = lagrange::net::Seed {
         axial_n: Some(answer.axial_n.clone()),
-        ..lagrange::network::Seed::at(answer.joints_m.clone())
+        ..lagrange::net::Seed::at(answer.joints_m.clone())
     };
-    let forces =
-        lagrange::network::solve_from(system, &seed, &lagrange::network::Settings::default());
+    let forces = lagrange::net::solve_from(system, &seed, &lagrange::net::Settings::default());
     watch("energy from the answer's positions");
-    let positions = energy::network::minimise_from(
-        system,
-        &answer.joints_m,
-        &energy::network::Settings::default(),
-    );
+    let positions =
+        energy::net::minimise_from(system, &answer.joints_m, &energy::net::Settings::default());
     let (mut found, mut unique, mut failures) = (vec![], vec![], vec![]);
     match forces {
         Ok(solution) => {
-            use lagrange::network::Forces;
+            use lagrange::net::Forces;
             unique.push(match solution.forces {
                 Forces::Unique => Some(true),
                 Forces::LeastNorm | Forces::Found => Some(false),
@@ -92,7 +88,7 @@ pub(super) fn nearest(
     }
     match positions {
         Ok(solution) => {
-            use energy::network::Forces;
+            use energy::net::Forces;
             unique.push(match solution.forces {
                 Forces::Unique(_) => Some(true),
                 Forces::Family { .. } => Some(false),

@@ -1,6 +1,6 @@
 //! How large the error of an answer is, with proof.
 
-use census::network::prove;
+use census::boxes::prove;
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use numerics::Interval;

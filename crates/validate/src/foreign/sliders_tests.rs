@@ -50,8 +50,7 @@ fn an_answer_is_confirmed_to_the_digits_that_it_has() {
     let mut confirmed = 0;
     for number in 0..120 {
         let system = drawn(&mut random);
-        let Ok(found) = energy::network::minimise(&system, &energy::network::Settings::default())
-        else {
+        let Ok(found) = energy::net::minimise(&system, &energy::net::Settings::default()) else {
             continue;
         };
         for digits in [6, 8, 10, 13, 16] {

@@ -120,7 +120,7 @@ fn an_elastic_member_must_have_the_force_of_its_elongation() {
 fn forces_are_found_from_the_shape_of_a_net() {
     const SIDE: usize = 7;
     let system = net(SIDE);
-    let solved = energy::network::minimise(&system, &energy::network::Settings::default()).unwrap();
+    let solved = energy::net::minimise(&system, &energy::net::Settings::default()).unwrap();
     let bounds = Bounds::of_positions(&system, &solved.equilibrium.joints_m, 1e-9);
     let best = best_forces(&system, &solved.equilibrium.joints_m, &bounds);
     let largest = solved.equilibrium.axial_n.iter().fold(0.0, |a: f64, b| a.max(*b));
@@ -268,8 +268,8 @@ fn a_force_at_its_bound_that_is_pushed_beyond_it_stays_there() {
 #[test]
 fn the_error_of_what_does_not_fit_is_not_enclosed() {
     let system = lamp();
-    let settings = energy::network::Settings::default();
-    let found = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    let settings = energy::net::Settings::default();
+    let found = energy::net::minimise(&system, &settings).unwrap().equilibrium;
     let proved = |change: fn(&mut SystemEquilibrium)| {
         let mut answer = found.clone();
         change(&mut answer);

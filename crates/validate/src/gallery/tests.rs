@@ -9,8 +9,8 @@ use super::*;
 #[test]
 fn numbers_are_read_by_the_names_of_joints() {
     let system: System = model::cases::exhibit("lamp").unwrap().system();
-    let settings = energy::network::Settings::default();
-    let found = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    let settings = energy::net::Settings::default();
+    let found = energy::net::minimise(&system, &settings).unwrap().equilibrium;
     for (k, joint) in system.joints().iter().enumerate() {
         let bits = |force: [f64; 3]| force.map(f64::to_bits);
         assert_eq!(bits(reaction(&system, &found, &joint.name.text())), bits(found.reactions_n[k]));

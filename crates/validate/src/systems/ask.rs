@@ -1,7 +1,7 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
-use census::network::SystemCensus;
-use lagrange::network::Seed;
+use census::net::SystemCensus;
+use lagrange::net::Seed;
 use model::system::{Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Quantity, Reason, Rung, SolverName, Status, Vector};
 use numerics::Interval;
@@ -378,12 +378,12 @@ fn near_to(
     let mut answers = vec![];
     if question.solvers != Solvers::Energy {
         say_lagrange(system, watch);
-        let found = lagrange::network::solve_from(system, seed, &question.lagrange());
+        let found = lagrange::net::solve_from(system, seed, &question.lagrange());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     if question.solvers != Solvers::Lagrange {
         say_energy(system, watch);
-        let found = energy::network::minimise_near(system, &seed.joints_m, &question.energy());
+        let found = energy::net::minimise_near(system, &seed.joints_m, &question.energy());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     answers
@@ -436,7 +436,7 @@ fn by_lagrange(
             return Ok(row.equilibrium(found.equilibrium));
         }
     }
-    let found = lagrange::network::solve(system, &question.lagrange())?;
+    let found = lagrange::net::solve(system, &question.lagrange())?;
     Ok(found.equilibrium)
 }
 
@@ -457,7 +457,7 @@ fn by_energy(
     if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
         return Ok(row.equilibrium(found));
     }
-    let found = energy::network::minimise(system, &question.energy())?;
+    let found = energy::net::minimise(system, &question.energy())?;
     Ok(found.equilibrium)
 }
 

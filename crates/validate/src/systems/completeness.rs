@@ -2,7 +2,7 @@
 //! or refuted.
 
 use census::Settings;
-use census::network::{SystemCensus, SystemPosition};
+use census::net::{SystemCensus, SystemPosition};
 use model::system::{System, SystemEquilibrium};
 use model::{NoCensus, Reason, Status, Vector};
 

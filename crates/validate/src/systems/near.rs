@@ -139,12 +139,10 @@ pub(super) fn lower_j(
         return None;
     }
     let hanging = system.clone().undrawn();
-    let energy = || {
-        energy::network::minimise(&hanging, &question.energy()).ok().map(|found| found.equilibrium)
-    };
-    let lagrange = || {
-        lagrange::network::solve(&hanging, &question.lagrange()).ok().map(|found| found.equilibrium)
-    };
+    let energy =
+        || energy::net::minimise(&hanging, &question.energy()).ok().map(|found| found.equilibrium);
+    let lagrange =
+        || lagrange::net::solve(&hanging, &question.lagrange()).ok().map(|found| found.equilibrium);
     let lowest = if question.solvers == Solvers::Lagrange { lagrange() } else { energy() }?;
     let unit_j = total_load_n(system) * system.total_length_m();
     (answer.energy_j - lowest.energy_j > LOWER * unit_j).then_some(lowest.energy_j)

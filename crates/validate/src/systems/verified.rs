@@ -1,7 +1,7 @@
 //! The rung `verified` for systems: interval arithmetic proves that exactly one equilibrium lies in
 //! a box, and the answers are held against it.
 
-use census::network::{SystemBox, prove};
+use census::boxes::{SystemBox, prove};
 use model::system::{System, SystemEquilibrium};
 use model::{NoBox, Reason, Status, Verified, VerifiedSystem};
 

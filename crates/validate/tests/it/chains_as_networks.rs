@@ -1,7 +1,7 @@
 //! Every chain of the registry written as joints and members: each solver of systems gives the
 //! digits of the solver of chains that shares its mechanics.
 
-use energy::network::minimise;
+use energy::net::minimise;
 use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Equilibrium, SolverName, cases};
 use validate::Tolerances;
@@ -78,7 +78,7 @@ fn a_chain_cut_into_joints_and_members_has_the_same_digits() {
         let mut solver = lagrange::condensed::Solver::default();
         let chain = solver.solve(&problem, &lagrange::condensed::Settings::default());
         let chain = chain.expect("lagrange answers every case").equilibrium;
-        match lagrange::network::solve(&system, &lagrange::network::Settings::default()) {
+        match lagrange::net::solve(&system, &lagrange::net::Settings::default()) {
             Ok(found) => {
                 check(case.name, &system, &chain, found.equilibrium);
                 compared += 1;
@@ -87,7 +87,7 @@ fn a_chain_cut_into_joints_and_members_has_the_same_digits() {
         }
         let chain = energy::minimise(&problem, &energy::Settings::default());
         let chain = chain.expect("energy answers every case").equilibrium;
-        match minimise(&system, &energy::network::Settings::default()) {
+        match minimise(&system, &energy::net::Settings::default()) {
             Ok(found) => {
                 check(case.name, &system, &chain, found.equilibrium);
                 compared += 1;

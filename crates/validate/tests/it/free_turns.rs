@@ -129,11 +129,9 @@ fn tried(
     first_m: &[Vector],
     second_m: &[Vector],
 ) -> Option<[SystemEquilibrium; 2]> {
-    let seed = lagrange::network::Seed::at(first_m.to_vec());
-    let forces =
-        lagrange::network::solve_from(system, &seed, &lagrange::network::Settings::default());
-    let places =
-        energy::network::minimise_from(system, second_m, &energy::network::Settings::default());
+    let seed = lagrange::net::Seed::at(first_m.to_vec());
+    let forces = lagrange::net::solve_from(system, &seed, &lagrange::net::Settings::default());
+    let places = energy::net::minimise_from(system, second_m, &energy::net::Settings::default());
     Some([forces.ok()?.equilibrium, places.ok()?.equilibrium])
 }
 

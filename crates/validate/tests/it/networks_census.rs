@@ -4,8 +4,9 @@
 use std::time::Instant;
 
 use census::Settings;
-use census::network::{SystemCensus, prove};
-use lagrange::network::{Seed, solve_from};
+use census::boxes::prove;
+use census::net::SystemCensus;
+use lagrange::net::{Seed, solve_from};
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{Bar, Ladder, SolverName};
 use nalgebra::Vector3;
@@ -133,8 +134,7 @@ fn newton_from_many_starts_finds_nothing_that_a_complete_census_lacks() {
             let start = Seed::at(
                 places.map(|_| [(); 3].map(|()| random.random_range(-3.0..3.0))).collect(),
             );
-            let Ok(found) = solve_from(&system, &start, &lagrange::network::Settings::default())
-            else {
+            let Ok(found) = solve_from(&system, &start, &lagrange::net::Settings::default()) else {
                 continue;
             };
             ends += 1;

@@ -1,8 +1,8 @@
 //! Tensegrities that nothing but their prestress holds: known stresses, by both solvers, and
 //! whether the stress holds the motions that lengths alone leave free.
 
-use energy::network::Settings as ByEnergy;
-use lagrange::network::Settings as ByForces;
+use energy::net::Settings as ByEnergy;
+use lagrange::net::Settings as ByForces;
 use model::cases::exhibit;
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{Bar, Rung, Vector};
@@ -276,9 +276,9 @@ fn both_solvers_come_back_from_displaced_places() {
             [x[0] + 0.2 * aside(k), x[1] + 0.2 * aside(k + 50), x[2] + 0.2 * aside(k + 99)]
         })
         .collect();
-    let found = energy::network::minimise_from(&system, &start, &ByEnergy::default()).unwrap();
-    let seed = lagrange::network::Seed::at(start);
-    let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
+    let found = energy::net::minimise_from(&system, &start, &ByEnergy::default()).unwrap();
+    let seed = lagrange::net::Seed::at(start);
+    let other = lagrange::net::solve_from(&system, &seed, &ByForces::default()).unwrap();
     for e in [found.equilibrium, other.equilibrium] {
         for (found, wanted) in e.axial_n.iter().zip(&answers[0].axial_n) {
             close(*found, *wanted);
@@ -299,10 +299,9 @@ fn a_prestressed_net_is_minimised_from_places_that_are_not_its_own() {
         let system = net.system_at(&net.places_m(), "Olympia").unwrap();
         assert!(system.is_unloaded());
         let places_m = net.places_m();
-        let found =
-            energy::network::minimise_from(&system, &places_m, &ByEnergy::default()).unwrap();
-        let seed = lagrange::network::Seed::at(net.places_m());
-        let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
+        let found = energy::net::minimise_from(&system, &places_m, &ByEnergy::default()).unwrap();
+        let seed = lagrange::net::Seed::at(net.places_m());
+        let other = lagrange::net::solve_from(&system, &seed, &ByForces::default()).unwrap();
         let far = |a: &[Vector], b: &[Vector]| {
             let distances =
                 a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]));

@@ -2,8 +2,8 @@
 //!
 //! The alternate form, `{:#}`, tells what is only rounding as a bound, the same on every machine.
 
-mod open;
-mod reached;
+mod proofs;
+mod reasons;
 
 use std::fmt::Formatter;
 

@@ -22,8 +22,8 @@ fn a_run_has_the_length_and_the_weight_of_its_cable() {
 #[test]
 fn end_forces_are_those_of_the_first_and_the_last_joint() {
     let system = model::cases::exhibit("lamp").unwrap().system();
-    let settings = energy::network::Settings::default();
-    let mut found = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    let settings = energy::net::Settings::default();
+    let mut found = energy::net::minimise(&system, &settings).unwrap().equilibrium;
     found.reactions_n = vec![[1.0, 2.0, 3.0], [9.0; 3], [4.0, 5.0, 6.0]];
     assert_eq!(end_forces(&found), Some([4.0, 6.0, 3.0]));
     found.reactions_n.clear();

@@ -36,8 +36,8 @@ fn an_answer_is_measured_against_the_equilibrium() {
 #[test]
 fn two_that_are_one_are_compared() {
     let system = lamp();
-    let settings = energy::network::Settings::default();
-    let first = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    let settings = energy::net::Settings::default();
+    let first = energy::net::minimise(&system, &settings).unwrap().equilibrium;
     let agreed = |apart_m: f64| {
         let mut second = first.clone();
         second.joints_m[2][1] += apart_m;

@@ -1,0 +1,424 @@
+//! The minimisation: from no guess, or from a seed.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use argmin::core::{Executor, State};
+use model::Vector;
+use model::system::System;
+
+use crate::error::Error;
+use crate::net::component::check_held;
+use crate::net::factor::Factor;
+use crate::net::frame::Frame;
+use crate::net::interior::{ITERATIONS, Interior, relaxable};
+use crate::net::jam::at_corners;
+use crate::net::limit::Limit;
+use crate::net::near::loaded;
+use crate::net::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
+use crate::net::potential::{Iterate, Potential};
+use crate::net::settings::Settings;
+use crate::net::shape::Shape;
+use crate::net::solution::Solution;
+use crate::net::start::hanging;
+use crate::net::work::Meter;
+use crate::run::{unwrapped, verdict};
+use crate::thresholds::GOLDEN;
+use crate::vector::{along, dot, scaled};
+
+/// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
+/// have places where it nearly closes.
+const RESTARTS: usize = 4;
+
+/// Where lengths overdetermine a shape it has places that nearly close, and others that close, by the
+/// dozen: as many starts as make this number of free coordinates together, and at most so many.
+const COORDINATES: usize = 900;
+const MOST_RESTARTS: usize = 100;
+
+/// Another shape has less energy if it is less by this part: the rest is rounding.
+const LESS: f64 = 1e-9;
+
+/// Misfit of a seed that is meant to be near its answer.
+const NEAR_SEED: f64 = 0.1;
+
+/// Square roots of numbers that no ratio connects, as turns that have nothing in common.
+const SPREAD: f64 = 7.0;
+
+/// Find a configuration of least energy from no guess.
+///
+/// The start is the minimum of the relaxation in which bars are cables. Where every bar pulls
+/// there, it is the global minimum and no more than a few steps are left.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means a local minimum: forces in balance and lengths kept to their tolerance,
+/// and no direction in which the energy falls.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// // A lamp of 5 kg on two light bars of 1 m between level anchors 1.2 m apart: 0.8 m below them.
+/// let joints = vec![
+///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+///     Joint::anchor("B", [1.2, 0.0, 0.0]),
+///     Joint::free("lamp").with_mass(5.0),
+/// ];
+/// let bar = Bar::homogeneous(1.0, 0.0)?;
+/// let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+/// let system = System::new("a lamp", 10.0, joints, members)?;
+/// let solution = energy::net::minimise(&system, &Default::default())?;
+/// assert!((solution.equilibrium.joints_m[2][2] + 0.8).abs() < 1e-14);
+/// // Each bar carries half of the 50 N at an angle whose cosine is 0.8.
+/// assert!((solution.equilibrium.axial_n[0] - 31.25).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
+    let from = |corners: Corners| {
+        let of = |system: &System| within(system, settings, |f, s| unguided(f, s, corners));
+        at_corners(system, of(system), |joined| of(&joined.system))
+    };
+    match from(Corners::Minima) {
+        Err(Error::Jammed { .. }) => from(Corners::Traps),
+        found => found,
+    }
+}
+
+/// What a search takes a corner for that it has run into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Corners {
+    /// A minimum, as most are.
+    Minima,
+    /// None of the minima: it begins elsewhere.
+    Traps,
+}
+
+/// From no guess.
+fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result<Minimum, Error> {
+    let start = hanging(frame)?;
+    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+    let mut work = Effort::default();
+    let (relaxed, factor) = if relaxable(frame) {
+        relax(frame, factor, start.clone(), &mut work)?
+    } else {
+        (start.clone(), factor)
+    };
+    // A relaxation that went astray is no start.
+    let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0);
+    let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
+    let mut found = descend(frame, factor, first, way, settings, work);
+    let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);
+    for attempt in 1..=most.max(RESTARTS) {
+        let again = match &found {
+            Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
+            Err(Error::Jammed { .. }) if corners == Corners::Minima => false,
+            Err(Error::IterationLimit { .. }) => {
+                attempt <= RESTARTS && (!frame.ropes.is_empty() || frame.has_floor())
+            }
+            Err(error) => hard_to_close(error),
+        };
+        if !again {
+            break;
+        }
+        let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+        let elsewhere = displaced(frame, &start, attempt);
+        let other = descend(frame, factor, elsewhere, Way::Stiff, settings, work);
+        found = better(frame, other, found);
+    }
+    found
+}
+
+/// A minimisation with the work that it may take.
+fn within(
+    system: &System,
+    settings: &Settings,
+    minimum: impl FnOnce(&Arc<Frame>, &Settings) -> Result<Minimum, Error>,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let meter = Meter::until(settings.max_work);
+    let frame = Arc::new(Frame { meter: meter.clone(), ..Frame::new(system)? });
+    check_held(system, &frame)?;
+    let found = minimum(&frame, settings);
+    meter.judged(found.and_then(|found| Solution::new(system, &frame, found, settings, clock)))
+}
+
+/// Whether the lengths may be kept elsewhere, or with more weight on them; and a corner that a search has run
+/// into may be none of the energy's minima.
+fn hard_to_close(error: &Error) -> bool {
+    use Error::{Jammed, Misfit, NotClosed, Stalled};
+    matches!(error, NotClosed { .. } | Misfit { .. } | Stalled { .. } | Jammed { .. })
+}
+
+/// Whether lengths that overdetermine a shape may close elsewhere with less energy. Not where every
+/// member pulls.
+fn may_be_lower(minimum: &Minimum) -> bool {
+    minimum.limit.is_some() && minimum.shape.force.iter().any(|force| *force < 0.0)
+}
+
+/// The answer with less energy, or the error that says most: misfits of a shape that is otherwise
+/// found.
+fn better(
+    frame: &Frame,
+    new: Result<Minimum, Error>,
+    old: Result<Minimum, Error>,
+) -> Result<Minimum, Error> {
+    use Error::{Jammed, Misfit, Work};
+    match (new, old) {
+        (Ok(new), Ok(old)) => {
+            let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
+            Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
+        }
+        // In a corner the two joints may be one.
+        (new @ (Ok(_) | Err(Misfit { .. } | Work { .. } | Jammed { .. })), Err(_)) => new,
+        (_, old) => old,
+    }
+}
+
+/// The start with each joint moved by up to the length of the longest member, without any symmetry.
+fn displaced(frame: &Frame, start: &Shape, attempt: usize) -> Shape {
+    let step: Vec<f64> = (0..frame.freedom)
+        .map(|k| (attempt as f64 * SPREAD * (1.0 + GOLDEN * k as f64).sqrt()).sin())
+        .collect();
+    Shape { x: frame.moved(&start.x, 1.0, &step), force: vec![0.0; start.force.len()] }
+}
+
+/// Find a local minimum from places of the joints, m.
+///
+/// The seed need not keep the lengths; supported joints are moved onto their supports.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means what it means for [`minimise`].
+pub fn minimise_from(
+    system: &System,
+    seed_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    let found = from_seed(system, seed_m, settings);
+    at_corners(system, found, |joined| {
+        from_seed(&joined.system, &joined.places_m(seed_m), settings)
+    })
+}
+
+/// With all joints for themselves.
+fn from_seed(system: &System, seed_m: &[Vector], settings: &Settings) -> Result<Solution, Error> {
+    within(system, settings, |frame, settings| {
+        let start = seeded(frame, seed_m)?;
+        let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+        let mut found =
+            descend(frame, factor, start.clone(), Way::Free, settings, Effort::default());
+        if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
+            // The loads have crushed it, which its lengths would not allow.
+            let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+            let near = descend(frame, factor, start, Way::Relaxed, settings, Effort::default());
+            found = better(frame, near, found);
+        }
+        found
+    })
+}
+
+/// Find the local minimum next to a structure as it is drawn, m.
+///
+/// The descent begins with the forces of the linear analysis at that shape and takes small steps,
+/// so that it stays in the basin that the drawing lies in. Where it lies in none, the minimum found
+/// is elsewhere: how far is for the caller to say.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means what it means for [`minimise`].
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// // Two props of 5 m, elastic, feet 6 m apart, 10 N on top: under the load they stand.
+/// let joints = vec![
+///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
+///     Joint::anchor("B", [3.0, 0.0, 0.0]),
+///     Joint::anchor("C", [0.0, 3.0, 0.0]),
+///     Joint::free("top").with_force([0.0, 0.0, -10.0]),
+/// ];
+/// let bar = Bar::homogeneous(5.0, 0.0)?;
+/// let members = (0..3).map(|foot| Member::bar(foot, 3, bar).with_stiffness(1e6)).collect();
+/// let system = System::new("props", 10.0, joints, members)?;
+/// let drawn = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// let solution = energy::net::minimise_near(&system, &drawn, &Default::default())?;
+/// assert!((solution.equilibrium.joints_m[3][2] - 4.0).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn minimise_near(
+    system: &System,
+    drawing_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    let found = near_drawing(system, drawing_m, settings);
+    at_corners(system, found, |joined| {
+        near_drawing(&joined.system, &joined.places_m(drawing_m), settings)
+    })
+}
+
+/// With all joints for themselves.
+fn near_drawing(
+    system: &System,
+    drawing_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    within(system, settings, |frame, settings| {
+        let drawn = seeded(frame, drawing_m)?;
+        let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+        let start = loaded(frame, &mut factor, &drawn);
+        descend(frame, factor, start, Way::Near, settings, Effort::default())
+    })
+}
+
+/// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
+/// where no load gives a scale of the forces, the others nothing.
+pub(super) fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
+    let joints = frame.joints;
+    let scale = 1.0 / frame.length_m;
+    let x: Vec<Vector> =
+        seed_m.iter().map(|at_m| scaled(scale, along(*at_m, -1.0, frame.origin_m))).collect();
+    if x.len() != joints || !finite(&x) {
+        let given = x.iter().filter(|x| finite(&[**x])).count();
+        return Err(Error::Seed { joints, given });
+    }
+    // What stands behind the joints stays where it is.
+    let behind = frame.supports[joints..].iter().copied();
+    let onto = |(joint, x): (usize, Vector)| {
+        let (spot, support) = (&frame.spots[joint], frame.supports[joint]);
+        let away = along(x, -1.0, support);
+        let free = spot.axes[..spot.freedom].iter();
+        free.fold(support, |sum, axis| along(sum, dot(away, *axis), *axis))
+    };
+    let x: Vec<Vector> = x.into_iter().chain(behind).enumerate().map(onto).collect();
+    let mut force = vec![0.0; frame.rods.len()];
+    if frame.largest_force(&force) <= 0.0 {
+        let excesses = frame.excesses(&x);
+        for ((force, rod), excess) in force.iter_mut().zip(&frame.rods).zip(excesses) {
+            *force = rod.prestress(excess.value);
+        }
+    }
+    Ok(Shape { x, force })
+}
+
+/// What a search has cost.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Effort {
+    pub(super) relaxation: u64,
+    pub(super) iterations: u64,
+    pub(super) factorisations: u64,
+}
+
+/// What a run of the minimiser ends with.
+pub(super) struct Minimum {
+    pub(super) shape: Arc<Shape>,
+    pub(super) factor: Factor,
+    pub(super) effort: Effort,
+    /// Where lengths overdetermine the shape.
+    pub(super) limit: Option<Limit>,
+}
+
+/// The minimum with bars taken for cables.
+fn relax(
+    frame: &Arc<Frame>,
+    factor: Factor,
+    start: Shape,
+    effort: &mut Effort,
+) -> Result<(Shape, Factor), Error> {
+    let solver = Interior::new(Arc::clone(frame), factor, &start);
+    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
+        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(ITERATIONS))
+        .ctrlc(false)
+        .timer(false)
+        .run()
+        .map_err(passed_on)?;
+    // Ended or not: a relaxation is only a start.
+    let shape = ended.state.take_param().ok_or(Error::NotFinite { quantity: "relaxation" })?;
+    effort.relaxation = ended.state.get_iter();
+    Ok((ended.solver.settled(&shape), ended.solver.factor))
+}
+
+/// How a start was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// As the solution of the relaxation: most members are right.
+    Relaxed,
+    /// Anywhere.
+    Free,
+    /// Anywhere, for lengths that are hard to keep: they come before the loads.
+    Stiff,
+    /// Next to the minimum, with forces near those there.
+    Near,
+}
+
+/// First strain of the springs where the lengths come before the loads.
+const STIFF_STRAIN: f64 = 1e-3;
+
+/// Misfit from a relaxation, which is right for most members, up to which Newton's method for
+/// places and forces is tried: in any case.
+const RELAXED: f64 = 0.5;
+
+/// The same next to a drawing: from further away it might leave the basin.
+const DRAWN: f64 = 0.05;
+
+/// Largest relative displacement of the ends of a member in one step next to a drawing, over its
+/// length: less than what turns a member over.
+const DRAWN_STEP: f64 = 0.1;
+
+impl Way {
+    fn pace(self) -> Pace {
+        let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
+        match self {
+            Self::Relaxed => Pace { near: RELAXED, ..pace },
+            Self::Free => pace,
+            Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
+            Self::Near => Pace { strain: STIFF_STRAIN, near: DRAWN, step: DRAWN_STEP, own: true },
+        }
+    }
+}
+
+/// Down to a local minimum.
+fn descend(
+    frame: &Arc<Frame>,
+    factor: Factor,
+    start: Shape,
+    way: Way,
+    settings: &Settings,
+    mut effort: Effort,
+) -> Result<Minimum, Error> {
+    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
+    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
+        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(settings.max_iterations))
+        .ctrlc(false)
+        .timer(false)
+        .run()
+        .map_err(passed_on)?;
+    let last = ended.state.get_param().map(Arc::clone);
+    let named = |error| match (error, last) {
+        (Error::IterationLimit { .. }, Some(shape)) if frame.is_relaxed(&shape) => Error::NoLoad,
+        (error @ Error::IterationLimit { .. }, Some(shape)) => frame.jam(&shape).unwrap_or(error),
+        (error, _) => error,
+    };
+    outcome(&ended.state).map_err(named)?;
+    effort.iterations = ended.state.get_iter();
+    effort.factorisations = ended.solver.factor.count;
+    match ended.state.take_param() {
+        Some(shape) => {
+            let Newton { factor, limit, .. } = ended.solver;
+            Ok(Minimum { shape, factor, effort, limit })
+        }
+        None => Err(Error::NotFinite { quantity: "last iterate" }),
+    }
+}
+
+/// An error that argmin passes on.
+fn passed_on(error: argmin::core::Error) -> Error {
+    unwrapped(error, |reason| Error::Ended { reason })
+}
+
+/// What the end of a run says, whatever `Ok` it came in.
+fn outcome(state: &Iterate) -> Result<(), Error> {
+    let (unbalance, misfit) =
+        state.get_gradient().map_or((f64::NAN, f64::NAN), |slope| (slope.unbalance, slope.misfit));
+    let limit = Error::IterationLimit { iterations: state.get_iter(), unbalance, misfit };
+    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
+}

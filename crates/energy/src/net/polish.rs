@@ -1,0 +1,275 @@
+//! Newton's method for places and forces together, down to rounding level.
+//!
+//! The springs of the augmented Lagrangian are stiff here and every step updates the forces, so
+//! that a step leaves next to nothing of the springs: it is the step of the system of balances and
+//! lengths. Its matrix is positive definite exactly where the second derivative of the energy is,
+//! on the motions that keep the lengths: at saddles and maxima it is refused.
+//!
+//! Which cables and struts resist is read off their forces, afresh for each factorisation, and not
+//! off the stiff springs: the second order of a step leaves errors of the lengths that such springs
+//! would take for forces, larger than those of most members of a net.
+//!
+//! M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865-888,
+//! doi:10.1137/S1052623401383558
+
+use std::sync::Arc;
+
+use model::system::Kind;
+
+use crate::net::frame::{Frame, Rod};
+use crate::net::law::{Excess, Softened};
+use crate::net::newton::{NEAR, Newton};
+use crate::net::shape::Shape;
+use crate::thresholds::STEP_ROUNDING;
+use crate::vector::{dot, scaled};
+
+/// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
+pub(super) const STIFF_STRAIN: f64 = 1e-6;
+
+/// Of lengths that the shape hardly feels it leaves more: a line whose parts are at an angle `a` to
+/// each other strains by `a` times a displacement, and springs of strain `a²` halve the error. Where
+/// steps bring little the springs become stiffer by this factor,
+pub(super) const STIFFER: f64 = 1e-3;
+
+/// down to this strain, at which the rounding of the springs is a part 1e-4 of the forces.
+pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
+
+/// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
+/// part of it.
+pub(super) const NEUTRAL: f64 = 1e-10;
+
+/// Steps of Newton's method for places and forces, and with one factorisation.
+const POLISH: usize = 12;
+const CHORDS: usize = 6;
+
+/// Steps more for each change of the members that resist; changes that are allowed.
+const CHANGES: usize = 40;
+
+/// Misfit above which members have turned too far for the factorisation of the step before: its
+/// stiff springs point the old way.
+const CHORD_NEAR: f64 = 1e-8;
+
+/// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
+const SLOW: f64 = 1e-5;
+
+/// Growth of the largest force with which stiffer springs have gone astray.
+const INFLATED: f64 = 100.0;
+
+/// A chord step must leave at most this part of the residual.
+const CHORD_PROGRESS: f64 = 0.3;
+
+/// How steps with springs of one strain ended.
+enum Polished {
+    /// Down to rounding.
+    Rounded(Shape),
+    /// Within the tolerance.
+    Converged(Shape),
+    /// The steps were used up near a solution.
+    Slow(Shape),
+    Astray,
+}
+
+impl Polished {
+    fn shape(&self) -> Option<&Shape> {
+        match self {
+            Self::Rounded(shape) | Self::Converged(shape) | Self::Slow(shape) => Some(shape),
+            Self::Astray => None,
+        }
+    }
+}
+
+impl Newton {
+    /// Newton's method for places and forces. `None` where it does not converge, or not to a
+    /// minimum.
+    ///
+    /// Steps that bring little are either rounding, or the springs are too soft for lengths that the
+    /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape that makes
+    /// forces of the misfits, and what was found before is the answer.
+    pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
+        let mut found = self.polish_with(shape, STIFF_STRAIN);
+        let mut strain = STIFF_STRAIN * STIFFER;
+        while strain >= STIFFEST_STRAIN {
+            let start = match &found {
+                Polished::Converged(shape) | Polished::Slow(shape) => shape,
+                Polished::Rounded(_) | Polished::Astray => break,
+            };
+            let most = INFLATED * self.frame.force_scale(&start.force);
+            let next = self.polish_with(start, strain);
+            match next.shape() {
+                Some(shape) if self.frame.force_scale(&shape.force) <= most => found = next,
+                _ => break,
+            }
+            strain *= STIFFER;
+        }
+        match found {
+            Polished::Rounded(shape) | Polished::Converged(shape) => Some(shape),
+            Polished::Slow(_) | Polished::Astray => None,
+        }
+    }
+
+    /// The same with springs of one strain.
+    fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
+        let frame = Arc::clone(&self.frame);
+        let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
+        let stiffness = frame.force_scale(&shape.force) / strain;
+        let (mut steps, mut changes) = (POLISH, CHANGES);
+        let mut active = frame.active(&shape);
+        while steps > 0 {
+            steps -= 1;
+            let start = slope.residual();
+            if !self.factorise_stiff(&shape, stiffness, &active) {
+                return Polished::Astray;
+            }
+            for chord in 0..CHORDS {
+                let next = self.chord(&shape, stiffness, &active);
+                let there = frame.slope(&next);
+                let (before, after) = (slope.residual(), there.residual());
+                if !after.is_finite() {
+                    return Polished::Astray;
+                }
+                if after >= before && before <= self.tolerance(&shape) {
+                    return self.polished(shape, before);
+                }
+                if chord > 0 && after > CHORD_PROGRESS * before {
+                    break;
+                }
+                (shape, slope) = (next, there);
+                if frame.active(&shape) != active || slope.misfit > CHORD_NEAR {
+                    break;
+                }
+            }
+            let resist = frame.active(&shape);
+            if resist != active {
+                if changes == 0 {
+                    return Polished::Astray;
+                }
+                (active, changes, steps) = (resist, changes - 1, steps + 1);
+                release(&mut shape, &active);
+                slope = frame.slope(&shape);
+                continue;
+            }
+            // Below the tolerance it goes on as long as that brings something.
+            let residual = slope.residual();
+            let slow = residual > CHORD_PROGRESS * start;
+            if residual <= rounding_floor(&frame, &shape)
+                || (slow && residual <= self.tolerance(&shape))
+            {
+                return self.polished(shape, residual);
+            }
+            if residual > 2.0 * start.max(NEAR) {
+                return Polished::Astray;
+            }
+        }
+        if slope.misfit < SLOW { Polished::Slow(shape) } else { Polished::Astray }
+    }
+
+    fn polished(&self, shape: Shape, residual: f64) -> Polished {
+        // A nearly taut line has forces of the load over its slope, and an error of a length moves it
+        // by as many times that error.
+        let turned = self.frame.largest_force(&shape.force).max(1.0);
+        if turned * residual <= rounding_floor(&self.frame, &shape) {
+            Polished::Rounded(shape)
+        } else {
+            Polished::Converged(shape)
+        }
+    }
+
+    /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
+    /// definite.
+    pub(super) fn factorise_stiff(
+        &mut self,
+        shape: &Shape,
+        stiffness: f64,
+        active: &[bool],
+    ) -> bool {
+        let frame = Arc::clone(&self.frame);
+        let excess = frame.excesses(&shape.x);
+        let largest = frame.largest_force(&shape.force);
+        let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
+        let along = if frame.ropes.is_empty() { 0.0 } else { STEP_ROUNDING * stiffness / largest };
+        let neutral = NEUTRAL.max(along);
+        let block = |e: usize| {
+            let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
+            excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
+        };
+        frame.fill(&mut self.factor, block, |joint| {
+            neutral * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
+        });
+        self.factor.definite()
+    }
+
+    /// One step with the factorisation at hand.
+    pub(super) fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
+        let frame = Arc::clone(&self.frame);
+        let excess = frame.excesses(&shape.x);
+        let soft: Vec<Softened> = (0..frame.rods.len())
+            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]))
+            .collect();
+        let mut step = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
+        for value in &mut step {
+            *value = -*value;
+        }
+        self.factor.solve(&mut step);
+        let force = (0..frame.rods.len())
+            .map(|e| soft[e].force + soft[e].stiffness * frame.change(&excess, e, &step));
+        Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) }
+    }
+
+    /// The tolerance, or what rounding of the places leaves where that is more.
+    pub(super) fn tolerance(&self, shape: &Shape) -> f64 {
+        self.settings.tolerance.max(rounding_floor(&self.frame, shape))
+    }
+}
+
+/// A member that resists or not, with a spring of strain [`STIFF_STRAIN`] under the largest force.
+fn stiff(
+    frame: &Frame,
+    excess: &Excess,
+    force: f64,
+    rod: usize,
+    stiffness: f64,
+    active: bool,
+) -> Softened {
+    let rod = &frame.rods[rod];
+    if active {
+        rod.spring(excess.value, force, stiffness / rod.length)
+    } else {
+        Softened::default()
+    }
+}
+
+impl Frame {
+    /// Which members resist: by the sign of their force, and where there is none by their length.
+    fn active(&self, shape: &Shape) -> Vec<bool> {
+        let rounding = rounding_floor(self, shape);
+        let resists = |(e, rod): (usize, &Rod)| {
+            let force = shape.force[e];
+            if rod.kind == Kind::Bar {
+                return true;
+            }
+            if force.abs() > 0.0 {
+                return rod.resists(force);
+            }
+            let excess = self.excess(&shape.x, e).value / rod.length;
+            excess.abs() > rounding && rod.resists(excess)
+        };
+        self.rods.iter().enumerate().map(resists).collect()
+    }
+}
+
+/// Take the forces off the members that do not resist.
+fn release(shape: &mut Shape, active: &[bool]) {
+    for (force, active) in shape.force.iter_mut().zip(active) {
+        if !active {
+            *force = 0.0;
+        }
+    }
+}
+
+/// What roundings of the places leave of the lengths: some units in the last place of the largest
+/// coordinate over the length of a member.
+pub(super) fn rounding_floor(frame: &Frame, shape: &Shape) -> f64 {
+    let extent = shape.x.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
+    let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
+    STEP_ROUNDING * (1.0 + extent / shortest)
+}

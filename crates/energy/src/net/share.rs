@@ -1,0 +1,150 @@
+//! Loads shared by equally stiff springs.
+//!
+//! Every taut inextensible member `m` is a spring of stiffness `1 / l_m`, and the shape stays where
+//! it is. With `R` the gradients of their excesses and `W = diag(1 / l)`, joint forces `r` are borne
+//! by
+//!
+//! `t = W R y,   (Rᵀ W R) y = r`,
+//!
+//! which is the least `sum t² l` of all `t` with `Rᵀ t = r`: what equally stiff members bear in the
+//! limit as they become rigid. Forces `t` become their share by `r = Rᵀ t`; what is left over is a
+//! self-stress. The misfits `e` of the lengths, as spring forces `W e`, are split in the same way:
+//! what a change of the shape takes up, and what no change of it does.
+//!
+//! Motions that keep the lengths make `Rᵀ W R` singular. A soft spring on every joint holds them;
+//! a few solutions for the rest of `r` remove its effect on all others. Motions that strain the
+//! members by less than that spring's softness count as such motions.
+
+use std::sync::Arc;
+
+use model::Vector;
+
+use crate::error::Error;
+use crate::net::factor::{Block, Factor};
+use crate::net::frame::Frame;
+use crate::net::law::Excess;
+use crate::net::shape::largest;
+use crate::thresholds::{GOLDEN, ROUNDING};
+use crate::vector::scaled;
+
+/// Stiffness of the floor over that of a member of the unit of length. Its deflection is taken back
+/// after every solution, so that it is as rigid as supports are.
+const FLOOR: f64 = 1e4;
+
+/// Solutions for one distribution: the first one, and corrections.
+const SOLUTIONS: usize = 8;
+
+/// The part of forces without any order that a self-stress must take to count as one. Rounding
+/// leaves some 1e-12.
+const SELF_STRESS: f64 = 1e-7;
+
+/// The members of one shape as springs.
+pub(super) struct Share {
+    frame: Arc<Frame>,
+    factor: Factor,
+    excess: Vec<Excess>,
+    taut: Vec<bool>,
+}
+
+/// Forces with the strains that go with them.
+pub(super) struct Shared {
+    /// Force of each taut inextensible member; zero for the others.
+    pub(super) force: Vec<f64>,
+    /// Change of the excess of each member in the motion that makes these forces.
+    pub(super) stretch: Vec<f64>,
+}
+
+impl Share {
+    pub(super) fn new(frame: &Arc<Frame>) -> Result<Self, Error> {
+        Ok(Self {
+            factor: Factor::new(&frame.spots, &frame.rods, &frame.meter)?,
+            frame: Arc::clone(frame),
+            excess: Vec::new(),
+            taut: Vec::new(),
+        })
+    }
+
+    /// Take a shape with the members that are taut; elastic ones are no part of it. Whether the
+    /// springs can be factorised.
+    pub(super) fn stand(&mut self, x: &[Vector], taut: &[bool], softness: f64) -> bool {
+        let frame = Arc::clone(&self.frame);
+        let rods = frame.rods.iter().zip(taut);
+        self.taut = rods.map(|(rod, taut)| *taut && !rod.elastic()).collect();
+        self.excess = frame.excesses(x);
+        let sizes = frame.sizes(|e| if self.taut[e] { 1.0 } else { 0.0 });
+        let blocks: Vec<Block> = (0..frame.rods.len())
+            .map(|e| Block {
+                isotropic: 0.0,
+                along: self.weight(e),
+                direction: self.excess[e].gradient,
+                stretch: self.weight(e),
+            })
+            .collect();
+        frame.fill(
+            &mut self.factor,
+            |e| blocks[e],
+            |joint| softness * if sizes[joint] > 0.0 { sizes[joint] } else { 1.0 },
+        );
+        self.factor.definite()
+    }
+
+    /// Stiffness of a member's spring.
+    fn weight(&self, rod: usize) -> f64 {
+        let Some(member) = self.frame.rods.get(rod).filter(|_| self.taut[rod]) else { return 0.0 };
+        if member.ground { FLOOR } else { 1.0 / member.length }
+    }
+
+    /// `Rᵀ t`
+    fn joint_forces(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
+        let pull =
+            |e: usize| scaled(if self.taut[e] { force(e) } else { 0.0 }, self.excess[e].gradient);
+        self.frame.resisted(pull)
+    }
+
+    fn stretch(&self, y: &[f64]) -> Vec<f64> {
+        (0..self.frame.rods.len()).map(|e| self.frame.change(&self.excess, e, y)).collect()
+    }
+
+    /// The same joint forces, borne by the springs.
+    pub(super) fn shared(&mut self, force: &[f64]) -> Shared {
+        let borne = self.joint_forces(|e| force[e]);
+        let enough = ROUNDING * largest(&borne);
+        let mut y = vec![0.0; borne.len()];
+        let mut stretch = vec![0.0; force.len()];
+        let mut floor = vec![0.0; force.len()];
+        for _ in 0..SOLUTIONS {
+            let there = self.joint_forces(|e| floor[e] + self.weight(e) * stretch[e]);
+            let mut rest: Vec<f64> = borne.iter().zip(there).map(|(r, t)| r - t).collect();
+            if largest(&rest) <= enough {
+                break;
+            }
+            self.factor.solve(&mut rest);
+            for (y, step) in y.iter_mut().zip(rest) {
+                *y += step;
+            }
+            stretch = self.stretch(&y);
+            for (e, _) in self.frame.rods.iter().enumerate().filter(|(_, rod)| rod.ground) {
+                floor[e] += self.weight(e) * stretch[e];
+            }
+        }
+        let bears = |(e, stretch): (usize, &f64)| {
+            if self.frame.rods[e].ground { floor[e] } else { self.weight(e) * stretch }
+        };
+        Shared { force: stretch.iter().enumerate().map(bears).collect(), stretch }
+    }
+
+    /// For each member whether it takes part in a self-stress, shown by forces without any order.
+    /// `None` where there is no self-stress.
+    pub(super) fn self_stressed(&mut self) -> Option<Vec<bool>> {
+        // The fractional parts of the multiples of the golden section: spread evenly, alike in
+        // every run.
+        let disorder = |e: usize| 0.5 + (GOLDEN * (e + 1) as f64).fract();
+        let mut force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
+        self.frame.spread(&mut force);
+        let shared = self.shared(&force).force;
+        let rest = force.iter().zip(shared).map(|(force, shared)| (force - shared).abs());
+        let part: Vec<bool> =
+            rest.zip(&self.taut).map(|(rest, taut)| *taut && rest > SELF_STRESS).collect();
+        part.contains(&true).then_some(part)
+    }
+}

@@ -1,0 +1,171 @@
+//! Bars that carry nothing because they just bridge a gap.
+//!
+//! Neighbouring bars without load between them carry one force. If it is zero, every other bar
+//! carries the weight of what is beyond it alone and is plumb, so that lengths and anchors say how
+//! wide the gap is between the ends of the two plumb parts. Bars whose lengths add up to that lie
+//! straight. The energy then rises only with the fourth power of their angles, and a minimiser
+//! leaves them by the fourth root of rounding off the line. With `R` the sum of their lengths and
+//! `g` the gap, `R - g = (R² - g²) / (R + g)` is found to twice the digits of a double, and tells
+//! which of three it is:
+//!
+//! - zero: the bars lie on the line;
+//! - positive: they are at rest in any position that bridges the gap; they are bent at one joint;
+//! - negative: they pull the plumb parts aside, by as much as is missing.
+
+use std::ops::Range;
+
+use model::Chain;
+
+use crate::run::refine::Point;
+use crate::vector::{Sum, along, dot, norm, scaled, unit};
+
+/// Force along bars, over the largest of the chain, by which a minimiser leaves bars unsettled that
+/// carry nothing: their angle is the fourth root of rounding, the force its square.
+const SOFT: f64 = 1e-6;
+
+/// Angle, rad, within which such bars are left of their line, and the others of the vertical.
+const NEARLY_STRAIGHT: f64 = 1e-2;
+
+/// Corrections of the closure.
+const CORRECTIONS: usize = 12;
+
+/// A gap, in the solver's unit of length, that is rounding of a sum of directions.
+const CLOSED: f64 = 1e-13;
+
+/// A gap that is too large for an answer, some ten times the tolerance of the closure.
+const OPEN: f64 = 1e-12;
+
+/// Sums to twice the digits of a double, relative to their terms: less than this is their rounding.
+const TWICE_THE_DIGITS: f64 = 64.0 * f64::EPSILON * f64::EPSILON;
+
+impl Point {
+    /// Lay bars that just bridge a gap where they belong, all others plumb. The angle, rad, by
+    /// which that may differ from the equilibrium; `None` if there are no such bars.
+    pub(crate) fn straightened(&mut self, chain: &Chain) -> Option<f64> {
+        let run = self.unloaded_runs().into_iter().find(|run| self.soft(run))?;
+        let (links, up) = (&self.links, self.links.up);
+        let rises: Vec<bool> = self.shape.u.iter().map(|&u| dot(u, up) > 0.0).collect();
+        let mut u: Vec<_> = rises.iter().map(|&r| if r { up } else { scaled(-1.0, up) }).collect();
+        let others = || (0..links.bars()).filter(|i| !run.contains(i));
+        let line = unit(others().fold(links.span[0], |gap, i| along(gap, -links.length[i], u[i])))?;
+        u[run.clone()].fill(line);
+        let near = |(a, b)| norm(along(a, -1.0, b)) < NEARLY_STRAIGHT;
+        if !self.shape.u.iter().copied().zip(u.iter().copied()).all(near) {
+            return None;
+        }
+        let slack = slack(chain, &run, &rises);
+        if slack > 0.0 {
+            bend(&mut u[run.clone()], &links.length[run.clone()], slack, up);
+        }
+        let moments = links.measure(&u);
+        if norm(moments.gap) > CLOSED {
+            return None;
+        }
+        let unknown = if slack < 0.0 {
+            // What is missing, of the bars that give way and of their part across the vertical.
+            let reach: f64 = links.length[run.clone()].iter().sum();
+            let shortest = others().map(|i| links.length[i]).fold(f64::INFINITY, f64::min);
+            -slack * reach / (shortest * norm(along(line, -dot(line, up), up)))
+        } else {
+            0.0
+        };
+        // Where the vertical parts cannot give way nothing is known.
+        if unknown > NEARLY_STRAIGHT {
+            return None;
+        }
+        self.multiplier = scaled(-links.carried[run.start], up);
+        (self.shape.u, self.shape.moments) = (u, moments);
+        Some(unknown)
+    }
+
+    /// Whether bars carry next to nothing.
+    fn soft(&self, run: &Range<usize>) -> bool {
+        let pull = norm(self.multiplier).max(1.0);
+        run.clone().all(|i| {
+            let load = self.links.load(i, self.multiplier);
+            dot(load, self.shape.u[i]).abs() <= SOFT * pull
+        })
+    }
+
+    /// Runs of two and more bars without any load between them.
+    fn unloaded_runs(&self) -> Vec<Range<usize>> {
+        let (mut runs, mut first) = (Vec::new(), 0);
+        for run in self.links.carried.chunk_by(|a, b| (a - b).abs() <= 0.0) {
+            if run.len() > 1 {
+                runs.push(first..first + run.len());
+            }
+            first += run.len();
+        }
+        runs
+    }
+
+    /// Whether the chain is closed, or can be by turns that only bars without force notice.
+    pub(crate) fn closed(&mut self) -> bool {
+        if norm(self.shape.moments.gap) <= CLOSED {
+            return true;
+        }
+        if let Ok(shape) = self.links.close(self.shape.clone(), CORRECTIONS) {
+            self.shape = shape;
+        }
+        norm(self.shape.moments.gap) <= OPEN
+    }
+}
+
+/// How much longer bars are than the gap that all others leave when they are plumb, up or down as
+/// they are: as a part of their length. Zero is exact to twice the digits of a double.
+fn slack(chain: &Chain, run: &Range<usize>, rises: &[bool]) -> f64 {
+    let (anchors, mut reach, mut gap) = (chain.anchors(), Sum::default(), [Sum::default(); 3]);
+    for (k, gap) in gap.iter_mut().enumerate() {
+        gap.add(anchors.end_m[k]);
+        gap.add(-anchors.start_m[k]);
+    }
+    for (i, bar) in chain.bars().iter().enumerate() {
+        let length = bar.length_m();
+        if run.contains(&i) {
+            reach.add(length);
+        } else {
+            gap[2].add(if rises[i] { -length } else { length });
+        }
+    }
+    let mut difference = Sum::default();
+    add_square(&mut difference, 1.0, reach);
+    for part in gap {
+        add_square(&mut difference, -1.0, part);
+    }
+    let (reach, size) = (reach.value(), norm(gap.map(|part| part.value())));
+    let slack = difference.value() / (reach * (reach + size));
+    if slack.abs() <= TWICE_THE_DIGITS { 0.0 } else { slack }
+}
+
+/// Add the square of a sum, or take it off, to twice the digits.
+fn add_square(to: &mut Sum, sign: f64, mut of: Sum) {
+    let high = of.value();
+    of.add(-high);
+    let square = high * high;
+    for term in [square, high.mul_add(high, -square), 2.0 * high * of.value()] {
+        to.add(sign * term);
+    }
+}
+
+/// Bend bars that lie on one line, and are longer than it by a part `slack`, at their first joint:
+/// they make a triangle whose height follows from its sides (Heron), the joint below the line.
+fn bend(u: &mut [model::Vector], length: &[f64], slack: f64, up: model::Vector) {
+    let [first, ..] = *length else { return };
+    let reach: f64 = length.iter().sum();
+    let (rest, gap) = (reach - first, reach - slack * reach);
+    let sides = (reach + gap) * (slack * reach) * (gap + first - rest) * (gap + rest - first);
+    let height = 0.5 * sides.max(0.0).sqrt() / gap;
+    let line = u[0];
+    // A vertical line has no side below it: any side will do.
+    let below =
+        unit(along(scaled(-1.0, up), dot(line, up), line)).unwrap_or([line[2], 0.0, -line[0]]);
+    let turned = |sine: f64| {
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        along(scaled(cosine, line), sine, below)
+    };
+    u.fill(turned(-height / rest));
+    u[0] = turned(height / first);
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,365 @@
+//! The last digits where some bars carry next to nothing, or all lie nearly along one line.
+//!
+//! The minimiser holds forces against the largest force of the chain, and that is where double
+//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`, and
+//! along a line to which the bars are nearly parallel the closure divides by their angles. The
+//! equations have more digits to give in another frame. The energy may be counted from any bar (a
+//! multiple of the closure is taken off, see [`ScaledChain`]) and the axes may be turned in the plane of
+//! the chain. So, where it matters,
+//!
+//! 1. the weights are counted from the bar with the least load, as sums of the weights in between:
+//!    what the bars near it carry is then a sum of small numbers, not a difference of large ones;
+//! 2. an axis is laid along the line to which the bars are nearly parallel;
+//! 3. Newton's method is applied to stationarity and closure at once (`P_i = I - u_i u_iᵀ`):
+//!
+//! ```text
+//! [ l N   Jᵀ ] [ du  ]   [ -l t ]
+//! [  J    0  ] [ dmu ] = [ -gap ]      J = [ l_1 P_1 ... l_n P_n ]
+//! ```
+//!
+//! Where bars carry so little that the minimiser leaves them anywhere, this does not converge; they
+//! are minimised by themselves first, between heavy bars that do not feel them. The vertical force
+//! never rises along a chain, and the level one is the same everywhere: such bars stand in a row.
+//!
+//! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the
+//! last step is how far the shape is known.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use model::{Bar, Problem, Vector};
+
+use crate::lever;
+use crate::run::closure::Shape;
+use crate::run::minimise::{Minimum, descend};
+use crate::run::scaled_chain::{Origin, ScaledChain, Units};
+use crate::run::settings::Settings;
+use crate::run::slope::Slope;
+use crate::run::straight_fold::off_the_line;
+use crate::run::vertical_plane::Turn;
+use crate::thresholds::{FORCE_ROUNDING, KNOWN, ROUNDING};
+use crate::vector::{Sum, along, dot, norm, scaled, tangent};
+
+/// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
+/// solvers are asked to agree to, since a long bar turns its joint by as much of the whole length.
+const WORTH_REFINING: f64 = 2.5e-11;
+
+/// Newton steps at most: quadratic convergence takes five, and where a bar without force makes the
+/// minimum degenerate each step halves the error.
+const STEPS: usize = 60;
+
+/// A step that turns a bar by more than this, rad, leaves the neighbourhood of the minimum.
+const LARGEST_TURN: f64 = 0.5;
+
+/// An axis within this angle, rad, of the line of the bars is on it: the small components keep all
+/// but three of their digits.
+const ALIGNED: f64 = 1e-3;
+
+/// Bars are nearly parallel when the smallest eigenvalue of their spread, a squared angle, is below
+/// this.
+const NEARLY_PARALLEL: f64 = 1e-4;
+
+/// Bars that carry this part of the largest force or less are minimised by themselves where they
+/// have to: of the others, what these pull, they change no more than Newton's method makes up for.
+const LIGHT: f64 = 1e-6;
+
+/// What the refinement says of a minimum.
+pub(crate) enum Refinement {
+    /// The minimiser's digits are enough.
+    NotNeeded,
+    /// A minimum with more digits, in its own frame; and the last turn of a bar, rad.
+    Refined(Box<(Minimum, Units)>, f64),
+    /// Newton's method does not converge from there; the turn, rad, by which a bar is not known.
+    Failed(f64),
+}
+
+/// Refine a minimum if that is needed.
+pub(crate) fn refine(
+    problem: &Problem,
+    units: &Units,
+    minimum: &Minimum,
+    settings: &Settings,
+) -> Refinement {
+    if let Some(exact) = of_triangle(problem, units, minimum) {
+        return Refinement::Refined(Box::new(exact), 0.0);
+    }
+    let Minimum { links, slope, unsettled, .. } = minimum;
+    let parallel = slope.line.is_some_and(|e| off_the_line(links, e).is_some());
+    // Bars without any load have no direction of their own.
+    let light = slope.across / slope.softest > WORTH_REFINING;
+    if !(parallel || light || unsettled.is_some()) {
+        return Refinement::NotNeeded;
+    }
+    let mut point = Point::new(problem, units, minimum);
+    let first = point.step().map_or(f64::NAN, |step| step.largest);
+    if !parallel && unsettled.is_none() && first <= WORTH_REFINING {
+        return Refinement::NotNeeded;
+    }
+    // Bars without force to rounding hang free: any direction of theirs is an equilibrium as far as
+    // doubles tell, and the answer is one of them.
+    let failed = if slope.softest <= FORCE_ROUNDING * slope.pull {
+        Refinement::NotNeeded
+    } else {
+        Refinement::Failed(first)
+    };
+    // Newton's method finds any stationary point.
+    let is_minimum = |found: &Minimum| {
+        let curvature = found.curvature();
+        curvature.index(curvature.slope.zero) == 0
+    };
+    let (refined, last) = match point.refined(problem) {
+        Some(last) => (Some(point.into_minimum(minimum)), last),
+        None => (None, f64::NAN),
+    };
+    if let Some(refined) = refined.filter(|(found, _)| is_minimum(found)) {
+        return Refinement::Refined(Box::new(refined), last);
+    }
+    let mut anew = Point::new(problem, units, minimum);
+    if let Some(last) = anew.lightest(settings).and_then(|()| anew.refined(problem)) {
+        let refined = anew.into_minimum(minimum);
+        if is_minimum(&refined.0) {
+            return Refinement::Refined(Box::new(refined), last);
+        }
+    }
+    failed
+}
+
+/// Two bars over near anchors with their weights counted from the first: what hangs between them is
+/// one number then, and no difference.
+fn of_triangle(problem: &Problem, units: &Units, minimum: &Minimum) -> Option<(Minimum, Units)> {
+    let old = &minimum.links;
+    let links = ScaledChain { carried: counted_from(problem, 0), ..(**old).clone() };
+    let exact = Minimum::of_triangle(&Arc::new(links), &minimum.shape.u)?;
+    let origin = Some(Origin { bar: 0, carried: old.carried[0] });
+    Some((exact, Units { origin, ..*units }))
+}
+
+/// A point of the unknowns: directions in the plane, and the multiplier.
+pub(crate) struct Point {
+    pub(crate) links: ScaledChain,
+    units: Units,
+    pub(crate) shape: Shape,
+    pub(crate) multiplier: Vector,
+}
+
+/// A step of Newton's method.
+struct Step {
+    turns: Vec<Vector>,
+    multiplier: Vector,
+    /// Largest turn of a bar, rad.
+    largest: f64,
+}
+
+impl Point {
+    fn new(problem: &Problem, units: &Units, minimum: &Minimum) -> Self {
+        let Minimum { links, shape, slope, .. } = minimum;
+        let size = |i: usize| norm(links.load(i, slope.multiplier));
+        let bar = (0..links.bars()).min_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0);
+        let turn = Turn::into_plane(links, &shape.u);
+        let u = turn.flattened(&shape.u);
+        let multiplier = turn.of(&[slope.multiplier])[0];
+        let (cosine, sine) = quarter_turn_to_line(&u, links, units);
+        let rotated = |[x, _, z]: Vector| [cosine * x + sine * z, 0.0, cosine * z - sine * x];
+        let axes = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
+        let multiplier = along(multiplier, links.carried[bar], links.up);
+        let links = ScaledChain {
+            carried: counted_from(problem, bar),
+            span: rotated_sum(links.span, cosine, sine),
+            up: rotated(links.up),
+            ..(**links).clone()
+        };
+        let units = Units {
+            frame: units.frame.turned(axes.map(|axis| turn.back(axis))),
+            origin: Some(Origin { bar, carried: minimum.links.carried[bar] }),
+            ..*units
+        };
+        let u: Vec<Vector> = u.into_iter().map(rotated).collect();
+        let moments = links.measure(&u);
+        Self { links, units, shape: Shape { u, moments }, multiplier: rotated(multiplier) }
+    }
+
+    /// Newton's step; `None` if a number is not finite.
+    fn step(&self) -> Option<Step> {
+        let links = &self.links;
+        let (mut xx, mut xz, mut zz, mut rest) = (0.0, 0.0, 0.0, [0.0; 3]);
+        let at: Vec<(Vector, f64)> = (self.shape.u.iter().enumerate())
+            .map(|(i, &u)| {
+                let load = links.load(i, self.multiplier);
+                let (t, axial) = (tangent(u, load), -dot(load, u));
+                let w = links.length[i] / axial;
+                xx += w * (u[2] * u[2]);
+                xz -= w * (u[0] * u[2]);
+                zz += w * (u[0] * u[0]);
+                rest = along(rest, w, t);
+                (t, axial)
+            })
+            .collect();
+        let gap = along(self.shape.moments.gap, -1.0, rest);
+        let determinant = xx * zz - xz * xz;
+        let multiplier = [
+            (zz * gap[0] - xz * gap[2]) / determinant,
+            0.0,
+            (xx * gap[2] - xz * gap[0]) / determinant,
+        ];
+        let turns: Vec<Vector> = (self.shape.u.iter().zip(at))
+            .map(|(&u, (t, axial))| scaled(-1.0 / axial, along(t, 1.0, tangent(u, multiplier))))
+            .collect();
+        let sum: f64 = turns.iter().map(|turn| dot(*turn, *turn)).sum();
+        let largest = turns.iter().fold(0.0_f64, |most, turn| most.max(norm(*turn)));
+        (sum.is_finite() && norm(multiplier).is_finite()).then_some(Step {
+            turns,
+            multiplier,
+            largest,
+        })
+    }
+
+    /// Down to the last digits that there are; how far the shape is not known then, rad.
+    fn refined(&mut self, problem: &Problem) -> Option<f64> {
+        self.straightened(problem.chain()).or_else(|| self.newton().filter(|_| self.closed()))
+    }
+
+    /// Newton's method; the smallest step made, rad, or `None` if it leaves the neighbourhood.
+    fn newton(&mut self) -> Option<f64> {
+        let (mut turn, mut last) = (f64::INFINITY, f64::INFINITY);
+        for _ in 0..STEPS {
+            let step = self.step()?;
+            // A bar without any force answers rounding by any turn, once all others are right.
+            if turn <= KNOWN && step.largest > KNOWN {
+                break;
+            }
+            if step.largest > LARGEST_TURN {
+                return None;
+            }
+            let size = step.largest.max(norm(step.multiplier) / norm(self.multiplier));
+            self.shape = self.links.moved(&self.shape.u, |i, _| step.turns[i]);
+            self.multiplier = along(self.multiplier, 1.0, step.multiplier);
+            turn = turn.min(step.largest);
+            if size <= ROUNDING || (last <= KNOWN && size > 0.5 * last) {
+                break;
+            }
+            last = size;
+        }
+        Some(turn)
+    }
+
+    /// The bars that carry next to nothing minimised by themselves, the lightest of them last;
+    /// `None` where there are none, or that fails.
+    fn lightest(&mut self, settings: &Settings) -> Option<()> {
+        let (mut run, mut found) = (0..self.links.bars(), None);
+        loop {
+            let light = self.light(&run);
+            if light.len() < 2 || light.len() == run.len() {
+                return found;
+            }
+            run = light;
+            let (part, turn) = self.links.part(run.clone(), &self.shape.u)?;
+            let Minimum { shape, slope, .. } =
+                descend(part, turn.of(&self.shape.u[run.clone()]), settings).ok()?;
+            for (u, new) in self.shape.u[run.clone()].iter_mut().zip(&shape.u) {
+                *u = turn.back(*new);
+            }
+            self.shape.moments = self.links.measure(&self.shape.u);
+            // A part counts its weights from its middle, in units of what is between its ends.
+            let (first, last) = (self.links.carried[run.start], self.links.carried[run.end - 1]);
+            let multiplier = scaled(first - last, turn.back(slope.multiplier));
+            self.multiplier = along(multiplier, -0.5 * (first + last), self.links.up);
+            found = Some(());
+        }
+    }
+
+    /// The bars of a run around its least loaded one that carry next to nothing of its largest load.
+    fn light(&self, run: &Range<usize>) -> Range<usize> {
+        let load = |i: usize| norm(self.links.load(i, self.multiplier));
+        let most = run.clone().map(load).fold(0.0, f64::max);
+        let is_light = |i: &usize| load(*i) <= LIGHT * most;
+        let first = run.clone().find(is_light).unwrap_or(run.end);
+        first..run.clone().rfind(is_light).map_or(first, |last| last + 1)
+    }
+
+    fn into_minimum(self, minimum: &Minimum) -> (Minimum, Units) {
+        let Self { links, units, shape, multiplier } = self;
+        let slope = Slope::refined(&links, &shape.u, multiplier);
+        let refined = Minimum {
+            links: Arc::new(links),
+            shape: Arc::new(shape),
+            slope: Arc::new(slope),
+            iterations: minimum.iterations,
+            evaluations: minimum.evaluations,
+            unsettled: None,
+        };
+        (refined, units)
+    }
+}
+
+/// Cosine and sine of the turn in the plane that lays the first axis along the line to which the
+/// bars are nearly parallel. No turn if they are not, or an axis is there already.
+fn quarter_turn_to_line(u: &[Vector], links: &ScaledChain, units: &Units) -> (f64, f64) {
+    const STAY: (f64, f64) = (1.0, 0.0);
+    // Σ l (x² - z²), Σ 2 l x z, and their size: 1 - the smallest eigenvalue of the spread twice.
+    let (mut even, mut odd) = (0.0, 0.0);
+    for (l, [x, _, z]) in links.length.iter().zip(u) {
+        even += l * (x * x - z * z);
+        odd += l * (2.0 * x * z);
+    }
+    let angle = 0.5 * f64::atan2(odd, even);
+    let (sine, cosine) = angle.sin_cos();
+    let across: f64 = (links.length.iter().zip(u))
+        .map(|(l, [x, _, z])| l * (cosine * z - sine * x).powi(2))
+        .sum();
+    let aligned = sine.abs().min(cosine.abs()) < ALIGNED;
+    if units.frame.along_span() || aligned || across > NEARLY_PARALLEL * links.total() {
+        return STAY;
+    }
+    (cosine, sine)
+}
+
+/// A sum of two vectors in the plane, turned, to twice the digits.
+fn rotated_sum(span: [Vector; 2], cosine: f64, sine: f64) -> [Vector; 2] {
+    let product_sum = |a: f64, x: f64, b: f64, z: f64| {
+        let mut sum = Sum::default();
+        for (factor, value) in [(a, x), (b, z)] {
+            let product = factor * value;
+            sum.add(product);
+            sum.add(factor.mul_add(value, -product));
+        }
+        let value = sum.value();
+        sum.add(-value);
+        (value, sum.value())
+    };
+    let [[x, _, z], [x_rest, _, z_rest]] = span;
+    let (first, first_rest) = product_sum(cosine, x, sine, z);
+    let (second, second_rest) = product_sum(cosine, z, -sine, x);
+    [
+        [first, 0.0, second],
+        [
+            first_rest + (cosine * x_rest + sine * z_rest),
+            0.0,
+            second_rest + (cosine * z_rest - sine * x_rest),
+        ],
+    ]
+}
+
+/// What each bar carries less what `bar` carries, in units of the total weight: the weights in
+/// between.
+fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
+    let (bars, total_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
+    let at_end = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_last(bar);
+    let at_start = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_first(bar);
+    let mut carried = vec![0.0; bars.len()];
+    let mut between = Sum::default();
+    between.add(at_end(&bars[bar]));
+    for i in bar + 1..bars.len() {
+        carried[i] = -(between.value() + at_start(&bars[i]));
+        between.add(bars[i].mass_kg() / total_kg);
+    }
+    let mut between = Sum::default();
+    between.add(at_start(&bars[bar]));
+    for i in (0..bar).rev() {
+        carried[i] = between.value() + at_end(&bars[i]);
+        between.add(bars[i].mass_kg() / total_kg);
+    }
+    carried
+}
+
+#[cfg(test)]
+mod tests;

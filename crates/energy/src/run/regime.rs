@@ -1,0 +1,160 @@
+//! How a chain lies between its anchors, decided before anything is solved.
+//!
+//! Two questions decide which way a chain is solved, and they are independent of each other: how
+//! much length the chain can spare ([`Reach`]), and what holds its vertical plane ([`Turning`]).
+//! Both are answered by the lengths and the anchors alone. What only a solution can tell (bars on
+//! one line, a sharp bend) is an outcome of the attempt: modules `straight_fold` and `sharp_bend`.
+
+use crate::run::scaled_chain::ScaledChain;
+use crate::run::settings::Motion;
+use crate::vector::{dot, norm};
+
+/// How much length a chain can spare before its bars lie on one line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reach {
+    /// A good part of its length: any axes and any start will do.
+    Slack,
+    /// Little, before it is taut or its longest bar folds on the others along the span: an axis of
+    /// the frame lies along the span, where squares of small angles keep their digits.
+    DrawnOut,
+    /// Two bars over anchors that are next to each other: a triangle, known in closed form.
+    Triangle,
+    /// Very little before its longest bar folds on the others: it starts with that bar along the
+    /// span.
+    NearlyFolded,
+    /// Very little, its longest bar as long as all others together: the span does not say along
+    /// which line the chain folds. It starts like a folded one, in a frame of level and vertical
+    /// axes.
+    FoldedAnyway,
+}
+
+/// What holds the vertical plane of a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Turning {
+    /// Nothing: the anchors are on one vertical and the turn about it is taken out of the Newton
+    /// system.
+    Free,
+    /// Little: the anchors are nearly on one vertical. The chain is turned as a whole before
+    /// Newton's steps, which only turn well by a part of the small angle between the verticals.
+    Soft,
+    /// The anchors, or a motion that is confined to the plane.
+    Held,
+}
+
+/// Parts of the total length to spare below which a chain is drawn out along its span.
+const DRAWN_OUT: f64 = 0.25;
+
+/// Parts of the total length to spare below which the longest bar starts along the span.
+const NEARLY_FOLDED: f64 = 0.05;
+
+/// Parts of the total length between the anchors of two bars up to which they are taken as a
+/// triangle: bars folded back to an angle `a` leave a minimiser the digits of `a²`, and below this
+/// those are fewer than ten.
+const NEAR_ANCHORS: f64 = 1e-3;
+
+/// Bars of a chain whose others, without the longest, can be closed on anything.
+const FEWEST_TO_UNFOLD: usize = 3;
+
+/// Level distance of the anchors, in units of the length (a part between 1 and 1/2 of the total),
+/// below which the turn of the whole chain is soft: steps along straight lines distort it more than
+/// they win.
+const NEARLY_VERTICAL: f64 = 0.01;
+
+impl Reach {
+    /// That of a chain in its own units.
+    pub(crate) fn of_links(links: &ScaledChain) -> Self {
+        let longest = links.length.iter().fold(0.0_f64, |most, l| most.max(*l));
+        Self::of(links.bars(), links.total(), norm(links.span[0]), longest)
+    }
+
+    /// From the number of bars, the total length, the span and the longest bar, in any one unit.
+    pub(crate) fn of(bars: usize, total: f64, span: f64, longest: f64) -> Self {
+        let (taut, folded) = (total - span, total + span - 2.0 * longest);
+        let spare = taut.min(folded);
+        if bars == 2 && span <= NEAR_ANCHORS * total {
+            return Self::Triangle;
+        }
+        let along_span = spare < DRAWN_OUT * total && spare < span;
+        let nearly_folded =
+            bars >= FEWEST_TO_UNFOLD && folded <= NEARLY_FOLDED * total && folded <= span;
+        match (nearly_folded, along_span) {
+            (true, true) => Self::NearlyFolded,
+            (true, false) => Self::FoldedAnyway,
+            (false, true) => Self::DrawnOut,
+            (false, false) => Self::Slack,
+        }
+    }
+
+    /// Whether the frame has an axis along the span.
+    pub(crate) fn along_span(self) -> bool {
+        matches!(self, Self::DrawnOut | Self::NearlyFolded)
+    }
+
+    /// Whether the longest bar starts along the span.
+    pub(crate) fn starts_unfolded(self) -> bool {
+        matches!(self, Self::NearlyFolded | Self::FoldedAnyway)
+    }
+}
+
+impl Turning {
+    pub(crate) fn of(links: &ScaledChain) -> Self {
+        if links.motion == Motion::Plane {
+            return Self::Held;
+        }
+        if links.vertical {
+            return Self::Free;
+        }
+        let level = [links.up[2], 0.0, -links.up[0]];
+        if dot(level, links.span[0]).abs() > NEARLY_VERTICAL { Self::Held } else { Self::Soft }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reach_by_what_can_be_spared() {
+        // Bars, total, span, longest.
+        for (bars, total, span, longest, expected) in [
+            (3, 3.0, 2.0, 1.0, Reach::Slack),
+            (3, 3.0, 2.9, 1.0, Reach::DrawnOut),
+            (3, 3.0, 1.0, 1.8, Reach::DrawnOut),
+            (3, 3.0, 1.0, 1.99, Reach::NearlyFolded),
+            (3, 2.0, 1.0 / 64.0, 1.0, Reach::FoldedAnyway),
+            // Two bars are a triangle: nothing is left to close.
+            (2, 3.0, 1.0, 1.99, Reach::DrawnOut),
+            (2, 2.0, 1.0 / 256.0, 1.0, Reach::Slack),
+            (2, 2.0, 1.0 / 256.0, 1.0 + 1e-3, Reach::DrawnOut),
+            // Next to each other, their anchors say little of the line on which they fold.
+            (2, 2.0, 1e-6, 1.0, Reach::Triangle),
+            (2, 2.0, 1e-6, 1.0 + 4e-7, Reach::Triangle),
+            // Anchors at one point.
+            (6, 3.0, 0.0, 0.5, Reach::Slack),
+        ] {
+            assert_eq!(Reach::of(bars, total, span, longest), expected, "{bars} {span} {longest}");
+        }
+    }
+
+    #[test]
+    fn the_turn_by_the_distance_of_the_verticals() {
+        let links = |across: f64, vertical: bool, motion: Motion| ScaledChain {
+            length: vec![0.5; 3],
+            carried: vec![0.3, 0.0, -0.3],
+            span: [[across, 0.0, 0.5], [0.0; 3]],
+            up: [0.0, 0.0, 1.0],
+            vertical,
+            motion,
+        };
+        for (across, vertical, motion, expected) in [
+            (0.5, false, Motion::Space, Turning::Held),
+            (0.005, false, Motion::Space, Turning::Soft),
+            (-0.005, false, Motion::Space, Turning::Soft),
+            (0.0, true, Motion::Space, Turning::Free),
+            (0.0, true, Motion::Plane, Turning::Held),
+            (0.005, false, Motion::Plane, Turning::Held),
+        ] {
+            assert_eq!(Turning::of(&links(across, vertical, motion)), expected, "{across}");
+        }
+    }
+}

@@ -1,0 +1,368 @@
+//! Newton's method on the closed chains, as a solver for argmin.
+
+use std::sync::Arc;
+
+use argmin::core::{IterState, KV, Problem, Solver, State, TerminationReason, TerminationStatus};
+use model::Vector;
+
+use crate::error::Error;
+use crate::run::closure::{LOST_SPREAD, Shape};
+use crate::run::convergence::{Convergence, Iterate};
+use crate::run::curvature::{Curvature, Step};
+use crate::run::objective::{Objective, Place};
+use crate::run::scaled_chain::ScaledChain;
+use crate::run::settings::Settings;
+use crate::run::slope::Slope;
+use crate::run::straight_fold::off_the_line;
+use crate::run::vertical_plane::Turn;
+use crate::thresholds::{FAIR_PART, PROGRESS};
+use crate::vector::{dot, norm, scaled};
+
+/// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
+pub(crate) type Run = IterState<Arc<Shape>, Arc<Slope>, (), Curvature, (), f64>;
+
+/// Feasible Newton with a shift.
+///
+/// argmin has no solver for constrained problems, so this one is ours; argmin runs it. Every
+/// iterate is a closed chain. One iteration:
+///
+/// 1. judge the iterate: a minimum ends the run, a saddle is left along its lowest mode;
+/// 2. about nearly vertical anchors, turn the whole chain towards its plane;
+/// 3. solve the Newton system with the smallest shift that makes the Hessian positive definite on
+///    the closed motions (inertia by counting signs) and that earlier iterations found good;
+/// 4. turn the bars, and close the chain again;
+/// 5. accept if the energy falls by a fair part of the prediction, else take a larger shift.
+///
+/// The energy never rises, a step is a descent direction by construction, and where the gradient
+/// vanishes with a negative eigenvalue left (a saddle, a maximum) the solver leaves along its
+/// eigenvector. So it can only end at a local minimum or by an error.
+#[derive(Debug)]
+pub(crate) struct FeasibleNewton {
+    convergence: Convergence,
+    finished: bool,
+    /// Why the place where it finished is not known to be a minimum.
+    pub(crate) unsettled: Option<Error>,
+}
+
+/// A step better than this part of its prediction lets the shift shrink.
+const GOOD_PART: f64 = 0.7;
+
+/// Where the mean gradient is below this part of the most negative axial force and the Hessian is
+/// indefinite, the iterate is near a saddle, and its lowest mode is worth more than its gradient.
+const SADDLE_PART: f64 = 1e-2;
+
+/// Roundings of the closure in the smallest attainable residual.
+const FLOOR: f64 = 16.0;
+
+/// Trials of one iteration: four to this power covers the range of a double's squares.
+const TRIALS: usize = 60;
+
+/// Corrections of the closure after a step. Three to five are normal; a step that needs more is too
+/// long.
+const CORRECTIONS: usize = 12;
+
+/// Energies are sums of rounded products: differences below this, times the size of the forces,
+/// say nothing, and the gradient decides alone.
+const ENERGY_NOISE: f64 = 2.0 * f64::EPSILON;
+
+/// Above this part of the noise a fall as large as predicted still says something.
+const HALF_BLIND: f64 = 0.05;
+
+/// A step on trial: the shape that it leads to, and what was predicted.
+struct Trial {
+    shape: Shape,
+    /// Fall of the energy, the rounding left in the two closures counted at what it is worth.
+    fall: f64,
+    /// Fall to second order.
+    predicted: f64,
+}
+
+/// What the trials of an iteration came to.
+enum Search {
+    /// The next iterate.
+    Found(Place),
+    /// No step lowers the energy.
+    Exhausted,
+}
+
+impl FeasibleNewton {
+    pub(crate) fn new(settings: Settings) -> Self {
+        Self { convergence: Convergence::new(settings), finished: false, unsettled: None }
+    }
+
+    /// Newton's step with a shift that lowers the energy.
+    fn search(
+        &mut self,
+        problem: &mut Problem<Objective>,
+        curvature: &Curvature,
+    ) -> Result<Search, argmin::core::Error> {
+        let (shape, slope) = (&*curvature.shape, &*curvature.slope);
+        let stationary = self.convergence.stationary(shape, slope);
+        let noise = ENERGY_NOISE * (slope.pull + slope.multiplier_size());
+        for _ in 0..TRIALS {
+            let Some(step) = curvature.step(self.convergence.shift) else {
+                if slope.mean <= SADDLE_PART * -slope.lowest
+                    && let Some(place) = self.escape(problem, curvature)?
+                {
+                    return Ok(Search::Found(place));
+                }
+                self.convergence.indefinite(curvature);
+                continue;
+            };
+            let Some(trial) = trial(curvature, &step) else {
+                self.convergence.failed_step(slope);
+                continue;
+            };
+            let decided = trial.predicted > noise;
+            if !decided || trial.fall >= FAIR_PART * trial.predicted {
+                let good = trial.fall >= GOOD_PART * trial.predicted;
+                let lower = trial.predicted > HALF_BLIND * noise && good;
+                let shape = Arc::new(trial.shape);
+                let next = problem.gradient(&shape)?;
+                // On a straight chain the multiplier is another one.
+                let comparable = next.line.is_some() == slope.line.is_some();
+                let flatter = next.mean <= PROGRESS * slope.mean;
+                if decided || !comparable || flatter || lower {
+                    if !decided || good {
+                        self.convergence.good_step(&next);
+                    }
+                    return Ok(Search::Found((shape, next)));
+                }
+                if stationary {
+                    break;
+                }
+            }
+            self.convergence.failed_step(slope);
+        }
+        Ok(Search::Exhausted)
+    }
+
+    /// Turn the whole chain towards the plane of its anchors, if that is far and the turn is soft.
+    fn turn(
+        &mut self,
+        problem: &mut Problem<Objective>,
+        curvature: &Curvature,
+    ) -> Result<Option<Place>, argmin::core::Error> {
+        if !self.convergence.may_turn() {
+            return Ok(None);
+        }
+        let turned = self.turned(curvature);
+        if turned.is_none() {
+            self.convergence.not_turned();
+        }
+        turned.map(|shape| with_slope(problem, shape)).transpose()
+    }
+
+    fn turned(&mut self, curvature: &Curvature) -> Option<Shape> {
+        let (links, shape, slope) = (&curvature.links, &curvature.shape, &curvature.slope);
+        let (turn, predicted) = Turn::towards_anchor(links, slope)?;
+        let u = turn.of(&shape.u);
+        let moments = links.measure(&u);
+        let turned = links.close(Shape { u, moments }, CORRECTIONS).ok()?;
+        let fall = shape.moments.value - turned.moments.value;
+        let worth_it = if predicted > ENERGY_NOISE * slope.pull {
+            fall >= FAIR_PART * predicted
+        } else {
+            self.convergence.may_turn_blindly()
+        };
+        worth_it.then_some(turned)
+    }
+
+    /// Leave a saddle: down along the lowest mode, as far as the second order is right. `None` if
+    /// there is no such mode or no way along it.
+    fn escape(
+        &mut self,
+        problem: &mut Problem<Objective>,
+        curvature: &Curvature,
+    ) -> Result<Option<Place>, argmin::core::Error> {
+        let (links, shape, slope) = (&curvature.links, &curvature.shape, &curvature.slope);
+        let Some((mode, lowest)) = curvature.falling(slope.zero) else {
+            return Ok(None);
+        };
+        let size: f64 = mode.iter().zip(&links.length).map(|(v, l)| l * dot(*v, *v)).sum();
+        // Along the mode, not against what is left of the gradient.
+        let uphill: f64 = (0..links.bars())
+            .map(|i| links.length[i] * dot(links.load(i, slope.multiplier), mode[i]))
+            .sum();
+        let mut length = if uphill > 0.0 { -1.0 } else { 1.0 };
+        for _ in 0..TRIALS {
+            let moved = links.moved(&shape.u, |i, _| scaled(length, mode[i]));
+            if let Ok(trial) = links.close(moved, CORRECTIONS) {
+                let fall = shape.moments.value - trial.moments.value;
+                let predicted = -0.5 * lowest * size * length * length;
+                if fall >= 0.5 * predicted && fall > ENERGY_NOISE * slope.pull {
+                    let place = with_slope(problem, trial)?;
+                    self.convergence.left_saddle();
+                    return Ok(Some(place));
+                }
+            }
+            length *= 0.5;
+        }
+        Ok(None)
+    }
+
+    fn finish(&mut self, run: Run) -> (Run, Option<KV>) {
+        self.finished = true;
+        (run, None)
+    }
+}
+
+/// Take a step and close the chain again; `None` if it does not close.
+fn trial(curvature: &Curvature, step: &Step) -> Option<Trial> {
+    let (links, shape, slope) = (&curvature.links, &curvature.shape, &curvature.slope);
+    let mut predicted = 0.0;
+    let moved = links.moved(&shape.u, |i, u| {
+        let v = curvature.turn_of(step, i, u);
+        predicted += links.length[i] * (0.5 * slope.axial[i] + step.shift) * dot(v, v);
+        v
+    });
+    let trial = links.close(moved, CORRECTIONS).ok()?;
+    // The multiplier says what the rounding left in the two closures is worth.
+    let worth = |m: Vector| dot(slope.multiplier, m);
+    let fall = (shape.moments.value - trial.moments.value)
+        + (worth(shape.moments.gap) - worth(trial.moments.gap));
+    Some(Trial { shape: trial, fall, predicted })
+}
+
+fn with_slope(
+    problem: &mut Problem<Objective>,
+    shape: Shape,
+) -> Result<Place, argmin::core::Error> {
+    let shape = Arc::new(shape);
+    let slope = problem.gradient(&shape)?;
+    Ok((shape, slope))
+}
+
+/// Make a closed shape the current iterate.
+fn accept(
+    problem: &mut Problem<Objective>,
+    run: Run,
+    (shape, slope): Place,
+) -> Result<(Run, Option<KV>), argmin::core::Error> {
+    let value = problem.cost(&shape)?;
+    Ok((run.param(shape).gradient(slope).cost(value), None))
+}
+
+/// Smallest eigenvalue of the spread of the directions: the square of their angle to the line to
+/// which they are most nearly parallel.
+fn smallest_spread(shape: &Shape) -> f64 {
+    let eigen = shape.moments.spread.eigen();
+    let smallest = eigen.value[..eigen.size].iter().copied().fold(f64::INFINITY, f64::min);
+    smallest.max(LOST_SPREAD)
+}
+
+/// The smallest residual that directions in double precision can have.
+///
+/// A unit vector in double precision leaves the closure uncertain by a rounding. Along a line to
+/// which all bars are nearly parallel, at an angle of the size `a`, closing that gap turns them by
+/// a rounding over `a`; `a²` is the smallest eigenvalue of the spread.
+fn rounding_floor(shape: &Shape) -> f64 {
+    FLOOR * f64::EPSILON / smallest_spread(shape).sqrt()
+}
+
+/// How far directions in double precision leave the forces open, as a part of the largest: of bars
+/// at an angle `a` to a common line they hold the forces along the line to a rounding, and what is
+/// left of the gradient, over `a`. On the line itself the forces are those of the limit (module
+/// `straight_fold`), exact if the anchors are on it; by as much as they are off it the bars have room to
+/// turn by the root of that. With a bar compressed on the line nothing is known of the forces along
+/// it.
+pub(crate) fn force_uncertainty(links: &ScaledChain, shape: &Shape, slope: &Slope) -> f64 {
+    if let Some(e) = slope.line {
+        let known = if slope.opened { 0.0 } else { 1.0 };
+        off_the_line(links, e).map_or(known, f64::sqrt)
+    } else {
+        (FLOOR * f64::EPSILON + slope.residual()) / smallest_spread(shape).sqrt()
+    }
+}
+
+/// Why no step helps: the chain is folded beyond what double precision tells, or it is not known.
+fn stalled(curvature: &Curvature, run: &Run) -> Error {
+    let slope = &curvature.slope;
+    if let Some(across) = slope.lost(&curvature.links) {
+        return Error::NearlyFolded { across };
+    }
+    let (iterations, gradient) = (run.get_iter(), slope.residual());
+    let directions = curvature.index(slope.zero);
+    let gap = norm(curvature.shape.moments.gap) / curvature.links.total();
+    Error::NoDescent { iterations, gradient, gap, directions }
+}
+
+/// The current iterate; `init` puts the first one in.
+fn current(run: &Run) -> Result<Place, Error> {
+    match (run.get_param(), run.get_gradient()) {
+        (Some(shape), Some(slope)) => Ok((Arc::clone(shape), Arc::clone(slope))),
+        _ => Err(Error::NotFinite { quantity: "first iterate" }),
+    }
+}
+
+impl Solver<Objective, Run> for FeasibleNewton {
+    fn name(&self) -> &'static str {
+        "feasible Newton"
+    }
+
+    fn init(
+        &mut self,
+        problem: &mut Problem<Objective>,
+        mut run: Run,
+    ) -> Result<(Run, Option<KV>), argmin::core::Error> {
+        let Some(shape) = run.take_param() else {
+            return Err(Error::NotFinite { quantity: "first iterate" }.into());
+        };
+        let slope = problem.gradient(&shape)?;
+        accept(problem, run, (shape, slope))
+    }
+
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<Objective>,
+        mut run: Run,
+    ) -> Result<(Run, Option<KV>), argmin::core::Error> {
+        // Nobody looks at these, and of a long chain they are large.
+        drop((run.take_prev_param(), run.take_prev_best_param(), run.take_prev_gradient()));
+        let curvature = problem.hessian(&current(&run)?)?;
+        match self.convergence.judge(&curvature) {
+            Iterate::Minimum => return Ok(self.finish(run)),
+            Iterate::Saddle => {
+                if let Some(place) = self.escape(problem, &curvature)? {
+                    return accept(problem, run, place);
+                }
+                self.unsettled = Some(stalled(&curvature, &run));
+                return Ok(self.finish(run));
+            }
+            Iterate::Near | Iterate::Sloping => {}
+        }
+        if let Some(place) = self.turn(problem, &curvature)? {
+            return accept(problem, run, place);
+        }
+        match self.search(problem, &curvature)? {
+            Search::Found(place) => accept(problem, run, place),
+            // The gradient has reached its rounding.
+            Search::Exhausted if self.at_rounding(&curvature) => Ok(self.finish(run)),
+            Search::Exhausted => {
+                self.unsettled = Some(stalled(&curvature, &run));
+                Ok(self.finish(run))
+            }
+        }
+    }
+
+    fn terminate(&mut self, _run: &Run) -> TerminationStatus {
+        if self.finished {
+            TerminationStatus::Terminated(TerminationReason::SolverConverged)
+        } else {
+            TerminationStatus::NotTerminated
+        }
+    }
+}
+
+impl FeasibleNewton {
+    /// Whether a place from which no step helps is a minimum, as well as rounding lets it be known.
+    fn at_rounding(&self, curvature: &Curvature) -> bool {
+        let (shape, slope) = (&curvature.shape, &curvature.slope);
+        let flat = self.convergence.stationary(shape, slope)
+            || (self.convergence.closed(shape) && slope.residual() <= rounding_floor(shape));
+        flat && curvature.index(slope.zero) == 0
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,318 @@
+//! Members that stretch or go slack, and joints that slide, against closed forms.
+
+use energy::net::{Error, Forces, Settings, minimise, minimise_from};
+use model::Bar;
+use model::system::{Joint, Kind, Member, Support, System};
+
+use crate::net_support::{G, bar, close, solve};
+
+fn weightless(from: usize, to: usize, length_m: f64, kind: Kind) -> Member {
+    bar(from, to, length_m, 0.0).of_kind(kind)
+}
+
+#[test]
+fn a_spring_stretches_by_its_load() {
+    // Hooke: the elongation is W l / EA; soft enough to be five times as long, and as stiff as
+    // steel.
+    for stiffness in [5.0, 1e2, 1e8] {
+        for kind in [Kind::Bar, Kind::Cable] {
+            let joints = vec![Joint::anchor("A", [0.0, 0.0, 1.0]), Joint::free("P").with_mass(2.0)];
+            let member = weightless(0, 1, 1.5, kind).with_stiffness(stiffness);
+            let (_, solution) = solve(joints, vec![member]);
+            let found = &solution.equilibrium;
+            let stretch = 20.0 * 1.5 / stiffness;
+            close(found.joints_m[1][2], 1.0 - 1.5 - stretch);
+            close(found.axial_n[0], 20.0);
+            close(
+                found.energy_j,
+                -20.0 * (1.5 + stretch) + 0.5 * stiffness / 1.5 * stretch * stretch,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_lamp_on_a_v_of_springs() {
+    // In equilibrium each spring is 5 m long along (4, -3); 60 N hang on the two, so each pulls 50
+    // N.
+    for stiffness in [20.0, 1e3, 1e7] {
+        let length = 5.0 / (1.0 + 50.0 / stiffness);
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [8.0, 0.0, 0.0]),
+            Joint::free("lamp").with_mass(6.0),
+        ];
+        let members = [(0, 2), (2, 1)]
+            .map(|(a, b)| weightless(a, b, length, Kind::Bar).with_stiffness(stiffness));
+        let (_, solution) = solve(joints, members.to_vec());
+        close(solution.equilibrium.joints_m[2][2], -3.0);
+        close(solution.equilibrium.axial_n[1], 50.0);
+        assert_eq!(solution.equilibrium.stability.neutral, 0);
+    }
+}
+
+#[test]
+fn a_standing_spring_holds_a_weight_that_its_guide_keeps_upright() {
+    // Compression: the spring is shorter by W l / EA.
+    let joints = vec![
+        Joint::anchor("ground", [0.0; 3]),
+        Joint::free("top")
+            .with_mass(3.0)
+            .held_by(Support::Line { at_m: [0.0, 0.0, 1.0], direction: [0.0, 0.0, 1.0] }),
+    ];
+    for kind in [Kind::Bar, Kind::Strut] {
+        let member = weightless(0, 1, 2.0, kind).with_stiffness(300.0);
+        let system = System::new("spring", G, joints.clone(), vec![member]).expect("a system");
+        let seed = [[0.0; 3], [0.0, 0.0, 1.9]];
+        let solution = minimise_from(&system, &seed, &Settings::default()).expect("a minimum");
+        close(solution.equilibrium.joints_m[1][2], 1.8);
+        close(solution.equilibrium.axial_n[0], -30.0);
+        close(solution.equilibrium.reactions_n[0][2], 30.0);
+    }
+    let rigid = weightless(0, 1, 2.0, Kind::Strut);
+    let system = System::new("strut", G, joints, vec![rigid]).expect("a system");
+    let seed = [[0.0; 3], [0.0, 0.0, 2.5]];
+    let solution = minimise_from(&system, &seed, &Settings::default()).expect("a minimum");
+    close(solution.equilibrium.joints_m[1][2], 2.0);
+    close(solution.equilibrium.axial_n[0], -30.0);
+}
+
+#[test]
+fn a_long_cable_is_slack() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [8.0, 0.0, 0.0]),
+        Joint::anchor("C", [4.0, 3.0, 0.0]),
+        Joint::free("lamp").with_mass(6.0),
+    ];
+    let cable = |from, length| weightless(from, 3, length, Kind::Cable);
+    let (_, solution) =
+        solve_loose(joints, vec![cable(0, 5.0), cable(1, 5.0), cable(2, 4.5)], &[2]);
+    let found = &solution.equilibrium;
+    // Hanging in the middle: the third cable would need to be sqrt(18) = 4.24 long.
+    close(found.joints_m[3][2], -3.0);
+    close(found.joints_m[3][1], 0.0);
+    close(found.axial_n[0], 50.0);
+    assert_eq!(found.axial_n[2].to_bits(), 0.0_f64.to_bits());
+    close(found.reactions_n[2][2], 0.0);
+}
+
+/// Solve, and check all but the lengths of these members.
+fn solve_loose(
+    joints: Vec<Joint>,
+    members: Vec<Member>,
+    slack: &[usize],
+) -> (System, energy::net::Solution) {
+    let system = System::new("test", G, joints, members).expect("a system");
+    let solution = minimise(&system, &Settings::default()).expect("a minimum");
+    crate::net_support::check_but(&system, &solution, slack, 1e-12);
+    (system, solution)
+}
+
+#[test]
+fn a_bar_that_would_push_is_slack_as_a_cable() {
+    // A lamp on a short cable; the other cable is too long to matter until a side wind blows the
+    // lamp over.
+    let lamp = |wind: f64| {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [-5.0, 0.0, 0.0]),
+            Joint::free("lamp").with_mass(4.0).with_force([wind, 0.0, 0.0]),
+        ];
+        let members = vec![weightless(0, 2, 5.0, Kind::Cable), weightless(1, 2, 8.0, Kind::Cable)];
+        System::new("lamp", G, joints, members).expect("a system")
+    };
+    let weak = minimise(&lamp(30.0), &Settings::default()).expect("a minimum").equilibrium;
+    // Along (3, -4)/5 with 50 N; at (3, 0, -4) the distance to B is sqrt(64 + 16) = 8.94: too far,
+    // so both cables are taut where circles of 5 about A and of 8 about B meet: x = (64 - 25 - 25)
+    // / 10 = 1.4, z = -4.8.
+    close(weak.joints_m[2][0], 1.4);
+    close(weak.joints_m[2][2], -4.8);
+    let calm = minimise(&lamp(10.0), &Settings::default()).expect("a minimum").equilibrium;
+    // Along (1, -4)/sqrt 17: sqrt((5/sqrt 17 + 5)² + ...) = 7.9 from B: the second cable is slack.
+    let root = 17.0_f64.sqrt();
+    close(calm.joints_m[2][0], 5.0 / root);
+    close(calm.axial_n[0], 10.0 * root);
+    assert_eq!(calm.axial_n[1].to_bits(), 0.0_f64.to_bits());
+}
+
+#[test]
+fn an_elastic_line_tends_to_the_elastic_catenary() {
+    // The hardest line of MoorPy's own test (catenary, index 7), whose printed answer is none;
+    // reference: the elastic catenary in closed form: H 58377.241422650, V 63044.412955917 at the
+    // upper end, N. Elements of equal length err by the square of their number.
+    let (x, z, length, stiffness, weight) =
+        (246.224_209_400_329_47, 263.557_663_308_431_64, 360.635_662_623_969_27, 700e6, 3.087_35);
+    let ends = |n: usize| {
+        let mut joints = vec![Joint::anchor("low", [0.0; 3])];
+        let mut members = Vec::new();
+        for k in 1..=n {
+            joints.push(if k == n {
+                Joint::anchor("high", [x, 0.0, z])
+            } else {
+                Joint::free(format!("{k}"))
+            });
+            let part = length / n as f64;
+            let body = Bar::homogeneous(part, weight * part / G).expect("a bar");
+            members.push(Member::cable(k - 1, k, body).with_stiffness(stiffness));
+        }
+        let system = System::new("mooring", G, joints, members).expect("a system");
+        let found = minimise(&system, &Settings::default()).expect("a minimum").equilibrium;
+        [found.reactions_n[n][0], found.reactions_n[n][2]]
+    };
+    let (coarse, fine) = (ends(20), ends(40));
+    for (k, exact) in [58_377.241_422_650, 63_044.412_955_917].into_iter().enumerate() {
+        let ratio = (coarse[k] - exact) / (fine[k] - exact);
+        assert!((3.9..4.1).contains(&ratio), "{ratio}: {coarse:?} {fine:?}");
+        // What is left of the square is the fourth power; the lengths are known to 1e-15 of 360 m,
+        // which is 3e-13 m over an elongation of 0.044 m: 1e-11 of the force.
+        let limit = fine[k] + (fine[k] - coarse[k]) / 3.0;
+        assert!((limit - exact).abs() < 1e-8 * exact, "{limit} {exact} {coarse:?} {fine:?}");
+    }
+}
+
+#[test]
+fn a_bead_on_a_level_line_pulled_aside() {
+    // 12 N along the line pull the cable taut at (4, -3): 15 N in it, and of the 20 N weight 9 N
+    // are carried.
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("bead")
+            .with_mass(2.0)
+            .with_force([12.0, 0.0, 0.0])
+            .held_by(Support::Line { at_m: [1.0, 0.0, -3.0], direction: [1.0, 0.0, 0.0] }),
+    ];
+    for kind in [Kind::Bar, Kind::Cable] {
+        let (_, solution) = solve(joints.clone(), vec![weightless(0, 1, 5.0, kind)]);
+        let found = &solution.equilibrium;
+        close(found.joints_m[1][0], 4.0);
+        close(found.axial_n[0], 15.0);
+        close(found.reactions_n[1][2], 11.0);
+        close(found.reactions_n[1][0], 0.0);
+    }
+}
+
+#[test]
+fn a_bead_on_a_wall_hangs_as_low_as_its_bar_lets_it() {
+    // In the plane x = 3 on a bar of 5 m: 4 m below the anchor; the bar pulls W 5/4, the wall
+    // pushes W 3/4.
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("bead")
+            .with_mass(2.0)
+            .held_by(Support::Plane { at_m: [3.0, 1.0, 1.0], normal: [1.0, 0.0, 0.0] }),
+    ];
+    let (_, solution) = solve(joints, vec![bar(0, 1, 5.0, 0.0)]);
+    let found = &solution.equilibrium;
+    close(found.joints_m[1][2], -4.0);
+    close(found.axial_n[0], 25.0);
+    close(found.reactions_n[1][0], 15.0);
+    assert_eq!(found.stability.neutral, 0);
+}
+
+#[test]
+fn a_bead_on_a_slope_without_end_falls() {
+    let joints = vec![
+        Joint::free("bead")
+            .with_mass(1.0)
+            .held_by(Support::Line { at_m: [0.0; 3], direction: [0.6, 0.0, -0.8] }),
+        Joint::free("lamp").with_mass(1.0),
+    ];
+    let system = System::new("slope", G, joints, vec![bar(0, 1, 1.0, 0.0)]).expect("a system");
+    let Err(Error::Falls { force_n, .. }) = minimise(&system, &Settings::default()) else {
+        panic!("it falls")
+    };
+    close(force_n, 16.0);
+}
+
+/// Of parts that hang side by side the one that falls is named with its own load, wherever it stands.
+#[test]
+fn the_part_that_falls_is_named_by_its_own_load() {
+    let slider = |name: &str, mass_kg| {
+        Joint::free(name)
+            .with_mass(mass_kg)
+            .held_by(Support::Line { at_m: [3.0, 0.0, 0.0], direction: [0.6, 0.0, -0.8] })
+    };
+    let held = || [Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(5.0)];
+    let falls = || [slider("bead", 2.0), Joint::free("lamp").with_mass(1.0)];
+    let members = || vec![bar(0, 1, 1.0, 0.0), bar(2, 3, 1.0, 0.0)];
+    let [a, p] = held();
+    let [bead, lamp] = falls();
+    for joints in [vec![a.clone(), p.clone(), bead.clone(), lamp.clone()], vec![bead, lamp, a, p]] {
+        let system = System::new("two", G, joints, members()).expect("a system");
+        let Err(Error::Falls { joint, force_n }) = minimise(&system, &Settings::default()) else {
+            panic!("it falls")
+        };
+        assert_eq!(joint, "bead");
+        close(force_n, 24.0);
+    }
+}
+
+/// A weight below its anchor on a strut falls: no force that a strut bears holds it.
+#[test]
+fn a_weight_below_its_anchor_on_a_strut_falls() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(5.0)];
+    let system = System::new("strut", G, joints, vec![weightless(0, 1, 1.0, Kind::Strut)]);
+    let failed = minimise(&system.unwrap(), &Settings::default()).unwrap_err();
+    let Error::WrongSign { member: 1, force_n } = failed else { panic!("{failed}") };
+    // The weight is what would have to be borne.
+    close(force_n, 5.0 * G);
+}
+
+/// A weight whose cable is longer than the floor is deep lies on it: the floor bears all of it, and
+/// anchors are where they were put, to the last digit.
+#[test]
+fn the_floor_bears_what_lies_on_it() {
+    let at_m = [0.1, 0.7, 3.3];
+    let joints = vec![Joint::anchor("A", at_m), Joint::free("P").with_mass(5.0)];
+    let system = System::new("floor", G, joints, vec![weightless(0, 1, 5.0, Kind::Cable)])
+        .and_then(|system| system.with_floor(-1.0))
+        .expect("a system");
+    let found = minimise(&system, &Settings::default()).expect("a minimum").equilibrium;
+    assert!((found.joints_m[1][2] + 1.0).abs() < 1e-12);
+    let [x, y, z] = found.reactions_n[1];
+    assert!(x.abs() < 1e-12 && y.abs() < 1e-12 && (z - 50.0).abs() < 1e-10, "{z}");
+    assert!(found.axial_n[0].abs() < 1e-10);
+    assert_eq!(found.joints_m[0].map(f64::to_bits), at_m.map(f64::to_bits));
+}
+
+/// Members that just reach the floor share the weight with it. Rigid as supports are it leaves
+/// `sum F² l` of the members alone to be least: zero of one member; of 0.4 m and 0.6 m with 10 N at
+/// each joint, F1 = F2 + 10 N, 6 N and -4 N, which cables do not bear.
+#[test]
+fn members_that_just_reach_the_floor_share_with_it() {
+    for kind in [Kind::Bar, Kind::Cable] {
+        let weight = |name: &str| Joint::free(name).with_mass(10.0 / G);
+        let above = |joints, members| {
+            let system = System::new("touching", G, joints, members)
+                .and_then(|system| system.with_floor(-1.0))
+                .expect("a system");
+            minimise(&system, &Settings::default()).expect("a minimum")
+        };
+        let one = above(
+            vec![Joint::anchor("A", [0.0; 3]), weight("P")],
+            vec![weightless(0, 1, 1.0, kind)],
+        );
+        let Forces::Family { least: true, .. } = one.forces else { panic!("{:?}", one.forces) };
+        assert!(one.equilibrium.axial_n[0].abs() < 1e-9);
+        close(one.equilibrium.reactions_n[1][2], 10.0);
+        let two = above(
+            vec![Joint::anchor("A", [0.0; 3]), weight("Q"), weight("P")],
+            vec![weightless(0, 1, 0.4, kind), weightless(1, 2, 0.6, kind)],
+        );
+        let [upper, lower] = two.equilibrium.axial_n[..] else { panic!() };
+        close(upper - lower, 10.0);
+        close(two.equilibrium.reactions_n[2][2] + lower, 10.0);
+        let named = two.equilibrium.evidence.self_stresses.expect("one");
+        // Both members alike, of unit norm.
+        let [stress] = &named.basis[..] else { panic!("{:?}", named.basis) };
+        close(stress[0] * stress[1], 0.5);
+        close(stress[0].powi(2), 0.5);
+        if kind == Kind::Bar {
+            close(upper, 6.0);
+            close(lower, -4.0);
+        } else {
+            assert!(lower >= 0.0 && two.equilibrium.reactions_n[2][2] >= 0.0);
+        }
+    }
+}

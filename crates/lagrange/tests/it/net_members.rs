@@ -1,0 +1,295 @@
+//! Members of all kinds, supports that slide, loads on members: against closed forms.
+
+use lagrange::net::{Error, Forces, Settings, solve};
+use model::Vector;
+use model::system::{Joint, Kind, Member, PointLoad, Support, System};
+
+use crate::net::{bar, cable, close, hang, near, system};
+
+/// A V of two springs, built from the angle at which it hangs.
+#[test]
+fn elastic_v_hanger() {
+    let (half, angle, weight, stiffness) = (2.0_f64, 0.4_f64, 50.0_f64, 1000.0_f64);
+    let axial = weight / (2.0 * angle.sin());
+    let length = half / angle.cos() / (1.0 + axial / stiffness);
+    let spring = |from, to| bar(from, to, length, 0.0).with_stiffness(stiffness);
+    let joints = vec![
+        Joint::anchor("A", [-half, 0.0, 0.0]),
+        Joint::anchor("B", [half, 0.0, 0.0]),
+        Joint::free("P").with_mass(weight),
+    ];
+    let solution = hang(&system(joints, vec![spring(0, 2), spring(2, 1)]));
+    let answer = &solution.equilibrium;
+    near(answer.joints_m[2], [0.0, 0.0, -half * angle.tan()]);
+    close(answer.axial_n[0], axial);
+    // Energies from joint A, and what the springs hold.
+    close(answer.energy_j, -weight * half * angle.tan() + axial * axial * length / stiffness);
+    assert_eq!(solution.mechanisms, Some(3));
+}
+
+/// The case of MoorPy's own test that expects equal vertical forces at both ends. The elastic
+/// catenary has H 58377.241422650 N and V 63044.412955917 and 61931.004442948 N; a run of n elastic
+/// cables with their weights comes near as 1/n².
+#[test]
+fn elastic_catenary_as_limit() {
+    const END: Vector = [246.224_209_400_329_47, 0.0, 263.557_663_308_431_64];
+    const LENGTH: f64 = 360.635_662_623_969_27;
+    const EXPECTED: [f64; 3] = [58_377.241_422_650, 63_044.412_955_917, 61_931.004_442_948];
+    let run = |n: usize| -> [f64; 3] {
+        let mut joints = vec![Joint::anchor("low", [0.0; 3])];
+        joints.extend((1..n).map(|k| Joint::free(format!("{k}"))));
+        joints.push(Joint::anchor("high", END));
+        let part = LENGTH / n as f64;
+        let member = |k| cable(k, k + 1, part, 3.08735 * part).with_stiffness(700e6);
+        let system = System::new("line", 1.0, joints, (0..n).map(member).collect()).unwrap();
+        let answer = hang(&system).equilibrium;
+        [answer.reactions_n[n][0], answer.reactions_n[n][2], -answer.reactions_n[0][2]]
+    };
+    let errors = |n: usize| {
+        let got = run(n);
+        [0, 1, 2].map(|k| got[k] - EXPECTED[k])
+    };
+    let (coarse, fine) = (errors(20), errors(40));
+    for k in 0..3 {
+        let order = (coarse[k] / fine[k]).log2();
+        assert!((order - 2.0).abs() < 0.02, "order {order}");
+        // Richardson's extrapolation takes the leading error out.
+        let limit = fine[k] + (fine[k] - coarse[k]) / 3.0;
+        assert!(limit.abs() < 1e-6 * EXPECTED[k], "{limit}");
+    }
+}
+
+/// A cable that is longer than needed is slack; one that just reaches bears nothing.
+#[test]
+fn slack_and_just_taut_cables() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [5.0, 0.0, 0.0]),
+        Joint::anchor("C", [1.8, 3.0, -2.4]),
+        Joint::free("P").with_mass(10.0),
+    ];
+    let with = |length| {
+        let members = vec![cable(0, 3, 3.0, 0.0), bar(1, 3, 4.0, 0.0), cable(2, 3, length, 0.0)];
+        hang(&system(joints.clone(), members))
+    };
+    let slack = with(3.5);
+    assert_eq!((slack.slack.as_slice(), slack.limp.as_slice()), (&[2][..], &[][..]));
+    near(slack.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
+    close(slack.equilibrium.axial_n[0], 8.0);
+    let taut = with(3.0);
+    assert_eq!(taut.limp, [2]);
+    near(taut.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
+    close(taut.equilibrium.axial_n[1], 6.0);
+}
+
+/// A bar from an anchor to a slider on a vertical line, and to one in a vertical plane: the bar of
+/// 2 m at 1 m from the anchor hangs at 30 degrees.
+#[test]
+fn sliders() {
+    let line = Support::Line { at_m: [1.0, 0.0, 7.0], direction: [0.0, 0.0, 1.0] };
+    let plane = Support::Plane { at_m: [1.0, 7.0, 7.0], normal: [1.0, 0.0, 0.0] };
+    for support in [line, plane] {
+        let slider = Joint::free("S").with_mass(3.0).held_by(support);
+        let system = system(vec![Joint::anchor("A", [0.0; 3]), slider], vec![bar(0, 1, 2.0, 2.0)]);
+        let answer = hang(&system).equilibrium;
+        near(answer.joints_m[1], [1.0, 0.0, -(3.0_f64.sqrt())]);
+        // 4 N at the slider.
+        close(answer.axial_n[0], 8.0 / 3.0_f64.sqrt());
+        near(answer.reactions_n[1], [4.0 / 3.0_f64.sqrt(), 0.0, 0.0]);
+        near(answer.reactions_n[0], [-4.0 / 3.0_f64.sqrt(), 0.0, 5.0]);
+    }
+}
+
+/// A point on three bars in one plane: one self-stress. With axial forces a, b, a under the weight
+/// 1,
+/// `sqrt 2 a + b = 1` and least `2 sqrt 2 a^2 + b^2` give `b = 2 a`, `a = 1/(2 + sqrt 2)`.
+#[test]
+fn indeterminate_forces() {
+    let root = 2.0_f64.sqrt();
+    let mut joints: Vec<_> = [-1.0, 0.0, 1.0]
+        .into_iter()
+        .map(|x| Joint::anchor(format!("{x}"), [x, 0.0, 0.0]))
+        .collect();
+    joints.push(Joint::free("P").with_mass(1.0));
+    let members = [root, 1.0, root].into_iter().enumerate().map(|(k, l)| bar(k, 3, l, 0.0));
+    let solution = hang(&system(joints, members.collect()));
+    assert_eq!(solution.forces, Forces::LeastNorm);
+    assert_eq!(solution.self_stresses.as_ref().map(Vec::len), Some(1));
+    let least = 1.0 / (2.0 + root);
+    close(solution.equilibrium.axial_n[0], least);
+    close(solution.equilibrium.axial_n[1], 2.0 * least);
+}
+
+/// Constant forces at points of a member act by the lever rule: a bar between two anchors' cables
+/// with a load at a quarter pulls the nearer one three times as hard.
+#[test]
+fn load_at_a_quarter() {
+    let load = PointLoad { at_m: 0.5, force_n: [0.0, 0.0, -8.0] };
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+        Joint::free("P"),
+        Joint::free("Q"),
+    ];
+    let loaded = bar(2, 3, 2.0, 0.0).with_loads(vec![load]);
+    let system = system(joints, vec![bar(0, 2, 1.0, 0.0), bar(1, 3, 1.0, 0.0), loaded]);
+    let solution = hang(&system);
+    near(solution.equilibrium.joints_m[2], [0.0, 0.0, -1.0]);
+    close(solution.equilibrium.axial_n[0], 6.0);
+    close(solution.equilibrium.axial_n[1], 2.0);
+    near(solution.equilibrium.start_forces_n[2], [0.0, 0.0, 6.0]);
+    // The parallel bars bear it without the one between, which is limp.
+    assert_eq!(solution.limp, [2]);
+}
+
+/// Members between anchors: a spring has the force of its length, an inextensible bar one that
+/// nothing decides, and one that does not fit is refused.
+#[test]
+fn members_between_anchors() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(3.0),
+    ];
+    let with = |member: Member| system(joints.clone(), vec![bar(0, 2, 1.0, 0.0), member]);
+    let spring = bar(0, 1, 1.6, 0.0).with_stiffness(10.0);
+    let solution = hang(&with(spring));
+    close(solution.equilibrium.axial_n[1], 2.5);
+    near(solution.equilibrium.reactions_n[1], [2.5, 0.0, 0.0]);
+    close(solution.equilibrium.energy_j, -3.0 + 2.5 * 2.5 * 0.16 / 2.0);
+    let rigid = hang(&with(bar(0, 1, 2.0, 0.0)));
+    assert_eq!(rigid.self_stresses.as_ref().map(Vec::len), Some(1));
+    close(rigid.equilibrium.axial_n[1], 0.0);
+    let misfit = solve(&with(bar(0, 1, 1.6, 0.0)), &Settings::default());
+    assert_eq!(misfit, Err(Error::HeldMisfit { member: 2, length_m: 1.6, distance_m: 2.0 }));
+    let slack = hang(&with(cable(0, 1, 2.1, 0.0)));
+    assert_eq!(slack.slack, [1]);
+    let held = system(joints[..2].to_vec(), vec![bar(0, 1, 2.0, 4.0)]);
+    near(hang(&held).equilibrium.reactions_n[1], [0.0, 0.0, 2.0]);
+}
+
+/// A strut that is given shorter than the place it has bears nothing; one that is longer pushes.
+/// Two cables of 5 m from anchors 6 m apart to the ends of a spreader: with 2 m between the ends
+/// the cables would have to end 2 m apart.
+#[test]
+fn spreader() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(4.0),
+        Joint::free("Q").with_mass(4.0),
+    ];
+    let with = |length: f64| {
+        let strut = bar(2, 3, length, 0.0).of_kind(Kind::Strut);
+        hang(&system(joints.clone(), vec![cable(0, 2, 5.0, 0.0), cable(1, 3, 5.0, 0.0), strut]))
+    };
+    // Each hangs straight down, 6 m apart.
+    let idle = with(5.0);
+    assert_eq!(idle.slack, [2]);
+    near(idle.equilibrium.joints_m[2], [-3.0, 0.0, -5.0]);
+    // 12 m between the ends spread the cables by 3 m each: 4 m deep, and 4 N * 3/4 in the strut.
+    let pushing = with(12.0);
+    close(pushing.equilibrium.joints_m[2][2], -4.0);
+    close(pushing.equilibrium.axial_n[0], 5.0);
+    close(pushing.equilibrium.axial_n[2], -3.0);
+}
+
+/// A massless bar below a lamp and a cable without load: neither has a force, and both are said to
+/// be limp; the lamp hangs as without them.
+#[test]
+fn limp_members() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("lamp").with_mass(2.0),
+        Joint::free("P"),
+        Joint::free("Q"),
+    ];
+    let members = vec![bar(0, 1, 1.0, 0.0), bar(1, 2, 0.5, 0.0), cable(1, 3, 0.5, 0.0)];
+    let solution = hang(&system(joints, members));
+    near(solution.equilibrium.joints_m[1], [0.0, 0.0, -1.0]);
+    close(solution.equilibrium.axial_n[0], 2.0);
+    assert!(solution.limp.contains(&1));
+    assert!(solution.limp.contains(&2) || solution.slack.contains(&2));
+}
+
+/// Nullity by hand: a V swings back, one below the other's anchor it turns freely, and a third bar
+/// in the plane of a V of sides 3, 4, 5 is one bar too many.
+#[test]
+fn nullity_counts_free_turns_and_self_stresses() {
+    let joints = |second: Vector| {
+        vec![
+            Joint::anchor("A", [-3.0, 0.0, 0.0]),
+            Joint::anchor("B", second),
+            Joint::free("P").with_mass(2.0),
+        ]
+    };
+    let two = |second| vec![bar(0, 2, 5.0, 0.0), bar(1, 2, second, 0.0)];
+    let nullity = |joints, members| hang(&system(joints, members)).equilibrium.evidence.nullity;
+    assert_eq!(nullity(joints([3.0, 0.0, 0.0]), two(5.0)), 0);
+    assert_eq!(nullity(joints([-3.0, 0.0, -4.0]), two(4.0)), 1);
+    let mut held = joints([3.0, 0.0, 0.0]);
+    held.push(Joint::anchor("C", [0.0; 3]));
+    let mut members = two(5.0);
+    members.push(bar(3, 2, 4.0, 0.0));
+    assert_eq!(nullity(held, members), 1);
+}
+
+/// 1 N on a rod of 2 m, and 1e-8 N towards the anchor of a cable that just reaches: it would have to
+/// push with that, and hangs slack, so that the weight moves by 2e-8 m. Away from it the cable holds.
+#[test]
+fn a_cable_that_pushes_a_little_is_slack() {
+    for (aside_n, moves_m, pull_n) in [(1e-8, 2e-8, 0.0), (-1e-8, 0.0, 1e-8)] {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [3.0, 0.0, -2.0]),
+            Joint::free("P").with_force([aside_n, 0.0, -1.0]),
+        ];
+        let found = hang(&system(joints, vec![bar(0, 2, 2.0, 0.0), cable(1, 2, 3.0, 0.0)]));
+        let (at, axial) = (found.equilibrium.joints_m[2], &found.equilibrium.axial_n);
+        assert!((at[0] - moves_m).abs() < 1e-13, "{at:?}");
+        assert!((axial[1] - pull_n).abs() < 1e-13, "{axial:?}");
+    }
+}
+
+/// Weights between two anchors on one vertical each, where their bars fit one place alone. The least forces, by `sum F² l`
+/// those of two springs, push more than they pull, `W (l2/l1 - l1/l2)/(l1 + l2) < 0` across, and would let them fall
+/// aside; a self-stress that pulls both bars holds them.
+#[test]
+fn self_stresses_stiffen_what_the_least_forces_let_fall() {
+    let columns = [(2.0, 1.0, 30.0), (1.5, 0.5, 8.0)];
+    let (mut joints, mut members) = (vec![], vec![]);
+    for (k, (above, below, weight)) in columns.into_iter().enumerate() {
+        let x = 4.0 * k as f64;
+        joints.push(Joint::anchor(format!("A{k}"), [x, 1.0, above]));
+        joints.push(Joint::anchor(format!("B{k}"), [x, 1.0, -below]));
+        joints.push(Joint::free(format!("P{k}")).with_mass(weight));
+        members.push(bar(3 * k, 3 * k + 2, above, 0.0));
+        members.push(bar(3 * k + 1, 3 * k + 2, below, 0.0));
+    }
+    let answer = hang(&system(joints, members)).equilibrium;
+    for (k, (above, below, weight)) in columns.into_iter().enumerate() {
+        near(answer.joints_m[3 * k + 2], [4.0 * k as f64, 1.0, 0.0]);
+        close(answer.axial_n[2 * k], weight * below / (above + below));
+        close(answer.axial_n[2 * k + 1], -weight * above / (above + below));
+    }
+}
+
+/// Two bars of 1 m that hang by an angle of 1e-5 below the line between their anchors, which their tolerances do not
+/// tell from a straight one: only as they are do they bear the weight.
+#[test]
+fn a_line_that_is_nearly_taut_bears_its_weight_as_it_is() {
+    let half: f64 = 1.0 - 5e-11;
+    let joints = vec![
+        Joint::anchor("A", [-half, 0.0, 0.0]),
+        Joint::anchor("B", [half, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0),
+    ];
+    let found = solve(
+        &system(joints, vec![bar(0, 2, 1.0, 0.0), bar(2, 1, 1.0, 0.0)]),
+        &Settings::default(),
+    );
+    let answer = found.unwrap().equilibrium;
+    let sine = ((1.0 - half) * (1.0 + half)).sqrt();
+    assert!((answer.axial_n[0] * 2.0 * sine - 1.0).abs() < 1e-5, "{answer:?}");
+    assert!((answer.joints_m[2][2] + sine).abs() < 1e-10, "{answer:?}");
+}
