@@ -1,6 +1,7 @@
 //! Which start leads where, as pictures.
 
 use figures::Unit;
+use model::budget::Budget;
 use model::system::{Support, System};
 use model::{SolverName, Vector};
 use rayon::prelude::*;
@@ -13,6 +14,9 @@ use crate::problem::Problem;
 use crate::simulate::CENSUS_BARS;
 use crate::starts::{FromPlaces, solvers};
 use crate::threads;
+
+/// Memory that a start takes, bytes.
+const BYTES_PER_START: u64 = 50;
 
 /// Draws which equilibrium each start leads to, by both solvers: of a chain between two anchors over
 /// the starting angles of two bars; of any other system over the place of one joint, the others
@@ -118,8 +122,9 @@ impl Basins {
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::Refused`].
+    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::Refused`], [`Error::Memory`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
+        Budget::default().fits(u64::from(self.size).pow(2).saturating_mul(BYTES_PER_START))?;
         if let Some(chain) = problem.row() {
             return self.axes(chain.chain().bars().len()).map(|_| ());
         }
@@ -136,6 +141,7 @@ impl Basins {
     /// range, [`Error::Sweep`] for chains without a list of equilibria, the errors of
     /// [`Solve`](crate::Solve) for other systems.
     pub fn run(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
+        self.check(problem)?;
         let Some(chain) = problem.row() else { return self.over_places(problem) };
         let bars = chain.chain().bars().len();
         let [i, j] = self.axes(bars)?;

@@ -150,10 +150,8 @@ impl Drawn {
         let count = values.len() as f64;
         let mean = model::sum(values.clone()) / count;
         let squares = model::sum(values.map(|x| (x - mean).powi(2)));
-        if count > 1.0 {
-            Self { mean, deviation: (squares / (count - 1.0)).sqrt() }
-        } else {
-            Self::default()
-        }
+        // Of one draw nothing is known of how others deviate; of none, nothing at all.
+        let deviation = if count > 1.0 { (squares / (count - 1.0)).sqrt() } else { 0.0 };
+        Self { mean, deviation }
     }
 }

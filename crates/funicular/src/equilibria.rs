@@ -28,6 +28,8 @@ pub(crate) struct Equilibria {
     pub list: Vec<Located>,
     /// Whether a census proves that there are no others.
     pub complete: bool,
+    /// Whether the one next to a drawing is its neighbour; true where nothing is drawn.
+    pub is_neighbour: bool,
 }
 
 /// The equilibrium that the solvers find, the stable one; none where they disagree.
@@ -36,9 +38,10 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     if answer.agreement().is_some_and(|agreement| !agreement.agrees()) {
         return Err(Error::Disagreed);
     }
+    let is_neighbour = answer.near().is_none_or(|near| near.is_neighbour);
     let found = answer.into_parts().1.into_iter().take(1);
     let list = found.map(|found| Located { label: "1".to_owned(), found }).collect();
-    Ok(Equilibria { list, complete: false })
+    Ok(Equilibria { list, complete: false, is_neighbour })
 }
 
 /// The equilibrium that `solve` shows, the lowest or the one next to the drawing, where both solvers agree on it, with the
@@ -80,5 +83,5 @@ pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Erro
     let all = CensusAnswer::new(&system, census).equilibria.into_iter().enumerate();
     let located =
         |(k, one): (usize, Found)| Located { label: one.label(k), found: one.equilibrium };
-    Ok(Equilibria { list: all.map(located).collect(), complete: true })
+    Ok(Equilibria { list: all.map(located).collect(), complete: true, is_neighbour: true })
 }

@@ -117,7 +117,7 @@ impl Modes {
 
     fn fits(&self, problem: &Problem) -> Result<(), Error> {
         let modes = self.lowest.unwrap_or(LOWEST) as u64;
-        problem.fits(BYTES_PER_MEMBER_IN_MODES + modes.saturating_mul(BYTES_PER_MODE))
+        problem.fits(modes.saturating_mul(BYTES_PER_MODE).saturating_add(BYTES_PER_MEMBER_IN_MODES))
     }
 
     /// The modes of known equilibria.
@@ -130,6 +130,7 @@ impl Modes {
             system: Summary::new(&system),
             equilibria: equilibria.collect::<Result<_, _>>()?,
             complete: found.complete,
+            is_neighbour: found.is_neighbour,
         })
     }
 
@@ -171,6 +172,8 @@ pub struct ModesAnswer {
     pub equilibria: Vec<WithModes>,
     /// Whether a census proves that there are no others.
     pub complete: bool,
+    /// Whether the equilibrium is the neighbour of the shape that is drawn; true where none is.
+    pub is_neighbour: bool,
 }
 
 /// One equilibrium with its modes.

@@ -4,7 +4,7 @@ use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};
 
 use model::Vector;
-use model::system::{Member, Support, System};
+use model::system::{Member, System};
 
 /// What is less than this part of a length is its rounding.
 const LEVEL: f64 = 1e-12;
@@ -43,8 +43,9 @@ impl Sag {
     /// below.
     pub(crate) fn largest(system: &System, joints_m: &[Vector]) -> Option<Self> {
         let rows = Rows::new(system, joints_m);
-        let held: Vec<usize> =
-            (0..joints_m.len()).filter(|joint| holds_height(system, *joint)).collect();
+        let held: Vec<usize> = (0..joints_m.len())
+            .filter(|joint| system.joints()[*joint].support.holds_height())
+            .collect();
         let all =
             held.iter().flat_map(|&first| rows.at(first).iter().map(move |next| (first, *next)));
         let sags = all.filter_map(|(first, next)| rows.deepest(&rows.row(first, next)));
@@ -63,16 +64,6 @@ impl Sag {
 /// The larger of two; of those that are equal to rounding the first.
 fn deeper(a: Sag, b: Sag) -> Sag {
     if b.depth_m > a.depth_m + LEVEL * a.depth_m.abs() { b } else { a }
-}
-
-/// Whether the support of a joint takes an upright force.
-fn holds_height(system: &System, joint: usize) -> bool {
-    match system.joints()[joint].support {
-        Support::Free => false,
-        Support::Fixed { .. } => true,
-        Support::Line { direction, .. } => direction[2].abs() < 1.0 - LEVEL,
-        Support::Plane { normal, .. } => normal[2].abs() > LEVEL,
-    }
 }
 
 fn level(d: Vector) -> f64 {
@@ -111,7 +102,7 @@ impl<'a> Rows<'a> {
     fn row(&self, first: usize, next: usize) -> Vec<usize> {
         let mut row = vec![first, next];
         while let [.., before, here] = row[..] {
-            let loose = !holds_height(self.system, here);
+            let loose = !self.system.joints()[here].support.holds_height();
             match self.onward(before, here) {
                 Some(onward) if loose && onward != first => row.push(onward),
                 None if loose && self.at(here).len() == 1 => return Vec::new(),

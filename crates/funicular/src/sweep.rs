@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use model::Problem as ChainProblem;
+use model::budget::Budget;
 use sweep::{
     Axis, Manifest, Member, Run, RunSettings, SCHEMA_VERSION, Settings, Shard, Source, Summary,
     SystemText,
@@ -20,6 +21,9 @@ use crate::threads::{self, MOST_THREADS};
 
 /// Starts after which whoever watches is told: a fraction of a second.
 const TOLD: u64 = 1_000_000;
+
+/// Memory that starts take in each thread, bytes.
+const BYTES_PER_THREAD: u64 = 50_000_000;
 
 /// Runs random starts through the solvers and says which equilibrium each reaches.
 ///
@@ -214,6 +218,8 @@ impl Sweep {
         if self.threads > MOST_THREADS {
             return Err(Error::TooManyThreads { threads: self.threads });
         }
+        let threads = if self.threads == 0 { rayon::current_num_threads() } else { self.threads };
+        Budget::default().fits(threads as u64 * BYTES_PER_THREAD)?;
         let Some(chain) = problem.row() else { return self.prepare_places(problem) };
         let source = match self.spread {
             Spread::Uniform => Source::Uniform,

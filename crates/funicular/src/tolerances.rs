@@ -18,6 +18,9 @@ use crate::solve::{Lists, Solve, SolveAnswer};
 /// The coordinates as numbers of files name them.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Memory that a number of a draw takes, of each member's force and of its joint, bytes.
+const BYTES_PER_DRAW: u64 = 32;
+
 /// An equilibrium, and its ranges over the tolerances of the system's numbers.
 #[derive(Debug)]
 pub struct TolerancesAnswer {
@@ -72,11 +75,12 @@ impl Solve {
     ) -> Result<TolerancesAnswer, Error> {
         let answer = self.run(problem)?;
         let (system, found) = (answer.system(), &answer.equilibria()[0]);
-        let sag = Sag::largest(system, &found.joints_m);
+        let sag = Sag::largest(system, &found.joints_m).filter(|sag| sag.depth_m >= 0.0);
         let depth = sag.map(|Sag { joint, ends, .. }| Depth { joint, ends });
         let prove = || prove_ranges(system, &found.joints_m, &found.axial_n, depth.as_slice());
         let ranges = self.on_threads(prove)?;
         let draw = || Draws::new(self, system, &ranges, (draws, seed, distribution));
+        problem.fits((draws as u64).saturating_mul(BYTES_PER_DRAW))?;
         let draws = if draws > 0 { Some(self.on_threads(draw)?) } else { None };
         Ok(TolerancesAnswer { answer, sag, ranges, draws })
     }

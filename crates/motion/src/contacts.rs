@@ -15,13 +15,13 @@
 //! opens again where its force would change its sign.
 
 use model::Vector;
-use model::system::{Kind, Member, Support, System};
+use model::system::{Joint, Kind, Member, Support, System};
 
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::simulation::CLOSED_TOLERANCE;
 use crate::state::{State, curvature, half_excess, rate, squared};
-use numerics::vector::minus;
+use numerics::vector::{add_times, dot, minus};
 
 /// A gap that is less than this, in units of the length of its member or of all members, is closed.
 pub(crate) const CLOSED: f64 = 1e-12;
@@ -84,7 +84,7 @@ impl Contacts {
             .map(|(number, _)| Contact::Member(number));
         let joints = system.joints().iter().enumerate();
         let joints = joints
-            .filter(|(_, joint)| system.floor_m().is_some() && joint.support == Support::Free)
+            .filter(|(_, joint)| system.floor_m().is_some() && rises(joint))
             .map(|(number, _)| Contact::Floor(number));
         let list: Vec<Contact> = members.chain(joints).collect();
         let holds = vec![false; list.len()];
@@ -148,8 +148,12 @@ impl Contacts {
                 Contact::Member(number) => hold(&mut members[number]),
                 Contact::Floor(number) => {
                     let at_m = [0.0, 0.0, self.system.floor_m().unwrap_or_default()];
-                    let normal = [0.0, 0.0, 1.0];
-                    let support = Support::Plane { at_m, normal };
+                    let support = joints[number].support;
+                    if matches!(support, Support::Line { .. }) {
+                        let joint = joints[number].name.to_string();
+                        return Err(MotionError::FloorEndsLine { joint });
+                    }
+                    let support = support.on_level(at_m).unwrap_or(support);
                     joints[number] = joints[number].clone().held_by(support);
                 }
             }
@@ -223,20 +227,29 @@ impl Contacts {
         for (bar, multiplier) in bars {
             by_member[bar.member] = multiplier * bar.length_m;
         }
-        let mut by_slot = vec![0.0; mechanism.joint_at.len()];
+        let mut by_slot = vec![[0.0; 3]; mechanism.joint_at.len()];
         for (slide, multiplier) in mechanism.slides.iter().zip(&multipliers[mechanism.bars.len()..])
         {
-            by_slot[slide.slot] = -multiplier;
+            by_slot[slide.slot] = add_times(by_slot[slide.slot], -multiplier, slide.normal);
         }
         let force = |contact: &Contact| match *contact {
             Contact::Member(number) => {
                 let pulls = self.system.members()[number].kind == Kind::Cable;
                 if pulls { by_member[number] } else { -by_member[number] }
             }
-            Contact::Floor(joint) => by_slot[mechanism.slot_of[joint]],
+            // Along what the joint's own support leaves, where that bears nothing.
+            Contact::Floor(joint) => {
+                let rise = self.system.joints()[joint].support.free_part([0.0, 0.0, 1.0]);
+                dot(by_slot[mechanism.slot_of[joint]], rise) / rise[2]
+            }
         };
         self.list.iter().map(force).collect()
     }
+}
+
+/// Whether a joint can rise from a floor: free, or along a plane or line that is not level.
+fn rises(joint: &Joint) -> bool {
+    joint.support.on_level([0.0; 3]).is_some()
 }
 
 /// A member that holds: a bar, or a rope as it is.
@@ -278,7 +291,6 @@ fn changing<'a>(
 #[cfg(test)]
 mod tests {
     use model::Bar;
-    use model::system::Joint;
 
     use super::*;
 

@@ -77,6 +77,14 @@ pub enum MotionError {
     /// position.
     #[error("there is a floor: a position tells which joints lie on it")]
     Floor,
+    /// Occurs when a joint comes to the floor on a line, where both hold it.
+    #[error(
+        "joint {joint:?} has come down its line to the floor, where it cannot move: motions end there"
+    )]
+    FloorEndsLine {
+        /// Name of the joint.
+        joint: String,
+    },
     /// Occurs when the two moments across a member differ where that is not provided for (members
     /// with a stiffness, flat bodies in motion), or when no body has its moments.
     #[error("the moments of member {member} are {moments_kg_m2:?} kg m^2: {reason}")]

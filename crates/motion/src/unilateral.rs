@@ -5,14 +5,14 @@
 //! One that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and
 //! a joint that the floor pushes slides in its level.
 
-use model::system::{Joint, Kind, Support, System};
+use model::system::{Joint, Kind, System};
 
 use crate::contacts::{hold, let_go};
 use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::modes::LeftOver;
 use model::Vector;
-use numerics::vector::{minus, norm, worse};
+use numerics::vector::{dot, minus, norm, worse};
 
 /// How far the ends of a taut member may be from its length, relative: what lengths may be off in
 /// an equilibrium.
@@ -74,7 +74,7 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
                 return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
             }
             Some(floor_m) if lies(system, joint, z) => {
-                joint.support = Support::Plane { at_m: [x, y, floor_m], normal: UP };
+                joint.support = joint.support.on_level([x, y, floor_m]).unwrap_or(joint.support);
             }
             _ => {}
         }
@@ -90,10 +90,10 @@ fn near_m(system: &System) -> f64 {
     LENGTHS * system.total_length_m() / system.members().len() as f64
 }
 
-/// Whether a joint that may leave the floor is on it. Sliders have their own supports.
+/// Whether a joint that may rise from the floor is on it.
 fn lies(system: &System, joint: &Joint, height_m: f64) -> bool {
     let on = |floor_m| height_m <= floor_m + near_m(system);
-    joint.support == Support::Free && system.floor_m().is_some_and(on)
+    joint.support.on_level(UP).is_some() && system.floor_m().is_some_and(on)
 }
 
 /// Refuse joints on the floor that it does not push. Where the floor is one of too many supports
@@ -109,7 +109,9 @@ pub(crate) fn check_pushes(
     left: &LeftOver,
 ) -> Result<(), MotionError> {
     for (k, joint) in system.joints().iter().enumerate() {
-        let push_n = -left.forces[mechanism.slot_of[k]][2];
+        // Up along what the joint's own support leaves, where that bears nothing.
+        let rise = joint.support.free_part(UP);
+        let push_n = -dot(left.forces[mechanism.slot_of[k]], rise) / rise[2];
         let is_pushed = push_n > BALANCE * left.unit_n;
         if lies(system, joint, joints_m[k][2]) && !is_pushed {
             return Err(MotionError::NotPushed { joint: joint.name.to_string(), push_n });

@@ -54,7 +54,26 @@ pub(crate) fn with_numbers(
     if let Some(floor_m) = floor_m {
         system = system.with_floor(floor_m)?;
     }
-    Ok(system)
+    Ok(with_loads(system, base, numbers, values))
+}
+
+/// With the loads by name and the cases of the base: other numbers are changed beside them, later too.
+fn with_loads(system: System, base: &System, numbers: &[Number], values: &[f64]) -> System {
+    let Factors { loads, lengths } = Factors::of(numbers, values);
+    let own = |joint: usize, mut mass_kg: f64, mut force_n: Vector| {
+        for (number, value) in numbers.iter().zip(values) {
+            match number {
+                Number::Joint(name, field) if base.joint(name) == Some(joint) => match field {
+                    JointField::Mass => mass_kg = *value,
+                    JointField::Force(axis) => force_n[*axis] = *value,
+                    _ => {}
+                },
+                _ => {}
+            }
+        }
+        (mass_kg, force_n)
+    };
+    system.with_loads_of(base, own, [loads, loads / lengths])
 }
 
 /// The numbers of a system without shares and counts, not checked: between two points of a path they
@@ -70,11 +89,7 @@ impl Unchecked {
     /// With numbers that are resolved.
     pub(crate) fn new(base: &System, numbers: &[Number], values: &[f64]) -> Self {
         // First, whatever the order: other numbers are what they say.
-        let factor = |of: Number| -> f64 {
-            let of = numbers.iter().zip(values).filter(|(number, _)| **number == of);
-            of.map(|(_, factor)| *factor).product()
-        };
-        let factors = Factors { loads: factor(Number::Loads), lengths: factor(Number::Lengths) };
+        let factors = Factors::of(numbers, values);
         let mut new = Self {
             gravity_m_s2: base.gravity_m_s2(),
             floor_m: base.floor_m(),
@@ -130,6 +145,14 @@ struct Factors {
 
 impl Factors {
     const NONE: Self = Self { loads: 1.0, lengths: 1.0 };
+
+    fn of(numbers: &[Number], values: &[f64]) -> Self {
+        let factor = |of: Number| -> f64 {
+            let of = numbers.iter().zip(values).filter(|(number, _)| **number == of);
+            of.map(|(_, factor)| *factor).product()
+        };
+        Self { loads: factor(Number::Loads), lengths: factor(Number::Lengths) }
+    }
 }
 
 /// Set a number of a joint as its file has it: other loads there, times their factor, are beside it.

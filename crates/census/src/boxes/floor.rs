@@ -1,10 +1,10 @@
 //! Systems above a floor: a proof for the joints that lie on it, and of which way it pushes.
 //!
-//! A free joint that lies on the floor is one that slides in its level. The box of that system is
+//! A joint that lies on the floor and may rise upright is one that slides in its level. The box of that system is
 //! one of the system above the floor as well, if in all of it the floor pushes what lies and the
 //! other joints are above.
 
-use model::system::{Support, System};
+use model::system::{Joint, Support, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
@@ -54,15 +54,16 @@ pub(super) fn laid(
     let near_m = NEAR * system.total_length_m() / system.members().len() as f64;
     let joints = || system.joints().iter().zip(joints_m);
     let near = |at_m: &Point| at_m[2] <= floor_m + near_m;
-    let lies: Vec<bool> =
-        joints().map(|(joint, at_m)| joint.support == Support::Free && near(at_m)).collect();
+    // A plane that leans would bear a part of the push.
+    let rises = |joint: &Joint| match joint.support {
+        Support::Free => true,
+        Support::Plane { normal: [.., z], .. } => z.abs() <= 0.0,
+        _ => false,
+    };
+    let lies: Vec<bool> = joints().map(|(joint, at_m)| rises(joint) && near(at_m)).collect();
     let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
-        let support = if *lies {
-            Support::Plane { at_m: [at_m[0], at_m[1], floor_m], normal: [0.0, 0.0, 1.0] }
-        } else {
-            joint.support
-        };
-        joint.clone().held_by(support)
+        let on = || joint.support.on_level([at_m[0], at_m[1], floor_m]);
+        joint.clone().held_by(lies.then(on).flatten().unwrap_or(joint.support))
     });
     let members = system.members().to_vec();
     let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members);
@@ -92,7 +93,7 @@ fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval
 #[cfg(test)]
 mod tests {
     use model::Bar;
-    use model::system::{Joint, Member};
+    use model::system::Member;
 
     use super::*;
 

@@ -126,7 +126,7 @@ impl<'a> Drawing<'a> {
         let free = ['x', 'y', 'z'].map(|axis| axes.contains(axis));
         if layer.contains(SLIDING) || axes.chars().any(|c| !"xyz".contains(c)) || free == [true; 3]
         {
-            let what = format!("the support {:?}, which slides", shortened(&layer));
+            let what = format!("a support that slides obliquely ({:?})", shortened(&layer));
             let error = self.error(line, Wrong::Unknown { what });
             return Err(error.with_help("a name such as supports_free_xz says along which axes"));
         }

@@ -230,7 +230,10 @@ fn our_own_drawing_is_read_again() {
     // A direction that no name says is not taken for another one.
     let askew = text.replace("supports_free_z", "supports_sliding");
     assert!(
-        parse_dxf(&askew, "x").unwrap_err().to_string().contains("which slides is not understood")
+        parse_dxf(&askew, "x")
+            .unwrap_err()
+            .to_string()
+            .contains("a support that slides obliquely (\"supports_sliding\") is not understood")
     );
     let length_m = (0.25_f64 * 0.25 + 0.1 * 0.1 + 9.0).sqrt();
     assert!((read.members()[0].body.length_m() - length_m).abs() < 1e-15);

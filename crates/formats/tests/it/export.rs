@@ -274,7 +274,31 @@ fn what_a_format_does_not_have_is_refused() {
         says(&rigid, Target::MoorDyn),
         "MoorDyn has no line that does not stretch (member 1)"
     );
-    assert_eq!(says(&bar, Target::MoorDyn), "MoorDyn has no line in compression (member 1)");
+    assert_eq!(says(&bar, Target::MoorDyn), "MoorDyn has no line that can push (member 1)");
+    let rope = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(9.0);
+    let buoy = Joint::free("P").with_mass(1.0).with_force([0.0, 0.0, 11.0]);
+    let lifted = System::new("p", 10.0, vec![Joint::anchor("A", [0.0; 3]), buoy], vec![rope]);
+    assert_eq!(
+        refused(&lifted.unwrap(), &[[0.0; 3], [0.0, 0.0, 1.1]], Target::MoorDyn).to_string(),
+        "MoorDyn has no point that is lifted in air (joint \"P\")"
+    );
+    // 4 kg, 3 of them a force, on 4e8 N/m swing at 1e4 rad/s.
+    let stiff = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(4e8);
+    let pulled = Joint::free("P").with_mass(1.0).with_force([0.0, 0.0, -30.0]);
+    let fast =
+        System::new("p", 10.0, vec![Joint::anchor("A", [0.0; 3]), pulled], vec![stiff]).unwrap();
+    let shape = Shape {
+        system: &fast,
+        joints_m: &hung,
+        axial_n: &[40.0],
+        reactions_n: &[[0.0, 0.0, 40.0], [0.0; 3]],
+        used: &[None],
+        moving: None,
+    };
+    let fast = shape.text(Target::MoorDyn).unwrap();
+    let step = fast.lines().find_map(|line| line.strip_suffix("  dtM")?.parse::<f64>().ok());
+    assert!((step.unwrap() - 1e-5).abs() < 1e-19, "{fast}");
+    assert!(text(Target::MoorDyn).contains("\n0.001  dtM\n"));
     assert_eq!(says(&rigid, Target::Urdf), "URDF has no link that goes slack (member 1)");
     assert_eq!(says(&bar, Target::Urdf), "URDF has no link that stretches (member 1)");
     let held = |support: Support| {

@@ -26,7 +26,7 @@ pub struct Cases {
     /// Print the system file of this case
     #[arg(value_name = "NAME", value_parser = CaseName, hide_possible_values = true)]
     pub name: Option<String>,
-    /// Write the gallery into this folder: `index.html` with a picture of every case, and of each
+    /// Write the gallery into this folder, new, empty, or with a gallery: `index.html` with a picture of every case, and of each
     /// its page, its file and its answer as JSON
     #[arg(long, value_name = "DIR", conflicts_with = "name")]
     pub html: Option<PathBuf>,
@@ -59,17 +59,23 @@ fn registry() -> String {
 fn gallery(folder: &Path) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     output::make_folder(folder)?;
+    let index = folder.join("index.html");
+    let holds = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    if holds && !std::fs::read_to_string(&index).is_ok_and(|text| text.starts_with(HEAD)) {
+        let report = format!("the folder {} is not empty: name a new one", folder.display());
+        return Err(Failure::bad_input(report));
+    }
     let progress = Progress::start();
     progress.say("all cases of the gallery");
     let all: Vec<_> = cases::named().collect();
     let shown = all.par_iter().map(|(name, about)| one(folder, name, about));
     let shown = shown.collect::<Result<Vec<_>, Failure>>()?;
     drop(progress);
-    let mut index = HEAD.to_owned();
-    index.extend(shown.iter().map(|(card, _)| card.as_str()));
-    index += "</main>\n</body>\n</html>\n";
-    output::write_whole(&folder.join("index.html"), &index)?;
-    output::print(&format!("{} cases in {}\n", all.len(), folder.join("index.html").display()))?;
+    let mut text = HEAD.to_owned();
+    text.extend(shown.iter().map(|(card, _)| card.as_str()));
+    text += "</main>\n</body>\n</html>\n";
+    output::write_whole(&index, &text)?;
+    output::print(&format!("{} cases in {}\n", all.len(), index.display()))?;
     Ok(shown.iter().fold(Exit::Done, |worst, (_, exit)| worst.worse(*exit)))
 }
 

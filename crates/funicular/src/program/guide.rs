@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use clap::Args;
+use funicular::text::markdown::page;
 
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -53,7 +54,7 @@ pub struct Guide {
 pub fn run(arguments: &Guide) -> Result<Exit, Failure> {
     let wanted = arguments.chapter.as_deref();
     let chapter = CHAPTERS.iter().find(|(name, _)| Some(*name) == wanted);
-    let text = chapter.map_or_else(list, |(_, text)| (*text).to_owned());
+    let text = chapter.map_or_else(list, |(_, text)| page(text));
     output::print(&text)?;
     Ok(Exit::Done)
 }

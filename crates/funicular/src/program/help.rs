@@ -30,12 +30,12 @@ const START: &str = "\
 funicular finds where systems of bars, cables and springs come to rest, with
 which forces, and how sure that is.
 
-  funicular solve --case lamp      a first answer; `funicular cases` lists the gallery
-  funicular new > system.toml      a file of your own; `funicular format` has every key
-  funicular solve system.toml      its equilibrium, by two solvers, judged and proved
-  funicular census system.toml     every equilibrium, stable or not
-  funicular help                   all commands; `funicular COMMAND --help` all of one
-  funicular reproduce              the paper, judged";
+  funicular solve --case lamp  a first answer; `funicular cases` lists others
+  funicular new > system.toml  a file of your own; `funicular format`: all keys
+  funicular solve system.toml  its equilibrium by two solvers, judged, proved
+  funicular census system.toml every equilibrium, stable or not
+  funicular help               all commands; `funicular COMMAND --help`: one
+  funicular reproduce          the paper, judged";
 
 /// Words that were tried and are no commands, with what does that.
 const MEANT: [(&str, &str); 8] = [
@@ -59,6 +59,13 @@ const NO_FILE: &str =
 /// What is said where a parameter is named without its option, or an option without it.
 const VALUES: &str =
     "values of a number of the file: `--vary loads=0..1.2`, `--vary bars.1.length_m=1,1.1,1.2`";
+
+/// Words of Rust's own parsers, and plain ones.
+const RUST: [(&str, &str); 3] = [
+    ("invalid float literal", "a number is wanted"),
+    ("invalid digit found in string", "a whole number is wanted"),
+    ("number too large to fit in target type", "the number is too large"),
+];
 
 /// The command line; or how the program ends without one.
 pub fn parse() -> Result<Cli, Exit> {
@@ -139,8 +146,14 @@ fn say(text: &str) {
 
 /// Print what is wrong with the arguments, and what was probably meant.
 fn explained(error: &clap::Error) -> Exit {
-    // As in `say`.
-    let _ = error.print();
+    if error.kind() == ErrorKind::ValueValidation {
+        let text = error.render().to_string();
+        let text = RUST.iter().fold(text, |text, (rust, plain)| text.replace(rust, plain));
+        say(text.trim_end());
+    } else {
+        // As in `say`.
+        let _ = error.print();
+    }
     let word = match error.get(ContextKind::InvalidSubcommand) {
         Some(ContextValue::String(word)) => word.as_str(),
         _ => "",

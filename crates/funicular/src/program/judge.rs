@@ -57,7 +57,7 @@ pub struct Judge {
     pub json: bool,
     /// Write the judgement as a page that needs nothing else (of several answers: FILE-1.html,
     /// FILE-2.html, ...)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::page_file)]
     pub html: Option<PathBuf>,
     /// From where the picture of the page is seen
     #[arg(long, value_enum, value_name = "VIEW", default_value_t, requires = "html")]

@@ -40,6 +40,7 @@ mod trace;
 mod varied;
 
 use clap::CommandFactory;
+use funicular::text::markdown::page;
 use funicular::text::{printable, tables};
 use model::budget::limit_work;
 
@@ -74,7 +75,7 @@ fn main() -> std::process::ExitCode {
         Command::Modes(arguments) => modes::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
-        Command::Format => output::print(model::system_file::FORMAT).map(|()| Exit::Done),
+        Command::Format => output::print(&page(model::system_file::FORMAT)).map(|()| Exit::Done),
         Command::Guide(arguments) => guide::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),

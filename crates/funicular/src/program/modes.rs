@@ -48,7 +48,7 @@ pub struct Modes {
     #[arg(long, value_name = "LABEL", default_value = "1", requires = "svg")]
     pub equilibrium: String,
     /// Write the page of the system, as `page` does, with these modes moving
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::page_file)]
     pub html: Option<PathBuf>,
     #[command(flatten)]
     pub threads: Threads,
@@ -81,7 +81,11 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     }
     drop(progress);
     arguments.printed.print(&answer)?;
-    Ok(if answer.indices_agree() { Exit::Done } else { Exit::CheckFailed })
+    Ok(match answer.indices_agree() {
+        true if answer.is_neighbour => Exit::Done,
+        true => Exit::Undecided,
+        false => Exit::CheckFailed,
+    })
 }
 
 /// The drawing, if it is asked for.

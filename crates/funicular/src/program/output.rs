@@ -99,6 +99,15 @@ fn ending(path: &Path) -> &str {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }
 
+/// The name of a file for a page: as it ends in nothing else.
+pub fn page_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match ending(&path).to_ascii_lowercase().as_str() {
+        "" | "html" | "htm" => Ok(path),
+        other => Err(format!("a page is written as .html, not as .{other}")),
+    }
+}
+
 /// A picture can be written only in formats that we write.
 fn check_picture(path: &Path) -> Result<(), Failure> {
     if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {

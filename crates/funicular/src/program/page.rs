@@ -15,8 +15,8 @@ use crate::threads::Threads;
 
 /// What the page has.
 const HELP: &str = "\
-The page shows the equilibrium that both solvers find, all others where a census is complete, each
-load case and the lowest modes: turned by dragging or the arrow keys, with the forces in the members,
+The page shows the equilibrium that both solvers find, all others where a census is complete (of
+chains of up to 8 bars, and where it takes a second), each load case and the lowest modes: turned by dragging or the arrow keys, with the forces in the members,
 the part of their strength that they use, and how far each shape is proved. With --vary a slider
 moves along the load path, with --motion through the motion that a release begins. Where no load
 path can be followed, because one has no equilibrium at its start or is lost, over values of a chain
@@ -31,7 +31,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub input: Drawn,
     /// Write the page to this HTML file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::page_file)]
     pub out: PathBuf,
     /// Show the shapes over a range or values of a number of the file, as in `trace` and `study`:
     /// loads=0.5..1.2, bars.A-P.length_m=4..6:21; may be given several times: each combination of

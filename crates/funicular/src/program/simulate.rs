@@ -69,7 +69,7 @@ pub struct Simulate {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Write the page of the system, as `page` does, with this motion
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::page_file)]
     pub html: Option<PathBuf>,
     #[command(flatten)]
     pub ensemble: ensemble::Arguments,

@@ -41,7 +41,7 @@ pub struct Solve {
     /// An answer is the object of --json with the number of its line under `line`. A line that has
     /// none is answered by an object with `line`, `error` and, where they are known, `key`,
     /// `column` and `help`; the others go on.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "case", "csv", "bars_csv", "svg"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "case", "csv", "bars_csv", "svg", "format", "units"])]
     pub batch: Option<PathBuf>,
     /// Whether short chains are looked up in their census: up to 8 bars by themselves (auto), up to
     /// 16 (always)

@@ -115,7 +115,7 @@ pub struct Arguments {
     #[arg(long, visible_alias = "picture", value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write one HTML file in which the shape moves along its load paths
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::page_file)]
     pub html: Option<PathBuf>,
     /// Most points: of a load path (1000 if not given), or of all paths of a chain together (100000):
     /// all that is found is held in memory, some 4 kB for each equilibrium at each point

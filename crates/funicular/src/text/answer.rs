@@ -55,9 +55,7 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
             agreement.verdict
         );
-        // What lies on its vertical turns without a move.
-        let neutral = equilibria.first().map_or(0, |first| first.stability.neutral);
-        let turning = match agreement.turned_parts.min(neutral) {
+        let turning = match agreement.turned_parts {
             0 => None,
             1 => Some(
                 "One part turns freely about a vertical: each turn of it is an equilibrium."
@@ -73,7 +71,11 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             1 => Some(format!("Not determined by equilibrium: the place of {names}.")),
             _ => Some(format!("Not determined by equilibrium: the places of {names}.")),
         };
-        for sentence in turning.into_iter().chain(sliding) {
+        let level = (agreement.sliding_parts > 0).then(|| {
+            "What stands on level supports alone moves freely there: each place is an equilibrium."
+                .to_owned()
+        });
+        for sentence in turning.into_iter().chain(level).chain(sliding) {
             text += &wrapped(&sentence, 0);
             text.push('\n');
         }

@@ -13,6 +13,7 @@ mod judged;
 pub mod load;
 mod load_cases;
 mod losses;
+pub mod markdown;
 mod modes;
 pub mod motion;
 pub mod printable;

@@ -110,6 +110,8 @@ fn text(answer: &ModesAnswer) -> String {
     }
     let all = if answer.complete {
         "These are all equilibria, by the census."
+    } else if !answer.is_neighbour {
+        "Not the neighbour of the shape given: see `funicular solve`."
     } else {
         "Of the equilibria that the solvers find; there may be others."
     };

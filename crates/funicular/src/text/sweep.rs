@@ -120,7 +120,7 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
             member.map_or_else(String::new, |member| short(member.energy_j)),
             index.map_or_else(String::new, |index| index.to_string()),
             row.count.to_string(),
-            short(percent(row.count, all)),
+            significant(percent(row.count, all), 4),
             // More digits than the interval is wide for would say nothing.
             format!("{} to {}", significant(100.0 * low, 4), significant(100.0 * high, 4)),
             spans(row.median_iterations()),

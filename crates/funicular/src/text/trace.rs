@@ -49,9 +49,10 @@ fn text(trace: &Continuation, many: bool) -> String {
         _ => String::new(),
     };
     let mut text = format!(
-        "{}{of}: {count} points, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
+        "{}{of}: {}, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
          {} branches\n",
         trace.parameters.join(", "),
+        tables::counted(count, "point"),
         trace.branches.len()
     );
     text += &table(trace);

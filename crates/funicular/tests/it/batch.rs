@@ -123,6 +123,8 @@ fn an_empty_batch_is_done_and_a_missing_one_is_bad_input() {
         &["--batch", "nowhere"][..],
         &["--batch", "."],
         &["--batch", "none.jsonl", "--csv", "a.csv"],
+        &["--batch", "none.jsonl", "--format", "csv"],
+        &["--batch", "none.jsonl", "--units", "kN"],
     ] {
         assert_eq!(ran(&folder, &[&["solve"], arguments].concat()).status.code(), Some(2));
     }

@@ -62,11 +62,43 @@ fn a_closed_standard_error_changes_no_exit_code() {
     assert_eq!(status.code(), Some(2));
 }
 
+/// The page of the format and the chapters of the guide fit a terminal, but for blocks of code, and lose no word.
 #[test]
-fn the_page_of_the_file_format_is_printed() {
-    assert_eq!(stdout(&funicular(&["format"])), model::system_file::FORMAT);
+fn pages_fit_a_terminal() {
+    let format = stdout(&funicular(&["format"]));
     for page in ["file", "format"] {
-        assert_eq!(stdout(&funicular(&["help", page])), model::system_file::FORMAT);
+        assert_eq!(stdout(&funicular(&["help", page])), format);
+    }
+    let chapter = include_str!("../../guide/2-systems.md");
+    let shown = stdout(&funicular(&["guide", "systems"]));
+    for (page, text) in [(&format, model::system_file::FORMAT), (&shown, chapter)] {
+        let blocks = page.split("```").step_by(2);
+        let long = |line: &&str| line.chars().count() > 80 && line.contains(' ');
+        let long: Vec<&str> = blocks.flat_map(str::lines).filter(long).collect();
+        assert!(long.is_empty(), "{long:#?}");
+        let outside = |text: &str| {
+            let blocks: Vec<String> = text.split("```").step_by(2).map(str::to_owned).collect();
+            blocks.join(" ")
+        };
+        let letters = |text: &str| {
+            let mut letters: Vec<char> =
+                outside(text).chars().filter(|c| c.is_alphanumeric()).collect();
+            letters.sort_unstable();
+            letters
+        };
+        assert_eq!(letters(page), letters(text));
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_explained_in_plain_words() {
+    for (arguments, wanted) in [
+        (["basins", "--size", "1e9"], "a whole number is wanted"),
+        (["basins", "--others", "abc"], "a number is wanted"),
+    ] {
+        let output = funicular(&arguments);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
     }
 }
 

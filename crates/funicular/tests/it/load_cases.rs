@@ -124,6 +124,33 @@ fn numbers_vary_beside_the_loads_of_a_case() {
     }
 }
 
+/// 5 kg and 3 kg of snow; in winter the first by 1.5. A number that is changed stands beside both, at once or one after the
+/// other, and before the case or in it.
+#[test]
+fn loads_and_cases_stay_when_numbers_change() {
+    let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 5 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 2, mass_kg = 0 }]\n\
+        loads = [{ name = 'snow', joint = 'P', mass_kg = 3 }]\n\
+        cases = [{ name = 'winter', factors = { permanent = 1.5, snow = 1 } }]";
+    let problem = Problem::parse(text, "bar.toml").unwrap();
+    let pull = |problem: &Problem| Solve::new().run(problem).unwrap().equilibria()[0].axial_n[0];
+    let longer = |problem: &Problem| problem.with(&[("bars.1.length_m", 4.0)]).unwrap();
+    let heavier = |problem: &Problem| problem.with(&[("joints.P.mass_kg", 6.0)]).unwrap();
+    let winter = |problem: &Problem| problem.in_case("winter").unwrap();
+    assert!(near(pull(&winter(&problem)), 105.0));
+    for both in [heavier(&longer(&problem)), longer(&heavier(&problem))] {
+        assert!(near(pull(&both), 90.0), "{}", pull(&both));
+        assert!(near(pull(&winter(&both)), 120.0));
+    }
+    assert!(near(pull(&heavier(&longer(&winter(&problem)))), 120.0));
+    let doubled = problem.with(&[("loads", 2.0)]).unwrap();
+    assert!(near(pull(&doubled), 160.0) && near(pull(&winter(&doubled)), 210.0));
+    assert!(near(pull(&heavier(&doubled)), 120.0));
+    assert_eq!(problem.with(&[("gravity_m_s2", 10.0)]).unwrap(), problem);
+    let cases = Solve::new().load_cases(&longer(&problem)).unwrap();
+    assert!(near(cases.bars()[0].most_n.value, 105.0));
+}
+
 #[test]
 fn every_command_takes_a_load_case() {
     let folder = tempfile::tempdir().unwrap();

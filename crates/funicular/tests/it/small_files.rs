@@ -128,6 +128,13 @@ fn more_than_an_equilibrium_needs_more_memory() {
         let output = run(&folder, &[arguments, &["--max-memory", "4MB"]].concat());
         refused(&output, &format!("{needed}000 bytes of memory are needed; of 4000000"));
     }
+    let sweep = ["sweep", "row.toml", "--seeds", "9", "--threads", "2", "--out", "rows"];
+    let basins = ["basins", "row.toml", "--size", "300", "--out", "pictures"];
+    for (arguments, needed) in [(&sweep[..], "100000000"), (&basins, "4500000")] {
+        let output = run(&folder, &[arguments, &["--max-memory", "4MB"]].concat());
+        refused(&output, &format!("{needed} bytes of memory are needed; of 4000000"));
+    }
+    assert!(!folder.join("rows").exists());
     let output = run(&folder, &[&modes[..], &["--max-memory", "7500kB"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
 }

@@ -379,3 +379,18 @@ fn what_is_limp_or_unstable_after_a_loss_leaves() {
         assert!(!found.survives() && found.is_decided());
     }
 }
+
+/// A weight on a level support of its own stays there when the cable to it is lost.
+#[test]
+fn what_stands_on_its_own_support_does_not_fall() {
+    let text = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 0] }, P = { mass_kg = 5 }, \
+        S = { at_m = [2, 1, 0], free = 'xy', mass_kg = 10 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 2.5, mass_kg = 0, kind = 'cable' }, \
+        { from = 'P', to = 'B', length_m = 2.5, mass_kg = 0, kind = 'cable' }, \
+        { from = 'P', to = 'S', length_m = 2, mass_kg = 0, kind = 'cable' }]";
+    let losses = Solve::new().without_each(&Problem::parse(text, "roller.toml").unwrap()).unwrap();
+    // 3-4-5: P hangs 1.5 m deep, and its cables bear 5 g / 2 times 2.5 m / 1.5 m.
+    let left = losses.losses()[2].left.as_ref().unwrap();
+    let (_, tension_n) = left.extremes.tension_n.unwrap();
+    assert!((tension_n / (2.5 * 9.80665 * 2.5 / 1.5) - 1.0).abs() < 1e-9, "{tension_n}");
+}

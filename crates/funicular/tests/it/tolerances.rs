@@ -114,9 +114,9 @@ fn the_program_prints_them_in_eighty_columns() {
     }
 }
 
-/// Ranges of a gable that has snapped through are of what hangs below, and say so.
+/// Ranges and modes of a gable that has snapped through are of what hangs below, and say so.
 #[test]
-fn ranges_of_another_shape_than_is_drawn_say_so() {
+fn ranges_and_modes_of_another_shape_than_is_drawn_say_so() {
     let folder = tempfile::tempdir().unwrap();
     let text = "plane = \"xz\"\n\
                 joints = { A = { at_m = [-1, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { near_m = [0, 0, 0.8], mass_kg = 800 } }\n\
@@ -133,6 +133,12 @@ fn ranges_of_another_shape_than_is_drawn_say_so() {
             "exactly one equilibrium is near",
         ],
     );
+    let (code, said, _) = run(folder.path(), &["modes", "gable.toml"]);
+    assert_eq!(code, Some(3), "{said}");
+    says(&said, &["Not the neighbour of the shape given: see `funicular solve`."]);
+    let (code, said, _) = run(folder.path(), &["modes", "gable.toml", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((code, &found["is_neighbour"]), (Some(3), &serde_json::Value::Bool(false)));
 }
 
 #[test]

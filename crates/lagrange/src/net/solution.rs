@@ -1,6 +1,6 @@
 //! The answer for a system.
 
-use model::system::{Kind, System, SystemEquilibrium, SystemStability};
+use model::system::{Joint, Kind, System, SystemEquilibrium, SystemStability};
 use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -310,7 +310,9 @@ impl Answer<'_> {
             start_forces_n.push((-pull_n - start_n).into());
             end_forces_n.push((last_n - end_n).into());
         }
-        let places = state.places.iter();
+        // What is held is where it is held, to the bit.
+        let held = |joint: &Joint| joint.support.at_m().filter(|_| joint.support.is_fixed());
+        let places = state.places.iter().zip(system.joints());
         let reactions = framework.nodes.iter().zip(&left);
         // The ground takes what the free directions leave.
         let reactions = reactions.map(|(node, left)| node.free.part(left) - left);
@@ -318,7 +320,9 @@ impl Answer<'_> {
             solver: SolverName::LAGRANGE,
             energy_j,
             joints_m: places
-                .map(|place| (place * units.length_m + units.origin_m).into())
+                .map(|(place, joint)| {
+                    held(joint).unwrap_or_else(|| (place * units.length_m + units.origin_m).into())
+                })
                 .collect(),
             start_forces_n,
             end_forces_n,

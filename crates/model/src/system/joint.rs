@@ -66,6 +66,11 @@ static FREE: LazyLock<Arc<JointProperties>> = LazyLock::new(|| {
     })
 });
 
+/// What leans by less than this part of its length is level or upright.
+const LEVEL: f64 = 1e-12;
+
+const UP: Vector = [0.0, 0.0, 1.0];
+
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Support {
@@ -99,6 +104,70 @@ impl Support {
         match *self {
             Self::Free => None,
             Self::Fixed { at_m } | Self::Line { at_m, .. } | Self::Plane { at_m, .. } => Some(at_m),
+        }
+    }
+
+    /// The part of a vector along the motions that it leaves.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let rail = Support::Line { at_m: [0.0; 3], direction: [0.6, 0.0, 0.8] };
+    /// assert_eq!(rail.free_part([0.0, 5.0, 10.0]), [4.8, 0.0, 6.4]);
+    /// ```
+    #[must_use]
+    pub fn free_part(&self, v: Vector) -> Vector {
+        let along = |a: Vector| {
+            let part = v.iter().zip(a).map(|(x, y)| x * y).sum::<f64>();
+            a.map(|x| part * x)
+        };
+        match *self {
+            Self::Free => v,
+            Self::Fixed { .. } => [0.0; 3],
+            Self::Line { direction, .. } => along(direction),
+            Self::Plane { normal, .. } => {
+                let off = along(normal);
+                std::array::from_fn(|k| v[k] - off[k])
+            }
+        }
+    }
+
+    /// What holds the joint where it also lies on the level through a point, m; `None` where it cannot rise from there.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let wall = Support::Plane { at_m: [0.0, 3.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    /// let Some(Support::Line { at_m, direction }) = wall.on_level([7.0, 3.0, -2.0]) else { panic!("a line") };
+    /// assert_eq!((at_m, direction.map(f64::abs)), ([0.0, 3.0, -2.0], [1.0, 0.0, 0.0]));
+    /// assert_eq!(wall.on_level([7.0, 3.0, -2.0]).and_then(|line| line.on_level([0.0; 3])), None);
+    /// ```
+    #[must_use]
+    pub fn on_level(&self, at_m: Vector) -> Option<Self> {
+        let rise = self.free_part(UP);
+        if rise[2] <= LEVEL {
+            return None;
+        }
+        let from = self.at_m().unwrap_or(at_m);
+        let part = (at_m[2] - from[2]) / rise[2];
+        let [x, y] = [0, 1].map(|k| from[k] + part * rise[k]);
+        let at_m = [x, y, at_m[2]];
+        Some(match *self {
+            Self::Plane { normal: [x, y, _], .. } => {
+                let level = x.hypot(y);
+                Self::Line { at_m, direction: [-y / level, x / level, 0.0] }
+            }
+            Self::Line { .. } => Self::Fixed { at_m },
+            _ => Self::Plane { at_m, normal: UP },
+        })
+    }
+
+    /// Whether it takes an upright force.
+    #[must_use]
+    pub fn holds_height(&self) -> bool {
+        match *self {
+            Self::Free => false,
+            Self::Fixed { .. } => true,
+            Self::Line { direction, .. } => direction[2].abs() < 1.0 - LEVEL,
+            Self::Plane { normal, .. } => normal[2].abs() > LEVEL,
         }
     }
 

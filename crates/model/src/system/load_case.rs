@@ -226,6 +226,66 @@ impl System {
         Self { load_cases: other.load_cases, ..self }
     }
 
+    /// The same with the loads by name and the cases of another system, of which this one differs in numbers: `own` is what
+    /// a joint has itself, by its number there, mass and force, of what it had; loads at joints act by one factor, those along
+    /// members by another. Joints are found by their names. Loads along members need the same members: else cases are not kept.
+    #[must_use]
+    pub fn with_loads_of(
+        self,
+        other: &Self,
+        own: impl Fn(usize, f64, Vector) -> (f64, Vector),
+        [at_joints, along_members]: [f64; 2],
+    ) -> Self {
+        let Some(before) = other.load_cases.as_deref() else { return self };
+        let is_along = |load: &NamedLoad| matches!(load.on, LoadOn::Members { .. });
+        if self.members.len() != other.members.len() && before.loads.iter().any(is_along) {
+            return self;
+        }
+        let here = |joint: usize| {
+            let name = &other.joints[joint].name;
+            let is_same = self.joints.get(joint).is_some_and(|same| same.name == *name);
+            if is_same { Some(joint) } else { self.joint(&name.text()) }
+        };
+        let times = |factor: f64, force: Vector| force.map(|x| factor * x);
+        let mut all = before.clone();
+        let own_now = |joint: usize, mass_kg: f64, force_n: Vector| {
+            own(joint, at_joints * mass_kg, times(at_joints, force_n))
+        };
+        all.own = before
+            .own
+            .iter()
+            .filter_map(|(joint, mass_kg, force_n)| {
+                let (mass_kg, force_n) = own_now(*joint, *mass_kg, *force_n);
+                Some((here(*joint)?, mass_kg, force_n))
+            })
+            .collect();
+        // Loads without a name are beside what the joint has itself.
+        all.joints = before
+            .joints
+            .iter()
+            .filter_map(|(joint, mass_kg, force_n)| {
+                let (_, own_kg, own_n) = before.own.iter().find(|(k, ..)| k == joint)?;
+                let (now_kg, now_n) = own_now(*joint, *own_kg, *own_n);
+                let beside = |x: f64, own: f64, now: f64| now + at_joints * (x - own);
+                let force_n = std::array::from_fn(|k| beside(force_n[k], own_n[k], now_n[k]));
+                Some((here(*joint)?, beside(*mass_kg, *own_kg, now_kg), force_n))
+            })
+            .collect();
+        for load in &mut all.loads {
+            match &mut load.on {
+                LoadOn::Joints { joints, mass_kg, force_n } => {
+                    *joints = joints.iter().filter_map(|joint| here(*joint)).collect();
+                    *mass_kg *= at_joints;
+                    *force_n = times(at_joints, *force_n);
+                }
+                LoadOn::Members { force_n_per_m, .. } => {
+                    *force_n_per_m = times(along_members, *force_n_per_m);
+                }
+            }
+        }
+        Self { load_cases: Some(Box::new(all)), ..self }
+    }
+
     /// The same with other tolerances of its joints.
     pub(crate) fn with_joints(self, joints: Vec<Joint>) -> Self {
         Self { joints, row: super::row::Once::default(), ..self }

@@ -183,8 +183,11 @@ impl System {
         let met = |joint: usize| members.iter().any(|m| m.path().any(|k| k == joint));
         let of_use = |k: usize| {
             let joint = &self.joints[k];
-            let loaded = joint.mass_kg > 0.0 || joint.force_n.iter().any(|n| n.abs() > 0.0);
-            (loaded && !joint.support.is_fixed()) || met(k)
+            let [x, y, z] = joint.force_n;
+            // What its support does not bear.
+            let load_n = [x, y, z - joint.mass_kg * self.gravity_m_s2];
+            let moves = joint.support.free_part(load_n);
+            moves.iter().any(|n| n.abs() > 0.0) || met(k)
         };
         let is_left = |k: &usize| lost.path().all(|joint| joint != *k) || of_use(*k);
         let kept: Vec<usize> = (0..self.joints.len()).filter(is_left).collect();
@@ -226,7 +229,8 @@ impl System {
         &self.members
     }
 
-    /// The point from which energies are measured: where the first supported joint is held, m.
+    /// The point from which energies are measured, m: where the first joint is whose height a support holds; the first
+    /// support, where none does.
     ///
     /// `V = Σ m g Z − Σ f · x +` elastic energies, with heights and places relative to this point.
     ///
@@ -241,7 +245,12 @@ impl System {
     /// ```
     #[must_use]
     pub fn reference_m(&self) -> Vector {
-        self.joints.iter().find_map(|joint| joint.support.at_m()).unwrap_or_default()
+        let supports = || self.joints.iter().map(|joint| &joint.support);
+        let first = supports().find(|support| support.holds_height());
+        first
+            .or(supports().find(|support| support.at_m().is_some()))
+            .and_then(Support::at_m)
+            .unwrap_or_default()
     }
 
     /// Sum of the lengths of the members, m.

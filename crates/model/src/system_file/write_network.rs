@@ -21,7 +21,7 @@ pub fn write_network(system: &System) -> String {
         write_load(&mut text, system, load);
     }
     for case in system.load_cases() {
-        let factor = |(load, by): &(String, f64)| format!("{} = {by:?}", text_of(load));
+        let factor = |(load, by): &(String, f64)| format!("{} = {by:?}", key(load));
         let factors: Vec<_> = case.factors.iter().map(factor).collect();
         let (name, factors) = (text_of(&case.name), factors.join(", "));
         let _ = write!(text, "\n[[cases]]\nname = {name}\nfactors = {{ {factors} }}\n");
@@ -31,6 +31,20 @@ pub fn write_network(system: &System) -> String {
 
 fn text_of(text: &str) -> toml::Value {
     text.into()
+}
+
+/// A name as a key, in which TOML takes no text of several lines.
+fn key(name: &str) -> String {
+    let mut key = String::from('"');
+    for c in name.chars() {
+        match c {
+            '"' | '\\' => key.extend(['\\', c]),
+            // Writing to a String cannot fail.
+            c if c.is_control() => drop(write!(key, "\\u{:04X}", u32::from(c))),
+            c => key.push(c),
+        }
+    }
+    key + "\""
 }
 
 fn write_load(text: &mut String, system: &System, load: &NamedLoad) {
@@ -63,7 +77,7 @@ fn write_permanent(system: &System) -> String {
     }
     text.push_str("\n[joints]\n");
     for joint in system.joints() {
-        let _ = writeln!(text, "{} = {}", text_of(&joint.name.text()), entry(joint));
+        let _ = writeln!(text, "{} = {}", key(&joint.name.text()), entry(joint));
     }
     for member in system.members() {
         write_member(&mut text, system, member);

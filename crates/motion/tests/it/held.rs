@@ -1,8 +1,8 @@
 //! Small oscillations of what taut inextensible cables and the floor hold.
 
 use model::Bar;
-use model::system::{Joint, Kind, Member, System};
-use motion::{Direction, MotionError, modes};
+use model::system::{Joint, Kind, Member, Support, System};
+use motion::{Direction, MotionError, Settings, Simulation, modes};
 
 use crate::common::{G, hanging, links};
 
@@ -81,11 +81,13 @@ fn a_slack_cable_with_a_mass_moves_with_the_joint_that_it_hangs_on() {
 
 /// A weight of 2 kg on the floor between two elastic cords of 1 m, stretched to 1.25 m.
 fn on_the_floor(lifted_n: f64) -> System {
-    let joints = vec![
-        Joint::anchor("A", LAID[0]),
-        Joint::anchor("B", LAID[1]),
-        Joint::free("P").with_mass(2.0).with_force([0.0, 0.0, lifted_n]),
-    ];
+    held_on_the_floor(lifted_n, Support::Free)
+}
+
+fn held_on_the_floor(lifted_n: f64, support: Support) -> System {
+    let weight = Joint::free("P").with_mass(2.0).with_force([0.0, 0.0, lifted_n]);
+    let joints =
+        vec![Joint::anchor("A", LAID[0]), Joint::anchor("B", LAID[1]), weight.held_by(support)];
     let cord = Bar::homogeneous(1.0, 0.0).unwrap();
     let members = [0, 1].map(|k| Member::cable(k, 2, cord).with_stiffness(400.0));
     System::new("laid", G, joints, members.to_vec()).unwrap().with_floor(0.25).unwrap()
@@ -103,6 +105,18 @@ fn what_the_floor_pushes_slides_on_it() {
         near(along.omega2_s2, 2.0 * 400.0 / 2.0, 1e-13);
         assert_eq!([across.direction, along.direction], [Direction::Across, Direction::InPlane]);
     }
+    // A wall that stands along the cords, or leans, leaves the motion along them; a rail down to the floor is
+    // refused where it moves.
+    for normal in [[0.0, 1.0, 0.0], [0.0, 0.8, 0.6]] {
+        let wall = Support::Plane { at_m: LAID[2], normal };
+        let found = modes(&held_on_the_floor(0.0, wall), &LAID, None).unwrap();
+        let [along] = &found.modes[..] else { panic!("{found:?}") };
+        near(along.omega2_s2, 2.0 * 400.0 / 2.0, 1e-13);
+    }
+    let rail = Support::Line { at_m: LAID[2], direction: [0.0, 0.0, 1.0] };
+    let rail = held_on_the_floor(0.0, rail);
+    let refused = Simulation::new(&rail, &LAID, Settings::default()).err();
+    assert!(matches!(refused, Some(MotionError::FloorEndsLine { .. })), "{refused:?}");
     // With its weight taken it lies there without a push, and may rise.
     let refused = modes(&on_the_floor(2.0 * G), &LAID, None).unwrap_err();
     assert!(

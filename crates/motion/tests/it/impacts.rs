@@ -156,8 +156,9 @@ fn a_weight_bounces_off_nothing_and_a_prop_catches_what_falls_on_it() {
 }
 
 /// A rod of 1 m, hinged half a metre above the floor.
-fn flap() -> System {
-    let joints = vec![Joint::anchor("O", [0.0, 0.0, 0.5]), Joint::free("P")];
+fn flap(support: Support) -> System {
+    let tip = Joint::free("P").held_by(support);
+    let joints = vec![Joint::anchor("O", [0.0, 0.0, 0.5]), tip];
     let rod = Bar::homogeneous(1.0, 3.0).unwrap();
     let members = vec![Member::bar(0, 1, rod)];
     System::new("flap", G, joints, members).unwrap().with_floor(0.0).unwrap()
@@ -165,8 +166,13 @@ fn flap() -> System {
 
 #[test]
 fn a_rod_falls_onto_the_floor_and_lies_there() {
-    let system = flap();
-    let mut fall = at_rest(&system, &[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5]], Order::Fourth);
+    falls_and_lies(&flap(Support::Free));
+    // Its tip slides on a wall, down to the floor.
+    falls_and_lies(&flap(Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] }));
+}
+
+fn falls_and_lies(system: &System) {
+    let mut fall = at_rest(system, &[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5]], Order::Fourth);
     let start_j = fall.energy_j();
     run(&mut fall, 2.0, 1e-3);
     let [impact] = fall.impacts() else { panic!("{:?}", fall.impacts()) };
@@ -242,7 +248,11 @@ fn what_cannot_begin_or_go_back_is_refused() {
     let system = weight(Kind::Cable);
     let long = Simulation::new(&system, &[[0.0; 3], [1.1, 0.0, 0.0]], Settings::default());
     assert!(matches!(long, Err(MotionError::NotClosed { .. })));
-    let below = Simulation::new(&flap(), &[[0.0, 0.0, 0.5], [0.0, 0.0, -0.5]], Settings::default());
+    let below = Simulation::new(
+        &flap(Support::Free),
+        &[[0.0, 0.0, 0.5], [0.0, 0.0, -0.5]],
+        Settings::default(),
+    );
     assert!(matches!(below, Err(MotionError::NotClosed { .. })));
     let mut fall = at_rest(&system, &[[0.0; 3], [0.5, 0.0, 0.0]], Order::Second);
     assert!(matches!(fall.step(-1e-3), Err(MotionError::Input { .. })));

@@ -86,8 +86,8 @@ pub struct Judgement {
     /// Which forces were judged.
     #[serde(flatten)]
     pub forces: ForcesJudged,
-    /// To how many digits the given forces were taken as printed, where they break a law that the
-    /// tolerance does not explain and these digits do.
+    /// To how many digits the given forces were taken as printed, where the tolerance does not explain that they break a
+    /// law or differ from those of the equilibrium, and these digits do.
     pub force_digits: Option<usize>,
     /// The smallest power of ten that as tolerance would have confirmed the answer, of one that is
     /// not confirmed.
@@ -186,10 +186,17 @@ pub fn judge_foreign(
     if !(LEAST..=MOST).contains(&tolerance) {
         return Err(ToleranceError { tolerance });
     }
-    let Trial { bounds, forces, mut completed, measured, force_digits } =
+    let Trial { mut bounds, forces, mut completed, measured, mut force_digits } =
         trial(system, answer, tolerance, watch);
     let nearest = nearest(system, &completed, bounds.position_m, watch);
-    let finding = finding(system, answer, (&completed, &measured), &nearest, &bounds);
+    let within = |bounds| finding(system, answer, (&completed, &measured), &nearest, bounds);
+    let mut finding = within(&bounds);
+    if matches!(finding, Finding::OtherForces { .. }) {
+        let (digits, printed) = as_printed(answer, &bounds);
+        if within(&printed) == Finding::Confirmed {
+            (bounds, force_digits, finding) = (printed, Some(digits), Finding::Confirmed);
+        }
+    }
     watch("the rungs");
     let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
     let statics = judge(system, &completed);
@@ -251,16 +258,21 @@ fn trial(system: &System, answer: &ForeignAnswer, tolerance: f64, watch: &dyn Fn
     let strict = measured(&bounds);
     let of_forces = strict.violations.iter().all(|violation| violation.law.unit() == "N");
     if answer.axial_n.is_some() && of_forces && !strict.violations.is_empty() {
-        let numbers = answer.axial_n.iter().flatten().copied();
-        let ground = answer.reactions_n.iter().flatten().flatten().copied();
-        let (digits, half_a_unit_n) = printed(numbers.chain(ground));
-        let bounds = Bounds { force_n: bounds.force_n.max(half_a_unit_n), ..bounds };
+        let (digits, bounds) = as_printed(answer, &bounds);
         let measured = measured(&bounds);
         if measured.violations.is_empty() {
             return Trial { bounds, forces, completed, measured, force_digits: Some(digits) };
         }
     }
     Trial { bounds, forces, completed, measured: strict, force_digits: None }
+}
+
+/// To how many digits the forces given were printed, and what that leaves of them.
+fn as_printed(answer: &ForeignAnswer, bounds: &Bounds) -> (usize, Bounds) {
+    let numbers = answer.axial_n.iter().flatten().copied();
+    let ground = answer.reactions_n.iter().flatten().flatten().copied();
+    let (digits, half_a_unit_n) = printed(numbers.chain(ground));
+    (digits, Bounds { force_n: bounds.force_n.max(half_a_unit_n), ..*bounds })
 }
 
 /// The smallest of the larger powers of ten at which an answer is confirmed by the equilibrium that

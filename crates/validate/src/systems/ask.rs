@@ -326,7 +326,8 @@ fn ask_beside(
         both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
         let one = compare(system, &mut both, &Tolerances::project());
         // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
-        let is_placed = known.stability.neutral <= one.turned_parts + 3 * one.free_joints;
+        let free = one.turned_parts + 3 * (one.free_joints + one.sliding_parts);
+        let is_placed = known.stability.neutral <= free;
         (one.agrees() && is_placed).then_some((both, (solver, one)))
     })?;
     *answers = both;

@@ -12,7 +12,7 @@
 //!
 //! R. Tarjan, SIAM J. Comput. 1 (1972) 146-160, doi:10.1137/0201010 (articulations).
 
-use model::system::{Member, Support, System};
+use model::system::{Joint, Member, Support, System};
 
 use super::verticals::firsts;
 
@@ -24,6 +24,8 @@ const ONE_VERTICAL: f64 = model::VERTICAL_TOLERANCE;
 pub(super) struct Body {
     /// The joint about whose vertical it turns; nothing for what does not turn.
     pub pivot: Option<usize>,
+    /// Whether it moves in the level as it is: what level planes alone hold.
+    pub slides: bool,
     /// Number of turning bodies from the ground to this one.
     pub depth: usize,
 }
@@ -70,7 +72,8 @@ impl Bodies {
         let node = nodes(system);
         let mut new = Self { of_joint: vec![0; joints], all: vec![], fixed, neighbours };
         let walk = new.walk(&node);
-        new.divide(&node, &walk);
+        let stands = |joint: &Joint| matches!(joint.support, Support::Plane { .. });
+        new.divide(&node, &walk, system.joints().iter().map(stands).collect());
         new
     }
 
@@ -105,8 +108,9 @@ impl Bodies {
         walk
     }
 
-    /// A body for the ground, and one for whatever hangs on one node alone.
-    fn divide(&mut self, node: &[usize], walk: &Walk) {
+    /// A body for the ground, one for whatever hangs on one node alone, and one for whatever stands on level planes alone:
+    /// `stands` are the joints on planes.
+    fn divide(&mut self, node: &[usize], walk: &Walk, mut stands: Vec<bool>) {
         let joints = node.len();
         let mut low = walk.rank.clone();
         let mut held = vec![false; joints];
@@ -121,8 +125,9 @@ impl Bodies {
             low[parent] = low[parent].min(low[*v]);
             // Where a walk begins, nothing turns by itself.
             held[parent] |= held[*v];
+            stands[parent] |= stands[*v];
         }
-        self.all.push(Body { pivot: None, depth: 0 });
+        self.all.push(Body { pivot: None, slides: false, depth: 0 });
         let mut body = vec![0; joints];
         for v in &walk.order {
             let parent = walk.parent[*v];
@@ -131,7 +136,10 @@ impl Bodies {
             if hangs {
                 let depth = self.all[body[parent]].depth + 1;
                 body[*v] = self.all.len();
-                self.all.push(Body { pivot: Some(walk.door[*v]), depth });
+                self.all.push(Body { pivot: Some(walk.door[*v]), slides: false, depth });
+            } else if parent == *v && stands[*v] && !held[*v] {
+                body[*v] = self.all.len();
+                self.all.push(Body { pivot: None, slides: true, depth: 0 });
             }
         }
         self.of_joint = node.iter().map(|node| body[*node]).collect();
@@ -181,7 +189,7 @@ impl Bodies {
                     self.of_joint[joint] = new;
                 }
             }
-            self.all.push(Body { pivot: Some(pivot), depth: 0 });
+            self.all.push(Body { pivot: Some(pivot), slides: false, depth: 0 });
         }
         self.count_depths();
     }

@@ -40,6 +40,9 @@ pub struct SystemAgreement {
     /// Parts that turn freely about verticals and were turned onto each other before the answers
     /// were compared; a part may hang on another one that turns.
     pub turned_parts: usize,
+    /// Parts that move freely in the level, on planes that hold nothing else, and were moved onto each other.
+    #[serde(skip)]
+    pub sliding_parts: usize,
     /// Names of the joints whose places equilibrium does not determine, as that of a ring without load on a taut
     /// rope: these slide from their place in one answer to that in another through equilibria with the same
     /// forces, and are not compared.
@@ -109,7 +112,7 @@ pub fn compare(
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
             room: Room::of(
-                agreement.turned_parts,
+                agreement.turned_parts + agreement.sliding_parts,
                 agreement.free_joints,
                 agreement.undetermined.clone(),
             ),
@@ -250,6 +253,7 @@ impl<'a> Judgement<'a> {
                 energy_j: 0.0,
                 free_joints: 0,
                 turned_parts: 0,
+                sliding_parts: 0,
                 undetermined: vec![],
                 self_stresses: None,
                 statics: Vec::new(),
@@ -359,7 +363,7 @@ impl<'a> Judgement<'a> {
 
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
-        let (turned, parts) = turned_onto(self.system, first, second, &self.free);
+        let (turned, [turning, in_level]) = turned_onto(self.system, first, second, &self.free);
         let budget_m = self.tolerances.joints * self.scale.size_m + self.scale.stored_m;
         let mut joints_m = self.joints_apart_m(first, &turned);
         if joints_m > budget_m {
@@ -398,7 +402,8 @@ impl<'a> Judgement<'a> {
         agreement.joints_m = worse(agreement.joints_m, joints_m);
         agreement.forces_n = worse(agreement.forces_n, apart.most_n);
         agreement.energy_j = worse(agreement.energy_j, energy_j);
-        agreement.turned_parts = agreement.turned_parts.max(parts);
+        agreement.turned_parts = agreement.turned_parts.max(turning);
+        agreement.sliding_parts = agreement.sliding_parts.max(in_level);
         let between = [&first.solver, &second.solver].map(SolverName::clone);
         let tolerances = self.tolerances;
         self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget_m);

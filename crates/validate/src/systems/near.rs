@@ -1,7 +1,7 @@
 //! The question of a drawing: the equilibrium next to a shape, and whether what was found is it.
 
 use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
-use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::system::{Kind, Member, System, SystemEquilibrium};
 use model::{SolverName, Vector, sum};
 use serde::Serialize;
 
@@ -168,7 +168,8 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
     let rise_j = |way: &mut dyn FnMut(f64) -> Vec<Vector>| rise_j(system, way);
     let barrier_j = rise_j(&mut |part| straight(part))?;
     match Fit::new(system, [from_m, to_m]) {
-        Some(mut fit) => rise_j(&mut |part| fit.at(part, straight(part))),
+        // Where no places fit, the way beside the straight one leads anywhere.
+        Some(mut fit) => rise_j(&mut |part| fit.at(part, straight(part))).map(|j| j.min(barrier_j)),
         None => Some(barrier_j),
     }
 }
@@ -257,12 +258,7 @@ fn spans(system: &System, places_m: &[Vector]) -> Vec<Spans> {
 fn row<'a>(system: &'a System, spans: &'a Spans) -> impl Iterator<Item = (usize, f64)> + 'a {
     let ends = spans.iter().flat_map(|(a, b, u)| [(*a, times(-1.0, *u)), (*b, *u)]);
     ends.flat_map(|(joint, pull)| {
-        let free = match system.joints()[joint].support {
-            Support::Free => pull,
-            Support::Fixed { .. } => [0.0; 3],
-            Support::Line { direction, .. } => along(pull, direction),
-            Support::Plane { normal, .. } => minus(pull, along(pull, normal)),
-        };
+        let free = system.joints()[joint].support.free_part(pull);
         (0..3).map(move |axis| (3 * joint + axis, free[axis]))
     })
 }
@@ -279,11 +275,6 @@ fn square(system: &System, spans: &[Spans]) -> Entries {
         }
     }
     Entries::new(size, &entries)
-}
-
-/// The part of a vector along a direction.
-fn along(v: Vector, direction: Vector) -> Vector {
-    times(dot(v, direction) / dot(direction, direction), direction)
 }
 
 /// Energy of the loads and of the elastic ones of these members at these places, J.

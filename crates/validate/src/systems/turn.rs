@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use model::Vector;
 use model::system::{Member, Support, System, SystemEquilibrium};
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, Body};
 use super::free::is_slack;
 use super::spans::span_forces;
 use super::statics::judge;
@@ -41,8 +41,8 @@ impl Turn {
     }
 }
 
-/// The second answer with its freely turning bodies turned onto those of the first, and how many
-/// of these there are. Joints of `left_out` count for nothing in that.
+/// The second answer with its freely moving bodies moved onto those of the first, and how many there are that a turn moves,
+/// and that move in the level. Joints of `left_out` count for nothing in that.
 ///
 /// What comes out is an answer as good as the one that went in: where the judge of statics finds a
 /// larger violation in it than its budget, nothing is turned.
@@ -51,8 +51,8 @@ pub(crate) fn turned_onto<'a>(
     first: &SystemEquilibrium,
     second: &'a SystemEquilibrium,
     left_out: &[bool],
-) -> (Cow<'a, SystemEquilibrium>, usize) {
-    let as_it_is = (Cow::Borrowed(second), 0);
+) -> (Cow<'a, SystemEquilibrium>, [usize; 2]) {
+    let as_it_is = (Cow::Borrowed(second), [0; 2]);
     let joints = system.joints().len();
     let complete = [&first.joints_m, &second.joints_m].map(Vec::len) == [joints; 2]
         && second.axial_n.len() == system.members().len()
@@ -78,7 +78,7 @@ pub(crate) fn turned_onto<'a>(
         largest <= budget || largest <= untouched
     };
     if sound(&turned) {
-        return (Cow::Owned(turned), bodies.all.len() - 1);
+        return (Cow::Owned(turned), moving(&bodies, system, second));
     }
     if before == bodies.all.len() || before == 1 {
         return as_it_is;
@@ -86,7 +86,29 @@ pub(crate) fn turned_onto<'a>(
     // What hangs on single joints, without what hinges on several.
     let bodies = Bodies::new(system, holds);
     let turned = self::turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
-    if sound(&turned) { (Cow::Owned(turned), before - 1) } else { as_it_is }
+    let parts = moving(&bodies, system, second);
+    if sound(&turned) { (Cow::Owned(turned), parts) } else { as_it_is }
+}
+
+/// How many bodies a turn moves, none of which lies on its vertical, and how many move in the level.
+fn moving(bodies: &Bodies, system: &System, answer: &SystemEquilibrium) -> [usize; 2] {
+    let near_m = near_m(system, answer);
+    let mut beside = vec![false; bodies.all.len()];
+    for (body, at) in bodies.of_joint.iter().zip(&answer.joints_m) {
+        if let Some(pivot) = bodies.all[*body].pivot {
+            let [x, y, _] = minus(*at, answer.joints_m[pivot]);
+            beside[*body] |= x.hypot(y) > near_m;
+        }
+    }
+    let count = |is: &dyn Fn(usize) -> bool| (0..beside.len()).filter(|k| is(*k)).count();
+    [count(&|body| beside[body]), count(&|body| bodies.all[body].slides)]
+}
+
+/// Places that are nearer to each other than this are one, m.
+fn near_m(system: &System, answer: &SystemEquilibrium) -> f64 {
+    let origin_m = system.reference_m();
+    let reach = answer.joints_m.iter().map(|place| norm(minus(*place, origin_m)));
+    Tolerances::project().joints * reach.fold(0.0, worse)
 }
 
 /// Whether nothing of a row can turn: its anchors are not on one vertical, and its level pull, which
@@ -109,9 +131,7 @@ fn add_hinged(
     bodies: &mut Bodies,
 ) {
     let tolerances = Tolerances::project();
-    let origin_m = system.reference_m();
-    let reach = second.joints_m.iter().map(|place| norm(minus(*place, origin_m)));
-    let near_m = tolerances.joints * reach.fold(0.0, worse);
+    let (origin_m, near_m) = (system.reference_m(), near_m(system, second));
     let level = |answer: &SystemEquilibrium| -> Vec<usize> {
         let places = answer.joints_m.iter().map(|x| [x[0] - origin_m[0], x[1] - origin_m[1]]);
         firsts(places, near_m)
@@ -165,9 +185,16 @@ fn turns(
     order.sort_by_key(|body| bodies.all[*body].depth);
     let mut turns = vec![Turn::NONE; bodies.all.len()];
     for body in order {
-        let Some(pivot) = bodies.all[body].pivot else { continue };
-        let at_m = second.joints_m[pivot];
-        let to_m = turns[bodies.of_joint[pivot]].place(at_m);
+        let (at_m, to_m) = match bodies.all[body] {
+            Body { pivot: Some(pivot), .. } => {
+                let at_m = second.joints_m[pivot];
+                (at_m, turns[bodies.of_joint[pivot]].place(at_m))
+            }
+            Body { slides: true, .. } => {
+                (middle_m(&joints[body], second), middle_m(&joints[body], first))
+            }
+            Body { .. } => continue,
+        };
         let (mut along, mut across) = (0.0, 0.0);
         for joint in &joints[body] {
             let [ax, ay, _] = minus(first.joints_m[*joint], to_m);
@@ -179,6 +206,12 @@ fn turns(
         turns[body] = Turn { from_m: [at_m[0], at_m[1]], to_m: [to_m[0], to_m[1]], cos, sin };
     }
     turns
+}
+
+/// The mean of the places of some joints, m.
+fn middle_m(joints: &[usize], answer: &SystemEquilibrium) -> Vector {
+    let all = joints.iter().map(|joint| answer.joints_m[*joint]).fold([0.0; 3], plus);
+    all.map(|x| x / joints.len().max(1) as f64)
 }
 
 /// An answer with its bodies turned.

@@ -2,6 +2,7 @@
 //! Both solvers are started from other azimuths of every beam, and find one equilibrium.
 
 use model::system::{Joint, Member, System, SystemEquilibrium};
+use model::system_file::{Described, parse};
 use model::{Bar, Excess, Quantity, Status, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -247,4 +248,35 @@ fn a_mirror_image_is_another_equilibrium() {
     let mut other = from(&system, &place(1.0), &place(-1.0));
     let found = compared(&system, &mut other);
     assert!(found.energy_j < 1e-12 && !found.agrees() && found.joints_m > 0.1);
+}
+
+/// Tripods with ties between feet on level rollers: nothing holds them in the level, and the solvers put them elsewhere. Where
+/// they have come to rest their legs bear what the weight asks of them (by symmetry: a third of it by height over length).
+#[test]
+fn tripods_on_level_rollers_may_be_anywhere() {
+    let mut rng = ChaCha8Rng::seed_from_u64(29);
+    for _ in 0..20 {
+        let (radius, height) = (rng.random_range(0.5..2.0), rng.random_range(0.5..2.0));
+        let turn: f64 = rng.random_range(0.0..1.0);
+        let foot = |k: u32| {
+            let angle = turn + std::f64::consts::TAU * f64::from(k) / 3.0;
+            [radius * angle.cos(), radius * angle.sin(), 0.0]
+        };
+        let [a, b, c] = [0, 1, 2].map(foot);
+        let text = format!(
+            "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = {a:?}, free = 'xy' }}, B = {{ at_m = {b:?}, free = 'xy' }}, \
+             C = {{ at_m = {c:?}, free = 'xy' }}, T = {{ near_m = [0, 0, {height}], mass_kg = 3 }} }}\n\
+             bars = [{{ from = 'A', to = 'B', mass_kg = 0 }}, {{ from = 'B', to = 'C', mass_kg = 0 }}, \
+             {{ from = 'C', to = 'A', mass_kg = 0 }}, {{ from = 'A', to = 'T', mass_kg = 0 }}, \
+             {{ from = 'B', to = 'T', mass_kg = 0 }}, {{ from = 'C', to = 'T', mass_kg = 0 }}]"
+        );
+        let Ok(Described::System(system)) = parse(&text, "tripod.toml") else { panic!("{text}") };
+        let answer = ask(&system, Solvers::Both, &|_| {});
+        assert!(answer.agrees(), "{text}: {:?}", answer.agreement);
+        assert_eq!(answer.agreement.as_ref().map(|found| found.sliding_parts), Some(1));
+        let leg = -10.0 * radius.hypot(height) / height;
+        for found in &answer.equilibria {
+            assert!((found.axial_n[3] - leg).abs() < 1e-9 * leg.abs(), "{:?} {leg}", found.axial_n);
+        }
+    }
 }

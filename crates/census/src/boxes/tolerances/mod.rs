@@ -120,8 +120,8 @@ pub enum NoRanges {
     /// Occurs when a part that turns freely about a vertical would be turned.
     #[error("a part turns freely about a vertical, and tolerances of places or forces turn it")]
     Turns,
-    /// Occurs when a force may come on a joint that is held by slack members alone.
-    #[error("joint {} is held by slack members alone, and a force may come on it", .joint + 1)]
+    /// Occurs when a joint is held by slack members alone: no place is its own.
+    #[error("joint {} is held by slack members alone, and may be anywhere that they reach", .joint + 1)]
     Loose {
         /// The joint, from 0.
         joint: usize,
@@ -243,14 +243,14 @@ impl NoRanges {
 
 /// Refuse what breaks the symmetry of parts that turn, or moves what nothing holds.
 fn refuse(posed: &Posed, numbers: &[Uncertain]) -> Result<(), NoRanges> {
+    if let Some(joint) = posed.loose.iter().position(|loose| *loose) {
+        return Err(NoRanges::Loose { joint });
+    }
     let turning = !posed.equations.holds.is_empty();
     for uncertain in numbers {
         match uncertain.number {
             UncertainNumber::At(..) | UncertainNumber::Force(_, 0 | 1) if turning => {
                 return Err(NoRanges::Turns);
-            }
-            UncertainNumber::Force(joint, _) if posed.loose[joint] => {
-                return Err(NoRanges::Loose { joint });
             }
             _ => {}
         }

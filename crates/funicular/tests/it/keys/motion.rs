@@ -24,6 +24,7 @@ fn swinging_and_falling() {
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
     output.is("complete", true);
+    output.is("is_neighbour", true);
     let at = |key: &str| format!("equilibria[].{key}");
     output.is(&at("label"), json!(["1", "2"]));
     output.each(&at("solver"), "census");

@@ -40,9 +40,9 @@ impl<P: Display> Display for Status<P> {
 
 impl Display for Convergence {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { residual_of, iterations, .. } = self;
+        let Self { residual_of, .. } = self;
         let residual = size(f, self.residual);
-        write!(f, "{residual_of}: {residual} after {iterations} iterations")?;
+        write!(f, "{residual_of}: {residual} after {}", counted(self.iterations, "iteration"))?;
         match self.tolerance {
             // Also where the residual is not a number.
             Some(tolerance) if !matches!(self.residual.partial_cmp(&tolerance), Some(order) if order.is_le()) =>

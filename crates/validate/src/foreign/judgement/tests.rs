@@ -217,6 +217,18 @@ fn forces_of_few_digits_are_judged_as_such_where_their_own_laws_ask_for_it() {
     let wrong = judged(4.0, 6.15);
     assert_eq!((wrong.finding, wrong.force_digits), (Finding::Refuted, None));
     assert!((wrong.bounds.force_n - 9.81e-6).abs() < 1e-13);
+    // Of nearly level cables the balance hardly feels half a unit: 190.0173 N = 9.81/2 N * 3.001/(3.001^2 - 9)^(1/2).
+    let body = Bar::homogeneous(3.001, 0.0).unwrap();
+    let lengths = vec![Member::cable(0, 2, body), Member::cable(2, 1, body)];
+    let level = System::new("level", 9.81, system.joints().to_vec(), lengths).unwrap();
+    for (force_n, wanted) in [(190.02, Some(5)), (190.017_322, None), (190.03, None)] {
+        let at =
+            vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -(3.001_f64.powi(2) - 9.0).sqrt()]];
+        let answer = ForeignAnswer::in_order(&level, "x", at, Some(vec![force_n; 2])).unwrap();
+        let found = judge_foreign(&level, &answer, 1e-6, &|_| {}).unwrap();
+        assert_eq!(found.force_digits, wanted, "{force_n}");
+        assert_eq!(found.finding == Finding::Confirmed, force_n < 190.03, "{:?}", found.finding);
+    }
     // Enough digits need no help, and a wrong place gets none.
     assert_eq!(judged(4.0, 6.13125).force_digits, None);
     let low = judged(4.001, 6.13);
