@@ -3,6 +3,8 @@
 use model::system::{PERMANENT, System};
 use model::system_file::{Described, parse, write_network};
 
+use crate::support::system;
+
 /// A net with loads of its own, and what stands in its file besides.
 fn net(rest: &str) -> String {
     format!(
@@ -18,13 +20,6 @@ fn chain(rest: &str) -> String {
         "anchors = {{ start_m = [0, 0, 0], end_m = [2, 0, 0] }}\n\
          bars = [{{ length_m = 1, mass_kg = 1, count = 3 }}]\n{rest}"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 const LOADS: &str = "[[loads]]\njoint = \"Q\"\nmass_kg = 0.5\n\

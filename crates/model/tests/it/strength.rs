@@ -5,6 +5,8 @@ use std::path::Path;
 use model::system::{Strength, System};
 use model::system_file::{Described, parse, write_network};
 
+use crate::support::system;
+
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
         "{root}\nanchors = {{ start_m = [0, 0, 0], end_m = [2, 0, 0] }}\n\
@@ -18,13 +20,6 @@ fn net(root: &str, first: &str, second: &str) -> String {
          bars = [{{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1, count = 2{first} }}, \
          {{ from = \"P\", to = \"B\", length_m = 2, mass_kg = 1{second} }}]"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 fn strengths(system: &System) -> Vec<Option<Strength>> {

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use model::system::{System, Uncertain, UncertainNumber};
+use model::system::{Uncertain, UncertainNumber};
 use model::system_file::{Described, parse, write_network};
+
+use crate::support::system;
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -17,13 +19,6 @@ fn net(root: &str, joint: &str, first: &str) -> String {
         "{root}\njoints = {{ A = {{ at_m = [1, 0, 0] }}, P = {{ mass_kg = 5, force_n = [0, 7, 0]{joint} }} }}\n\
          bars = [{{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 1, stiffness_n = 400{first} }}]"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 fn uncertain(number: UncertainNumber, given: f64, within: f64) -> Uncertain {
