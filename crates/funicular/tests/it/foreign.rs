@@ -7,6 +7,8 @@ use std::path::Path;
 use funicular::{Modes, Problem, Solve, SolveAnswer};
 use model::STANDARD_GRAVITY_M_S2;
 
+use crate::run::holding;
+
 /// The equilibrium of a file with this text, both solvers of one mind.
 fn solved(folder: &Path, name: &str, text: &str) -> SolveAnswer {
     std::fs::write(folder.join(name), text).unwrap();
@@ -182,11 +184,10 @@ fn a_deck_has_the_places_and_forces_of_opensees() {
 /// Two trusses in a plane without loads: stiffness EA/L along each, a mass that does not weigh.
 #[test]
 fn a_mass_of_opensees_swings_and_does_not_weigh() {
-    let folder = tempfile::tempdir().unwrap();
     // 3 and 4 m to a right angle: stiffness of 900 and 500 N/m, each of a mode of its own; 4 and 1 kg at the node.
     let deck = "model basic -ndm 2\nnode 1 0 0\nnode 2 5 0\nnode 3 1.8 -2.4 -mass 4 4\nfix 1 1 1\nfix 2 1 1\n\
         uniaxialMaterial Elastic 1 1e3\nelement truss 1 1 3 2.7 1\nelement truss 2 2 3 2 1 -rho 0.5\n";
-    std::fs::write(folder.path().join("two.tcl"), deck).unwrap();
+    let folder = holding([("two.tcl", deck)]);
     let problem = Problem::read(folder.path().join("two.tcl")).unwrap();
     let found = Modes::new().run(&problem).unwrap();
     let one = &found.equilibria[0];
@@ -207,8 +208,7 @@ fn a_weight_in_water_swings_with_its_whole_mass() {
     let deck =
         deck.replace("2 Vessel 0.0 0 -300.0 0 0 # # #", "2 connect #0 #0 #-350 1000 0.9 0 0 0");
     assert!(deck.contains("connect"), "{deck}");
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("pendulum.map"), deck).unwrap();
+    let folder = holding([("pendulum.map", deck)]);
     let problem = Problem::read(folder.path().join("pendulum.map")).unwrap();
     let found = Modes::new().run(&problem).unwrap();
     let weight_n = (mass_kg - 0.9 * 1025.0) * STANDARD_GRAVITY_M_S2;

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::run::run;
+use crate::run::{holding, run};
 
 /// The pictures with the commands that draw them, whose last argument is the file.
 const PICTURES: [&[&str]; 10] = [
@@ -41,7 +41,7 @@ fn its_pictures_are_what_the_program_draws() {
     }
     for command in PICTURES {
         let picture = command.last().unwrap();
-        assert_eq!(run(folder.path(), command).0, Some(0), "{picture}");
+        assert_eq!(run(&folder, command).0, Some(0), "{picture}");
         let drawn = std::fs::read_to_string(folder.path().join(picture)).unwrap();
         let kept = guide().join("pictures").join(picture);
         if std::env::var_os("BLESS").is_some() {
@@ -54,9 +54,8 @@ fn its_pictures_are_what_the_program_draws() {
 /// What the first chapter says of its structures is what the program says of them.
 #[test]
 fn its_first_structures_are_solved() {
-    let folder = tempfile::tempdir().unwrap();
     let page = include_str!("../../guide/1-first-steps.md");
-    std::fs::write(folder.path().join("triangle.toml"), shown(page, "triangle.toml")).unwrap();
+    let folder = holding([("triangle.toml", shown(page, "triangle.toml"))]);
     // Half of 100 kg, and √2 of that; by the method of joints; `validate` holds the tower and the dome
     // against Newton's method.
     for (arguments, said) in [
@@ -66,13 +65,13 @@ fn its_first_structures_are_solved() {
         (&["solve", "--case", "lattice-tower"], &["1884.22", "2954.56"]),
         (&["solve", "--case", "star-dome"], &["joint N1 is 0.00184273 m", "a lower one exists"]),
     ] {
-        let (code, text, _) = run(folder.path(), arguments);
+        let (code, text, _) = run(&folder, arguments);
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(code, Some(0));
         assert!(said.iter().all(|words| text.contains(words.trim())), "{said:?}\n{text}");
     }
     let vary = "joints.N1.force_n.z=-40..-720:18";
-    let (code, text, _) = run(folder.path(), &["study", "--case", "star-dome", "--vary", vary]);
+    let (code, text, _) = run(&folder, &["study", "--case", "star-dome", "--vary", vary]);
     assert_eq!(code, Some(3));
     assert!(text.contains("both solvers agree on 16"), "{text}");
 }
@@ -80,13 +79,12 @@ fn its_first_structures_are_solved() {
 /// What the chapter of load paths shows is what the program says, and its options are taken.
 #[test]
 fn its_load_path_is_followed() {
-    let folder = tempfile::tempdir().unwrap();
     let page = include_str!("../../guide/15-load-paths.md");
-    std::fs::write(folder.path().join("gable.toml"), shown(page, "gable.toml")).unwrap();
+    let folder = holding([("gable.toml", shown(page, "gable.toml"))]);
     let command = page.split('`').find_map(|code| code.strip_prefix("funicular trace gable.toml"));
     let arguments = command.unwrap().split_whitespace();
     let arguments: Vec<&str> = ["trace", "gable.toml"].into_iter().chain(arguments).collect();
-    let (code, text, _) = run(folder.path(), &arguments);
+    let (code, text, _) = run(&folder, &arguments);
     assert_eq!(code, Some(0));
     let said = page.split_once("```text\n").unwrap().1.split_once("```").unwrap().0;
     let trimmed =
@@ -112,7 +110,7 @@ fn its_commands_run() {
         .collect();
     assert!(commands.len() > 10, "{commands:?}");
     for command in commands {
-        assert_eq!(run(folder.path(), &command).0, Some(0), "{command:?}");
+        assert_eq!(run(&folder, &command).0, Some(0), "{command:?}");
     }
 }
 
@@ -128,10 +126,9 @@ fn its_systems_are_solved() {
     for block in page.split("```").skip(1).step_by(2) {
         if let Some(system) = block.strip_prefix("toml\n") {
             std::fs::write(folder.path().join("system.toml"), system).unwrap();
-            assert_eq!(run(folder.path(), &["solve", "system.toml"]).0, Some(0), "{system}");
+            assert_eq!(run(&folder, &["solve", "system.toml"]).0, Some(0), "{system}");
         } else if let Some(text) = block.strip_prefix("text\n") {
-            let said =
-                ways.map(|way| run(folder.path(), &[&["solve", "system.toml"], way].concat()).1);
+            let said = ways.map(|way| run(&folder, &[&["solve", "system.toml"], way].concat()).1);
             assert!(
                 said.iter().any(|said| trimmed(said).contains(&trimmed(text))),
                 "{text}{said:?}"

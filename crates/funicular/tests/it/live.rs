@@ -158,8 +158,8 @@ fn bad_input_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let table: [(&[&str], _); 2] =
         [(&["absent.toml"], "absent.toml"), (&["--port", "70000"], "--port")];
-    refused(folder.path(), &["serve"], &table);
+    refused(&folder, &["serve"], &table);
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
-    refused(folder.path(), &["serve"], &[(&["--port", &port], &port)]);
+    refused(&folder, &["serve"], &[(&["--port", &port], &port)]);
 }

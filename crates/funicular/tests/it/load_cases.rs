@@ -2,7 +2,7 @@
 
 use funicular::prelude::*;
 
-use crate::run::{good, run};
+use crate::run::{good, holding, run};
 
 /// A pole of 2 m with 10 kg on its end that hangs from a ball joint, with gravity 10: under a side force F it
 /// leans by F / 100, and pulls by the size of both.
@@ -153,26 +153,24 @@ fn loads_and_cases_stay_when_numbers_change() {
 
 #[test]
 fn every_command_takes_a_load_case() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    std::fs::write(folder.join("pole.toml"), POLE).unwrap();
+    let folder = holding([("pole.toml", POLE)]);
     let bare = POLE.split("[[loads]]").next().unwrap();
-    std::fs::write(folder.join("bare.toml"), bare).unwrap();
-    let text = good(folder, &["solve", "pole.toml", "--load-case", "each"]);
+    std::fs::write(folder.path().join("bare.toml"), bare).unwrap();
+    let text = good(&folder, &["solve", "pole.toml", "--load-case", "each"]);
     let worst = "Worst: in gale the member from A to P is at 83.3 % of its strength.\n";
     assert!(text.ends_with(worst), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let checked = |case| run(folder, &["solve", "pole.toml", "--load-case", case, "--check"]).0;
+    let checked = |case| run(&folder, &["solve", "pole.toml", "--load-case", case, "--check"]).0;
     assert_eq!([checked("each"), checked("storm"), checked("gale")], [Some(1), Some(0), Some(1)]);
     // The pendulum by 125 N on 10 kg and 2 m: omega^2 = 6.25 1/s^2, in both directions.
-    let (_, text, _) = run(folder, &["modes", "pole.toml", "--load-case", "storm"]);
+    let (_, text, _) = run(&folder, &["modes", "pole.toml", "--load-case", "storm"]);
     assert!(text.contains("pole, storm") && text.matches(" 6.25 ").count() == 2, "{text}");
     for (command, more) in [
         ("census", &[][..]),
         ("study", &["--vary", "gravity_m_s2=10"]),
         ("derivatives", &["--of", "bars.1.axial_n"]),
     ] {
-        let text = good(folder, &[&[command, "pole.toml", "--load-case", "gale"], more].concat());
+        let text = good(&folder, &[&[command, "pole.toml", "--load-case", "gale"], more].concat());
         assert!(text.contains("250"), "{command}: {text}");
     }
     for arguments in [
@@ -185,12 +183,13 @@ fn every_command_takes_a_load_case() {
         &["solve", "pole.toml", "--load-case", "each", "--without", "each"],
         &["solve", "pole.toml", "pole.toml", "--load-case", "each"],
     ] {
-        let (code, text, said) = run(folder, arguments);
+        let (code, text, said) = run(&folder, arguments);
         assert_eq!(code, Some(2), "{arguments:?}: {text}{said}");
         assert!(said.contains("load") && said.contains("case"), "{arguments:?}: {said}");
     }
-    assert!(!folder.join("a.svg").exists());
+    assert!(!folder.path().join("a.svg").exists());
     // Several files, each in the case.
-    let (code, text, _) = run(folder, &["solve", "pole.toml", "pole.toml", "--load-case", "storm"]);
+    let (code, text, _) =
+        run(&folder, &["solve", "pole.toml", "pole.toml", "--load-case", "storm"]);
     assert_eq!((code, text.matches("pole, storm").count()), (Some(0), 2), "{text}");
 }

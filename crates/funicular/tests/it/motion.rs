@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::run::{column, funicular, good, ran, refused, words};
+use crate::run::{column, files, funicular, good, holding, refused, words};
 use serde_json::Value;
 
 fn file(folder: &Path, name: &str, text: &str) -> String {
@@ -22,27 +22,12 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     let folder = tempfile::tempdir().unwrap();
     let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
     let run = |csv: &str, html: &str| {
-        good(
-            ".",
-            &[
-                "simulate",
-                "--case",
-                "three-equal-bars",
-                "--from",
-                "angles=0,60,-60",
-                "--time",
-                "2",
-                "--push",
-                "1=0.1,0,0",
-                "--out",
-                csv,
-                "--html",
-                html,
-            ],
-        );
+        let what = ["simulate", "--case", "three-equal-bars", "--from", "angles=0,60,-60"];
+        let how = ["--time", "2", "--push", "1=0.1,0,0", "--out", csv, "--html", html];
+        good(&folder, &[&what[..], &how].concat());
     };
-    run(&name("a.csv"), &name("a.html"));
-    run(&name("b.csv"), &name("b.html"));
+    run("a.csv", "a.html");
+    run("b.csv", "b.html");
     let read = |file: &str| std::fs::read_to_string(name(file)).unwrap();
     assert_eq!(read("a.csv"), read("b.csv"));
     assert_eq!(read("a.html"), read("b.html"));
@@ -221,20 +206,6 @@ fn the_lowest_modes_of_a_long_chain_are_counted() {
     assert!(text.contains("3997 modes") && text.contains("the lowest 20"), "{text}");
 }
 
-/// The files of a folder, with their bytes.
-fn folder_bytes(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut all: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap())
-        .map(|entry| {
-            let name = entry.file_name().into_string().unwrap();
-            (name, std::fs::read(entry.path()).unwrap())
-        })
-        .collect();
-    all.sort();
-    all
-}
-
 #[test]
 fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_shards() {
     let folder = tempfile::tempdir().unwrap();
@@ -259,50 +230,41 @@ fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_
     assert_eq!(run(&at("second"), &["--shard", "2/2"]).status.code(), Some(0));
     std::fs::remove_file(folder.path().join("second/summary.json")).unwrap();
     std::fs::remove_file(folder.path().join("second/part-000001.parquet")).unwrap();
-    let present = run(&at("second"), &["--shard", "2/2"]);
-    assert_eq!(present.status.code(), Some(2), "{}", String::from_utf8_lossy(&present.stderr));
+    assert_eq!(run(&at("second"), &["--shard", "2/2"]).status.code(), Some(2));
     assert_eq!(run(&at("second"), &["--shard", "2/2", "--resume"]).status.code(), Some(0));
     let text = good(".", &["merge", &at("first"), &at("second"), "--out", &at("both")]);
     assert!(text.contains("released seeds") && text.contains("time / s"), "{text}");
-    let [one, both] = ["one", "both"].map(|name| folder_bytes(&folder.path().join(name)));
+    let [one, both] = ["one", "both"].map(|name| files(&folder.path().join(name)));
     assert_eq!(one, both);
     // Where nothing takes energy away nothing comes to rest.
-    let free = funicular(&["simulate", "--case", "two-bars", "--seeds", "5", "--out", &at("free")]);
-    let said = String::from_utf8_lossy(&free.stderr).into_owned();
-    assert!(free.status.code() == Some(2) && said.contains("without damping"), "{said}");
+    let free = ["simulate", "--case", "two-bars", "--seeds", "5", "--out", &at("free")];
+    refused(".", &free, &[(&[], "without damping")]);
 }
 
 /// A weight on a level line, pushed harder and harder: with 3 N more each second its speed is
 /// 3/2 t² m/s for a mass of 1 kg, and its way 1/2 t³; after the last time it keeps its speed.
 #[test]
 fn forces_of_a_table_drive_a_weight() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
     let slider = "joints = { A = { at_m = [0, 0, 0], free = \"x\", mass_kg = 1 }, P = { mass_kg = 1e-9 } }\n\
                   bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0 }]\n";
-    std::fs::write(path("slider.toml"), slider).unwrap();
-    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n2,A,6,0,0\n").unwrap();
-    let run = |more: &[&str]| {
-        let simulate = ["simulate", "slider.toml", "--forces", "f.csv", "--out", "m.csv"];
-        let times = ["--time", "3", "--store", "1", "--order", "4"];
-        ran(folder.path(), &[&simulate[..], &times, more].concat())
-    };
-    let output = run(&[]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let csv = std::fs::read_to_string(path("m.csv")).unwrap();
+    let forces = |rows: &str| format!("time_s,joint,x_n,y_n,z_n\n{rows}\n");
+    let folder = holding([("slider.toml", slider), ("f.csv", &forces("0,A,0,0,0\n2,A,6,0,0"))]);
+    let simulate = ["simulate", "slider.toml", "--forces", "f.csv", "--out", "m.csv"];
+    let times = ["--time", "3", "--store", "1", "--order", "4"];
+    let simulate = [&simulate[..], &times].concat();
+    good(&folder, &simulate);
+    let csv = std::fs::read_to_string(folder.path().join("m.csv")).unwrap();
     for (row, place, speed) in [(1, 0.5, 1.5), (2, 4.0, 6.0), (3, 10.0, 6.0)] {
         assert!((column(&csv, "joint_A_x_m")[row] - place).abs() < 1e-2, "{csv}");
         assert!((column(&csv, "joint_A_vx_m_s")[row] - speed).abs() < 1e-2, "{csv}");
     }
-    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n0,A,6,0,0\n").unwrap();
-    let output = run(&[]);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("f.csv:3: time_s must be later than"), "{said}");
-    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,B,0,0,0\n").unwrap();
-    let output = run(&[]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("there is no joint \"B\""));
+    for (rows, told) in [
+        ("0,A,0,0,0\n0,A,6,0,0", "f.csv:3: time_s must be later than"),
+        ("0,B,0,0,0", "there is no joint \"B\""),
+    ] {
+        file(folder.path(), "f.csv", &forces(rows));
+        refused(&folder, &simulate, &[(&[], told)]);
+    }
 }
 
 /// The lamp on two cables, thrown up: it falls as a free body until both are taut, and hangs again.
@@ -413,37 +375,22 @@ fn angles_lie_in_the_plane_of_the_system() {
 /// Places to three digits are pulled onto the lengths; places that are far off are refused.
 #[test]
 fn a_motion_begins_at_the_places_of_a_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let path = file(folder.path(), "pendulum.toml", PENDULUM);
-    let out = at("p.csv");
-    let run = |z: &str| {
+    let folder = holding([("pendulum.toml", PENDULUM)]);
+    let at = |z: &str| {
         let shape = format!("joint,x_m,y_m,z_m\nO,0,0,0\nP,1.06,0,{z}\n");
-        let shape = file(folder.path(), "shape.csv", &shape);
-        funicular(&[
-            "simulate",
-            &path,
-            "--from",
-            &shape,
-            "--time",
-            "0.1",
-            "--out",
-            out.to_str().unwrap(),
-        ])
+        file(folder.path(), "shape.csv", &shape);
     };
-    let output = run("-1.06");
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let csv = std::fs::read_to_string(&out).unwrap();
+    let from = ["simulate", "pendulum.toml", "--time", "0.1", "--out", "p.csv", "--from"];
+    at("-1.06");
+    good(&folder, &[&from[..], &["shape.csv"]].concat());
+    let csv = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
     let (x, z) = (column(&csv, "joint_P_x_m")[0], column(&csv, "joint_P_z_m")[0]);
     let level = 1.5 / 2.0_f64.sqrt();
     assert!((x - level).abs() < 1e-12 && (z + level).abs() < 1e-12, "{x} {z}");
-    let output = run("-0.5");
-    let said = String::from_utf8_lossy(&output.stderr).replace("\n  ", " ");
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("joint \"P\" would have to move by 0.2"), "{said}");
-    let output = funicular(&["simulate", &path, "--from", "shape"]);
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(said.contains("or a file with the places of the joints"), "{said}");
+    at("-0.5");
+    let far = "joint \"P\" would have to move by 0.2";
+    let nowhere = "or a file with the places of the joints";
+    refused(&folder, &from, &[(&["shape.csv"], far), (&["shape"], nowhere)]);
 }
 
 /// A weight of 10 g between two steel cables of 5 MN: steps of a millisecond are 15 times what is

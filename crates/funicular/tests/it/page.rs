@@ -5,7 +5,7 @@
 use funicular::{Page, prelude::*};
 use serde_json::Value;
 
-use crate::run::{good, refused, run};
+use crate::run::{good, holding, refused, run};
 
 fn data(page: &str) -> Value {
     let data = page.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
@@ -161,16 +161,14 @@ fn all_equilibria_of_the_paper() {
 
 #[test]
 fn the_program_writes_a_page_or_says_why_not() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    std::fs::write(folder.join("lamp.toml"), LAMP).unwrap();
-    let text = good(folder, &["page", "lamp.toml", "--out", "page.html"]);
+    let folder = holding([("lamp.toml", LAMP)]);
+    let text = good(&folder, &["page", "lamp.toml", "--out", "page.html"]);
     assert_eq!(text, "page.html: 1 equilibrium with modes, 2 load cases; agreed\n");
-    let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     let again = Page::new().run(&Problem::parse(LAMP, "lamp.toml").unwrap()).unwrap();
     assert!(page == again.html());
     let (code, text, _) =
-        run(folder, &["page", "lamp.toml", "--load-case", "storm", "--out", "storm.html"]);
+        run(&folder, &["page", "lamp.toml", "--load-case", "storm", "--out", "storm.html"]);
     assert_eq!((code, text.contains("load case")), (Some(0), false), "{text}");
     let table = [
         (&["--out", "a.html", "--vary", "joints.Q.mass_kg=1..2"][..], "Q"),
@@ -179,15 +177,15 @@ fn the_program_writes_a_page_or_says_why_not() {
         (&["--out", "a.html", "--load-case", "calm"], "no load case"),
         (&["--damping", "1", "--out", "moved.html"], "--motion"),
     ];
-    refused(folder, &["page", "lamp.toml"], &table);
+    refused(&folder, &["page", "lamp.toml"], &table);
     let nowhere = ["--case", "two-bars", "--vary", "anchors.end_m.x=7,8", "--out", "a.html"];
-    refused(folder, &["page"], &[(&nowhere, "nothing hangs")]);
-    assert!(!folder.join("a.html").exists());
+    refused(&folder, &["page"], &[(&nowhere, "nothing hangs")]);
+    assert!(!folder.path().join("a.html").exists());
     let moved = ["--motion", "seed:7", "--time", "2", "--damping", "1"];
     let values = ["--vary", "joints.A.at_m.x=-3..-2", "--out", "moved.html"];
-    let text = good(folder, &[&["page", "lamp.toml"], &moved[..], &values].concat());
+    let text = good(&folder, &[&["page", "lamp.toml"], &moved[..], &values].concat());
     assert!(text.contains("2 load cases, 1 motion, 1 load path; agreed"), "{text}");
-    assert_eq!(std::fs::read_to_string(folder.join("lamp.toml")).unwrap(), LAMP);
+    assert_eq!(std::fs::read_to_string(folder.path().join("lamp.toml")).unwrap(), LAMP);
 }
 
 /// A net of 144 bars with all its modes, a motion and a load path stays below a megabyte.
@@ -205,16 +203,15 @@ fn a_page_of_a_hundred_members_is_small() {
 #[test]
 fn the_gallery_has_every_case() {
     let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let text = good(folder, &["cases", "--html", "gallery"]);
-    let index = std::fs::read_to_string(folder.join("gallery/index.html")).unwrap();
-    let (_, list, _) = run(folder, &["cases"]);
+    let text = good(&folder, &["cases", "--html", "gallery"]);
+    let index = std::fs::read_to_string(folder.path().join("gallery/index.html")).unwrap();
+    let (_, list, _) = run(&folder, &["cases"]);
     let names: Vec<&str> =
         index.split("<article id=\"").skip(1).map(|card| card.split('"').next().unwrap()).collect();
     assert!(text.starts_with(&format!("{} cases", names.len())) && names.len() > 30, "{text}");
     for name in names {
         let read = |ending: &str| {
-            std::fs::read_to_string(folder.join(format!("gallery/{name}.{ending}"))).unwrap()
+            std::fs::read_to_string(folder.path().join(format!("gallery/{name}.{ending}"))).unwrap()
         };
         assert!(list.contains(&format!(" {name} ")), "{name}");
         assert_eq!(read("toml"), funicular::case_text(name).unwrap());
@@ -222,7 +219,7 @@ fn the_gallery_has_every_case() {
         let answer: Value = serde_json::from_str(&read("json")).unwrap();
         assert_eq!(answer["agreement"]["verdict"], "agreed", "{name}");
     }
-    let (code, _, said) = run(folder, &["cases", "lamp", "--html", "gallery"]);
+    let (code, _, said) = run(&folder, &["cases", "lamp", "--html", "gallery"]);
     assert!(code == Some(2) && said.contains("--html"), "{said}");
     // Files of one's own have the names of cases.
     std::fs::create_dir(folder.join("own")).unwrap();

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use crate::run::{fed, funicular, program, ran, says, stderr, stdout};
+use crate::run::{fed, funicular, holding, program, ran, says, stderr, stdout};
 
 /// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
 const WEIGHT_N: f64 = 2.0 * 9.80665;
@@ -169,10 +169,9 @@ fn boxes_are_of_ascii_where_that_is_all_there_is() {
 /// the ground are upright and gone. Both solvers count the same, so it is said once.
 #[test]
 fn both_solvers_count_lengths_alike_on_a_floor() {
-    let folder = tempfile::tempdir().unwrap();
     let line = "floor_m = -30\n[joints]\nanchor = { at_m = [0, 0, -30] }\nship = { at_m = [60, 0, 0] }\n\
                 [[bars]]\nfrom = 'anchor'\nto = 'ship'\nlength_m = 3.5\nmass_kg = 70\ncount = 20\n";
-    std::fs::write(folder.path().join("line.toml"), line).unwrap();
+    let folder = holding([("line.toml", line)]);
     let text = stdout(&ran(&folder, &["solve", "line.toml", "--evidence"]));
     assert_eq!(text.matches("independent lengths").count(), 1, "{text}");
     assert!(text.contains("20 independent lengths, 35 mechanisms, 0 self-stresses"), "{text}");

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::run::{good, run};
+use crate::run::{good, holding, run};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/promise");
 
@@ -118,7 +118,7 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
         std::fs::write(path("places.csv"), places).unwrap();
         std::fs::write(path("forces.csv"), forces).unwrap();
         let files = ["--answer", "places.csv", "--members", "forces.csv", "--json"];
-        let (code, text, _) = run(folder.path(), &[&["judge", "frames.json"][..], &files].concat());
+        let (code, text, _) = run(&folder, &[&["judge", "frames.json"][..], &files].concat());
         let answer: Value = serde_json::from_str(&text).unwrap();
         (code, answer["finding"].as_str().unwrap().to_owned())
     };
@@ -138,12 +138,11 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
 /// A millionth more on one leg is no rounding: bad input, with the misfits and what helps.
 #[test]
 fn lengths_that_cannot_be_assembled_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(Path::new(FOLDER).join("1-tetrapod.json")).unwrap();
     let longer = text.replace("6.708203932499369", "6.708213932499369");
     assert_ne!(text, longer);
-    std::fs::write(folder.path().join("longer.json"), &longer).unwrap();
-    let (code, text, _) = run(folder.path(), &["solve", "longer.json", "--json"]);
+    let folder = holding([("longer.json", &longer)]);
+    let (code, text, _) = run(&folder, &["solve", "longer.json", "--json"]);
     assert_eq!(code, Some(2), "{text}");
     let answer: Value = serde_json::from_str(&text).unwrap();
     for failure in answer["failures"].as_array().unwrap() {
@@ -154,7 +153,7 @@ fn lengths_that_cannot_be_assembled_are_refused() {
     let tolerant =
         longer.replace("\"mass_kg\": 0.0", "\"mass_kg\": 0.0, \"length_tolerance_m\": 1e-4");
     std::fs::write(folder.path().join("tolerant.json"), tolerant).unwrap();
-    assert_eq!(run(folder.path(), &["solve", "tolerant.json"]).0, Some(0));
+    assert_eq!(run(&folder, &["solve", "tolerant.json"]).0, Some(0));
 }
 
 /// A weight on a cable 1e-12 m above the floor: the cable bears all of it.

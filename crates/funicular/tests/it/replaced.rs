@@ -94,7 +94,7 @@ fn what_is_refused_replaces_nothing() {
     let run = |arguments: &[&'static str], input: &'static str| {
         let mut arguments = arguments.to_vec();
         arguments.iter_mut().filter(|word| **word == "FILE").for_each(|word| *word = input);
-        ran(folder.path(), &arguments)
+        ran(&folder, &arguments)
     };
     for arguments in COMMANDS {
         for (input, _) in INPUTS {

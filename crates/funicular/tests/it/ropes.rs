@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use crate::derivatives::are_differences;
 use crate::edited;
+use crate::run::holding;
 
 /// Ropes over rings and pulleys: one that keeps its length and meets a ring twice, an elastic one with both ends at
 /// joints that move, an elastic one along anchors alone. No two terms of one size.
@@ -74,9 +75,8 @@ const RING: &str = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 1] 
                     bars = [{ from = 'A', via = ['P'], to = 'B', length_m = 5, kind = 'cable' }]";
 
 fn run(arguments: &[&str]) -> (Option<i32>, Value, String) {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("ring.toml"), RING).unwrap();
-    let (code, text, error) = crate::run::run(folder.path(), arguments);
+    let folder = holding([("ring.toml", RING)]);
+    let (code, text, error) = crate::run::run(&folder, arguments);
     (code, serde_json::from_str(&text).unwrap_or_default(), error)
 }
 
@@ -117,7 +117,7 @@ fn a_motion_ends_where_a_weight_comes_to_its_pulley() {
     std::fs::write(at("above.csv"), "joint,x_m,y_m,z_m\nD,0,0,0\nP,0,0,-1\nQ,0,0,-1\n").unwrap();
     let release = ["simulate", "weights.toml", "--from", "above.csv", "--time", "2"];
     let more = ["--step", "1e-3", "--store", "0.01", "--out", "ends.csv"];
-    let (code, said, error) = crate::run::run(folder.path(), &[&release[..], &more[..]].concat());
+    let (code, said, error) = crate::run::run(&folder, &[&release[..], &more[..]].concat());
     assert_eq!(code, Some(3), "{said}{error}");
     assert!(said.contains("The motion ends before 2 s: the rope (member 1) jams"), "{said}");
     let rows = std::fs::read_to_string(at("ends.csv")).unwrap();

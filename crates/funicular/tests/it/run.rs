@@ -122,7 +122,7 @@ pub fn wait_until(otherwise: &str, mut is_so: impl FnMut() -> bool) {
 
 /// What it leaves behind.
 pub fn ran(folder: impl AsRef<Path>, arguments: &[&str]) -> Output {
-    program(folder, arguments).output().unwrap()
+    program(&folder, arguments).output().unwrap()
 }
 
 /// The same where no file is named.
@@ -131,7 +131,7 @@ pub fn funicular(arguments: &[&str]) -> Output {
 }
 
 /// Exit code, standard output and standard error of the program in a folder.
-pub fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+pub fn run(folder: impl AsRef<Path>, arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = ran(folder, arguments);
     (output.status.code(), stdout(&output), stderr(&output))
 }
@@ -193,6 +193,15 @@ pub fn folder(name: &str) -> PathBuf {
     let _ = std::fs::remove_dir_all(&path);
     std::fs::create_dir_all(&path).unwrap();
     path
+}
+
+/// A folder of its own with these files, which goes with its owner.
+pub fn holding<const N: usize>(files: [(&str, impl AsRef<[u8]>); N]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
 }
 
 /// The numbers in a column of a table.

@@ -3,7 +3,7 @@
 use funicular::Distribution;
 use funicular::prelude::*;
 
-use crate::run::{good, run, says};
+use crate::run::{good, holding, run, says};
 
 /// What the program prints and says, and how it ends.
 /// A mast on three elastic legs under a rope to a load, with tolerances of all kinds.
@@ -72,10 +72,9 @@ fn solvers_stay_within_the_ranges() {
 
 #[test]
 fn the_program_prints_them_in_eighty_columns() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("mast.toml"), mast(ALL)).unwrap();
+    let folder = holding([("mast.toml", mast(ALL))]);
     let arguments = ["solve", "mast.toml", "--tolerances", "--monte-carlo", "20"];
-    let said = good(folder.path(), &arguments);
+    let said = good(&folder, &arguments);
     assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
     says(
         &said,
@@ -93,14 +92,14 @@ fn the_program_prints_them_in_eighty_columns() {
     // rounding, what is held exactly has no row.
     let longer = mast(ALL).replace("top", "top-of-the-mast");
     std::fs::write(folder.path().join("longer.toml"), longer).unwrap();
-    let (code, said, _) = run(folder.path(), &["solve", "longer.toml", "--tolerances"]);
+    let (code, said, _) = run(&folder, &["solve", "longer.toml", "--tolerances"]);
     assert!(code == Some(0) && said.lines().all(|line| line.chars().count() <= 80), "{said}");
     let rows = said.lines().filter(|line| line.starts_with(" top-of-the-mast"));
     assert_eq!(
         rows.filter_map(|row| row.split_whitespace().nth(1)).collect::<Vec<_>>(),
         ["x", "y", "z"]
     );
-    let (code, said, _) = run(folder.path(), &["solve", "--case", "tackle", "--tolerances"]);
+    let (code, said, _) = run(&folder, &["solve", "--case", "tackle", "--tolerances"]);
     assert!(code == Some(0) && said.lines().all(|line| line.chars().count() <= 80), "{said}");
     let places = said.split("Fx / N").next().unwrap();
     assert!(places.contains("\n block ") && !places.contains("\n winch "), "{said}");
@@ -108,8 +107,7 @@ fn the_program_prints_them_in_eighty_columns() {
     for (strength, wanted) in [("900", 0), ("101", 1)] {
         let text = mast(ALL).replace("compression_n = 900", &format!("compression_n = {strength}"));
         std::fs::write(folder.path().join("weak.toml"), text).unwrap();
-        let (code, said, _) =
-            run(folder.path(), &["solve", "weak.toml", "--tolerances", "--check"]);
+        let (code, said, _) = run(&folder, &["solve", "weak.toml", "--tolerances", "--check"]);
         assert_eq!(code, Some(wanted), "{said}");
     }
 }
@@ -117,14 +115,13 @@ fn the_program_prints_them_in_eighty_columns() {
 /// Ranges and modes of a gable that has snapped through are of what hangs below, and say so.
 #[test]
 fn ranges_and_modes_of_another_shape_than_is_drawn_say_so() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "plane = \"xz\"\n\
                 joints = { A = { at_m = [-1, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { near_m = [0, 0, 0.8], mass_kg = 800 } }\n\
                 bars = [{ from = \"A\", to = \"P\", mass_kg = 0, stiffness_n = 1e4 },\n\
                 { from = \"P\", to = \"B\", mass_kg = 0, stiffness_n = 1e4 }]\n\
                 tolerances = { length_tolerance_m = 1e-6 }\n";
-    std::fs::write(folder.path().join("gable.toml"), text).unwrap();
-    let (code, said, _) = run(folder.path(), &["solve", "gable.toml", "--tolerances"]);
+    let folder = holding([("gable.toml", text)]);
+    let (code, said, _) = run(&folder, &["solve", "gable.toml", "--tolerances"]);
     assert_eq!(code, Some(3), "{said}");
     says(
         &said,
@@ -133,10 +130,10 @@ fn ranges_and_modes_of_another_shape_than_is_drawn_say_so() {
             "exactly one equilibrium is near",
         ],
     );
-    let (code, said, _) = run(folder.path(), &["modes", "gable.toml"]);
+    let (code, said, _) = run(&folder, &["modes", "gable.toml"]);
     assert_eq!(code, Some(3), "{said}");
     says(&said, &["Not the neighbour of the shape given: see `funicular solve`."]);
-    let (code, said, _) = run(folder.path(), &["modes", "gable.toml", "--json"]);
+    let (code, said, _) = run(&folder, &["modes", "gable.toml", "--json"]);
     let found: serde_json::Value = serde_json::from_str(&said).unwrap();
     assert_eq!((code, &found["is_neighbour"]), (Some(3), &serde_json::Value::Bool(false)));
 }
@@ -177,7 +174,7 @@ fn what_has_no_ranges_says_why() {
         (&["mast.toml", "--tolerances", "--summary"], 2, "cannot be used"),
     ] {
         let arguments: Vec<&str> = ["solve"].iter().chain(arguments).copied().collect();
-        let (code, said, failed) = run(folder.path(), &arguments);
+        let (code, said, failed) = run(&folder, &arguments);
         assert_eq!(code, Some(wanted), "{said}\n{failed}");
         assert!(format!("{said}{failed}").replace('\n', " ").contains(words), "{said}\n{failed}");
     }

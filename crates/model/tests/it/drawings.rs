@@ -2,7 +2,9 @@
 
 use model::Bar;
 use model::system::{Joint, Member, Refusal, Support, System, SystemError};
-use model::system_file::{Described, parse, write_network};
+use model::system_file::write_network;
+
+use crate::support::system;
 
 /// A braced square, a bar between its two tops hanging in the middle of two.
 const FRAME: &str = "plane = \"xz\"\n[joints]\nA = { at_m = [0, 0, 0] }\n\
@@ -11,14 +13,6 @@ D = { near_m = [4, 0, 3], force_n = [5, 0, 0] }\n";
 
 fn bar(from: &str, to: &str, more: &str) -> String {
     format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nmass_kg = 2\n{more}\n")
-}
-
-#[track_caller]
-fn system(text: &str) -> System {
-    match parse(text, "f") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 fn frame(diagonal: &str) -> System {

@@ -1,7 +1,9 @@
 //! Loads with names and load cases in system files: read, refused, written back, and put together.
 
 use model::system::{PERMANENT, System};
-use model::system_file::{Described, parse, write_network};
+use model::system_file::{parse, write_network};
+
+use crate::support::system;
 
 /// A net with loads of its own, and what stands in its file besides.
 fn net(rest: &str) -> String {
@@ -18,13 +20,6 @@ fn chain(rest: &str) -> String {
         "anchors = {{ start_m = [0, 0, 0], end_m = [2, 0, 0] }}\n\
          bars = [{{ length_m = 1, mass_kg = 1, count = 3 }}]\n{rest}"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 const LOADS: &str = "[[loads]]\njoint = \"Q\"\nmass_kg = 0.5\n\
@@ -124,10 +119,7 @@ fn chains_have_them_too() {
 
 #[test]
 fn they_are_written_and_read_again() {
-    let read = |system: &System| match parse(&write_network(system), "again.toml").unwrap() {
-        Described::System(again) => again,
-        Described::Chain(chain) => panic!("{chain:?}"),
-    };
+    let read = |first: &System| system(&write_network(first));
     let first = system(&net(LOADS));
     let again = read(&first);
     let all = |system: &System| {

@@ -8,6 +8,8 @@ use model::Bar;
 use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use model::system_file::{Cell, Described, Rows, SystemFileError, read, read_with};
 
+use crate::support::Folder;
+
 const JOINTS: &str = "name,x_m,y_m,z_m,fixed,free,mass_kg,force_x_n,force_y_n,force_z_n\n\
                       A,0,0,0,,,,,,\n\
                       \"lamp, old\",9,9,9,0,,5,0,12,0\n\
@@ -21,30 +23,36 @@ const BARS: &str = "to,from,length_m,mass_kg,centre_m,kind,stiffness_n,prestress
 
 const SYSTEM: &str = "joints_file = \"joints.csv\"\nbars_file = \"bars.csv\"\n";
 
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("network-columns").join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
+/// The folder of a test.
+fn folder() -> PathBuf {
+    let test = std::thread::current().name().unwrap().replace("::", "-");
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test)
 }
 
 /// The system of these texts; nothing is written of a text that is empty.
-fn described(name: &str, [system, joints, bars]: [&str; 3]) -> Result<System, SystemFileError> {
-    let folder = folder(name);
+fn described([system, joints, bars]: [&str; 3]) -> Result<System, SystemFileError> {
+    let folder = Folder::new(folder());
     for (file, text) in [("system.toml", system), ("joints.csv", joints), ("bars.csv", bars)] {
         if !text.is_empty() {
-            std::fs::write(folder.join(file), text).unwrap();
+            folder.file(file, text);
         }
     }
-    match read(folder.join("system.toml"))? {
+    match read(folder.0.join("system.toml"))? {
         Described::System(system) => Ok(system),
         Described::Chain(_) => panic!("joints by name make no chain"),
     }
 }
 
+/// The files must be refused with this message: file, line, column, key, reason.
+#[track_caller]
+fn check(joints: &str, bars: &str, wanted: &str) {
+    let error = described([SYSTEM, joints, bars]).unwrap_err().to_string();
+    assert_eq!(error, folder().join(wanted).display().to_string());
+}
+
 #[test]
 fn every_column_arrives_where_it_belongs() {
-    let found = described("all", [SYSTEM, JOINTS, BARS]).unwrap();
+    let found = described([SYSTEM, JOINTS, BARS]).unwrap();
     let at_m = [2.0, 0.0, 0.5];
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
@@ -76,7 +84,7 @@ fn ropes_run_over_the_joints_of_a_cell() {
                 A,\"lamp, old; C\",4,7.5,0,cable,300\n\
                 A,\"lamp, old;\",C,4,,cable,\n\
                 C,,4,1,0.5,,\n";
-    let found = described("ropes", [SYSTEM, JOINTS, bars]).unwrap();
+    let found = described([SYSTEM, JOINTS, bars]).unwrap();
     let rope = |to, length_m, via: &[usize]| {
         Member::cable(0, to, Bar::homogeneous(length_m, 0.0).unwrap()).over(via.to_vec())
     };
@@ -93,22 +101,22 @@ fn ropes_run_over_the_joints_of_a_cell() {
     let joints = "name,x_m,y_m,z_m,mass_kg,near_x_m,near_y_m,near_z_m\nA,0,0,0,,,,\nB,2,0,0,,,,\n\
                   P,,,,1,2,1.5,0\nQ,,,,1,2,1.5,-2.5\n";
     let bars = "from,via,to,mass_kg,kind\nA,B P,Q,,cable\nP,,Q,1,cable\n";
-    let drawn = described("drawn-ropes", [SYSTEM, joints, bars]).unwrap();
+    let drawn = described([SYSTEM, joints, bars]).unwrap();
     assert!((drawn.members()[0].body.length_m() - 6.0).abs() < 1e-15);
 }
 
 #[test]
 fn what_is_no_rope_is_refused_in_its_cell() {
-    for (name, row, wanted) in [
-        ("strut", "A,C,4,9,,strut", ["only a cable runs over rings", ": kind: "]),
-        ("mass", "A,C,4,9,2,cable", ["has no mass here", ": mass_kg: "]),
-        ("nobody", "A,C X,4,9,,cable", ["\"X\"", ": via: "]),
-        ("nothing", "A,;,4,9,,cable", ["empty", ": via: "]),
-        ("itself", "A,C C,4,9,,cable", ["runs from joint \"C\" to itself", ": via: "]),
+    for (row, wanted) in [
+        ("A,C,4,9,,strut", ["only a cable runs over rings", ": kind: "]),
+        ("A,C,4,9,2,cable", ["has no mass here", ": mass_kg: "]),
+        ("A,C X,4,9,,cable", ["\"X\"", ": via: "]),
+        ("A,;,4,9,,cable", ["empty", ": via: "]),
+        ("A,C C,4,9,,cable", ["runs from joint \"C\" to itself", ": via: "]),
     ] {
         let bars = format!("from,via,to,length_m,mass_kg,kind\n{row}\n");
-        let text = described(name, [SYSTEM, JOINTS, &bars]).unwrap_err().to_string();
-        assert!(wanted.iter().all(|wanted| text.contains(wanted)), "{name}: {text}");
+        let text = described([SYSTEM, JOINTS, &bars]).unwrap_err().to_string();
+        assert!(wanted.iter().all(|wanted| text.contains(wanted)), "{row}: {text}");
     }
 }
 
@@ -123,7 +131,7 @@ fn joints_may_stand_in_both_places_and_have_numbers_for_names() {
     bars += "998,B,0.1,0\n";
     let system = "joints_file = \"joints.csv\"\nbars_file = \"bars.csv\"\n\
                   [joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [80, 0, 0] }\n";
-    let found = described("numbers", [system, &joints, &bars]).unwrap();
+    let found = described([system, &joints, &bars]).unwrap();
     assert_eq!((found.joints().len(), found.members().len()), (1001, 1000));
     assert_eq!(found.joint("998"), Some(1000));
     assert!((found.total_mass_kg() - 499.5).abs() < 1e-12);
@@ -133,144 +141,87 @@ fn joints_may_stand_in_both_places_and_have_numbers_for_names() {
 
 #[test]
 fn errors_name_file_row_and_column() {
-    let check = |name: &str, joints: &str, bars: &str, file: &str, wanted: &str| {
-        let error = described(name, [SYSTEM, joints, bars]).unwrap_err();
-        let path = folder_of(name).join(file).display().to_string();
-        assert_eq!(error.to_string(), format!("{path}:{wanted}"), "{name}");
-    };
     let bars = |from: &str, to: &str| BARS.replacen(from, to, 1);
     let joints = |from: &str, to: &str| JOINTS.replacen(from, to, 1);
-    check("unknown", JOINTS, &bars("4,C", "5,C"), "bars.csv", "4:1: to: there is no joint \"5\"");
+    check(JOINTS, &bars("4,C", "5,C"), "bars.csv:4:1: to: there is no joint \"5\"");
     check(
-        "length",
         JOINTS,
         &bars("A,1.5", "A,-1"),
-        "bars.csv",
-        "2:15: length_m: the length of a bar must be positive and finite, got -1 m",
+        "bars.csv:2:15: length_m: the length of a bar must be positive and finite, got -1 m",
     );
-    check("empty", JOINTS, &bars("A,1.5", "A,"), "bars.csv", "2:15: length_m: the cell is empty");
+    check(JOINTS, &bars("A,1.5", "A,"), "bars.csv:2:15: length_m: the cell is empty");
     check(
-        "word",
         JOINTS,
         &bars("cable", "rope"),
-        "bars.csv",
-        "3:22: kind: there is no member of the kind \"rope\"",
+        "bars.csv:3:22: kind: there is no member of the kind \"rope\"",
     );
     check(
-        "number",
         &joints("0,12,0", "0,1o,0"),
         BARS,
-        "joints.csv",
-        "3:26: force_y_n: expected a number, found \"1o\"",
+        "joints.csv:3:26: force_y_n: expected a number, found \"1o\"",
     );
+    check(&joints("mass_kg", "mass"), BARS, "joints.csv:1:29: mass: unknown key `mass`");
+    check(JOINTS, "from,to,length_m\nA,C,1\n", "bars.csv:1:1: the key `mass_kg` is missing");
     check(
-        "column",
-        &joints("mass_kg", "mass"),
-        BARS,
-        "joints.csv",
-        "1:29: mass: unknown key `mass`",
-    );
-    check(
-        "head",
-        JOINTS,
-        "from,to,length_m\nA,C,1\n",
-        "bars.csv",
-        "1:1: the key `mass_kg` is missing",
-    );
-    check(
-        "anchor",
         &joints("A,0,0,0,,,", "A,0,0,0,,,7"),
         BARS,
-        "joints.csv",
-        "2:11: mass_kg: joint \"A\" is an anchor: a load there goes straight into the ground",
+        "joints.csv:2:11: mass_kg: joint \"A\" is an anchor: a load there goes straight into the ground",
     );
-    check("half", &joints("A,0,0,0", "A,0,,0"), BARS, "joints.csv", "2:5: y_m: the cell is empty");
+    check(&joints("A,0,0,0", "A,0,,0"), BARS, "joints.csv:2:5: y_m: the cell is empty");
+    check(&joints(",xz,", ",up,"), BARS, "joints.csv:4:12: free: the value \"up\" is out of range");
     check(
-        "slide",
-        &joints(",xz,", ",up,"),
-        BARS,
-        "joints.csv",
-        "4:12: free: the value \"up\" is out of range",
-    );
-    check(
-        "both",
         &joints(",0.5,,xz", ",0.5,1,xz"),
         BARS,
-        "joints.csv",
-        "4:13: free: `free` and `fixed` cannot stand together",
+        "joints.csv:4:13: free: `free` and `fixed` cannot stand together",
     );
     check(
-        "twice",
         &(JOINTS.to_owned() + "C,,,,,,,,,\n"),
         BARS,
-        "joints.csv",
-        "6:1: two joints are called \"C\"",
+        "joints.csv:6:1: two joints are called \"C\"",
     );
     check(
-        "parallel",
         JOINTS,
         &(BARS.to_owned() + "A,\"lamp, old\",1,1,,,,,,,,\n"),
-        "bars.csv",
-        "5:1: two members connect joint \"lamp, old\" with joint \"A\" (numbers 1 and 4): how they share a \
+        "bars.csv:5:1: two members connect joint \"lamp, old\" with joint \"A\" (numbers 1 and 4): how they share a \
          force is indeterminate",
     );
+    check(JOINTS, "from,to,length_m,mass_kg\n", "bars.csv:1:1: there are columns but no bars");
     check(
-        "none",
-        JOINTS,
-        "from,to,length_m,mass_kg\n",
-        "bars.csv",
-        "1:1: there are columns but no bars",
-    );
-    check(
-        "loose",
         &(JOINTS.to_owned() + "E,,,,,,,,,\n"),
         BARS,
-        "joints.csv",
-        "6:1: no member meets joint \"E\"",
+        "joints.csv:6:1: no member meets joint \"E\"",
     );
 }
 
 #[test]
 fn a_prestress_needs_a_stiffness_and_the_sign_of_its_member() {
-    for (name, cells, wanted) in [
+    for (cells, wanted) in [
         (
-            "push",
             "1e5,-1",
-            "3:32: prestress_n: a cable cannot push, as it would under a prestress of -1 N",
+            "bars.csv:3:32: prestress_n: a cable cannot push, as it would under a prestress of -1 N",
         ),
         (
-            "rigid",
             ",25000",
-            "3:29: prestress_n: a prestress needs a stiffness: an inextensible member has its length \
+            "bars.csv:3:29: prestress_n: a prestress needs a stiffness: an inextensible member has its length \
              whatever it bears",
         ),
         (
-            "soft",
             "0,25000",
-            "3:28: stiffness_n: the stiffness EA of a member must be positive and finite, got 0 N",
+            "bars.csv:3:28: stiffness_n: the stiffness EA of a member must be positive and finite, got 0 N",
         ),
     ] {
-        let bars = BARS.replacen("1e5,25000", cells, 1);
-        let error = described(name, [SYSTEM, JOINTS, &bars]).unwrap_err();
-        let path = folder_of(name).join("bars.csv").display().to_string();
-        assert_eq!(error.to_string(), format!("{path}:{wanted}"), "{name}");
+        check(JOINTS, &BARS.replacen("1e5,25000", cells, 1), wanted);
     }
-}
-
-fn folder_of(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("network-columns").join(name)
 }
 
 #[test]
 fn keys_that_do_not_go_together_are_refused() {
-    let refused = |name: &str, system: &str| {
-        described(name, [system, JOINTS, BARS]).unwrap_err().kind().to_string()
-    };
+    let refused = |system: &str| described([system, JOINTS, BARS]).unwrap_err().kind().to_string();
     let with_bars = format!("{SYSTEM}[[bars]]\nfrom = \"A\"\n");
-    assert_eq!(refused("k1", &with_bars), "`bars_file` and `bars` cannot stand together");
+    assert_eq!(refused(&with_bars), "`bars_file` and `bars` cannot stand together");
     let anchors = format!("{SYSTEM}anchors = {{}}\n");
-    assert_eq!(refused("k2", &anchors), "`joints_file` and `anchors` cannot stand together");
-    let gone = refused("k3", "joints_file = \"gone.csv\"\nbars_file = \"bars.csv\"\n");
+    assert_eq!(refused(&anchors), "`joints_file` and `anchors` cannot stand together");
+    let gone = refused("joints_file = \"gone.csv\"\nbars_file = \"bars.csv\"\n");
     assert!(gone.contains("gone.csv"), "{gone}");
     let text = model::system_file::parse(SYSTEM, "text").unwrap_err().to_string();
     assert!(text.contains("`joints_file` is relative to the system file"), "{text}");
@@ -279,10 +230,8 @@ fn keys_that_do_not_go_together_are_refused() {
 /// Rows of another kind of file, as a program reads them.
 #[test]
 fn readers_of_other_files_name_their_rows() {
-    let folder = folder("foreign");
-    let path = folder.join("system.toml");
-    std::fs::write(&path, "bars_file = \"bars.x\"\n[joints]\nA = { at_m = [0, 0, 0] }\n7 = {}\n")
-        .unwrap();
+    let text = "bars_file = \"bars.x\"\n[joints]\nA = { at_m = [0, 0, 0] }\n7 = {}\n";
+    let path = Folder::new(folder()).file("system.toml", text);
     let by = |length_m: f64, to: f64| {
         let rows = |file: &Path, rows: &mut dyn Rows| {
             assert!(file.ends_with("bars.x"));
@@ -313,7 +262,7 @@ fn readers_of_other_files_name_their_rows() {
 fn cells_may_be_quoted_and_blank() {
     let joints = "name , x_m,y_m,z_m\r\n\"the, \"\"old\"\" lamp\" , 0,0 ,0\n P ,,,\n\n";
     let bars = "from , to,length_m,mass_kg\r\n\"the, \"\"old\"\" lamp\" ,P, 1e-3 ,2\n\n";
-    let found = described("quoted", [SYSTEM, joints, bars]).unwrap();
+    let found = described([SYSTEM, joints, bars]).unwrap();
     let names: Vec<_> = found.joints().iter().map(|joint| joint.name.to_string()).collect();
     assert_eq!(names, ["the, \"old\" lamp", "P"]);
     assert_eq!(found.members(), [Member::bar(0, 1, Bar::homogeneous(1e-3, 2.0).unwrap())]);
@@ -323,7 +272,7 @@ fn cells_may_be_quoted_and_blank() {
 fn quotes_are_closed() {
     for line in ["\"A,0,0,0", "\"A\"x,0,0,0"] {
         let joints = format!("name,x_m,y_m,z_m\n{line}\nB,,,\n");
-        let error = described("open", [SYSTEM, &joints, BARS]).unwrap_err();
+        let error = described([SYSTEM, &joints, BARS]).unwrap_err();
         assert!(error.to_string().contains("a quote is not closed"), "{error}");
         assert_eq!(&error.text()[error.span().unwrap()], line);
     }

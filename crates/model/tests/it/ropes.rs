@@ -2,7 +2,9 @@
 
 use model::Bar;
 use model::system::{Joint, Kind, Member, PointLoad, Refusal, Support, System, SystemError};
-use model::system_file::{Described, parse, write_network};
+use model::system_file::{parse, write_network};
+
+use crate::support::system;
 
 /// A ring on a rope between two anchors, with more keys of the rope.
 fn ring(more: &str) -> String {
@@ -14,26 +16,21 @@ fn ring(more: &str) -> String {
 
 const VIA: &str = "via = [\"P\"]\nkind = \"cable\"";
 
-fn read(text: &str) -> System {
-    let Described::System(system) = parse(text, "f").unwrap() else { panic!("a chain") };
-    system
-}
-
 #[test]
 fn a_rope_needs_no_mass_and_reads_back() {
-    let system = read(&ring(&format!("{VIA}\nlength_m = 5\nstiffness_n = 1e4\nstrength_n = 500")));
-    let rope = &system.members()[0];
+    let first = system(&ring(&format!("{VIA}\nlength_m = 5\nstiffness_n = 1e4\nstrength_n = 500")));
+    let rope = &first.members()[0];
     assert_eq!((rope.from, rope.via(), rope.to), (0, &[2][..], 1));
-    assert!(rope.body.mass_kg() <= 0.0 && system.has_ropes());
-    assert_eq!(read(&write_network(&system)), system);
-    assert_eq!(system.first_rope(), Some(0));
-    assert!(system.as_row().is_none());
+    assert!(rope.body.mass_kg() <= 0.0 && first.has_ropes());
+    assert_eq!(system(&write_network(&first)), first);
+    assert_eq!(first.first_rope(), Some(0));
+    assert!(first.as_row().is_none());
 }
 
 #[test]
 fn drawn_ropes_have_the_length_of_their_spans() {
     let drawn = ring(VIA).replace("{ mass_kg", "{ near_m = [0, 3, 4], mass_kg");
-    let rope = read(&drawn).members()[0].clone();
+    let rope = system(&drawn).members()[0].clone();
     assert!((rope.body.length_m() - 5.0 - f64::sqrt(16.0 + 9.0 + 9.0)).abs() < 1e-15);
 }
 

@@ -1,9 +1,9 @@
 //! Strengths in system files: read, refused, and written back.
 
-use std::path::Path;
-
 use model::system::{Strength, System};
 use model::system_file::{Described, parse, write_network};
+
+use crate::support::{Folder, system};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -18,13 +18,6 @@ fn net(root: &str, first: &str, second: &str) -> String {
          bars = [{{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1, count = 2{first} }}, \
          {{ from = \"P\", to = \"B\", length_m = 2, mass_kg = 1{second} }}]"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 fn strengths(system: &System) -> Vec<Option<Strength>> {
@@ -58,26 +51,23 @@ fn what_is_written_reads_back() {
         chain("safety = 2.5", ", strength_n = 70", ", compression_n = 0.1, safety = 1"),
         net("safety = 2.5", ", bending_n_m2 = 0.3", ", strength_n = 1e5, safety = 1.25"),
     ] {
-        let system = system(&text);
-        assert_eq!(
-            parse(&write_network(&system), "again.toml").unwrap(),
-            Described::System(system)
-        );
+        let read = system(&text);
+        assert_eq!(system(&write_network(&read)), read);
     }
 }
 
 #[test]
 fn rows_of_a_file_have_them_too() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("strengths");
-    std::fs::create_dir_all(&folder).unwrap();
-    let rows =
-        "from,to,length_m,mass_kg,strength_n,compression_n,safety\nA,P,1,1,70,,\nP,B,2,1,,50,4\n";
-    std::fs::write(folder.join("bars.csv"), rows).unwrap();
-    let path = folder.join("net.toml");
+    let folder = Folder::new("strengths");
     let root = "safety = 2\nbars_file = \"bars.csv\"\n\
                 joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0] }, P = {} }";
-    std::fs::write(&path, root).unwrap();
-    let Described::System(system) = model::system_file::read(&path).unwrap() else { panic!() };
+    let path = folder.file("net.toml", root);
+    let read = |rows: &str| {
+        let head = "from,to,length_m,mass_kg,strength_n,compression_n,safety\n";
+        folder.file("bars.csv", format!("{head}{rows}\n"));
+        model::system_file::read(&path)
+    };
+    let Ok(Described::System(system)) = read("A,P,1,1,70,,\nP,B,2,1,,50,4") else { panic!() };
     let wanted = [
         Some(Strength::new(Some(70.0), None, 2.0).unwrap()),
         Some(Strength::new(None, Some(50.0), 4.0).unwrap()),
@@ -89,9 +79,7 @@ fn rows_of_a_file_have_them_too() {
         ("A,P,1,1,70,,inf\nP,B,2,1,,,", "safety"),
         ("A,P,1,1,,,2\nP,B,2,1,,,", "strength_n"),
     ] {
-        let head = "from,to,length_m,mass_kg,strength_n,compression_n,safety\n";
-        std::fs::write(folder.join("bars.csv"), format!("{head}{row}\n")).unwrap();
-        let error = model::system_file::read(&path).unwrap_err().to_string();
+        let error = read(row).unwrap_err().to_string();
         assert!(error.contains(key), "{error}");
     }
 }

@@ -1,16 +1,17 @@
 //! Texts to put mistakes into, and the check of their errors.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use model::Problem;
+use model::system::System;
 use model::system_file::{Described, SystemFileError, parse};
 
 /// A folder of one test; removed at the end of it, if the test passes.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
-    pub fn new(name: &str) -> Self {
+    pub fn new(name: impl AsRef<Path>) -> Self {
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).unwrap();
@@ -33,6 +34,15 @@ pub fn chain(described: Result<Described, SystemFileError>) -> Result<Problem, S
     match described? {
         Described::Chain(problem) => Ok(problem),
         Described::System(system) => panic!("a system: {system:?}"),
+    }
+}
+
+/// The system that a text describes by the names of its joints.
+#[track_caller]
+pub fn system(text: &str) -> System {
+    match parse(text, "f") {
+        Ok(Described::System(system)) => system,
+        other => panic!("{other:?}\n{text}"),
     }
 }
 

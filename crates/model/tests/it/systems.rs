@@ -1,21 +1,15 @@
 //! Systems of bars: texts that describe one, and texts that do not, each with its exact error.
 
 use model::Bar;
-use model::system::{Joint, Kind, PointLoad, Support, System};
+use model::system::{Joint, Kind, PointLoad, Support};
 use model::system_file::{Described, parse, write_network};
+
+use crate::support::system;
 
 /// A lamp on two strands between level anchors.
 const LAMP: &str = "name = \"lamp\"\n\n[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0] }\n\
 P = { mass_kg = 5 }\n\n[[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 0.5\nmass_kg = 1\ncount = 3\n\n\
 [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 1\nmass_kg = 0.5\n";
-
-#[track_caller]
-fn system(text: &str) -> System {
-    match parse(text, "f") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}"),
-    }
-}
 
 /// The text must be refused with this message (file, line, column, key, reason).
 #[track_caller]

@@ -1,9 +1,8 @@
 //! Malformed texts, each with its exact error.
 
-use model::system::System;
-use model::system_file::{Described, parse};
+use model::system_file::parse;
 
-use crate::support::{anchored, barred, chain, check};
+use crate::support::{anchored, barred, chain, check, system};
 
 #[test]
 fn text_that_is_no_system() {
@@ -405,19 +404,11 @@ fn positions_count_characters_and_lines_of_any_kind() {
     );
 }
 
-/// The system of a text of JSON.
-fn of_json(json: &str) -> System {
-    match parse(json, "f") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}"),
-    }
-}
-
 #[test]
 fn every_value_of_json_stays_in_its_place() {
     let json = "{\n \"name\": \"a\\/b\", \"joints\": {\"A\": {\"at_m\": [0,\n 1, 2]}, \"P\": {}},\n \
                 \"bars\": [{\"from\": \"A\", \"to\": \"P\", \"length_m\": 3, \"mass_kg\": 1}]\n}\n";
-    let system = of_json(json);
+    let system = system(json);
     assert_eq!((system.name(), system.joints()[0].support.at_m()), ("a/b", Some([0.0, 1.0, 2.0])));
     for (value, wrong) in
         [("\"a\\/b\"", "12345 "), ("2]", "x]"), ("3,", "-3,"), ("\"P\", ", "\"Q\", ")]
@@ -433,7 +424,7 @@ fn every_value_of_json_stays_in_its_place() {
 fn characters_of_json_in_two_halves_are_one() {
     let json = " \n{\"name\": \"\\ud83d\\udca1 \\u00e4 \\\"\\\\ : , {\", \"joints\": {\"A\": {\"at_m\": [0, 0, 0]}, \
                 \"P\": {}}, \"bars\": [{\"from\": \"A\", \"to\": \"P\", \"length_m\": 3, \"mass_kg\": 1}]}";
-    assert_eq!(of_json(json).name(), "\u{1f4a1} \u{e4} \"\\ : , {");
+    assert_eq!(system(json).name(), "\u{1f4a1} \u{e4} \"\\ : , {");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Tolerances in system files: read, refused, and written back.
 
-use std::path::Path;
-
-use model::system::{System, Uncertain, UncertainNumber};
+use model::system::{Uncertain, UncertainNumber};
 use model::system_file::{Described, parse, write_network};
+
+use crate::support::{Folder, system};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -17,13 +17,6 @@ fn net(root: &str, joint: &str, first: &str) -> String {
         "{root}\njoints = {{ A = {{ at_m = [1, 0, 0] }}, P = {{ mass_kg = 5, force_n = [0, 7, 0]{joint} }} }}\n\
          bars = [{{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 1, stiffness_n = 400{first} }}]"
     )
-}
-
-fn system(text: &str) -> System {
-    match parse(text, "system.toml") {
-        Ok(Described::System(system)) => system,
-        other => panic!("{other:?}\n{text}"),
-    }
 }
 
 fn uncertain(number: UncertainNumber, given: f64, within: f64) -> Uncertain {
@@ -73,27 +66,23 @@ fn what_is_written_reads_back() {
         ),
         net("", ", force_tolerance_n = 3", ", length_tolerance_m = 1e-3, mass_tolerance_kg = 0.5"),
     ] {
-        let system = system(&text);
-        assert!(!system.uncertain().is_empty());
-        let again = parse(&write_network(&system), "again.toml").unwrap();
-        assert_eq!(again, Described::System(system));
+        let read = system(&text);
+        assert!(!read.uncertain().is_empty());
+        assert_eq!(system(&write_network(&read)), read);
     }
 }
 
 #[test]
 fn rows_of_a_file_have_them_too() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tolerances");
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join("net.toml");
+    let folder = Folder::new("tolerances");
     let root = "tolerances = { mass_tolerance_kg = 0.5 }\nbars_file = \"bars.csv\"\njoints_file = \"joints.csv\"";
-    std::fs::write(&path, root).unwrap();
+    let path = folder.file("net.toml", root);
     let write = |joint: &str, bar: &str| {
         let joints =
             "name,x_m,y_m,z_m,mass_kg,mass_tolerance_kg,at_tolerance_m,force_tolerance_n\n";
         let bars = "from,to,length_m,mass_kg,stiffness_n,length_tolerance_m,stiffness_tolerance,mass_tolerance_kg\n";
-        std::fs::write(folder.join("joints.csv"), format!("{joints}A,0,0,0,,,1e-3,\n{joint}\n"))
-            .unwrap();
-        std::fs::write(folder.join("bars.csv"), format!("{bars}{bar}\n")).unwrap();
+        folder.file("joints.csv", format!("{joints}A,0,0,0,,,1e-3,\n{joint}\n"));
+        folder.file("bars.csv", format!("{bars}{bar}\n"));
         model::system_file::read(&path)
     };
     let Ok(Described::System(system)) = write("P,,,,4,,,3", "A,P,2,1,400,0.2,0.25,0.125") else {

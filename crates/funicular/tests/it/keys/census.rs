@@ -4,16 +4,9 @@ use serde_json::json;
 
 use super::evidence::NOTHING;
 use super::output::Output;
-use super::solve::{LAMP, LEVEL_V, system_of_level_v};
+use super::solve::{AXIAL, DEPTH, H, LAMP, LEVEL_V, system_of_level_v};
 
-use crate::run::good;
-
-/// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
-/// Level force of two bars of 10 N at 60 degrees: 10 (1/4)/(√3/2), N.
-const H: f64 = 2.886_751_345_948_129;
-/// The size of the mean force (H, 5 N) of a bar, N.
-const AXIAL: f64 = 5.773_502_691_896_258;
+use crate::run::{good, holding};
 
 /// Weight of a bar of the paper's case, N.
 const MG: f64 = 9.806_65;
@@ -27,9 +20,8 @@ fn three_bars(end: &str) -> String {
 }
 
 fn census(test: &'static str, text: &str) -> Output {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("file.toml"), text).unwrap();
-    Output::json("census", test, &good(folder.path(), &["census", "file.toml", "--json"]))
+    let folder = holding([("file.toml", text)]);
+    Output::json("census", test, &good(&folder, &["census", "file.toml", "--json"]))
 }
 
 /// What is known of the list of a chain.
@@ -40,13 +32,12 @@ fn of_chain(key: &str) -> String {
 /// A row of bars told by its joints, by its signs and pulls alone.
 #[test]
 fn by_signs_and_pulls() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
+    let folder = holding([("lamp.toml", LAMP)]);
     let arguments = ["census", "lamp.toml", "--list", "signs", "--json", "--csv", "lamp.csv"];
-    let text = good(folder.path(), &arguments);
+    let text = good(&folder, &arguments);
     let mut object: serde_json::Value = serde_json::from_str(&text).unwrap();
     // All else is that of the whole census.
-    let whole = good(folder.path(), &["census", "lamp.toml", "--json"]);
+    let whole = good(&folder, &["census", "lamp.toml", "--json"]);
     let mut whole: serde_json::Value = serde_json::from_str(&whole).unwrap();
     for of in [&mut object, &mut whole] {
         of["census"]["seconds"] = json!(0.0);
@@ -219,9 +210,7 @@ fn summary(output: &mut Output) {
 /// digits, the energies from a Gröbner basis with real-root counting as well.
 #[test]
 fn circles_of_the_paper() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = good(folder.path(), &["census", "--case", "three-equal-bars", "--json"]);
-    let mut output = Output::json("census", "circles_of_the_paper", &text);
+    let mut output = Output::told("circles_of_the_paper", ".", "census --case three-equal-bars");
     let first = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
     let [a, b, c] = first;
     let second = [-c, -b, -a];
@@ -408,9 +397,7 @@ fn a_hanger() {
 /// A weight on three light bars, in a tripod of 3-4-5 triangles: it hangs or stands.
 #[test]
 fn a_frame() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = good(folder.path(), &["census", "--case", "tripod", "--json"]);
-    let mut output = Output::json("census", "a_frame", &text);
+    let mut output = Output::told("a_frame", ".", "census --case tripod");
     // 30 kg at 2.4 m, legs of 3 m: a third of the weight times 3/2.4 in each.
     let leg = 30.0 * 9.806_65 / 3.0 * 3.0 / 2.4;
     output.is("equilibria[].bars[].axial_n", json!([leg, leg, leg, -leg, -leg, -leg]));
@@ -466,11 +453,9 @@ fn a_boom_on_its_tackle() {
 /// The same positions as text in columns.
 #[test]
 fn columns_of_a_census() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
-    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
-    good(folder.path(), &["census", "v.toml", "--csv", "v.csv"]);
-    good(folder.path(), &["census", "lamp.toml", "--csv", "lamp.csv"]);
+    let folder = holding([("v.toml", LEVEL_V), ("lamp.toml", LAMP)]);
+    good(&folder, &["census", "v.toml", "--csv", "v.csv"]);
+    good(&folder, &["census", "lamp.toml", "--csv", "lamp.csv"]);
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     let mut output = Output::csv("census --csv", "columns_of_a_census", &read("v.csv"));
     output.is("equilibrium", json!([1, 1, 1, 2, 2, 2]));

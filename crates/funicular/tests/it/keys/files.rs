@@ -4,14 +4,9 @@
 use serde_json::{Value, json};
 
 use super::output::Output;
-use super::solve::{LAMP, LEVEL_V, refusals_of_a_fall, system_of_level_v};
+use super::solve::{AXIAL, DEPTH, LAMP, LEVEL_V, refusals_of_a_fall, system_of_level_v};
 
-use crate::run::{good, ran};
-
-/// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
-/// The size of the mean force (H, 5 N) of a bar, N.
-const AXIAL: f64 = 5.773_502_691_896_258;
+use crate::run::{good, holding, ran};
 
 #[test]
 fn columns_of_answers() {
@@ -19,7 +14,7 @@ fn columns_of_answers() {
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
     let files = ["--csv", "lamp.csv", "--bars-csv", "lamp-bars.csv"];
-    good(folder.path(), &[&["solve", "lamp.toml"], &files[..]].concat());
+    good(&folder, &[&["solve", "lamp.toml"], &files[..]].concat());
     let test = "columns_of_answers";
     let solvers = |count: usize| json!([vec!["lagrange"; count], vec!["energy"; count]]);
     let mut output = Output::csv("solve --csv", test, &read("lamp.csv"));
@@ -51,12 +46,11 @@ fn columns_of_answers() {
 /// The level V in one line, a misspelt one, and one that cannot hang.
 #[test]
 fn lines_of_a_batch() {
-    let folder = tempfile::tempdir().unwrap();
     let v = r#"{"name":"level V","gravity_m_s2":10,"anchors":{"start_m":[0,0,0],"end_m":[1,0,0]},"bars":[{"length_m":1,"mass_kg":1,"count":2}]}"#;
     let falls = r#"{"gravity_m_s2":10,"joints":{"A":{"at_m":[0,0,0]},"P":{"mass_kg":1}},"bars":[{"from":"A","to":"P","length_m":1,"mass_kg":0,"kind":"strut"}]}"#;
     let wrong = v.replace("mass_kg", "masskg");
-    std::fs::write(folder.path().join("three.jsonl"), format!("{v}\n{wrong}\n{falls}\n")).unwrap();
-    let result = ran(folder.path(), &["solve", "--batch", "three.jsonl"]);
+    let folder = holding([("three.jsonl", format!("{v}\n{wrong}\n{falls}\n"))]);
+    let result = ran(&folder, &["solve", "--batch", "three.jsonl"]);
     assert_eq!(result.status.code(), Some(2));
     let text = String::from_utf8(result.stdout).unwrap();
     let (first, rest) = text.split_once('\n').unwrap();
@@ -98,7 +92,7 @@ fn several_files() {
     for (name, text) in [("v.toml", LEVEL_V), ("falls.toml", falls), ("far.toml", &far)] {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
-    let result = ran(folder.path(), &["solve", "v.toml", "falls.toml", "far.toml", "--json"]);
+    let result = ran(&folder, &["solve", "v.toml", "falls.toml", "far.toml", "--json"]);
     let text = String::from_utf8(result.stdout).unwrap();
     let mut objects = serde_json::Deserializer::from_str(&text).into_iter::<Value>();
     let first = objects.next().unwrap().unwrap().to_string();

@@ -31,7 +31,7 @@ fn no_case_has_a_key_that_is_not_listed() {
             if SLOW.contains(&(name, arguments[0])) {
                 continue;
             }
-            let (code, text, _) = run(folder.path(), &[arguments, &["--case", name]].concat());
+            let (code, text, _) = run(&folder, &[arguments, &["--case", name]].concat());
             // A case that a command does not take is refused without an object.
             if code != Some(2) && !text.is_empty() {
                 let output = Output::json(kinds[form], "", &text);

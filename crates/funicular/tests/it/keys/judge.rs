@@ -6,24 +6,34 @@ use super::evidence::{self, NOTHING};
 use super::output::Output;
 use super::solve::LAMP;
 
-use crate::run::run;
+use crate::run::{holding, run};
+
+/// What the bars bear where the lamp is right.
+const FORCES: &str = "from,to,axial_n\nA,P,16\nP,B,12\n";
 
 /// Lengths of the bars with the lamp at 2.5 m, m.
 fn stretched() -> [f64; 2] {
     [1.8_f64.hypot(2.5), 3.2_f64.hypot(2.5)]
 }
 
-fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
+/// What is said of a system in places and with forces, and how that ends.
+pub fn judged(
+    test: &'static str,
+    code: i32,
+    system: &str,
+    places: &str,
+    forces: Option<&str>,
+) -> Output {
+    let forces_csv = ("forces.csv", forces.unwrap_or_default());
+    let folder = holding([("system.toml", system), ("places.csv", places), forces_csv]);
+    let alone = "judge system.toml --answer places.csv";
+    let both = "judge system.toml --answer places.csv --members forces.csv";
+    Output::ended(code, test, folder, if forces.is_some() { both } else { alone })
+}
+
+fn lamp(test: &'static str, height: &str, forces: Option<&str>, code: i32) -> Output {
     let places = format!("joint,x_m,y_m,z_m\nA,0,0,0\nB,5,0,0\nP,1.8,0,{height}\n");
-    std::fs::write(folder.path().join("places.csv"), places).unwrap();
-    let forces = "from,to,axial_n\nA,P,16\nP,B,12\n";
-    std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
-    let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
-    let (found, text, _) = run(folder.path(), &[&arguments[..], more].concat());
-    assert_eq!(found, Some(code), "{text}");
-    let mut output = Output::json("judge", test, &text);
+    let mut output = judged(test, code, LAMP, &places, forces);
     output.is("schema_version", 3);
     output.system("lamp", [3, 2], [7.0, 2.0, 10.0]);
     output.is("source", "places.csv");
@@ -37,7 +47,7 @@ fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output 
 /// Both bars are too long, by what Pythagoras says.
 #[test]
 fn too_low() {
-    let mut output = judged("too_low", "-2.5", &[], 1);
+    let mut output = lamp("too_low", "-2.5", None, 1);
     let lengths = stretched();
     let more = [lengths[0] - 3.0, lengths[1] - 4.0];
     output.is("finding", "refuted");
@@ -149,7 +159,7 @@ fn ladder_of_too_low(output: &mut Output, largest: f64) {
 /// With the forces of the right shape the lamp is not in balance where it is too low.
 #[test]
 fn too_low_with_forces() {
-    let mut output = judged("too_low_with_forces", "-2.5", &["--members", "forces.csv"], 1);
+    let mut output = lamp("too_low_with_forces", "-2.5", Some(FORCES), 1);
     let lengths = stretched();
     let pulls = [16.0 / lengths[0], 12.0 / lengths[1]];
     let left_x = -1.8 * pulls[0] + 3.2 * pulls[1];
@@ -170,7 +180,7 @@ fn too_low_with_forces() {
 
 #[test]
 fn right() {
-    let mut output = judged("right", "-2.4", &["--members", "forces.csv"], 0);
+    let mut output = lamp("right", "-2.4", Some(FORCES), 0);
     output.is("finding", "confirmed");
     output.says("says", &["confirmed: an equilibrium is within the tolerance"]);
     output.is("broken[]", json!([]));
@@ -201,22 +211,17 @@ fn right() {
 /// 16 N of 20 N, and 12 N of 40 N where four times as much is wanted: the second is the weaker one.
 #[test]
 fn two_strengths() {
-    let folder = tempfile::tempdir().unwrap();
     let strong = LAMP.replace("length_m = 3", "length_m = 3\nstrength_n = 20");
     let strong = strong.replace("length_m = 4", "length_m = 4\nstrength_n = 40\nsafety = 4");
-    std::fs::write(folder.path().join("lamp.toml"), strong).unwrap();
     let places = "joint,x_m,y_m,z_m\nP,1.8,0,-2.4\n";
-    std::fs::write(folder.path().join("places.csv"), places).unwrap();
-    let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
-    let (code, text, _) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(0), "{text}");
-    let mut output = Output::json("judge", "two_strengths", &text);
+    let mut output = judged("two_strengths", 0, &strong, places, None);
     output.is("bars[].utilisation", json!([0.8, 0.3]));
     output.is("weakest.bar", 2);
     output.is("weakest.utilisation", 0.3);
     output.is("weakest.safety", 10.0 / 3.0);
     output.is("weakest.safety_wanted", 4.0);
     output.done();
-    let (code, _, _) = run(folder.path(), &[&arguments[..], &["--check"]].concat());
-    assert_eq!(code, Some(1));
+    let folder = holding([("lamp.toml", &strong[..]), ("places.csv", places)]);
+    let check = ["judge", "lamp.toml", "--answer", "places.csv", "--check"];
+    assert_eq!(run(folder, &check).0, Some(1));
 }

@@ -4,9 +4,8 @@
 use serde_json::json;
 
 use super::evidence::NOTHING;
+use super::judge::judged;
 use super::output::Output;
-
-use crate::run::run;
 
 /// Four weights, each below an anchor of its own, on an elastic bar, a cable, and two bars.
 const HANGERS: &str = r#"
@@ -68,16 +67,7 @@ const FORCES: &str = "from,to,axial_n\nA,P,100\nB,Q,-40\nC,R,100\nD,S,130\n";
 
 #[test]
 fn every_law_broken() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, text) in [("hangers.toml", HANGERS), ("places.csv", PLACES), ("forces.csv", FORCES)]
-    {
-        std::fs::write(folder.path().join(name), text).unwrap();
-    }
-    let arguments =
-        ["judge", "hangers.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
-    let (code, text, _) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(1), "{text}");
-    let mut output = Output::json("judge", "every_law_broken", &text);
+    let mut output = judged("every_law_broken", 1, HANGERS, PLACES, Some(FORCES));
     output.is("finding", "refuted");
     let laws = [
         "elongation",
@@ -156,7 +146,6 @@ fn nearest(output: &mut Output) {
 
 /// A lamp of 20 N on two bars that reach 1 m aside and 0.01 m down.
 fn flat_lamp(test: &'static str, down: &str, forces: Option<&str>) -> Output {
-    let folder = tempfile::tempdir().unwrap();
     let length = 1.0_f64.hypot(0.01);
     let lamp = format!(
         "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = [-1, 0, 0] }}, B = {{ at_m = [1, 0, 0] }}, \
@@ -164,17 +153,8 @@ fn flat_lamp(test: &'static str, down: &str, forces: Option<&str>) -> Output {
          bars = [{{ from = \"A\", to = \"P\", length_m = {length}, mass_kg = 0 }}, \
          {{ from = \"P\", to = \"B\", length_m = {length}, mass_kg = 0 }}]\n"
     );
-    std::fs::write(folder.path().join("lamp.toml"), lamp).unwrap();
     let places = format!("joint,x_m,y_m,z_m\nA,-1,0,0\nB,1,0,0\nP,0,0,{down}\n");
-    std::fs::write(folder.path().join("places.csv"), places).unwrap();
-    let mut arguments = vec!["judge", "lamp.toml", "--answer", "places.csv", "--json"];
-    if let Some(forces) = forces {
-        std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
-        arguments.extend(["--members", "forces.csv"]);
-    }
-    let (code, text, _) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(3), "{text}");
-    Output::json("judge", test, &text)
+    judged(test, 3, &lamp, &places, forces)
 }
 
 /// A tenth of a millimetre further down the bars are longer by a millionth of a metre, which a
@@ -217,7 +197,6 @@ fn forces_of_another() {
 /// 20 N on four bars of 5 m, 6.25 N in each, and a self-stress beside which they vanish.
 #[test]
 fn loads_hidden() {
-    let folder = tempfile::tempdir().unwrap();
     let anchors = [("A", -3, 4), ("B", 3, 4), ("C", -3, -4), ("D", 3, -4)];
     let joint = |(name, x, z): (&str, i32, i32)| format!("{name} = {{ at_m = [{x}, 0, {z}] }}\n");
     let bar = |(name, ..): (&str, i32, i32)| {
@@ -232,15 +211,8 @@ fn loads_hidden() {
             + &anchors.map(joint).concat()
             + &anchors.map(bar).concat();
     let forces = "from,to,axial_n\n".to_owned() + &anchors.map(force).concat();
-    std::fs::write(folder.path().join("frame.toml"), frame).unwrap();
-    std::fs::write(folder.path().join("places.csv"), "joint,x_m,y_m,z_m\nP,0,0,0\n").unwrap();
-    std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
-    let (code, text, _) = run(
-        folder.path(),
-        &["judge", "frame.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"],
-    );
-    assert_eq!(code, Some(3), "{text}");
-    let mut output = Output::json("judge", "loads_hidden", &text);
+    let places = "joint,x_m,y_m,z_m\nP,0,0,0\n";
+    let mut output = judged("loads_hidden", 3, &frame, places, Some(&forces));
     output.is("finding", "loads_hidden");
     output.near("force_n", 1e-15, 1e12 + 6.25);
     output.is("loads_n", 20.0);
@@ -275,19 +247,12 @@ fn loads_hidden() {
 /// A ring of 12 N on a rope of 5 m between anchors 4 m apart, 1.5 m below them: 10 N on both sides, not 9 N and 11 N.
 #[test]
 fn two_tensions() {
-    let folder = tempfile::tempdir().unwrap();
     let ring = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [4, 0, 0] }, \
                 P = { mass_kg = 1.2 } }\n\
                 bars = [{ from = \"A\", to = \"B\", via = [\"P\"], length_m = 5, kind = \"cable\" }]\n";
-    std::fs::write(folder.path().join("ring.toml"), ring).unwrap();
     let places = "joint,x_m,y_m,z_m\nA,0,0,0\nB,4,0,0\nP,2,0,-1.5\n";
-    std::fs::write(folder.path().join("places.csv"), places).unwrap();
-    std::fs::write(folder.path().join("forces.csv"), "from,to,axial_n\nA,P,9\nP,B,11\n").unwrap();
-    let arguments =
-        ["judge", "ring.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
-    let (code, text, _) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(1), "{text}");
-    let mut output = Output::json("judge", "two_tensions", &text);
+    let forces = "from,to,axial_n\nA,P,9\nP,B,11\n";
+    let mut output = judged("two_tensions", 1, ring, places, Some(forces));
     for list in ["broken", "violations"] {
         let at = |key: &str| format!("{list}[].{key}");
         output.is(&at("law"), "tension");

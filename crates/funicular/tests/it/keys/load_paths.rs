@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::output::Output;
 use crate::load_paths::RING;
 
-use crate::run::good;
+use crate::run::{good, holding};
 
 /// EA = 1 N, feet 2 m apart, the apex 0.5 m above them on a line, 1 N down.
 const GABLE: &str = "name = \"gable\"\n[joints]\nA = { at_m = [-1, 0, 0] }\nB = { at_m = [1, 0, 0] }\n\
@@ -16,11 +16,9 @@ const GABLE: &str = "name = \"gable\"\n[joints]\nA = { at_m = [-1, 0, 0] }\nB = 
 
 #[test]
 fn load_path_of_a_gable() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("gable.toml"), GABLE).unwrap();
-    let arguments = ["trace", "gable.toml", "--vary", "loads=0..1", "--json", "--csv", "gable.csv"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("load paths", "load_path_of_a_gable", &text);
+    let folder = holding([("gable.toml", GABLE)]);
+    let command = "trace gable.toml --vary loads=0..1 --csv gable.csv";
+    let mut output = Output::told("load_path_of_a_gable", &folder, command).of("load paths");
     output.is("schema_version", 3);
     let l0 = 1.25_f64.sqrt();
     output.system("gable", [3, 2], [2.0 * l0, 0.0, 9.806_65]);
@@ -84,8 +82,8 @@ fn load_path_of_a_gable() {
     assert!(tried > 2.5 && (tried - found).abs() < 0.5, "{tried} {found}");
     output.within(&at("statics"), 0.0..=1e-10);
     output.done();
-    let text = std::fs::read_to_string(folder.path().join("gable.csv")).unwrap();
-    let mut output = Output::csv("load paths --csv", "load_path_of_a_gable", &text);
+    let mut output =
+        Output::file("load paths --csv", "load_path_of_a_gable", folder.path().join("gable.csv"));
     output.each("path", 1);
     output.is("point", (0..heights.len()).collect::<Vec<_>>());
     output.is("loads", each(&|w, l| json!(load(w, l))));
@@ -119,7 +117,7 @@ fn kinks_of_a_cable_and_a_floor() {
     let folder = tempfile::tempdir().unwrap();
     let of = |vary: &str, drawn: &str| {
         std::fs::write(folder.path().join("kinks.toml"), file.replace("DRAWN", drawn)).unwrap();
-        let text = good(folder.path(), &["trace", "kinks.toml", "--vary", vary, "--json"]);
+        let text = good(&folder, &["trace", "kinks.toml", "--vary", vary, "--json"]);
         Output::json("load paths", "kinks_of_a_cable_and_a_floor", &text)
     };
     let at = |key: &str| format!("load_paths[].events[].{key}");
@@ -150,20 +148,9 @@ fn kinks_of_a_cable_and_a_floor() {
 /// A bar between two springs, which falls to a side and goes round.
 #[test]
 fn paths_that_branch_off() {
-    let folder = tempfile::tempdir().unwrap();
     let file = RING.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n");
-    std::fs::write(folder.path().join("ring.toml"), file).unwrap();
-    let arguments = [
-        "trace",
-        "ring.toml",
-        "--vary",
-        "loads=0,4,-4",
-        "--branches",
-        "--linear-buckling",
-        "--json",
-    ];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("load paths", "paths_that_branch_off", &text);
+    let command = "trace system.toml --vary loads=0,4,-4 --branches --linear-buckling";
+    let mut output = Output::alone("paths_that_branch_off", file, command).of("load paths");
     output.is("load_paths[].end", json!(["range", "joins"]));
     for key in ["branches_from", "joins"] {
         output.is(&format!("load_paths[].{key}.path"), 0);
@@ -176,13 +163,12 @@ fn paths_that_branch_off() {
 /// Two rigid bars of 1 m between anchors 1 m apart hang or stand.
 #[test]
 fn load_path_of_rigid_bars() {
-    let folder = tempfile::tempdir().unwrap();
     let file = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\nP = { mass_kg = 1 }\n\
         [[bars]]\nfrom = \"A\"\nto = \"P\"\nmass_kg = 0\nlength_m = 1\n\
         [[bars]]\nfrom = \"P\"\nto = \"B\"\nmass_kg = 0\nlength_m = 1\n";
-    std::fs::write(folder.path().join("two.toml"), file).unwrap();
-    let text = good(folder.path(), &["trace", "two.toml", "--vary", "loads=1..2", "--json"]);
-    let mut output = Output::json("load paths", "load_path_of_rigid_bars", &text);
+    let mut output =
+        Output::alone("load_path_of_rigid_bars", file, "trace system.toml --vary loads=1..2")
+            .of("load paths");
     output.is("load_paths[].equilibria_at_every_load", 2);
     output.done();
 }
@@ -197,8 +183,7 @@ fn why_load_paths_end() {
     }
     let ends = |arguments: &[&str], why: &str| {
         let all = [&["trace"], arguments, &["--json"]].concat();
-        let mut output =
-            Output::json("load paths", "why_load_paths_end", &good(folder.path(), &all));
+        let mut output = Output::json("load paths", "why_load_paths_end", &good(&folder, &all));
         output.is("load_paths[].end", why);
         output.is("load_paths[].events[]", json!([]));
         output.done();

@@ -5,22 +5,16 @@ use serde_json::json;
 
 use super::evidence::NOTHING;
 use super::output::Output;
-use super::solve::{LEVEL_V, system_of_level_v};
+use super::solve::{DEPTH, LEVEL_V, system_of_level_v};
 
-use crate::run::good;
-
-/// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
+use crate::run::{good, holding};
 
 /// 3 g / 2 h, 1/s².
 const OMEGA2: f64 = 15.0 / DEPTH;
 
 #[test]
 fn swinging_and_falling() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
-    let text = good(folder.path(), &["modes", "v.toml", "--json"]);
-    let mut output = Output::json("modes", "swinging_and_falling", &text);
+    let mut output = Output::alone("swinging_and_falling", LEVEL_V, "modes system.toml");
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
     output.is("complete", true);
@@ -56,12 +50,10 @@ fn swinging_and_falling() {
 /// More joints than are enclosed say so; the length of a rope's joints is counted by hand.
 #[test]
 fn too_many_joints_to_enclose() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
                 bars = [{ length_m = 0.02, mass_kg = 0.01, count = 70 }]\n";
-    std::fs::write(folder.path().join("long.toml"), text).unwrap();
-    let text = good(folder.path(), &["modes", "long.toml", "--modes", "2", "--json"]);
-    let mut output = Output::json("modes", "too_many_joints_to_enclose", &text);
+    let mut output =
+        Output::alone("too_many_joints_to_enclose", text, "modes system.toml --modes 2");
     output.is("complete", false);
     output.is("equilibria[].enclosed.status", "open");
     let because = "69 joints move, and at most 60 are enclosed";
@@ -94,12 +86,11 @@ fn columns_of_a_motion() {
     /// Of the eighth order at steps of 1 ms nothing else is left.
     const CLOSE: f64 = 1e-9;
 
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let folder = holding([("v.toml", LEVEL_V)]);
     let arguments = ["simulate", "v.toml", "--push", "1=0,3,0", "--time", "1", "--store", "0.5"];
-    good(folder.path(), &[&arguments[..], &["--order", "8", "--out", "m.csv"]].concat());
-    let text = std::fs::read_to_string(folder.path().join("m.csv")).unwrap();
-    let mut output = Output::csv("columns of a motion", "columns_of_a_motion", &text);
+    good(&folder, &[&arguments[..], &["--order", "8", "--out", "m.csv"]].concat());
+    let mut output =
+        Output::file("columns of a motion", "columns_of_a_motion", folder.path().join("m.csv"));
     let times = [0.0, 0.5, 1.0];
     output.is("time_s", json!(times));
     let at = times.map(|time| pendulum(time, 0.0, 4.5 / DEPTH));
@@ -141,14 +132,16 @@ fn columns_of_a_motion() {
 
 #[test]
 fn a_throw_that_a_cable_ends() {
-    let folder = tempfile::tempdir().unwrap();
     let weight = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2 } }\n\
                   bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"cable\" }]\n";
-    std::fs::write(folder.path().join("w.toml"), weight).unwrap();
+    let folder = holding([("w.toml", weight)]);
     let arguments = ["simulate", "w.toml", "--push", "P=0,0,4", "--time", "1", "--store", "0.3"];
-    good(folder.path(), &[&arguments[..], &["--out", "m.csv"]].concat());
-    let text = std::fs::read_to_string(folder.path().join("m.csv")).unwrap();
-    let mut output = Output::csv("columns of a motion", "a_throw_that_a_cable_ends", &text);
+    good(&folder, &[&arguments[..], &["--out", "m.csv"]].concat());
+    let mut output = Output::file(
+        "columns of a motion",
+        "a_throw_that_a_cable_ends",
+        folder.path().join("m.csv"),
+    );
     // Thrown up at 2 m/s it is back after 0.4 s, and loses what it was given, 4 J.
     output.near("lost_j", 1e-9, json!([0.0, 0.0, 4.0, 4.0, 4.0]));
     output.done();

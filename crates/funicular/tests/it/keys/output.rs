@@ -2,10 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
+use std::path::Path;
 
 use serde_json::Value;
 
 use super::table;
+
+use crate::run::{holding, run};
 
 /// How closely a number is asserted, in units of the number or of one: some rounding errors.
 const CLOSE: f64 = 1e-12;
@@ -24,19 +27,47 @@ pub struct Output {
 impl Output {
     /// Of text in JSON, as the named test looks at it.
     pub fn json(kind: &'static str, test: &'static str, text: &str) -> Self {
-        Self::of(kind, test, [serde_json::from_str(text).unwrap()])
+        Self::with(kind, test, [serde_json::from_str(text).unwrap()])
+    }
+
+    /// Of what a command says as JSON in a folder where all is well.
+    pub fn told(test: &'static str, folder: impl AsRef<Path>, command: &'static str) -> Self {
+        Self::ended(0, test, folder, command)
+    }
+
+    /// The same of one system, which stands in `system.toml`.
+    pub fn alone(test: &'static str, text: impl AsRef<[u8]>, command: &'static str) -> Self {
+        Self::told(test, holding([("system.toml", text)]), command)
+    }
+
+    /// What a command says that ends with this code.
+    pub fn ended(
+        code: i32,
+        test: &'static str,
+        folder: impl AsRef<Path>,
+        command: &'static str,
+    ) -> Self {
+        let words: Vec<_> = command.split(' ').chain(["--json"]).collect();
+        let (found, text, said) = run(folder, &words);
+        assert_eq!(found, Some(code), "{command}: {text}{said}");
+        Self::json(words[0], test, &text)
+    }
+
+    /// As another kind than the name of its command.
+    pub fn of(self, kind: &'static str) -> Self {
+        Self { kind, ..self }
     }
 
     /// Of lines of JSON.
     pub fn lines(kind: &'static str, test: &'static str, text: &str) -> Self {
-        Self::of(kind, test, text.lines().map(|line| serde_json::from_str(line).unwrap()))
+        Self::with(kind, test, text.lines().map(|line| serde_json::from_str(line).unwrap()))
     }
 
     /// Of a file of columns.
     pub fn csv(kind: &'static str, test: &'static str, text: &str) -> Self {
         let mut lines = text.lines().map(|line| line.split(','));
         let head: Vec<String> = lines.next().unwrap().map(numbered).collect();
-        let mut output = Self::of(kind, test, []);
+        let mut output = Self::with(kind, test, []);
         for name in &head {
             output.values.entry(name.clone()).or_default();
         }
@@ -51,7 +82,12 @@ impl Output {
         output
     }
 
-    fn of(
+    /// Of a file of columns that was written.
+    pub fn file(kind: &'static str, test: &'static str, path: impl AsRef<Path>) -> Self {
+        Self::csv(kind, test, &std::fs::read_to_string(path).unwrap())
+    }
+
+    fn with(
         kind: &'static str,
         test: &'static str,
         objects: impl IntoIterator<Item = Value>,

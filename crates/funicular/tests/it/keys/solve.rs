@@ -5,7 +5,7 @@ use serde_json::json;
 use super::evidence::{self, NOTHING};
 use super::output::Output;
 
-use crate::run::{good, run};
+use crate::run::{good, holding};
 
 /// Two bars of 1 m and 10 N over a span of 1 m: each stands at 60 degrees.
 pub const LEVEL_V: &str = r#"
@@ -20,7 +20,7 @@ pub const DEPTH: f64 = 0.866_025_403_784_438_6;
 /// The moment of 10 N about an anchor is borne by H over the depth: H = 10 (1/4)/(√3/2), N.
 pub const H: f64 = 2.886_751_345_948_129;
 /// The mean force of a bar is (H, 5 N), along the bar: its size, N.
-const AXIAL: f64 = 5.773_502_691_896_258;
+pub const AXIAL: f64 = 5.773_502_691_896_258;
 
 /// What is said of the system.
 pub fn system_of_level_v(output: &mut Output) {
@@ -35,10 +35,7 @@ pub fn system_of_level_v(output: &mut Output) {
 /// A chain is a system with joints named by their numbers, found by the solvers of a row.
 #[test]
 fn level_v() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
-    let text = good(folder.path(), &["solve", "v.toml", "--json"]);
-    let mut output = Output::json("solve", "level_v", &text);
+    let mut output = Output::alone("level_v", LEVEL_V, "solve system.toml");
     system_of_level_v(&mut output);
     // Both centres are half the depth below the anchors.
     output.each("equilibria[].energy_j", -10.0 * DEPTH);
@@ -67,11 +64,8 @@ fn level_v() {
 /// The same as arrays over joints and bars.
 #[test]
 fn columns_of_level_v() {
-    let folder = tempfile::tempdir().unwrap();
     let text = LEVEL_V.replace("count = 2", "count = 2, strength_n = 20");
-    std::fs::write(folder.path().join("v.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "v.toml", "--json", "--columns"]);
-    let mut output = Output::json("solve", "columns_of_level_v", &text);
+    let mut output = Output::alone("columns_of_level_v", text, "solve system.toml --columns");
     let at_m = json!([0.0, 0.0, 0.0, 0.5, 0.0, -DEPTH, 1.0, 0.0, 0.0]);
     output.each("equilibria[].joints_m[][]", at_m);
     output.each("equilibria[].start_forces_n[][]", json!([-H, 0.0, 10.0, -H, 0.0, 0.0]));
@@ -89,13 +83,12 @@ fn columns_of_level_v() {
 /// aside.
 #[test]
 fn a_tackle() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\njoints = { beam = { at_m = [0, 0, 0] }, block = { mass_kg = 40 }, \
                 winch = { at_m = [4, 0, -3] } }\nbars = [{ from = \"beam\", to = \"winch\", length_m = 9, \
                 via = [\"block\", \"beam\", \"block\", \"beam\"], kind = \"cable\" }]";
-    std::fs::write(folder.path().join("tackle.toml"), text).unwrap();
+    let folder = holding([("tackle.toml", text)]);
     let arguments = ["solve", "tackle.toml", "--json", "--bars-csv", "tackle.csv"];
-    let mut output = Output::json("solve", "a_tackle", &good(folder.path(), &arguments));
+    let mut output = Output::json("solve", "a_tackle", &good(&folder, &arguments));
     output.each("equilibria[].bars[].via[]", json!(["block", "beam", "block", "beam"]));
     output.each("equilibria[].bars[].axial_n", 100.0);
     output.each("equilibria[].bars[].force_at_end_n[]", json!([80.0, 0.0, -60.0]));
@@ -104,8 +97,7 @@ fn a_tackle() {
         json!([0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 4.0, 0.0, -3.0]),
     );
     output.done();
-    let columns = std::fs::read_to_string(folder.path().join("tackle.csv")).unwrap();
-    let mut output = Output::csv("solve --bars-csv", "a_tackle", &columns);
+    let mut output = Output::file("solve --bars-csv", "a_tackle", folder.path().join("tackle.csv"));
     output.each("via", "block beam block beam");
     output.done();
 }
@@ -113,20 +105,18 @@ fn a_tackle() {
 /// 30 N and 20 N on one rope over two pulleys: the lighter one is at its pulley, and pulls it down.
 #[test]
 fn a_weight_at_its_pulley() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\njoints = { D = { at_m = [0, 0, 0] }, E = { at_m = [1, 0, 0] }, \
                 P = { mass_kg = 3 }, Q = { mass_kg = 2 } }\nbars = [{ from = \"P\", to = \"Q\", length_m = 6, \
                 via = [\"D\", \"E\"], kind = \"cable\" }]";
-    std::fs::write(folder.path().join("two.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "two.toml", "--json"]);
-    let mut output = Output::json("solve", "a_weight_at_its_pulley", &text);
+    let folder = holding([("two.toml", text)]);
+    let mut output = Output::told("a_weight_at_its_pulley", &folder, "solve two.toml");
     output.each("equilibria[].evidence.jams[].member", 1);
     output.each("equilibria[].evidence.jams[].span", 3);
     output.each("equilibria[].evidence.jams[].pull_n[]", json!([0.0, 0.0, -20.0]));
     output.each("equilibria[].bars[].axial_n", 30.0);
     output.each("equilibria[].bars[].force_at_end_n[]", json!([0.0, 0.0, -20.0]));
     output.done();
-    let text = good(folder.path(), &["solve", "two.toml"]);
+    let text = good(&folder, &["solve", "two.toml"]);
     let said = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         said.contains("span 3 of the rope (bar 1) has no length and bears 20.000000 N"),
@@ -137,18 +127,16 @@ fn a_weight_at_its_pulley() {
 /// 4 kg in the middle of a rope over two pulleys, 3 kg at each of its ends: the ends slide against each other.
 #[test]
 fn equal_weights() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0] }, \
                 P = { mass_kg = 3 }, Q = { mass_kg = 3 }, R = { mass_kg = 4 } }\nbars = [{ from = \"P\", \
                 to = \"Q\", length_m = 8, via = [\"A\", \"R\", \"B\"], kind = \"cable\" }]";
-    std::fs::write(folder.path().join("three.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "three.toml", "--json"]);
-    let mut output = Output::json("solve", "equal_weights", &text);
+    let folder = holding([("three.toml", text)]);
+    let mut output = Output::told("equal_weights", &folder, "solve three.toml");
     output.is("agreement.undetermined[]", json!(["P", "Q"]));
     output.each("equilibria[].evidence.ladder[].proof.room.undetermined[]", json!(["P", "Q"]));
     output.each("equilibria[].bars[].axial_n", 30.0);
     output.done();
-    let text = good(folder.path(), &["solve", "three.toml"]);
+    let text = good(&folder, &["solve", "three.toml"]);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     assert!(text.contains("Not determined by equilibrium: the places of P, Q"), "{text}");
 }
@@ -157,20 +145,18 @@ fn equal_weights() {
 /// legs by a scan (a test of `validate`).
 #[test]
 fn boom_on_a_rope() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [1.41, 0.14, 0.25] }, \
                 T = { at_m = [0.04, 0, 1.73] }, P = { mass_kg = 1.64 }, Q = { mass_kg = 3.49 } }\nbars = [\
                 { from = \"A\", to = \"P\", length_m = 1.9, mass_kg = 0.69 }, \
                 { from = \"B\", to = \"P\", length_m = 1.71, mass_kg = 0.6 }, \
                 { from = \"P\", to = \"Q\", length_m = 1.27, mass_kg = 2.85 }, \
                 { from = \"B\", via = [\"T\"], to = \"Q\", length_m = 2.672, kind = \"cable\" }]";
-    std::fs::write(folder.path().join("boom.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "boom.toml", "--json"]);
-    let mut output = Output::json("solve", "boom_on_a_rope", &text);
+    let folder = holding([("boom.toml", text)]);
+    let mut output = Output::told("boom_on_a_rope", &folder, "solve boom.toml");
     output.is("asked_again[]", json!(["lagrange"]));
     output.within("equilibria[].energy_j", 93.108_8..=93.108_9);
     output.done();
-    let text = good(folder.path(), &["solve", "boom.toml"]);
+    let text = good(&folder, &["solve", "boom.toml"]);
     assert!(
         text.contains(
             "lagrange had found another equilibrium or none, and began again next to this"
@@ -183,9 +169,7 @@ fn boom_on_a_rope() {
 /// anchors, and both answers are turned onto each other.
 #[test]
 fn the_paper_turned() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = good(folder.path(), &["solve", "--case", "three-equal-bars", "--json"]);
-    let mut output = Output::json("solve", "the_paper_turned", &text);
+    let mut output = Output::told("the_paper_turned", ".", "solve --case three-equal-bars");
     let g = 9.806_65;
     output.each("equilibria[].energy_j", (2.335_468_651_999_305 - 6.0) * g);
     // At the start the ground lifts the first bar; at the end of each the next one, or the ground.
@@ -214,12 +198,9 @@ fn the_paper_turned() {
 /// Three bars of 1 m that hang down 2 m and come up 1 m: their forces are one of a family.
 #[test]
 fn straight_forces_are_a_family() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [0, 0, -1] }\n\
                 bars = [{ length_m = 1, mass_kg = 1, count = 3 }]\n";
-    std::fs::write(folder.path().join("straight.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "straight.toml", "--json"]);
-    let mut output = Output::json("solve", "straight_forces_are_a_family", &text);
+    let mut output = Output::alone("straight_forces_are_a_family", text, "solve system.toml");
     output.each(
         "equilibria[].joints[].at_m[]",
         json!([0, 0, 0, 0, 0, -1, 0, 0, -2, 0, 0, -1].map(f64::from)),
@@ -323,12 +304,9 @@ fn proofs_of_lamp(output: &mut Output) {
 
 #[test]
 fn lamp() {
-    let folder = tempfile::tempdir().unwrap();
     // With a tolerance it is no chain, and is solved by its members.
     let lamp = LAMP.replacen("length_m = 3\n", "length_m = 3\nlength_tolerance_m = 1e-9\n", 1);
-    std::fs::write(folder.path().join("lamp.toml"), lamp).unwrap();
-    let text = good(folder.path(), &["solve", "lamp.toml", "--json"]);
-    let mut output = Output::json("solve", "lamp", &text);
+    let mut output = Output::alone("lamp", lamp, "solve system.toml");
     output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.is("equilibria[].solver", json!(["lagrange", "energy"]));
@@ -365,7 +343,6 @@ fn lamp() {
 /// forces t and the middle one 1 - √2 t there is a family.
 #[test]
 fn three_cables() {
-    let folder = tempfile::tempdir().unwrap();
     let side = std::f64::consts::SQRT_2;
     let text = format!(
         "gravity_m_s2 = 1\n\
@@ -376,9 +353,7 @@ fn three_cables() {
          {{ from = \"C\", to = \"P\", length_m = {side}, mass_kg = 0, kind = \"cable\" }},\n\
          {{ from = \"P\", to = \"Q\", length_m = 0.5, mass_kg = 0, kind = \"cable\" }} ]\n"
     );
-    std::fs::write(folder.path().join("fan.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "fan.toml", "--json"]);
-    let mut output = Output::json("solve", "three_cables", &text);
+    let mut output = Output::alone("three_cables", text, "solve system.toml");
     // Least Σ F² l: 2 √2 t² + (1 - √2 t)², at t = 1/(2 + √2).
     let t = 1.0 / (2.0 + side);
     output.each("equilibria[].bars[].axial_n", json!([t, 1.0 - side * t, t, 1.0]));
@@ -423,13 +398,10 @@ fn three_cables() {
 /// A bar and an elastic one to a weight: no chain has a list with an elastic member, here the second.
 #[test]
 fn an_elastic_chain() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { mass_kg = 1 } }\n\
                 bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 },\n\
                 { from = 'P', to = 'B', length_m = 1, mass_kg = 0, stiffness_n = 100 }]";
-    std::fs::write(folder.path().join("chain.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "chain.toml", "--json"]);
-    let mut output = Output::json("solve", "an_elastic_chain", &text);
+    let mut output = Output::alone("an_elastic_chain", text, "solve system.toml");
     output.each("equilibria[].evidence.ladder[].reason.member", 2);
     output.done();
 }
@@ -437,13 +409,10 @@ fn an_elastic_chain() {
 /// Two rings on one rope, and a bar of 1 m between them: six places, and two lengths that stay.
 #[test]
 fn rings_that_a_bar_keeps_apart() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "joints = { A = { at_m = [-3, -0.5, 0] }, B = { at_m = [3, 0.5, 0] }, P = { mass_kg = 1 }, Q = { mass_kg = 1 } }\n\
                 bars = [{ from = 'A', to = 'B', via = ['P', 'Q'], length_m = 8, mass_kg = 0, kind = 'cable' },\n\
                 { from = 'P', to = 'Q', length_m = 1, mass_kg = 0 }]";
-    std::fs::write(folder.path().join("rings.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "rings.toml", "--json"]);
-    let mut output = Output::json("solve", "rings_that_a_bar_keeps_apart", &text);
+    let mut output = Output::alone("rings_that_a_bar_keeps_apart", text, "solve system.toml");
     let at = |key: &str| format!("equilibria[].evidence.ladder[].reason.{key}");
     output.each(&at("closures"), 0);
     output.each(&at("motions"), 4);
@@ -456,14 +425,11 @@ fn rings_that_a_bar_keeps_apart() {
 /// A mass on a strut that cannot pull; its weight is what it would have to.
 #[test]
 fn refusals() {
-    let folder = tempfile::tempdir().unwrap();
     let falls = "gravity_m_s2 = 10\n\
                  joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
                  bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n";
-    std::fs::write(folder.path().join("falls.toml"), falls).unwrap();
-    let (code, text, _) = run(folder.path(), &["solve", "falls.toml", "--json"]);
-    assert_eq!(code, Some(3));
-    let mut output = Output::json("solve", "refusals", &text);
+    let folder = holding([("falls.toml", falls)]);
+    let mut output = Output::ended(3, "refusals", &folder, "solve falls.toml");
     output.is("equilibria[]", json!([]));
     output.is("agreement", json!(null));
     refusals_of_a_fall(&mut output);
@@ -485,15 +451,12 @@ pub fn refusals_of_a_fall(output: &mut Output) {
 /// hang with 2 m less of height.
 #[test]
 fn a_drawn_rod() {
-    let folder = tempfile::tempdir().unwrap();
     let rod = "gravity_m_s2 = 10\nplane = \"xz\"\n[joints]\nfoot = { at_m = [0, 0, 0] }\n\
         P = { near_m = [0, 0, 0.9], mass_kg = 1 }\n[[bars]]\nfrom = \"foot\"\nto = \"P\"\nlength_m = 1\n\
         mass_kg = 0\n";
-    std::fs::write(folder.path().join("rod.toml"), rod).unwrap();
+    let folder = holding([("rod.toml", rod)]);
     // `energy` finds minima alone, and there is none: undecided.
-    let (code, text, _) = run(folder.path(), &["solve", "rod.toml", "--json"]);
-    assert_eq!(code, Some(3));
-    let mut output = Output::json("solve", "a_drawn_rod", &text);
+    let mut output = Output::ended(3, "a_drawn_rod", &folder, "solve rod.toml");
     output.near("near.moved", 1e-12, 0.1);
     output.near("near.moved_m", 1e-12, 0.1);
     output.is("near.joint", "P");

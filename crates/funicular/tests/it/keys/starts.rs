@@ -6,12 +6,9 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::Output;
-use super::solve::{LEVEL_V, system_of_level_v};
+use super::solve::{DEPTH, LEVEL_V, system_of_level_v};
 
-use crate::run::{column, good};
-
-/// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
+use crate::run::{column, good, holding};
 
 /// Seeds of the grid: 8 angles of each bar.
 const SEEDS: usize = 64;
@@ -265,7 +262,6 @@ fn manifest(output: &mut Output, folder: &Path, text: &str, seeds: usize) {
 /// is what every seed reaches.
 #[test]
 fn eighteen_on_a_parabola() {
-    let folder = tempfile::tempdir().unwrap();
     let tangents: Vec<f64> = (0..18).map(|k| 0.1 * f64::from(k) - 0.85).collect();
     let bars: Vec<String> = tangents
         .iter()
@@ -275,9 +271,9 @@ fn eighteen_on_a_parabola() {
         "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = [18, 0, 0] }}\nbars = [{}]\n",
         bars.join(", ")
     );
-    std::fs::write(folder.path().join("p.toml"), text).unwrap();
+    let folder = holding([("p.toml", text)]);
     let arguments = ["sweep", "p.toml", "--seeds", "20", "--solver", "energy", "--format", "csv"];
-    good(folder.path(), &[&arguments[..], &["--out", "out"]].concat());
+    good(&folder, &[&arguments[..], &["--out", "out"]].concat());
     let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
     let kind = "summary.json of a list that grows";
     let mut output = Output::json(kind, "eighteen_on_a_parabola", &text);
@@ -326,16 +322,15 @@ fn eighteen_on_a_parabola() {
 /// Two halves joined say what the whole says.
 #[test]
 fn halves_joined() {
-    let folder = tempfile::tempdir().unwrap();
     let seeds = ["--seeds", "2048"];
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let folder = holding([("v.toml", LEVEL_V)]);
     let sweep = |shard: &str, out: &str| {
         let more = ["--format", "csv", "--shard", shard, "--out", out];
-        good(folder.path(), &[&["sweep", "v.toml"], &seeds[..], &more].concat());
+        good(&folder, &[&["sweep", "v.toml"], &seeds[..], &more].concat());
     };
     sweep("1/2", "one");
     sweep("2/2", "two");
-    let text = good(folder.path(), &["merge", "two", "one", "--out", "all", "--json"]);
+    let text = good(&folder, &["merge", "two", "one", "--out", "all", "--json"]);
     let rows = ["part-000000.csv", "part-000001.csv"]
         .map(|part| std::fs::read_to_string(folder.path().join("all").join(part)).unwrap());
     let second = rows[1].split_once('\n').unwrap().1;
@@ -353,11 +348,10 @@ fn halves_joined() {
 /// Released with damping all come to rest where they hang: nothing rests standing.
 #[test]
 fn releases() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let folder = holding([("v.toml", LEVEL_V)]);
     let arguments = ["simulate", "v.toml", "--seeds", "20", "--damping", "3", "--time", "20"];
     let more = ["--step", "0.02", "--format", "csv", "--json", "--out", "out"];
-    let text = good(folder.path(), &[&arguments[..], &more].concat());
+    let text = good(&folder, &[&arguments[..], &more].concat());
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let motion = Rows::of(&rows, "motion");
     let mut output = Output::json("simulate --seeds", "releases", &text);

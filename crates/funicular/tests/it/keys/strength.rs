@@ -5,29 +5,28 @@ use serde_json::json;
 use super::output::Output;
 use super::solve::{DEPTH, H, LEVEL_V};
 
-use crate::run::{good, run};
+use crate::run::{good, holding};
 
 /// Bars that bear 20 and 10 N in tension, twice as much as they are to.
 #[test]
 fn strength_of_level_v() {
-    let folder = tempfile::tempdir().unwrap();
     let strong = "bars = [{ length_m = 1, mass_kg = 1, strength_n = 20 }, \
                   { length_m = 1, mass_kg = 1, strength_n = 10, safety = 2 }]";
     let text = LEVEL_V.replace("bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", strong);
-    std::fs::write(folder.path().join("v.toml"), text).unwrap();
+    let folder = holding([("v.toml", text)]);
     // The force at the anchors, over each strength.
     let largest = 0.5 * H + 10.0 * DEPTH;
     let used = json!([largest / 20.0, largest / 10.0]);
     let arguments = ["solve", "v.toml", "--json", "--bars-csv", "v.csv"];
-    let mut output = Output::json("solve", "strength_of_level_v", &good(folder.path(), &arguments));
+    let mut output = Output::json("solve", "strength_of_level_v", &good(&folder, &arguments));
     output.each("equilibria[].bars[].utilisation", used.clone());
     output.each("equilibria[].weakest.bar", 2);
     output.each("equilibria[].weakest.utilisation", largest / 10.0);
     output.each("equilibria[].weakest.safety", 10.0 / largest);
     output.each("equilibria[].weakest.safety_wanted", 2.0);
     output.done();
-    let columns = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
-    let mut output = Output::csv("solve --bars-csv", "strength_of_level_v", &columns);
+    let mut output =
+        Output::file("solve --bars-csv", "strength_of_level_v", folder.path().join("v.csv"));
     output.each("utilisation", used);
     output.done();
 }
@@ -36,15 +35,14 @@ fn strength_of_level_v() {
 /// the ropes all hangs on the other; without the hanger the load falls.
 #[test]
 fn losses_of_two_ropes_and_a_hanger() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
                 B = { at_m = [3, 0, 0] }, P = {}, Q = { mass_kg = 30 } }\nbars = [\
                 { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 600 }, \
                 { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 1200 }, \
                 { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0 }]";
-    std::fs::write(folder.path().join("ropes.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "ropes.toml", "--without", "each", "--json"]);
-    let mut output = Output::json("losses", "losses_of_two_ropes_and_a_hanger", &text);
+    let mut output =
+        Output::alone("losses_of_two_ropes_and_a_hanger", text, "solve system.toml --without each")
+            .of("losses");
     output.is("schema_version", 3);
     output.system("ropes", [4, 3], [11.0, 30.0, 10.0]);
     output.is("losses[].bar", json!([1, 2, 3]));
@@ -73,7 +71,6 @@ fn losses_of_two_ropes_and_a_hanger() {
 /// makes 125 N of the weight.
 #[test]
 fn load_cases_of_two_ropes() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "name = \"ropes\"\ngravity_m_s2 = 10\njoints = { A = { at_m = [-3, 0, 0] }, \
                 B = { at_m = [3, 0, 0] }, P = { mass_kg = 10 } }\nbars = [\
                 { from = \"A\", to = \"P\", length_m = 5, mass_kg = 0, strength_n = 175 }, \
@@ -83,11 +80,10 @@ fn load_cases_of_two_ropes() {
                 [[cases]]\nname = \"east\"\nfactors = { wind = 1 }\n\
                 [[cases]]\nname = \"west\"\nfactors = { wind = -1, gust = 1 }\n";
     let nothing = "[[cases]]\nname = \"nothing\"\nfactors = { permanent = 0 }\n";
-    std::fs::write(folder.path().join("ropes.toml"), format!("{text}{nothing}")).unwrap();
-    let arguments = ["solve", "ropes.toml", "--load-case", "each", "--json"];
-    let (code, text, _) = run(folder.path(), &arguments);
-    assert_eq!(code, Some(3));
-    let mut output = Output::json("load cases", "load_cases_of_two_ropes", &text);
+    let folder = holding([("ropes.toml", format!("{text}{nothing}"))]);
+    let mut output =
+        Output::ended(3, "load_cases_of_two_ropes", &folder, "solve ropes.toml --load-case each")
+            .of("load cases");
     output.is("schema_version", 3);
     output.system("ropes", [3, 2], [10.0, 10.0, 10.0]);
     output.is("cases[].name", json!(["east", "west", "nothing"]));
@@ -132,8 +128,9 @@ fn losses_after_which_nothing_hangs() {
                  bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1 }]";
     for (text, outcome) in [(triangle, "leaves"), (alone, "no-load")] {
         std::fs::write(folder.path().join("system.toml"), text).unwrap();
-        let text = good(folder.path(), &["solve", "system.toml", "--without", "each", "--json"]);
-        let mut output = Output::json("losses", "losses_after_which_nothing_hangs", &text);
+        let command = "solve system.toml --without each";
+        let mut output =
+            Output::told("losses_after_which_nothing_hangs", &folder, command).of("losses");
         output.says("losses[].outcome", &[outcome]);
         output.done();
     }

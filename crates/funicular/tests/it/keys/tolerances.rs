@@ -6,22 +6,21 @@ use serde_json::{Value, json};
 
 use super::output::Output;
 
-use crate::run::{good, run};
+use crate::run::{good, holding, run};
 
 /// 2 kg and half a kilogram more or less on a bar of 3 m, straight below an anchor that is known to 0.1 m: the
 /// force is that of the weight, 20 N and 5, and P moves with the anchor. Uniform draws deviate by the
 /// tolerance over the root of three.
 #[test]
 fn tolerances_of_a_plumb_bob() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0], at_tolerance_m = 0.1 }, \
                 P = { mass_kg = 2, mass_tolerance_kg = 0.5 } }\n\
                 bars = [{ from = \"A\", to = \"P\", length_m = 3, mass_kg = 0, strength_n = 50 }]";
-    std::fs::write(folder.path().join("bob.toml"), text).unwrap();
+    let folder = holding([("bob.toml", text)]);
     let arguments =
         ["solve", "bob.toml", "--tolerances", "--json", "--monte-carlo", "400", "--seed", "7"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("solve", "tolerances_of_a_plumb_bob", &text);
+    let command = "solve bob.toml --tolerances --monte-carlo 400 --seed 7";
+    let mut output = Output::told("tolerances_of_a_plumb_bob", &folder, command);
     output.is("tolerances.is_proved", true);
     output.is("tolerances.is_stable", true);
     output.is("tolerances.boxes", 1);
@@ -92,7 +91,7 @@ fn tolerances_of_a_plumb_bob() {
     output.near("tolerances.joints[].drawn_m[].deviation", 0.006, json!(vec![0.1 * third; 6]));
     output.done();
     for (which, deviation) in [("normal", 0.986_58 / 3.0), ("ends", 1.0)] {
-        let text = good(folder.path(), &[&arguments[..], &["--distribution", which]].concat());
+        let text = good(&folder, &[&arguments[..], &["--distribution", which]].concat());
         let found: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(found["tolerances"]["draws"]["distribution"], which);
         let drawn = found["tolerances"]["bars"][0]["drawn_n"]["deviation"].as_f64().unwrap();
@@ -150,8 +149,7 @@ fn tolerances_without_a_proof() {
     };
     for (within_m, third_m) in [(0.01, 1.001), (4.5, 9.0)] {
         std::fs::write(folder.path().join("ropes.toml"), text(within_m, third_m)).unwrap();
-        let (code, said, _) =
-            run(folder.path(), &["solve", "ropes.toml", "--tolerances", "--json"]);
+        let (code, said, _) = run(&folder, &["solve", "ropes.toml", "--tolerances", "--json"]);
         assert_eq!(code, Some(3), "{said}");
         let mut output = Output::json("solve", "tolerances_without_a_proof", &said);
         output.is("tolerances.is_proved", false);

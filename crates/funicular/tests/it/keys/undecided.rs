@@ -5,18 +5,15 @@ use serde_json::json;
 use super::evidence::NOTHING;
 use super::output::Output;
 
-use crate::run::{good, run};
+use crate::run::holding;
 
 /// A census that does not decide everything.
 fn census(test: &'static str, end: &str, bars: &str) -> Output {
-    let folder = tempfile::tempdir().unwrap();
     let text = format!(
         "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\nbars = [{bars}]\n"
     );
-    std::fs::write(folder.path().join("file.toml"), text).unwrap();
-    let (code, text, _) = run(folder.path(), &["census", "file.toml", "--json"]);
-    assert_eq!(code, Some(3), "{text}");
-    let mut output = Output::json("census", test, &text);
+    let folder = holding([("file.toml", text)]);
+    let mut output = Output::ended(3, test, &folder, "census file.toml");
     output.is("census.complete", false);
     output.is("census.decided", false);
     output
@@ -118,13 +115,10 @@ fn a_gap_just_bridged() {
 /// The joint between two slack bars of 1 m, 1 m apart, may be anywhere that these let it.
 #[test]
 fn a_free_joint() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
                 bars = [{ length_m = 1, mass_kg = 1 }, { length_m = 1, mass_kg = 0, count = 2 }, \
                 { length_m = 1, mass_kg = 1 }]\n";
-    std::fs::write(folder.path().join("file.toml"), text).unwrap();
-    let text = good(folder.path(), &["solve", "file.toml", "--json"]);
-    let mut output = Output::json("solve", "a_free_joint", &text);
+    let mut output = Output::alone("a_free_joint", text, "solve system.toml");
     output.each("equilibria[].evidence.ladder[].proof.room.free_joints", 1);
     output.is("agreement.free_joints", 1);
     output.each("equilibria[].evidence.ladder[].reason.kind", json!(["no_box", "slack_family"]));
@@ -138,13 +132,10 @@ fn a_free_joint() {
 /// and without force. Of six equilibria nearer by four merge there, and two are left further off.
 #[test]
 fn four_merge() {
-    let folder = tempfile::tempdir().unwrap();
     let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n\
                 bars = [{ length_m = 1, mass_kg = 1, count = 3 }]\n";
-    std::fs::write(folder.path().join("file.toml"), text).unwrap();
-    let arguments = ["trace", "file.toml", "--vary", "anchors.end_m.z=-2.2..-1.8:3", "--json"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("trace", "four_merge", &text);
+    let mut output =
+        Output::alone("four_merge", text, "trace system.toml --vary anchors.end_m.z=-2.2..-1.8:3");
     let point = |key: &str| format!("traces[].points[].{key}");
     output.is(&point("status"), json!(["complete", "undecided", "complete"]));
     output.is(&point("count"), json!([2, 6]));

@@ -5,31 +5,20 @@ use serde_json::{Value, json};
 
 use super::evidence::NOTHING;
 use super::output::Output;
-use super::solve::{LAMP, LEVEL_V, system_of_lamp, system_of_level_v};
+use super::solve::{AXIAL, DEPTH, H, LAMP, LEVEL_V, system_of_lamp, system_of_level_v};
 
-use crate::run::good;
-
-/// Half the height of an equilateral triangle of side 1 m, m.
-const DEPTH: f64 = 0.866_025_403_784_438_6;
-/// Level force of two bars of 10 N at 60 degrees: 10 (1/4)/(√3/2), N.
-const H: f64 = 2.886_751_345_948_129;
-/// The size of the mean force (H, 5 N) of a bar, N.
-const AXIAL: f64 = 5.773_502_691_896_258;
+use crate::run::holding;
 
 fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
-    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
-    folder
+    holding([("v.toml", LEVEL_V), ("lamp.toml", LAMP)])
 }
 
 /// The level V under 10 and 20 N a bar.
 #[test]
 fn study_of_a_chain() {
     let folder = folder();
-    let arguments = ["study", "v.toml", "--vary", "gravity_m_s2=10,20", "--json", "--csv", "v.csv"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("study", "study_of_a_chain", &text);
+    let command = "study v.toml --vary gravity_m_s2=10,20 --csv v.csv";
+    let mut output = Output::told("study_of_a_chain", &folder, command);
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
     output.is("parameters[]", "gravity_m_s2");
@@ -58,8 +47,7 @@ fn study_of_a_chain() {
     let ends = |h: f64, w: f64| [[-h, 0.0, w], [h, 0.0, w]];
     output.is(&at("reactions_n.*[]"), json!([ends(H, 10.0), ends(2.0 * H, 20.0)]));
     output.done();
-    let text = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
-    let mut output = Output::csv("study --csv", "study_of_a_chain", &text);
+    let mut output = Output::file("study --csv", "study_of_a_chain", folder.path().join("v.csv"));
     output.is("gravity_m_s2", json!([10.0, 20.0]));
     output.each("span_m", 1.0);
     // Of joint 0, then of joint 2, row by row.
@@ -93,16 +81,15 @@ fn columns_of_every_study(output: &mut Output) {
 #[test]
 fn study_of_the_paper() {
     let folder = folder();
-    let arguments = ["study", "--case", "three-equal-bars", "--vary", "gravity_m_s2=10"];
-    let text = good(folder.path(), &[&arguments[..], &["--json", "--csv", "paper.csv"]].concat());
-    let mut output = Output::json("study", "study_of_the_paper", &text);
+    let command = "study --case three-equal-bars --vary gravity_m_s2=10 --csv paper.csv";
+    let mut output = Output::told("study_of_the_paper", &folder, command);
     // The force of the ground at D, 0.6489 mg level and 0.6871 mg up, along the bar at beta.
     let (sine, cosine) = 73.920_588_792_231_34_f64.to_radians().sin_cos();
     let pushed = 10.0 * (0.648_944_835_933_933_6 * sine + 0.687_055_707_758_162_4 * cosine);
     output.is("points[].compression_n[]", json!([3, pushed]));
     output.done();
-    let text = std::fs::read_to_string(folder.path().join("paper.csv")).unwrap();
-    let mut output = Output::csv("study --csv", "study_of_the_paper", &text);
+    let mut output =
+        Output::file("study --csv", "study_of_the_paper", folder.path().join("paper.csv"));
     output.is("compression_n", pushed);
     output.is("compression_bar", 3);
     output.done();
@@ -112,9 +99,8 @@ fn study_of_the_paper() {
 #[test]
 fn study_of_too_few_bars() {
     let folder = folder();
-    let arguments = ["study", "v.toml", "--vary", "anchors.end_m.x=1,3", "--json"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("study", "study_of_too_few_bars", &text);
+    let mut output =
+        Output::told("study_of_too_few_bars", &folder, "study v.toml --vary anchors.end_m.x=1,3");
     output.is("points[].refused", true);
     let reason = "the anchors \"0\" and \"2\" are 3 m apart and the members between them reach only 2 m: 1 m are missing";
     output.is("points[].reason", reason);
@@ -125,10 +111,8 @@ fn study_of_too_few_bars() {
 #[test]
 fn study_of_a_system() {
     let folder = folder();
-    let vary = ["study", "lamp.toml", "--vary", "joints.P.mass_kg=2,4"];
-    let more = ["--json", "--csv", "lamp.csv", "--of", "joints.P.z"];
-    let text = good(folder.path(), &[&vary[..], &more].concat());
-    let mut output = Output::json("study", "study_of_a_system", &text);
+    let command = "study lamp.toml --vary joints.P.mass_kg=2,4 --csv lamp.csv --of joints.P.z";
+    let mut output = Output::told("study_of_a_system", &folder, command);
     output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.is("parameters[]", "joints.P.mass_kg");
@@ -156,8 +140,8 @@ fn study_of_a_system() {
     let forces = [1.0, 2.0].map(|k| [-9.6, 0.0, 12.8, 9.6, 0.0, 7.2].map(|n: f64| k * n));
     output.is(&at("reactions_n.*[]"), json!(forces));
     output.done();
-    let text = std::fs::read_to_string(folder.path().join("lamp.csv")).unwrap();
-    let mut output = Output::csv("study --csv", "study_of_a_system", &text);
+    let mut output =
+        Output::file("study --csv", "study_of_a_system", folder.path().join("lamp.csv"));
     output.is("joints.P.mass_kg", json!([2.0, 4.0]));
     output.each("span_m", 5.0);
     output.is("energy_j", json!([-48.0, -96.0]));
@@ -188,8 +172,7 @@ fn about_lamp(output: &mut Output) {
 #[test]
 fn stiffness_of_anchors() {
     let folder = folder();
-    let text = good(folder.path(), &["derivatives", "lamp.toml", "--json"]);
-    let mut output = Output::json("derivatives", "stiffness_of_anchors", &text);
+    let mut output = Output::told("stiffness_of_anchors", &folder, "derivatives lamp.toml");
     about_lamp(&mut output);
     output.is("anchors[].of", json!(["A", "A", "B", "B"]));
     output.is("anchors[].by", json!(["A", "B", "A", "B"]));
@@ -209,9 +192,8 @@ fn stiffness_of_anchors() {
 #[test]
 fn gradient_of_a_height() {
     let folder = folder();
-    let arguments = ["derivatives", "lamp.toml", "--of", "joints.P.at_m.z", "--csv", "z.csv"];
-    let text = good(folder.path(), &[&arguments[..], &["--json"]].concat());
-    let mut output = Output::json("derivatives", "gradient_of_a_height", &text);
+    let command = "derivatives lamp.toml --of joints.P.at_m.z --csv z.csv";
+    let mut output = Output::told("gradient_of_a_height", &folder, command);
     about_lamp(&mut output);
     output.is("of", "joints.P.at_m.z");
     output.is("value", -2.4);
@@ -235,8 +217,8 @@ fn gradient_of_a_height() {
     output.is("derivatives[].value", wanted.map(|(_, value, _)| value).as_slice());
     output.is("derivatives[].unit", wanted.map(|(.., unit)| unit).as_slice());
     output.done();
-    let text = std::fs::read_to_string(folder.path().join("z.csv")).unwrap();
-    let mut output = Output::csv("derivatives --csv", "gradient_of_a_height", &text);
+    let mut output =
+        Output::file("derivatives --csv", "gradient_of_a_height", folder.path().join("z.csv"));
     output.is("parameter", wanted.map(|(name, ..)| name).as_slice());
     output.is("derivative", wanted.map(|(_, value, _)| value).as_slice());
     output.is("unit", wanted.map(|(.., unit)| unit).as_slice());
@@ -247,9 +229,8 @@ fn gradient_of_a_height() {
 #[test]
 fn derivatives_by_a_length() {
     let folder = folder();
-    let arguments = ["derivatives", "lamp.toml", "--by", "bars.1.length_m", "--json"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("derivatives", "derivatives_by_a_length", &text);
+    let command = "derivatives lamp.toml --by bars.1.length_m";
+    let mut output = Output::told("derivatives_by_a_length", &folder, command);
     about_lamp(&mut output);
     output.is("by", "bars.1.length_m");
     output.is("unit", "m");
@@ -263,9 +244,8 @@ fn derivatives_by_a_length() {
 #[test]
 fn branches_over_gravity() {
     let folder = folder();
-    let arguments = ["trace", "v.toml", "--vary", "gravity_m_s2=10,20", "--json", "--csv", "v.csv"];
-    let text = good(folder.path(), &arguments);
-    let mut output = Output::json("trace", "branches_over_gravity", &text);
+    let command = "trace v.toml --vary gravity_m_s2=10,20 --csv v.csv";
+    let mut output = Output::told("branches_over_gravity", &folder, command);
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
     let at = |key: &str| format!("traces[].{key}");
@@ -363,10 +343,9 @@ fn columns_of_branches(text: &str) {
 #[test]
 fn folds_of_the_level_chain() {
     let folder = folder();
-    let arguments = ["trace", "--case", "three-equal-bars", "--vary", "anchors.end_m.z=0"];
-    let more = ["--vary", "anchors.end_m.x=1.1,1.3,4", "--json"];
-    let text = good(folder.path(), &[&arguments[..], &more].concat());
-    let mut output = Output::json("trace", "folds_of_the_level_chain", &text);
+    let command =
+        "trace --case three-equal-bars --vary anchors.end_m.z=0 --vary anchors.end_m.x=1.1,1.3,4";
+    let mut output = Output::told("folds_of_the_level_chain", &folder, command);
     let at = |key: &str| format!("traces[].events[].{key}");
     output.is(&at("id"), json!([1, 2, 3, 4, 5]));
     output.is(&at("kind"), json!(["fold", "fold", "fold", "fold", "straight"]));
