@@ -22,14 +22,11 @@ pub(crate) const PROGRESS: f64 = 0.5;
 /// turn of the bars to a few radians.
 pub(crate) const GRADIENT_PART: f64 = 0.25;
 
-/// Turns, rad, and forces, over the largest, known to this need no word.
+/// Turns, rad, and forces, lengths and energies, over the largest, known to this need no word; less is none.
 pub(crate) const KNOWN: f64 = 1e-9;
 
 /// Eigenvalues, singular values, and components of a unit vector below this part of the largest are zero.
 pub(crate) const ZERO: f64 = 1e-9;
-
-/// Forces below this part of the largest that acts are none.
-pub(crate) const NO_FORCE: f64 = 1e-9;
 
 /// Diagonal added, over the size of the matrix, where a motion may meet no stiffness: far below what a
 /// mechanism of a real structure has, far above rounding.
@@ -40,3 +37,15 @@ pub(crate) const NO_STRAIN: f64 = 1e-12;
 
 /// The golden section: its multiples are spread evenly, alike in every run.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_75;
+
+/// Roundings of sums of some terms: below this part of its terms a number has lost all its digits.
+pub(crate) const LOST: f64 = 16.0 * f64::EPSILON;
+
+/// Closures, and forces over the largest, that are right to this need nothing more.
+pub(crate) const SETTLED: f64 = 1e-13;
+
+/// Corrections of the closure after a step. Three to five are normal; a step that needs more is too long.
+pub(crate) const CORRECTIONS: usize = 12;
+
+/// Bisections of an interval: all digits of a double.
+pub(crate) const BISECTIONS: usize = 64;

@@ -76,27 +76,6 @@ impl VectorSum {
     }
 }
 
-/// A compensated sum of numbers.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sum {
-    total: f64,
-    lost: f64,
-}
-
-impl Sum {
-    pub(crate) fn add(&mut self, term: f64) {
-        let s = self.total;
-        let next = s + term;
-        let back = next - s;
-        self.lost += (s - (next - back)) + (term - back);
-        self.total = next;
-    }
-
-    pub(crate) fn value(&self) -> f64 {
-        self.total + self.lost
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,14 +108,5 @@ mod tests {
         for bad in [[0.0; 3], [f64::NAN, 1.0, 0.0], [f64::INFINITY, 0.0, 0.0]] {
             assert!(unit(bad).is_none());
         }
-    }
-
-    #[test]
-    fn sums_of_numbers_keep_what_plain_sums_lose() {
-        let mut sum = Sum::default();
-        for term in [1e16, 1.0, 3.0, 1.0, -1e16] {
-            sum.add(term);
-        }
-        assert_eq!(sum.value().to_bits(), 5.0_f64.to_bits());
     }
 }

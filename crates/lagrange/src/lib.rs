@@ -64,8 +64,7 @@
 //! | side by side | and strands of one depth, less than $10^{-3} L$ apart | along and across the vertical | tension | as above; the error of the forces if it is above 1e-9 |
 //! | strut | $\lvert G\rvert < l$ | compression and slope of the lowest bar | nested searches for both | as above |
 //! | taut strut | and nearly straight from anchor to anchor | the slope from the line of the anchors | as above | as above |
-//! | folded strut | and nearly as long as span and all others together | the slope from that line, the others against it | as above | as above |
-//! | compact fold | and anchors nearer than the fold is exact | axes that turn with the bar | as above | as above |
+//! | folded strut | and longer than all others, nearly as long as these and the span together | the slope from that line, the others against it | as above | as above |
 //! | vertical strut | and anchors on one vertical | the slope from the vertical | as above | as above; forces indeterminate if the chain is straight |
 //! | triangle | two bars, $\lvert D\rvert < 10^{-3} L$ | none: the moments of the load, to twice the digits | none is needed | converged; minimum, stable |
 //! | unloaded | bars without load at the bottom can fill G | none | none is needed | degenerate, with the number of free motions |

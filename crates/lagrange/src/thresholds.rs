@@ -41,16 +41,8 @@ pub(crate) const UPRIGHT: f64 = 1e-6;
 /// leaves half of the digits of a force.
 pub(crate) const SLACK_ROUNDINGS: f64 = 1e7;
 
-/// A moment this large on a bar, in units of the largest force times the mean length, in a state
-/// that solves the paper's equations to 1e-13 is no rounding error: the equations do not see it.
-pub(crate) const UNSEEN_MOMENT: f64 = 1e-9;
-
 /// Axial forces this small beside the largest are zero: forces are known to some 1e-13.
 pub(crate) const NO_FORCE: f64 = 1e-12;
-
-/// Eigenvalues of the small matrix of the index this small beside $\sum l_i/|T_i|$ are zero: the
-/// state is known to 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
-pub(crate) const ZERO_EIGENVALUE: f64 = 1e-9;
 
 /// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
 /// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above
@@ -77,3 +69,25 @@ pub(crate) const SUM_ROUNDING: f64 = 1e-15;
 
 /// 1 over the golden ratio: the fractions of its multiples are spread without pattern.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// What a search leaves of forces, loads, strains, lengths and energies, over the largest: less is none, and more is seen.
+pub(crate) const FOUND: f64 = 1e-9;
+
+/// Curvatures, eigenvalues and components of directions below this part of the largest are zero: a state is known to
+/// 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
+pub(crate) const ZERO: f64 = 1e-9;
+
+/// What rounding leaves of a solve at best, over the largest, with room.
+pub(crate) const ROUNDED: f64 = 1e-13;
+
+/// Lengths, and loads, of a file that differ by less than this part are equal.
+pub(crate) const GIVEN: f64 = 1e-12;
+
+/// A step, or a few, ought to leave at most this part.
+pub(crate) const HALVED: f64 = 0.5;
+
+/// Shortest part of a step that is tried.
+pub(crate) const SHORTEST: f64 = 1e-3;
+
+/// A step is halved at most so many times.
+pub(crate) const HALVINGS: usize = 30;

@@ -5,14 +5,12 @@
 )]
 
 use super::BatchSettings;
-use crate::thresholds::ARMIJO;
+use crate::thresholds::{ARMIJO, KNOWN, LOST};
 
 /// Largest turn of a bar in one correction or step.
 const LARGEST_TURN: f64 = 0.7;
 /// Damping of a correction, in squares of the gap: it vanishes faster than the gap does.
 const DAMPING: f64 = 0.1;
-/// Roundings in the energy, in units of the total weight times the total length.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
 /// parallel turn together towards the line of the gap, ever more slowly.
 const SEED_CORRECTIONS: u32 = 25;
@@ -23,9 +21,6 @@ const HALVINGS: u32 = 40;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;
 const PERTURBATION: f64 = 0.01;
-/// A minimum is settled where Newton's next step turns no bar by more than this. Bars that carry
-/// nearly nothing are far from theirs while the slope is zero to the tolerance.
-const SETTLED: f64 = 1e-9;
 /// Steps that a minimum may take to settle. They are quadratic, but where the second derivative
 /// vanishes: there each takes a part of the way, and this many are below what rounding leaves.
 const SETTLING: u32 = 40;
@@ -110,7 +105,7 @@ impl Lane {
         }
         if square <= settings.closure * settings.closure {
             // Rounding errors of the energy must not stop a step that promises less than they are.
-            if value <= self.value + ARMIJO * self.part * self.fall + ROUNDING
+            if value <= self.value + ARMIJO * self.part * self.fall + LOST
                 || self.value.is_infinite()
             {
                 self.value = value;
@@ -161,8 +156,7 @@ impl Lane {
             return self.perturb();
         }
         if here {
-            let goes_on =
-                convex && largest_turn > SETTLED && self.settling < SETTLING && fall < 0.0;
+            let goes_on = convex && largest_turn > KNOWN && self.settling < SETTLING && fall < 0.0;
             if !(goes_on && largest_turn.is_finite()) {
                 return Next::Minimum;
             }

@@ -16,13 +16,11 @@ use crate::net::minimise::seeded;
 use crate::net::polish::rounding_floor;
 use crate::net::shape::{Shape, largest};
 use crate::net::stability::{DENSE, Dense, below, rows};
-use crate::thresholds::ZERO;
+use crate::thresholds::{KNOWN, ZERO};
 use crate::vector::scaled;
 
 /// Rounds in which members with a force of the wrong sign become slack.
 const ROUNDS: usize = 8;
-/// Misses of lengths, over them, and what is left of the gradient, over the largest force, besides rounding.
-const MET: f64 = 1e-9;
 
 /// The energy at a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +43,7 @@ impl Critical {
     /// Whether the shape is an equilibrium.
     #[must_use]
     pub fn is_equilibrium(&self) -> bool {
-        self.unbalance <= self.allowed && self.misfit <= MET
+        self.unbalance <= self.allowed && self.misfit <= KNOWN
     }
 }
 
@@ -89,7 +87,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
             Kind::Strut => -excess[e].value,
         };
         let taut = rigid.into_iter().filter(|e| {
-            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -MET * frame.rods[*e].length
+            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -KNOWN * frame.rods[*e].length
         });
         multipliers(&frame, &mut shape, taut.collect());
     }
@@ -115,7 +113,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
     let (unbalance, misfit) = (slope.unbalance, (slope.misfit - given).max(0.0));
-    Ok(Some(Critical { unbalance, allowed: MET + rounding, misfit, index, curvature }))
+    Ok(Some(Critical { unbalance, allowed: KNOWN + rounding, misfit, index, curvature }))
 }
 
 /// Forces of the taut inextensible members that leave least of the gradient; those whose sign would
@@ -133,7 +131,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
             shape.force[*e] += force;
         }
         frame.spread(&mut shape.force);
-        let zero = MET * largest(&shape.force);
+        let zero = KNOWN * largest(&shape.force);
         let wrong = |e: &usize| {
             let force = shape.force[*e];
             force.abs() > zero && !frame.rods[*e].resists(force)

@@ -32,7 +32,7 @@ use crate::net::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor}
 use crate::net::shape::{Shape, largest};
 use crate::net::share::Share;
 use crate::net::stability::DENSE;
-use crate::thresholds::{GOLDEN, NO_FORCE, PROGRESS};
+use crate::thresholds::{GOLDEN, KNOWN, PROGRESS};
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -52,11 +52,6 @@ const LEANING: f64 = 1e-10;
 
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
-
-/// Residual of a start in which the loads are borne; and what of the mean load may be left where
-/// they still are.
-const BORNE: f64 = 1e-6;
-const UNBORNE: f64 = 1e-2;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
@@ -128,13 +123,6 @@ impl Frame {
         let rounding = rounding_floor(self, shape);
         let mut ground = self.rods.iter().enumerate().filter(|(_, rod)| rod.ground);
         ground.all(|(e, rod)| rod.excess(self.span(&shape.x, e)).value <= rounding)
-    }
-
-    /// Whether the joints still balance: by a part of the mean load, or nearly as well as before.
-    fn borne(&self, shape: &Shape, unbalance: f64, before: f64) -> bool {
-        let loads: f64 = self.loads.iter().map(|load| norm(*load)).sum();
-        let rest = (unbalance - 10.0 * before) * self.force_scale(&shape.force);
-        loads <= 0.0 || rest <= UNBORNE * loads / self.joints as f64
     }
 
     /// The part of the forces of the inextensible members that no load causes.
@@ -219,9 +207,6 @@ impl Newton {
                 }
                 Reading::Released(shape) => return Ok(Reading::Released(shape)),
                 Reading::Regular => break,
-                // All lengths are met and all forces follow from the loads: the singular reading was
-                // the only other one.
-                Reading::Astray if exact && self.determinate(&mut share, shape) => break,
                 Reading::Astray => {}
             }
             softness *= STIFFER;
@@ -235,7 +220,7 @@ impl Newton {
             return false;
         }
         let rest = self.frame.self_stress(share, shape);
-        largest(&rest) <= NO_FORCE * largest(&shape.force)
+        largest(&rest) <= KNOWN * largest(&shape.force)
     }
 
     /// One reading of the shape.
@@ -250,11 +235,6 @@ impl Newton {
             return Reading::Regular;
         }
         share_forces(&frame, share, &mut shape.force);
-        // What the softness takes away no longer bears its load: such a load needs the strain.
-        let (before, after) = (frame.slope(start), frame.slope(&shape));
-        if before.residual() < BORNE && !frame.borne(&shape, after.unbalance, before.unbalance) {
-            return Reading::Astray;
-        }
         let mut stiffening = Vec::new();
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
@@ -291,15 +271,8 @@ impl Newton {
             }
             match last {
                 Some((before, there)) if residual > PROGRESS * before => {
-                    let better =
+                    let (residual, mut better) =
                         if residual < before { (residual, shape) } else { (before, there) };
-                    if strain > STIFFEST_STRAIN && better.0 > rounding_floor(&frame, &better.1) {
-                        strain *= STIFFER;
-                        shape = better.1.clone();
-                        last = Some(better);
-                        continue;
-                    }
-                    let (residual, mut better) = better;
                     if release_floor(&frame, &mut better, &mut taut) {
                         (shape, last) = (better, None);
                         if !share.stand(&shape.x, &taut, softness) {

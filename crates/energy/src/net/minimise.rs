@@ -23,7 +23,7 @@ use crate::net::solution::Solution;
 use crate::net::start::hanging;
 use crate::net::work::Meter;
 use crate::run::{unwrapped, verdict};
-use crate::thresholds::GOLDEN;
+use crate::thresholds::{GOLDEN, KNOWN};
 use crate::vector::{along, dot, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
@@ -34,9 +34,6 @@ const RESTARTS: usize = 4;
 /// dozen: as many starts as make this number of free coordinates together, and at most so many.
 const COORDINATES: usize = 900;
 const MOST_RESTARTS: usize = 100;
-
-/// Another shape has less energy if it is less by this part: the rest is rounding.
-const LESS: f64 = 1e-9;
 
 /// Misfit of a seed that is meant to be near its answer.
 const NEAR_SEED: f64 = 0.1;
@@ -166,7 +163,7 @@ fn better(
     match (new, old) {
         (Ok(new), Ok(old)) => {
             let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
-            Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
+            Ok(if lower < known - KNOWN * known.abs().max(1.0) { new } else { old })
         }
         // In a corner the two joints may be one.
         (new @ (Ok(_) | Err(Misfit { .. } | Work { .. } | Jammed { .. })), Err(_)) => new,

@@ -21,13 +21,10 @@ use crate::net::law::Excess;
 use crate::net::near::RIGID;
 use crate::net::polish::{NEUTRAL, STIFF_STRAIN};
 use crate::net::shape::{NO_STRAIN, Shape, largest};
-use crate::thresholds::PROGRESS;
+use crate::thresholds::{PROGRESS, SETTLED};
 use crate::vector::{along, dot, norm, scaled};
 
-/// Forces of elastic members that are right to this part of the largest need nothing more,
-const SETTLED: f64 = 1e-13;
-
-/// nor joints out of balance by this part of the forces that meet there,
+/// Joints that are out of balance by this part of the forces that meet there need nothing more,
 const BALANCED: f64 = 2.5e-12;
 
 /// which count as no less and no more than so many times the load there, or the mean load where it has none.

@@ -1,12 +1,12 @@
 //! The closure `sum l_i u_i = D`: how far directions are from it, and the way back.
 
-use model::Vector;
+use model::{Sum, Vector};
 
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::symmetric::{Column, Symmetric};
 use crate::thresholds::{FAIR_PART, PROGRESS, ROUNDING};
-use crate::vector::{Sum, VectorSum, along, cross, dot, norm, scaled, tangent};
+use crate::vector::{VectorSum, along, cross, dot, norm, scaled, tangent};
 
 /// Directions of the bars with what one pass over them gives.
 #[derive(Debug, Clone)]

@@ -1,10 +1,10 @@
 //! The frame in which the minimiser works.
 
-use model::{Chain, Vector};
+use model::{Chain, Sum, Vector};
 
 use crate::run::regime::Reach;
 use crate::run::twofold::Twofold;
-use crate::vector::{Sum, cross, dot, norm, scaled, unit};
+use crate::vector::{cross, dot, norm, scaled, unit};
 
 /// World up; gravity acts along its negative.
 pub(crate) const WORLD_UP: Vector = [0.0, 0.0, 1.0];
@@ -77,11 +77,6 @@ impl Frame {
         let across = (x * x + y * y).sqrt();
         let rest = across - Twofold::from(across.value());
         [[across.value(), 0.0, z], [rest.value(), 0.0, 0.0]]
-    }
-
-    /// Whether the first axis is the line of the anchors.
-    pub(crate) fn along_span(&self) -> bool {
-        self.drawn_out
     }
 
     /// The frame with these axes, given in this one.

@@ -14,10 +14,11 @@
 
 use std::ops::Range;
 
-use model::Chain;
+use model::{Chain, Sum};
 
 use crate::run::refine::Point;
-use crate::vector::{Sum, along, dot, norm, scaled, unit};
+use crate::thresholds::{CORRECTIONS, SETTLED};
+use crate::vector::{along, dot, norm, scaled, unit};
 
 /// Force along bars, over the largest of the chain, by which a minimiser leaves bars unsettled that
 /// carry nothing: their angle is the fourth root of rounding, the force its square.
@@ -25,12 +26,6 @@ const SOFT: f64 = 1e-6;
 
 /// Angle, rad, within which such bars are left of their line, and the others of the vertical.
 const NEARLY_STRAIGHT: f64 = 1e-2;
-
-/// Corrections of the closure.
-const CORRECTIONS: usize = 12;
-
-/// A gap, in the solver's unit of length, that is rounding of a sum of directions.
-const CLOSED: f64 = 1e-13;
 
 /// A gap that is too large for an answer, some ten times the tolerance of the closure.
 const OPEN: f64 = 1e-12;
@@ -58,7 +53,7 @@ impl Point {
             bend(&mut u[run.clone()], &links.length[run.clone()], slack, up);
         }
         let moments = links.measure(&u);
-        if norm(moments.gap) > CLOSED {
+        if norm(moments.gap) > SETTLED {
             return None;
         }
         let unknown = if slack < 0.0 {
@@ -101,7 +96,7 @@ impl Point {
 
     /// Whether the chain is closed, or can be by turns that only bars without force notice.
     pub(crate) fn closed(&mut self) -> bool {
-        if norm(self.shape.moments.gap) <= CLOSED {
+        if norm(self.shape.moments.gap) <= SETTLED {
             return true;
         }
         if let Ok(shape) = self.links.close(self.shape.clone(), CORRECTIONS) {
@@ -132,7 +127,7 @@ fn slack(chain: &Chain, run: &Range<usize>, rises: &[bool]) -> f64 {
     for part in gap {
         add_square(&mut difference, -1.0, part);
     }
-    let (reach, size) = (reach.value(), norm(gap.map(|part| part.value())));
+    let (reach, size) = (reach.value(), norm(gap.map(Sum::value)));
     let slack = difference.value() / (reach * (reach + size));
     if slack.abs() <= TWICE_THE_DIGITS { 0.0 } else { slack }
 }

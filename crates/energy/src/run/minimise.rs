@@ -195,7 +195,6 @@ fn descend_to_line(
     if let Some(minimum) = Minimum::of_triangle(&links, &start) {
         return Ok(minimum);
     }
-    let start = links.unfolded(start);
     let moments = links.measure(&start);
     let closed = links.close(Shape { u: start, moments }, SEED_CORRECTIONS).map_err(
         |(gap, iterations)| Error::SeedNotClosed { gap: gap / links.total(), iterations },

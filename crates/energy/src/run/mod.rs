@@ -4,7 +4,6 @@ mod closure;
 mod coarse;
 mod convergence;
 mod curvature;
-mod folded;
 mod frame;
 mod idle_bars;
 mod minimise;

@@ -1,6 +1,6 @@
 //! Forces from the energy alone.
 
-use model::{Problem, Reactions, Vector};
+use model::{Problem, Reactions, Sum, Vector};
 
 use crate::error::Error;
 use crate::lever;
@@ -11,7 +11,7 @@ use crate::run::settings::{Motion, Settings};
 use crate::run::slope::Slope;
 use crate::run::solution::Solution;
 use crate::run::vertical_plane::Turn;
-use crate::vector::{Sum, along, scaled};
+use crate::vector::{along, scaled};
 
 /// The force at every joint, world frame, N, in the order of the paper's multipliers.
 ///

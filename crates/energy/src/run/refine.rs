@@ -1,16 +1,13 @@
-//! The last digits where some bars carry next to nothing, or all lie nearly along one line.
+//! The last digits where some bars carry next to nothing.
 //!
 //! The minimiser holds forces against the largest force of the chain, and that is where double
-//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`, and
-//! along a line to which the bars are nearly parallel the closure divides by their angles. The
-//! equations have more digits to give in another frame. The energy may be counted from any bar (a
-//! multiple of the closure is taken off, see [`ScaledChain`]) and the axes may be turned in the plane of
-//! the chain. So, where it matters,
+//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`. The
+//! equations have more digits to give, since the energy may be counted from any bar (a multiple of the
+//! closure is taken off, see [`ScaledChain`]). So, where it matters,
 //!
 //! 1. the weights are counted from the bar with the least load, as sums of the weights in between:
 //!    what the bars near it carry is then a sum of small numbers, not a difference of large ones;
-//! 2. an axis is laid along the line to which the bars are nearly parallel;
-//! 3. Newton's method is applied to stationarity and closure at once (`P_i = I - u_i u_iᵀ`):
+//! 2. Newton's method is applied to stationarity and closure at once (`P_i = I - u_i u_iᵀ`):
 //!
 //! ```text
 //! [ l N   Jᵀ ] [ du  ]   [ -l t ]
@@ -27,7 +24,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use model::{Bar, Problem, Vector};
+use model::{Bar, Problem, Sum, Vector};
 
 use crate::lever;
 use crate::run::closure::Shape;
@@ -35,10 +32,9 @@ use crate::run::minimise::{Minimum, descend};
 use crate::run::scaled_chain::{Origin, ScaledChain, Units};
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
-use crate::run::straight_fold::off_the_line;
 use crate::run::vertical_plane::Turn;
 use crate::thresholds::{FORCE_ROUNDING, KNOWN, ROUNDING};
-use crate::vector::{Sum, along, dot, norm, scaled, tangent};
+use crate::vector::{along, dot, norm, scaled, tangent};
 
 /// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
 /// solvers are asked to agree to, since a long bar turns its joint by as much of the whole length.
@@ -50,14 +46,6 @@ const STEPS: usize = 60;
 
 /// A step that turns a bar by more than this, rad, leaves the neighbourhood of the minimum.
 const LARGEST_TURN: f64 = 0.5;
-
-/// An axis within this angle, rad, of the line of the bars is on it: the small components keep all
-/// but three of their digits.
-const ALIGNED: f64 = 1e-3;
-
-/// Bars are nearly parallel when the smallest eigenvalue of their spread, a squared angle, is below
-/// this.
-const NEARLY_PARALLEL: f64 = 1e-4;
 
 /// Bars that carry this part of the largest force or less are minimised by themselves where they
 /// have to: of the others, what these pull, they change no more than Newton's method makes up for.
@@ -83,16 +71,15 @@ pub(crate) fn refine(
     if let Some(exact) = of_triangle(problem, units, minimum) {
         return Refinement::Refined(Box::new(exact), 0.0);
     }
-    let Minimum { links, slope, unsettled, .. } = minimum;
-    let parallel = slope.line.is_some_and(|e| off_the_line(links, e).is_some());
+    let Minimum { slope, unsettled, .. } = minimum;
     // Bars without any load have no direction of their own.
     let light = slope.across / slope.softest > WORTH_REFINING;
-    if !(parallel || light || unsettled.is_some()) {
+    if !(light || unsettled.is_some()) {
         return Refinement::NotNeeded;
     }
     let mut point = Point::new(problem, units, minimum);
     let first = point.step().map_or(f64::NAN, |step| step.largest);
-    if !parallel && unsettled.is_none() && first <= WORTH_REFINING {
+    if unsettled.is_none() && first <= WORTH_REFINING {
         return Refinement::NotNeeded;
     }
     // Bars without force to rounding hang free: any direction of theirs is an equilibrium as far as
@@ -158,24 +145,17 @@ impl Point {
         let turn = Turn::into_plane(links, &shape.u);
         let u = turn.flattened(&shape.u);
         let multiplier = turn.of(&[slope.multiplier])[0];
-        let (cosine, sine) = quarter_turn_to_line(&u, links, units);
-        let rotated = |[x, _, z]: Vector| [cosine * x + sine * z, 0.0, cosine * z - sine * x];
-        let axes = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
         let multiplier = along(multiplier, links.carried[bar], links.up);
-        let links = ScaledChain {
-            carried: counted_from(problem, bar),
-            span: rotated_sum(links.span, cosine, sine),
-            up: rotated(links.up),
-            ..(**links).clone()
-        };
+        let links = ScaledChain { carried: counted_from(problem, bar), ..(**links).clone() };
         let units = Units {
-            frame: units.frame.turned(axes.map(|axis| turn.back(axis))),
+            frame: units.frame.turned(
+                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| turn.back(axis)),
+            ),
             origin: Some(Origin { bar, carried: minimum.links.carried[bar] }),
             ..*units
         };
-        let u: Vec<Vector> = u.into_iter().map(rotated).collect();
         let moments = links.measure(&u);
-        Self { links, units, shape: Shape { u, moments }, multiplier: rotated(multiplier) }
+        Self { links, units, shape: Shape { u, moments }, multiplier }
     }
 
     /// Newton's step; `None` if a number is not finite.
@@ -289,54 +269,6 @@ impl Point {
         };
         (refined, units)
     }
-}
-
-/// Cosine and sine of the turn in the plane that lays the first axis along the line to which the
-/// bars are nearly parallel. No turn if they are not, or an axis is there already.
-fn quarter_turn_to_line(u: &[Vector], links: &ScaledChain, units: &Units) -> (f64, f64) {
-    const STAY: (f64, f64) = (1.0, 0.0);
-    // Σ l (x² - z²), Σ 2 l x z, and their size: 1 - the smallest eigenvalue of the spread twice.
-    let (mut even, mut odd) = (0.0, 0.0);
-    for (l, [x, _, z]) in links.length.iter().zip(u) {
-        even += l * (x * x - z * z);
-        odd += l * (2.0 * x * z);
-    }
-    let angle = 0.5 * f64::atan2(odd, even);
-    let (sine, cosine) = angle.sin_cos();
-    let across: f64 = (links.length.iter().zip(u))
-        .map(|(l, [x, _, z])| l * (cosine * z - sine * x).powi(2))
-        .sum();
-    let aligned = sine.abs().min(cosine.abs()) < ALIGNED;
-    if units.frame.along_span() || aligned || across > NEARLY_PARALLEL * links.total() {
-        return STAY;
-    }
-    (cosine, sine)
-}
-
-/// A sum of two vectors in the plane, turned, to twice the digits.
-fn rotated_sum(span: [Vector; 2], cosine: f64, sine: f64) -> [Vector; 2] {
-    let product_sum = |a: f64, x: f64, b: f64, z: f64| {
-        let mut sum = Sum::default();
-        for (factor, value) in [(a, x), (b, z)] {
-            let product = factor * value;
-            sum.add(product);
-            sum.add(factor.mul_add(value, -product));
-        }
-        let value = sum.value();
-        sum.add(-value);
-        (value, sum.value())
-    };
-    let [[x, _, z], [x_rest, _, z_rest]] = span;
-    let (first, first_rest) = product_sum(cosine, x, sine, z);
-    let (second, second_rest) = product_sum(cosine, z, -sine, x);
-    [
-        [first, 0.0, second],
-        [
-            first_rest + (cosine * x_rest + sine * z_rest),
-            0.0,
-            second_rest + (cosine * z_rest - sine * x_rest),
-        ],
-    ]
 }
 
 /// What each bar carries less what `bar` carries, in units of the total weight: the weights in

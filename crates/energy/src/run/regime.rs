@@ -19,13 +19,6 @@ pub(crate) enum Reach {
     DrawnOut,
     /// Two bars over anchors that are next to each other: a triangle, known in closed form.
     Triangle,
-    /// Very little before its longest bar folds on the others: it starts with that bar along the
-    /// span.
-    NearlyFolded,
-    /// Very little, its longest bar as long as all others together: the span does not say along
-    /// which line the chain folds. It starts like a folded one, in a frame of level and vertical
-    /// axes.
-    FoldedAnyway,
 }
 
 /// What holds the vertical plane of a chain.
@@ -44,16 +37,10 @@ pub(crate) enum Turning {
 /// Parts of the total length to spare below which a chain is drawn out along its span.
 const DRAWN_OUT: f64 = 0.25;
 
-/// Parts of the total length to spare below which the longest bar starts along the span.
-const NEARLY_FOLDED: f64 = 0.05;
-
 /// Parts of the total length between the anchors of two bars up to which they are taken as a
 /// triangle: bars folded back to an angle `a` leave a minimiser the digits of `a²`, and below this
 /// those are fewer than ten.
 const NEAR_ANCHORS: f64 = 1e-3;
-
-/// Bars of a chain whose others, without the longest, can be closed on anything.
-const FEWEST_TO_UNFOLD: usize = 3;
 
 /// Level distance of the anchors, in units of the length (a part between 1 and 1/2 of the total),
 /// below which the turn of the whole chain is soft: steps along straight lines distort it more than
@@ -74,25 +61,12 @@ impl Reach {
         if bars == 2 && span <= NEAR_ANCHORS * total {
             return Self::Triangle;
         }
-        let along_span = spare < DRAWN_OUT * total && spare < span;
-        let nearly_folded =
-            bars >= FEWEST_TO_UNFOLD && folded <= NEARLY_FOLDED * total && folded <= span;
-        match (nearly_folded, along_span) {
-            (true, true) => Self::NearlyFolded,
-            (true, false) => Self::FoldedAnyway,
-            (false, true) => Self::DrawnOut,
-            (false, false) => Self::Slack,
-        }
+        if spare < DRAWN_OUT * total && spare < span { Self::DrawnOut } else { Self::Slack }
     }
 
     /// Whether the frame has an axis along the span.
     pub(crate) fn along_span(self) -> bool {
-        matches!(self, Self::DrawnOut | Self::NearlyFolded)
-    }
-
-    /// Whether the longest bar starts along the span.
-    pub(crate) fn starts_unfolded(self) -> bool {
-        matches!(self, Self::NearlyFolded | Self::FoldedAnyway)
+        self == Self::DrawnOut
     }
 }
 
@@ -120,8 +94,8 @@ mod tests {
             (3, 3.0, 2.0, 1.0, Reach::Slack),
             (3, 3.0, 2.9, 1.0, Reach::DrawnOut),
             (3, 3.0, 1.0, 1.8, Reach::DrawnOut),
-            (3, 3.0, 1.0, 1.99, Reach::NearlyFolded),
-            (3, 2.0, 1.0 / 64.0, 1.0, Reach::FoldedAnyway),
+            (3, 3.0, 1.0, 1.99, Reach::DrawnOut),
+            (3, 2.0, 1.0 / 64.0, 1.0, Reach::Slack),
             // Two bars are a triangle: nothing is left to close.
             (2, 3.0, 1.0, 1.99, Reach::DrawnOut),
             (2, 2.0, 1.0 / 256.0, 1.0, Reach::Slack),

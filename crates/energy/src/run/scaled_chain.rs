@@ -1,12 +1,12 @@
 //! The chain in its own units: what the minimiser sees.
 
-use model::{Problem, Vector};
+use model::{Problem, Sum, Vector};
 
 use crate::lever;
 use crate::run::frame::{Frame, WORLD_UP};
 use crate::run::regime::{Reach, Turning};
 use crate::run::settings::Motion;
-use crate::vector::{Sum, along, dot, norm};
+use crate::vector::{along, dot, norm};
 
 /// The bits of the exponent of a double.
 const EXPONENT: u64 = 0x7ff << 52;

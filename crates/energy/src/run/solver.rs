@@ -15,7 +15,7 @@ use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::straight_fold::off_the_line;
 use crate::run::vertical_plane::Turn;
-use crate::thresholds::{FAIR_PART, PROGRESS};
+use crate::thresholds::{CORRECTIONS, FAIR_PART, LOST, PROGRESS};
 use crate::vector::{dot, norm, scaled};
 
 /// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
@@ -51,15 +51,8 @@ const GOOD_PART: f64 = 0.7;
 /// indefinite, the iterate is near a saddle, and its lowest mode is worth more than its gradient.
 const SADDLE_PART: f64 = 1e-2;
 
-/// Roundings of the closure in the smallest attainable residual.
-const FLOOR: f64 = 16.0;
-
 /// Trials of one iteration: four to this power covers the range of a double's squares.
 const TRIALS: usize = 60;
-
-/// Corrections of the closure after a step. Three to five are normal; a step that needs more is too
-/// long.
-const CORRECTIONS: usize = 12;
 
 /// Energies are sums of rounded products: differences below this, times the size of the forces,
 /// say nothing, and the gradient decides alone.
@@ -257,7 +250,7 @@ fn smallest_spread(shape: &Shape) -> f64 {
 /// which all bars are nearly parallel, at an angle of the size `a`, closing that gap turns them by
 /// a rounding over `a`; `a²` is the smallest eigenvalue of the spread.
 fn rounding_floor(shape: &Shape) -> f64 {
-    FLOOR * f64::EPSILON / smallest_spread(shape).sqrt()
+    LOST / smallest_spread(shape).sqrt()
 }
 
 /// How far directions in double precision leave the forces open, as a part of the largest: of bars
@@ -271,7 +264,7 @@ pub(crate) fn force_uncertainty(links: &ScaledChain, shape: &Shape, slope: &Slop
         let known = if slope.opened { 0.0 } else { 1.0 };
         off_the_line(links, e).map_or(known, f64::sqrt)
     } else {
-        (FLOOR * f64::EPSILON + slope.residual()) / smallest_spread(shape).sqrt()
+        (LOST + slope.residual()) / smallest_spread(shape).sqrt()
     }
 }
 

@@ -3,10 +3,8 @@
 use model::Vector;
 
 use crate::run::scaled_chain::ScaledChain;
+use crate::thresholds::BISECTIONS;
 use crate::vector::{norm, scaled, unit};
-
-/// Bisections for the opening of the arc: all digits of a double.
-const BISECTIONS: u32 = 60;
 
 impl ScaledChain {
     /// Directions along a circular arc of the chain's length through both anchors, hanging below

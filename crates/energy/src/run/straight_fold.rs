@@ -4,15 +4,12 @@ use model::{STRAIGHT_TOLERANCE, Vector};
 
 use crate::run::closure::{LOST_SPREAD, Shape};
 use crate::run::scaled_chain::ScaledChain;
-use crate::thresholds::FORCE_ROUNDING;
+use crate::thresholds::{BISECTIONS, FORCE_ROUNDING};
 use crate::vector::{along, cross, dot, norm};
 
 /// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame
 /// has an axis along the line.
 const NEARLY_STRAIGHT: f64 = 1e-6;
-
-/// Bisections of the interval of multipliers: all digits of a double.
-const BISECTIONS: usize = 64;
 
 /// The common line of the bars, if they are on one to rounding: the direction in which no motion
 /// moves the last joint.

@@ -5,6 +5,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "row and column numbers, as in the formulas")]
 
+use crate::thresholds::LOST;
+
 /// The largest size: three rows of closure and one of the turn.
 pub(crate) const MOST: usize = 4;
 
@@ -17,9 +19,6 @@ pub(crate) struct Symmetric {
     pub(crate) size: usize,
     pub(crate) entry: [Column; MOST],
 }
-
-/// A pivot below this part of its own diagonal entry has lost all its digits.
-const LOST_PIVOT: f64 = 16.0 * f64::EPSILON;
 
 /// Sweeps of Jacobi's method; a 4 x 4 matrix needs five to seven.
 const JACOBI_SWEEPS: usize = 30;
@@ -51,7 +50,7 @@ impl Symmetric {
             for k in 0..j {
                 pivot -= f[j][k] * f[j][k];
             }
-            if pivot.is_nan() || pivot <= LOST_PIVOT * self.entry[j][j] {
+            if pivot.is_nan() || pivot <= LOST * self.entry[j][j] {
                 return None;
             }
             let root = pivot.sqrt();

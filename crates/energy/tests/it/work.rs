@@ -36,13 +36,13 @@ fn work_of_no_guess_by_shape() {
         (Shape::Together, [73, 73, 538, 1614]),
         (Shape::NearlyTaut, [73, 73, 227, 681]),
         (Shape::Vertical, [73, 73, 602, 1806]),
-        (Shape::OneCompressed, [73, 73, 416, 1251]),
+        (Shape::OneCompressed, [73, 73, 392, 1176]),
         (Shape::Massless, [73, 73, 388, 1165]),
-        (Shape::SixOrders, [73, 73, 382, 1147]),
+        (Shape::SixOrders, [73, 73, 370, 1111]),
         (Shape::Tiny, [73, 73, 377, 1131]),
         (Shape::Huge, [72, 72, 349, 1047]),
         (Shape::AnyGravity, [72, 72, 369, 1107]),
-        (Shape::Mixed, [72, 72, 426, 1278]),
+        (Shape::Mixed, [72, 72, 425, 1275]),
     ];
     assert_frozen(&found, &expected);
 }
@@ -61,9 +61,9 @@ fn work_in_the_plane_by_shape() {
         (Shape::Together, [36, 36, 261, 783]),
         (Shape::NearlyTaut, [36, 36, 120, 360]),
         (Shape::Vertical, [36, 36, 255, 765]),
-        (Shape::OneCompressed, [36, 36, 210, 630]),
+        (Shape::OneCompressed, [36, 36, 202, 606]),
         (Shape::Massless, [36, 36, 189, 567]),
-        (Shape::SixOrders, [36, 36, 210, 631]),
+        (Shape::SixOrders, [36, 36, 207, 622]),
         (Shape::Tiny, [36, 36, 199, 597]),
         (Shape::Huge, [37, 37, 202, 606]),
         (Shape::AnyGravity, [37, 37, 194, 582]),

@@ -20,7 +20,7 @@ const HELP: &str = "\
 Inextensible cables that pull and struts that push are bars in small motions, slack ones hold
 nothing; joints that the floor pushes slide in its level. What is neither is refused. Bars with
 different moments of inertia across have their second axis level (along OY where they are upright),
-as in `simulate`.";
+as in `simulate`. In a load case a factor of weights is one of masses, too.";
 
 /// `funicular modes`.
 #[derive(Debug, Args)]

@@ -15,7 +15,7 @@
 
 use super::lanes::Lanes;
 use super::numbers::Bar;
-use crate::thresholds::EARNED;
+use crate::thresholds::{EARNED, SHORTEST};
 
 /// Passes for the closed shape: a seed needs no more digits than they give.
 const CLOSING_PASSES: usize = 25;
@@ -34,8 +34,6 @@ const TOO_STIFF: f64 = 1e20;
 const REGULARISATION: f64 = 1e-12;
 /// A force this small has no direction.
 const LEAST_FORCE: f64 = 1e-300;
-/// Shortest part of such a step.
-const SHORTEST: f64 = 1e-3;
 
 /// One bar of a seed.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! The root of an increasing function of one variable, come what may.
 
-/// Newton's step must at least halve the function, or the bracket is halved instead.
-const HALVED: f64 = 0.5;
+use crate::thresholds::HALVED;
+
 /// Without a second bound the distance from the first is multiplied by this.
 const REACH: f64 = 8.0;
 

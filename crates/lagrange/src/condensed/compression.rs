@@ -24,16 +24,14 @@
 
 use super::axis::Axis;
 use super::bracket::Bracket;
-use super::folded::Folded;
 use super::newton::{Budget, Root, within_a_few_passes};
 use super::system::{Closure, Frame, System};
+use crate::thresholds::SHORTEST;
 
 /// Largest change of the logarithm of the compression in one step.
 const LARGEST_LOG_STEP: f64 = 2.0;
 /// Part of the way to the ends of the interval of directions that one step may go.
 const TO_THE_END: f64 = 0.9;
-/// Shortest part of a step that is tried.
-const SHORTEST: f64 = 1e-3;
 /// Where the compression would have to be larger than the loads by this factor, the other bars do
 /// not reach: the direction is too far from the line of the anchors.
 const NO_REACH: f64 = 1e17;
@@ -43,9 +41,6 @@ const NO_REACH: f64 = 1e17;
 pub(super) struct Strut<'a> {
     /// Bars, and the axes in which forces are written.
     pub system: System<'a>,
-    /// For a folded chain: the axes at each point are those of the bar there, and these are
-    /// upright.
-    pub folded: Option<Folded>,
     /// The bar at angle 0 points along the first axis (+1) or against it (-1).
     pub side: f64,
     /// Horizontal unit vector, from the start towards the end anchor.
@@ -129,21 +124,14 @@ impl Strut<'_> {
         let size = at.size;
         let bar = [self.side * cos, self.side * sin];
         let force = bar.map(|u| -size * u);
-        let cosine = dot(bar, self.level);
-        let cosine_by_angle = dot([-bar[1], bar[0]], self.level);
-        let (along, closure) = match &self.folded {
-            None => (bar, self.system.closure(force)),
-            Some(folded) => {
-                let system = System { frame: folded.frame(bar), ..self.system };
-                ([-1.0, 0.0], system.closure([size, 0.0]))
-            }
-        };
-        let across = [-along[1], along[0]];
+        let across = [-bar[1], bar[0]];
+        let (cosine, cosine_by_angle) = (dot(bar, self.level), dot(across, self.level));
+        let closure = self.system.closure(force);
         let [a, b, c] = closure.jacobian;
         // dq = -size (u dlog + t dangle); the derivative holds the turn of the bar itself, too.
         let derivative = |v: [f64; 2]| [-size * dot([a, b], v), -size * dot([b, c], v)];
-        let (by_log, by_angle) = (derivative(along), derivative(across));
-        Equations { closure, force, along, across, by_log, by_angle, cosine, cosine_by_angle }
+        let (by_log, by_angle) = (derivative(bar), derivative(across));
+        Equations { closure, force, along: bar, across, by_log, by_angle, cosine, cosine_by_angle }
     }
 
     /// Newton's method with the step shortened until the equations, in units of their rounding
@@ -153,8 +141,8 @@ impl Strut<'_> {
         budget.spend();
         // The equation that vanishes for a vertical bar between vertical anchors.
         let turning = match self.system.frame {
-            Frame::Upright { .. } if self.folded.is_none() => 0,
-            _ => 1,
+            Frame::Upright { .. } => 0,
+            Frame::Aligned { .. } => 1,
         };
         let first = here.cosine;
         let norm = |e: &Equations, floor: [f64; 2]| {

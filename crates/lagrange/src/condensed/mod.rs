@@ -55,7 +55,6 @@ mod bracket;
 mod catenary;
 mod chain;
 mod compression;
-mod folded;
 mod kernel;
 mod loads;
 mod newton;

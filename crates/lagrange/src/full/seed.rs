@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use crate::error::Error;
 use crate::full::spin::regular_angles;
+use crate::thresholds::{HALVINGS, ZERO};
 
 /// Angles ψ, θ, φ of each bar, rad.
 ///
@@ -98,7 +99,7 @@ impl Seed {
         let level = level.try_normalize(0.0).unwrap_or_else(Vector3::y);
         let chord = span.try_normalize(0.0).unwrap_or(level);
         // Across the chord, in the vertical plane, upwards.
-        let up = (Vector3::z() - chord * chord.z).try_normalize(VERTICAL).unwrap_or(level);
+        let up = (Vector3::z() - chord * chord.z).try_normalize(ZERO).unwrap_or(level);
         let half = half_angle(span.norm() / length);
         let mut before = 0.0;
         let bars = chain.bars().iter().map(|bar| {
@@ -134,13 +135,9 @@ impl Seed {
     }
 }
 
-/// A chord is vertical when its horizontal part is below this: the plane of the arc is then free.
-const VERTICAL: f64 = 1e-9;
-
 /// Half the angle a of an arc whose chord is `ratio` times its length: sin a / a = ratio.
 fn half_angle(ratio: f64) -> f64 {
     // sin a / a falls from 1 to 0 on [0, π]; a seed needs no more digits than these.
-    const HALVINGS: usize = 30;
     let (mut low, mut high) = (0.0, PI);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

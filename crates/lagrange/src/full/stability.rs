@@ -28,7 +28,7 @@ use nalgebra::Vector3;
 
 use crate::full::mechanism::Mechanism;
 use crate::full::point::Point;
-use crate::thresholds::{NO_FORCE, ZERO_EIGENVALUE};
+use crate::thresholds::{NO_FORCE, ZERO};
 
 /// Stability of the equilibrium at `point`, a root of the reduced system.
 pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
@@ -67,11 +67,11 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let (positive, zero) = if compressed == 0 {
         (2, 0)
     } else {
-        let positive = count(&sum, ZERO_EIGENVALUE * size);
-        (positive, 2 - positive - count(&-sum, ZERO_EIGENVALUE * size))
+        let positive = count(&sum, ZERO * size);
+        (positive, 2 - positive - count(&-sum, ZERO * size))
     };
     // Unloaded bars that can move with the others at rest do so at no cost.
-    let degenerate = zero > 0 || unloaded > count(&unloaded_sum, ZERO_EIGENVALUE);
+    let degenerate = zero > 0 || unloaded > count(&unloaded_sum, ZERO);
     let index_in_plane = (compressed + positive).saturating_sub(2);
 
     let towards = !mechanism.on_one_vertical && span.dot(&pull) > 0.0;

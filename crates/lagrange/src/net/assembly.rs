@@ -13,14 +13,13 @@ use super::signs::{SIGN_CHANGES, signs_mended};
 use super::solve::{KICKS, Solver};
 use super::state::State;
 use crate::error::Error;
+use crate::thresholds::FOUND;
 
 /// Starts of the search for places where lengths fit, the moves of joints for them in units of the
 /// mean length, and the part of its length by which a member may be off where it ends.
 const ASSEMBLIES: usize = 60;
 /// Shapes with fewer free directions are assembled again in search of less energy.
 const SMALL: usize = 30;
-/// Less energy is less by this part: the rest is rounding.
-const LESS: f64 = 1e-9;
 const ASSEMBLY_KICK: f64 = 2.0;
 pub(super) const NEARLY: f64 = 1e-4;
 /// Ridge of the least squares for lengths, in units of their largest error.
@@ -66,7 +65,7 @@ impl Solver<'_> {
             let Ok(other) = self.with_signs(state, Patience::Full) else { continue };
             let [lower, known] =
                 [&other, &run].map(|run| run.state.energy(&self.framework, &Vector3::zeros()));
-            if lower < known - LESS * known.abs().max(1.0) {
+            if lower < known - FOUND * known.abs().max(1.0) {
                 run = other;
             }
         }

@@ -19,10 +19,11 @@ use nalgebra::{Matrix3, Vector3};
 use super::coarse::{self, Start};
 use super::framework::{Framework, Link};
 use super::newton::{Run, with_held};
-use super::runs::{Runs, SOME_FORCE, Step};
+use super::runs::{Runs, Step};
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
+use crate::thresholds::{FOUND, HALVINGS};
 use model::system::Kind;
 
 /// The compliance along a member that the matrix has beside its own, in units of that across: each
@@ -35,7 +36,6 @@ const CLEAR: f64 = 1e-6;
 const SLOPE: f64 = 0.5;
 /// Newton steps at most, and halvings of one.
 const MOST_STEPS: usize = 40;
-const HALVINGS: usize = 30;
 /// The iteration ends when the error of every span has fallen to this part of the run's length and
 /// does not fall to this part of itself any more.
 const CLOSED: f64 = 1e-12;
@@ -248,9 +248,8 @@ impl<'a> Shape<'a> {
     fn clear(&self) -> bool {
         let twigs = self.runs.twigs.iter().map(|twig| twig.force.norm_squared());
         let most = self.laws.iter().map(|law| law.most).chain(twigs).fold(0.0, f64::max);
-        let clear = |law: &Law| {
-            law.least > CLEAR * CLEAR * law.most && law.least > SOME_FORCE * SOME_FORCE * most
-        };
+        let clear =
+            |law: &Law| law.least > CLEAR * CLEAR * law.most && law.least > FOUND * FOUND * most;
         self.laws.iter().all(clear)
     }
 

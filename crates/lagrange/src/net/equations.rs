@@ -21,12 +21,7 @@ use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
 use crate::larger::larger;
-
-/// A cable of a drawing that misses its length by less than this part of it is taut.
-const REACHES: f64 = 1e-12;
-
-/// A force of this size, in units, is at the border between taut and slack.
-const AT_ZERO: f64 = 1e-9;
+use crate::thresholds::{FOUND, GIVEN};
 
 /// A condition that holds on one side only: what it is of, and whether it is active.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,7 +152,7 @@ impl Equations {
         for (k, link) in links.iter().enumerate().take(self.taut.len()) {
             let long = self.framework.whole(k, |span| links[span].span(&places).norm());
             let longer = long - link.length;
-            let just = longer.abs() <= REACHES * link.length;
+            let just = longer.abs() <= GIVEN * link.length;
             self.taut[k] = just || link.bears(longer);
             let elastic = link.compliance > 0.0 && self.taut[k];
             y.push(if elastic { longer / link.compliance } else { 0.0 });
@@ -356,7 +351,7 @@ impl Equations {
         let mut state = with_held(&self.framework, self.state(y));
         // Where it becomes slack a member bears nothing, whatever rounding leaves.
         for (k, link) in self.framework.links.iter().enumerate() {
-            if !link.bears(state.axial[k]) && state.axial[k].abs() <= AT_ZERO {
+            if !link.bears(state.axial[k]) && state.axial[k].abs() <= FOUND {
                 (state.axial[k], state.taut[k]) = (0.0, false);
             }
         }

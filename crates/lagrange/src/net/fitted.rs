@@ -10,14 +10,12 @@ use model::system::Kind;
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::FOUND;
 
 /// Stiffness that stands for a rigid member, in units of the stiffest elastic one.
 pub(super) const RIGID: f64 = 1e3;
 /// Ridge of the least squares, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
-
-/// A cable that is shorter by no more than this part, or a strut longer, just reaches: it may bear something.
-const JUST_REACHES: f64 = 1e-9;
 
 /// Forces fitted to the places of a state, of its taut members.
 pub(super) fn fitted_forces(
@@ -37,9 +35,8 @@ pub(super) fn fitted_forces(
         let length = framework.whole(k, |span| directions[span].1);
         let stretch = length - link.length;
         let own = stretch * along;
-        let slack = link.kind != Kind::Bar
-            && stretch.abs() > JUST_REACHES * link.length
-            && !link.bears(own);
+        let slack =
+            link.kind != Kind::Bar && stretch.abs() > FOUND * link.length && !link.bears(own);
         if slack { (0.0, 0.0) } else { (along, own) }
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();

@@ -19,12 +19,13 @@ use super::decided::{Decided, SHARP};
 use super::directions::Directions;
 use super::framework::{Framework, Lying, Node, across};
 use super::residual::Residual;
-use super::second_order::{PLANE, SecondOrder, self_stresses};
+use super::second_order::{SecondOrder, self_stresses};
 use super::settings::Settings;
-use super::solution::{Found, NO_FORCE, NO_PART, Solution};
+use super::solution::{Found, NO_FORCE, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
+use crate::thresholds::{FOUND, ZERO};
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.
@@ -37,7 +38,7 @@ const ON_FLOOR: f64 = 8.0 * f64::EPSILON;
 /// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
 pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
     let free = node.free.part(&Vector3::z());
-    (free.norm() > PLANE).then_some(free)
+    (free.norm() > ZERO).then_some(free)
 }
 
 /// A joint that lies on a floor at this height.
@@ -122,7 +123,7 @@ fn open_pushes(
     let mut open = lies.to_vec();
     for stress in self_stresses(&laid, &state) {
         for ((lying, push), none) in laid.lying.iter().zip(pushes(&stress)).zip(&none) {
-            open[lying.joint] |= (push - none).abs() > NO_PART;
+            open[lying.joint] |= (push - none).abs() > FOUND;
         }
     }
     (open != lies).then_some(open)

@@ -35,6 +35,7 @@ use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
+use crate::thresholds::FOUND;
 use model::system::Kind;
 
 /// First length of a member in the programme, where it is as long as it may be or longer: this
@@ -53,9 +54,6 @@ const FEASIBLE: f64 = 1e-6;
 /// A member is clearly taut when its force, in units of the mean one, is this many times its slack,
 /// in units of its length.
 const CLEARLY_TAUT: f64 = 1e4;
-/// Where the forces have fallen to this part of those of the start, no member pulls: elastic ones
-/// without loads.
-const IDLE: f64 = 1e-9;
 /// Part of the way to the boundary that a step may go.
 const INSIDE: f64 = 0.99;
 /// Two steps on end shorter than this and there is no such shape.
@@ -144,7 +142,7 @@ impl Hanging {
 
     /// Whether no member pulls.
     fn idle(&self) -> bool {
-        self.mean() <= IDLE * self.first
+        self.mean() <= FOUND * self.first
     }
 
     fn ended(&self, end: f64) -> bool {

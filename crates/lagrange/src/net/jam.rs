@@ -14,9 +14,8 @@ use super::framework::Framework;
 use super::solution::{Answer, Solution};
 use super::state::State;
 use crate::error::Error;
+use crate::thresholds::FOUND;
 
-/// Rounding of forces over the largest.
-const ROUNDING: f64 = 1e-9;
 /// What a span bears may exceed its tension by this part of it. What a light ring feels of a corner is only the
 /// square of its weight over the tension.
 const ABOVE: f64 = 1e-11;
@@ -155,11 +154,11 @@ fn pulls(
         let sign = f64::from(u8::from(link.from == at)) - f64::from(u8::from(link.to == at));
         sign * weights[column / 3] * along[column % 3]
     });
-    let parts = least_squares(&balance, &wanted, ROUNDING)?;
+    let parts = least_squares(&balance, &wanted, FOUND)?;
     let off = (apply(&balance, &parts) - wanted).amax();
     let pull = |(k, weight): (usize, &f64)| {
         Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight
     };
-    (off <= ROUNDING * state.largest_force(framework))
+    (off <= FOUND * state.largest_force(framework))
         .then(|| weights.iter().enumerate().map(pull).collect())
 }

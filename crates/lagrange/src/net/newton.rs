@@ -20,7 +20,7 @@ use super::residual::Residual;
 use super::settings::Settings;
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::EARNED;
+use crate::thresholds::{EARNED, HALVED, ROUNDED};
 
 /// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
 /// and far below the inverse of rounding.
@@ -32,13 +32,10 @@ const REFINED: f64 = 3e-6;
 /// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
 /// a correction: it is made so long that it leaves least.
 const POOR_SWEEP: f64 = 0.1;
-/// What rounding leaves of a solve at best, with room: more than this is worth a factor.
-const ROUNDED: f64 = 1e-13;
 /// A step is halved at most so many times.
 const HALVINGS: usize = 24;
 
-/// In this many steps the merit ought to fall to this part, or the start was too far away.
-pub(super) const HALVED: f64 = 0.5;
+/// In this many steps the merit ought to be [`HALVED`], or the start was too far away.
 const SLOW_STEPS: usize = 3;
 
 /// When a run of Newton's method ends without success.

@@ -11,9 +11,8 @@ use super::directions::Directions;
 use super::framework::{Framework, Link};
 use super::state::State;
 use crate::error::Error;
+use crate::thresholds::GIVEN;
 
-/// A component falls when its supports leave it this part of its load.
-const UNHELD: f64 = 1e-12;
 /// A direction is held when the sum of the squared cosines to the supports' normals is at least
 /// this.
 const HELD: f64 = 1e-18;
@@ -33,7 +32,7 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
     for part in 0..count {
         let free = loads[part] - onto_range(&held[part], &loads[part]);
         let unsupported = held[part].trace() < HELD;
-        if unsupported || free.norm() > UNHELD * sizes[part] {
+        if unsupported || free.norm() > GIVEN * sizes[part] {
             let joints = component.iter().filter(|other| **other == part).count();
             let first = component.iter().position(|other| *other == part).unwrap_or(0);
             let joint = system.joints()[first].name.to_string();

@@ -11,8 +11,9 @@ use model::system::Kind;
 
 use super::framework::Framework;
 use super::second_order::self_stresses;
-use super::solution::{NO_FORCE, NO_PART};
+use super::solution::NO_FORCE;
 use super::state::State;
+use crate::thresholds::FOUND;
 
 /// Exchange steps of one programme, in units of its unknowns and conditions together. Some two
 /// are the rule.
@@ -86,7 +87,7 @@ impl Table {
         let rows: Vec<Vec<f64>> = (0..signs.len())
             .map(|k| basis.iter().map(|stress| turn(k) * stress[k]).collect())
             .collect();
-        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_PART)).collect();
+        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= FOUND)).collect();
         let value = |k: usize| {
             let value = turn(k) * forces[k] / largest;
             // A force of the wrong sign by rounding counts as zero.
@@ -136,7 +137,7 @@ impl Table {
         let row = &self.rows[member];
         (0..row.len()).find_map(|j| {
             let gain = direction * row[j];
-            let improves = gain > NO_PART || (self.free[j] && gain < -NO_PART);
+            let improves = gain > FOUND || (self.free[j] && gain < -FOUND);
             improves.then_some((j, gain.signum()))
         })
     }
@@ -146,7 +147,7 @@ impl Table {
         let mut first: Option<(f64, usize)> = None;
         for (k, row) in self.rows.iter().enumerate() {
             let fall = -way * row[unknown];
-            if self.signs[k] != 0.0 && fall > NO_PART {
+            if self.signs[k] != 0.0 && fall > FOUND {
                 let room = self.values[k].max(0.0) / fall;
                 if first.is_none_or(|(least, _)| room < least) {
                     first = Some((room, k));

@@ -11,10 +11,8 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::framework::{Framework, Link, Node};
+use crate::thresholds::FOUND;
 use model::system::Kind;
-
-/// A force, or a load, below this part of the largest that it is a sum or difference of may be rounding.
-pub(super) const SOME_FORCE: f64 = 1e-9;
 
 /// No joint, no member.
 const NONE: usize = usize::MAX;
@@ -217,7 +215,7 @@ impl Graph {
             let mut tip = joint;
             while self.degrees[tip] == 1
                 && framework.nodes[tip].freedom() == 3
-                && self.loads[tip].norm() > SOME_FORCE * sizes[tip]
+                && self.loads[tip].norm() > FOUND * sizes[tip]
             {
                 let (member, force) = (self.members[tip], self.loads[tip]);
                 let root = framework.links[member].from ^ framework.links[member].to ^ tip;

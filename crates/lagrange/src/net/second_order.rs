@@ -17,19 +17,14 @@ use super::possible::translations;
 use super::solution::NO_FORCE;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::{ROUNDED, ZERO};
 
-/// A curvature below this fraction of the largest $|N|/d$ is zero, or, where elastic members are
-/// far stiffer, below their rounding.
-const FLAT: f64 = 1e-9;
-const ROUNDING: f64 = 1e-13;
 /// For sparse factors: stiffness along rigid members in units of the largest $|N|/d$. A negative
 /// curvature counts as one if it is smaller than this times the squared singular values of the
 /// rows.
 const RIGID: f64 = 1e6;
 /// Steps towards self-stresses that stiffen mechanisms; each at least halves what is left of one.
 const STIFFENING_STEPS: usize = 100;
-/// Joints and forces lie in a plane to this part of the extent, and a direction that rises less is level.
-pub(super) const PLANE: f64 = 1e-9;
 
 /// What the second order says.
 #[derive(Default)]
@@ -137,7 +132,7 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
         stiffness.factorise_indefinite();
         stiffness.negative_pivots()
     };
-    let flat = FLAT * largest;
+    let flat = ZERO * largest;
     let index = negative(stiffness, flat);
     (index, negative(stiffness, -flat).saturating_sub(index))
 }
@@ -218,7 +213,7 @@ impl Dense {
         hessian += product(&ropes.transpose(), &stiffness);
         let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
-        let flat = (FLAT * largest).max(ROUNDING * stiffest);
+        let flat = (ZERO * largest).max(ROUNDED * stiffest);
         let form = projected(&hessian, &motions);
         let mut curvatures = eigenvalues(&form).unwrap_or_else(|| vec![0.0; form.nrows()]);
         if stresses.ncols() > 0 && curvatures.iter().any(|c| *c < -flat) {
@@ -277,7 +272,7 @@ fn stiffened(
         let slopes: Vec<f64> =
             changes.iter().map(|change| projected(change, &weakest)[0]).collect();
         let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
-        if square <= FLAT * FLAT {
+        if square <= ZERO * ZERO {
             return None;
         }
         // To twice the way at which the weakest one alone were zero.
@@ -345,15 +340,15 @@ fn plane(framework: &Framework, state: &State) -> Option<Vector3<f64>> {
     let squares = framework.nodes.iter().map(|node| node.load.norm_squared());
     let largest = squares.fold(0.0, f64::max).sqrt();
     let mut along = widest(spread.clone());
-    if along.norm() <= PLANE * extent {
+    if along.norm() <= ZERO * extent {
         along = widest(loads.clone());
-        if along.norm() <= PLANE * largest {
+        if along.norm() <= ZERO * largest {
             along = Vector3::x();
         }
     }
     let normal = Vector3::z().cross(&along).normalize();
-    let lies = spread.all(|p| p.dot(&normal).abs() <= PLANE * extent)
-        && loads.all(|f| f.dot(&normal).abs() <= PLANE * largest);
+    let lies = spread.all(|p| p.dot(&normal).abs() <= ZERO * extent)
+        && loads.all(|f| f.dot(&normal).abs() <= ZERO * largest);
     lies.then_some(normal)
 }
 
@@ -374,7 +369,7 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
     let out = free * normal;
     // The normal is free, or held, or the support is oblique.
     let rate = out.dot(normal);
-    let oblique = (out - normal * rate).norm() > PLANE || (rate > PLANE && rate < 1.0 - PLANE);
+    let oblique = (out - normal * rate).norm() > ZERO || (rate > ZERO && rate < 1.0 - ZERO);
     if oblique {
         return None;
     }
@@ -383,7 +378,7 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
     let candidates = [free * first, free * second];
     for candidate in candidates {
         let rest = candidate - axes * axes.tr_mul(&candidate);
-        if rest.norm() > PLANE.sqrt() {
+        if rest.norm() > ZERO.sqrt() {
             axes.set_column(freedom, &rest.normalize());
             freedom += 1;
         }

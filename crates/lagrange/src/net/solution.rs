@@ -10,6 +10,7 @@ use super::ranges::ranges;
 use super::residual::Residual;
 use super::second_order::SecondOrder;
 use super::state::State;
+use crate::thresholds::FOUND;
 
 /// Which of the forces in balance an answer shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -61,8 +62,6 @@ pub struct Solution {
 
 /// A force below this part of the largest one counts as zero.
 pub(super) const NO_FORCE: f64 = 1e-10;
-/// Less than this in a self-stress of unit norm is nothing: a member takes no part in it, the floor is not pressed.
-pub(super) const NO_PART: f64 = 1e-9;
 /// A member whose length is off by less than this part of it just reaches.
 pub(super) const NO_SLACK: f64 = 1e-10;
 
@@ -170,7 +169,7 @@ fn largest_misfit(
 ) -> f64 {
     let links = framework.links.iter().enumerate();
     let misfits = links
-        .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > NO_PART))
+        .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > FOUND))
         .map(|(k, link)| (framework.whole(k, |span| directions[span].1) - link.length).abs());
     misfits.fold(0.0, f64::max) * framework.units.length_m
 }

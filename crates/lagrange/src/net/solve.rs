@@ -24,6 +24,7 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
+use crate::thresholds::{FOUND, GIVEN};
 
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
@@ -32,15 +33,8 @@ pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
 /// by more is slack. Stiff are those that the mean load stretches by less; cables and struts further off are loose.
 const MISDRAWN: f64 = 1e-3;
-/// The same of a cable in a shape at rest.
-const REST_SLACK: f64 = 1e-9;
 const STIFF: f64 = 1e-3;
 const LOOSE: f64 = 0.1;
-/// A system without loads whose elastic members all bear less than this part of their stiffness is
-/// not prestressed: that much is rounding.
-const NO_STRAIN: f64 = 1e-12;
-/// The same where a search without loads has come to a rest: it ends before rounding.
-const LEFT_STRAIN: f64 = 1e-9;
 
 /// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
 /// the only minimum), and a local minimum of the energy otherwise.
@@ -110,6 +104,7 @@ fn hang(
             Err(_) => too_far = true,
         }
     }
+    solver.framework.work.goes_on()?;
     if let Some(error) = too_short(system, &solver.framework) {
         return Err(error);
     }
@@ -230,7 +225,7 @@ fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
     let mut members = system.members().iter().zip(&solution.equilibrium.axial_n);
     let mut idle = || {
         members.all(|(m, axial_n)| {
-            !moves(m) || m.stiffness_n.is_none_or(|ea| axial_n.abs() <= NO_STRAIN * ea)
+            !moves(m) || m.stiffness_n.is_none_or(|ea| axial_n.abs() <= GIVEN * ea)
         })
     };
     if system.is_unloaded() && idle() { Err(Error::Unloaded) } else { Ok(solution) }
@@ -240,7 +235,7 @@ fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
 fn is_idle(framework: &Framework, state: &State) -> bool {
     let mut links = framework.links.iter().zip(&state.axial);
     links.all(|(link, axial)| {
-        !framework.moves(link) || link.compliance * axial.abs() <= LEFT_STRAIN * link.length
+        !framework.moves(link) || link.compliance * axial.abs() <= FOUND * link.length
     })
 }
 
@@ -424,7 +419,7 @@ impl<'a> Solver<'a> {
         let members = self.framework.links.len();
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
         let directions = state.directions(&self.framework);
-        let slack_length = if seed.at_rest { REST_SLACK } else { MISDRAWN };
+        let slack_length = if seed.at_rest { FOUND } else { MISDRAWN };
         for (k, link) in self.framework.links.iter().enumerate() {
             let length = self.framework.whole(k, |span| directions[span].1);
             let short = 1.0 - length / link.length;

@@ -13,15 +13,12 @@
 use model::system::System;
 
 use super::framework::{Framework, Link};
-use super::newton::{Derivative, HALVED, Run};
+use super::newton::{Derivative, Run};
 use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
-
-/// Forces that are right to this part of the largest need nothing more: those of members that bear little are judged by what these
-/// bear.
-const SETTLED: f64 = 1e-13;
+use crate::thresholds::{HALVED, ROUNDED};
 
 /// Steps at most; two or three are enough.
 const ROUNDS: usize = 8;
@@ -42,7 +39,7 @@ pub(super) fn settled(
     let mut best = run;
     let mut misfits = exact_misfits(system, framework, &best);
     let mut error = force_error(framework, &best, &misfits);
-    if error <= SETTLED {
+    if error <= ROUNDED {
         return best;
     }
     for _ in 0..ROUNDS {

@@ -55,9 +55,17 @@ impl Work {
     /// work is spent is a finding.
     pub fn judged<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
         if self.is_refused() || (result.is_err() && self.is_spent()) {
-            let spent = self.spent.load(Ordering::Relaxed);
-            return Err(Error::Work { spent, max_work: self.most });
+            return Err(self.ended());
         }
         result
+    }
+
+    /// Nothing more, once a factor was refused: also what needs none takes time.
+    pub fn goes_on(&self) -> Result<(), Error> {
+        if self.is_refused() { Err(self.ended()) } else { Ok(()) }
+    }
+
+    fn ended(&self) -> Error {
+        Error::Work { spent: self.spent.load(Ordering::Relaxed), max_work: self.most }
     }
 }

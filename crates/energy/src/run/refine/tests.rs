@@ -1,58 +1,6 @@
-//! Sums to twice the digits against whole numbers, and the line of the bars against its angle.
+//! Weights counted from a bar, and bars that bridge a gap.
 
 use super::*;
-
-/// A number as a multiple of 2^-80, exactly.
-fn units(x: f64) -> i128 {
-    let scaled = x * 2.0_f64.powi(80);
-    assert!(scaled.fract().abs() <= 0.0 && scaled.abs() < 2.0_f64.powi(126));
-    #[expect(clippy::cast_possible_truncation, reason = "a whole number in range, as asserted")]
-    let whole = scaled as i128;
-    whole
-}
-
-#[test]
-fn a_turned_sum_is_exact() {
-    let part = |k: i64| k as f64 * 2.0_f64.powi(-40);
-    // Numbers of 40 bits, whose products need 80.
-    let (c, s, x, z) = (659_706_976_665, 879_609_302_221, 1_099_511_627_775, -733_007_751_851);
-    for (x, z) in [(x, z), (z, x), (x, x), (-x, z)] {
-        let span = [[part(x), 0.0, part(z)], [0.0; 3]];
-        let [first, rest] = rotated_sum(span, part(c), part(s));
-        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
-        let exact = [product(c, x) + product(s, z), product(c, z) - product(s, x)];
-        assert_eq!([0, 2].map(|k| units(first[k]) + units(rest[k])), exact);
-        assert!(first[1].abs() <= 0.0 && rest[1].abs() <= 0.0);
-        // The rest is below a rounding of the first.
-        assert!([0, 2].iter().all(|&k| rest[k].abs() <= f64::EPSILON * first[k].abs()));
-    }
-    let [_, rest] = rotated_sum([[0.0; 3], [2e-20, 0.0, 1e-20]], 0.6, 0.8);
-    assert!((rest[0] - 2e-20).abs() < 1e-34 && (rest[2] + 1e-20).abs() < 1e-34);
-}
-
-/// Bars at small angles to a line at 0.4 rad: the first axis is laid along it, to the square of
-/// these angles. Bars along an axis, bars that are not nearly parallel stay.
-#[test]
-fn the_first_axis_is_laid_along_nearly_parallel_bars() {
-    let problem = samples::equal_bars(4, 4.0, 1.0, [0.0, 1.0, -0.5]);
-    let (links, units) = ScaledChain::new(&problem, crate::run::settings::Motion::Plane);
-    let along = |angles: [f64; 4]| -> (f64, f64) {
-        let u = angles.map(|a: f64| [a.cos(), 0.0, a.sin()]);
-        quarter_turn_to_line(&u, &links, &units)
-    };
-    let pi = std::f64::consts::PI;
-    for line in [0.4_f64, 1.1, -0.7] {
-        let (cosine, sine) = along([line + 1e-4, line - 1e-4, line + pi, line]);
-        assert!((cosine * line.sin() - sine * line.cos()).abs() < 1e-7, "{line}");
-        assert!((cosine.hypot(sine) - 1.0).abs() < 1e-15);
-    }
-    for stays in
-        [[0.4, 0.5, 0.4, 0.3], [1e-4, 0.0, 2e-4, pi], [0.5 * pi, 0.5 * pi, -0.5 * pi, 0.4999 * pi]]
-    {
-        let (cosine, sine) = along(stays);
-        assert!((cosine - 1.0).abs() <= 0.0 && sine.abs() <= 0.0, "{stays:?}");
-    }
-}
 
 /// Weights in between, by hand: bars of 1, 2, 3 and 4 kg whose centres are in their middles.
 #[test]

@@ -4,7 +4,6 @@
 //! lowest bar (the lemma of the module `bottom`), and whether the chain is so nearly straight,
 //! folded or doubled that its closure must be written along an axis to keep its digits.
 
-mod compact_fold;
 mod folded;
 mod indeterminate;
 mod side_by_side;
@@ -19,7 +18,6 @@ mod vertical_strut;
 pub(super) use unloaded::fill;
 
 use super::chain::Condensed;
-use super::folded::Folded;
 use super::newton::Budget;
 use super::pull::Pull;
 use crate::thresholds::{CLOSURE_ROUNDING, NEARLY_STRAIGHT, STEEP};
@@ -39,9 +37,6 @@ pub(super) enum Regime {
     TautStrut,
     /// The same, the other bars folded back along it on the line of the anchors.
     FoldedStrut,
-    /// The same, with the anchors nearer to each other than the fold is exact: any line may be its
-    /// line.
-    CompactFold,
     /// The lowest bar in compression, the anchors on one vertical.
     VerticalStrut,
     /// Two bars over anchors that are next to each other.
@@ -89,13 +84,10 @@ impl Regime {
 
     fn in_compression(chain: &Condensed) -> Self {
         let (bottom, total) = (&chain.bottom, chain.bars.total_length);
-        let folded = Folded::of(chain);
         if nearly_straight(chain, total - bottom.length + bottom.shortest_reach) {
             Self::TautStrut
-        } else if folded.is_some_and(|folded| folded.slack < chain.span.distance) {
+        } else if nearly_folded(chain) {
             Self::FoldedStrut
-        } else if folded.is_some() {
-            Self::CompactFold
         } else if chain.on_one_vertical() {
             Self::VerticalStrut
         } else {
@@ -116,7 +108,6 @@ impl Regime {
             Self::Strut => strut::solve(chain, budget),
             Self::TautStrut => taut_strut::solve(chain, budget),
             Self::FoldedStrut => folded::solve(chain, budget),
-            Self::CompactFold => compact_fold::solve(chain, budget),
             Self::VerticalStrut => vertical_strut::solve(chain, budget),
             Self::Triangle => triangle::solve(chain),
             Self::Unloaded => Some(unloaded::solve(chain)),
@@ -128,6 +119,14 @@ impl Regime {
 /// Whether a chain that reaches so far when straight has hardly more than its span asks for.
 fn nearly_straight(chain: &Condensed, reach: f64) -> bool {
     reach - chain.span.distance < NEARLY_STRAIGHT * chain.bars.total_length
+}
+
+/// Whether the compressed bar is longer than all others together, and hardly shorter than these and the span.
+fn nearly_folded(chain: &Condensed) -> bool {
+    let (bottom, total) = (&chain.bottom, chain.bars.total_length);
+    let others = || chain.length_in_tension(true).plus(-bottom.shortest_reach).value();
+    total - bottom.length - bottom.shortest_reach + chain.span.distance < NEARLY_STRAIGHT * total
+        && others() < 0.0
 }
 
 /// Whether the strands hang nearly vertically, equally deep, and no farther apart than steep bottom
@@ -164,7 +163,6 @@ mod tests {
             (Regime::Strut, &[1.0; 3], &[1.0; 3], [0.5, 0.0, 0.0]),
             (Regime::TautStrut, &[1.0; 3], &[1.0; 3], [0.0, 0.0, -2.999]),
             (Regime::FoldedStrut, &[0.5, 2.0, 0.5], &[1.0; 3], [1.0005, 0.0, 0.0]),
-            (Regime::CompactFold, &[0.5001, 1.0, 0.5], &[1.0; 3], [1e-6, 0.0, 0.0]),
             (Regime::VerticalStrut, &[1.0; 3], &[1.0; 3], [0.0, 0.0, -2.0]),
             (Regime::Triangle, &[1.0; 2], &[1.0; 2], [0.0, 0.0, 1e-3]),
             (Regime::Unloaded, &[1.0; 6], &light, [1.0, 0.0, 0.0]),
@@ -198,7 +196,7 @@ mod tests {
         let fold =
             |long: f64, across: f64| regime(&[0.5, long, 0.5], &[1.0; 3], [across, 0.0, 0.0]);
         assert_eq!(fold(1.2, 0.2001), Regime::FoldedStrut);
-        assert_eq!(fold(1.0, 0.0009), Regime::CompactFold);
+        assert_eq!(fold(1.0, 0.0009), Regime::Strut);
         assert_eq!(fold(0.95, 0.1), Regime::Strut);
     }
 

@@ -31,7 +31,6 @@ pub(super) fn upright(chain: &Condensed) -> Strut<'_> {
     let beside = beside.into_iter().flatten().filter_map(|k| chain.bars.loads.get(k));
     Strut {
         system: chain.upright(chain.around_the_bottom(), *shortest_reach),
-        folded: None,
         side: 1.0,
         level: [1.0, 0.0],
         between: Bracket { low: -FRAC_PI_2, high: FRAC_PI_2 },
