@@ -148,24 +148,23 @@ fn values(text: &str, all: Range<usize>) -> Result<(Vec<f64>, bool), ParameterEr
     Ok((list, false))
 }
 
-/// Equidistant values with both ends. The ends are exact, and others have 15 digits of the larger one: what people would
-/// write, and zero where anchors stand on one vertical.
+/// Equidistant values with both ends; the ends are exact.
 fn range(from: f64, to: f64, points: usize) -> Vec<f64> {
     let last = points - 1;
-    let largest = from.abs().max(to.abs());
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 338")]
-    let decimals = (14.0 - largest.log10().floor()).clamp(0.0, 338.0) as usize;
-    let between = |k: usize| {
-        let part = k as f64 / last as f64;
-        let value = from * (1.0 - part) + to * part;
-        format!("{value:.decimals$}").parse().unwrap_or(value) + 0.0
-    };
-    let value = |k: usize| match k {
-        0 => from,
-        _ if k == last => to,
-        _ => between(k),
-    };
-    (0..points).map(value).collect()
+    (0..points)
+        .map(|k| match k {
+            0 => from,
+            _ if k == last => to,
+            _ => {
+                let part = k as f64 / last as f64;
+                let value = from * (1.0 - part) + to * part;
+                // What differs from zero by rounding only is zero: there, anchors stand on one
+                // vertical.
+                let rounding = 4.0 * f64::EPSILON * from.abs().max(to.abs());
+                if value.abs() <= rounding { 0.0 } else { value }
+            }
+        })
+        .collect()
 }
 
 fn number(text: &str, span: Range<usize>) -> Result<f64, ParameterError> {

@@ -224,10 +224,10 @@ fn the_gallery_has_every_case() {
     // Files of one's own have the names of cases.
     std::fs::create_dir(folder.path().join("own")).unwrap();
     std::fs::write(folder.path().join("own/lamp.toml"), "mine").unwrap();
-    let (code, _, said) = run(folder, &["cases", "--html", "own"]);
+    let (code, _, said) = run(&folder, &["cases", "--html", "own"]);
     assert!(code == Some(2) && said.contains("the folder own is not empty"), "{said}");
     assert_eq!(std::fs::read_to_string(folder.path().join("own/lamp.toml")).unwrap(), "mine");
     assert_eq!(std::fs::read_dir(folder.path().join("own")).unwrap().count(), 1);
-    let (code, _, said) = run(folder, &["page", "--case", "lamp", "--out", "lamp.pdf"]);
+    let (code, _, said) = run(&folder, &["page", "--case", "lamp", "--out", "lamp.pdf"]);
     assert!(code == Some(2) && said.contains("a page is written as .html, not as .pdf"), "{said}");
 }
