@@ -58,7 +58,7 @@
 //! proved to be apart from all equilibria (module `straight`).
 //!
 //! Systems of joints and members, nets of several closures among them, are the business of
-//! [`network`].
+//! [`net`], proofs about one equilibrium that of [`boxes`].
 //!
 //! # What is independent of the search
 //!

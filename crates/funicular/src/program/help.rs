@@ -30,12 +30,12 @@ const START: &str = "\
 funicular finds where systems of bars, cables and springs come to rest, with
 which forces, and how sure that is.
 
-  funicular solve --case lamp  a first answer; `funicular cases` lists others
-  funicular new > system.toml  a file of your own; `funicular format`: all keys
-  funicular solve system.toml  its equilibrium by two solvers, judged, proved
-  funicular census system.toml every equilibrium, stable or not
-  funicular help               all commands; `funicular COMMAND --help`: one
-  funicular reproduce          the paper, judged";
+  funicular solve --case lamp   a first answer; `funicular cases` lists others
+  funicular new > system.toml   a file of your own; `funicular format`: all keys
+  funicular solve system.toml   its equilibrium by two solvers, judged, proved
+  funicular census system.toml  every equilibrium, stable or not
+  funicular help                all commands; `funicular COMMAND --help`: one
+  funicular reproduce           the paper, judged";
 
 /// Words that were tried and are no commands, with what does that.
 const MEANT: [(&str, &str); 8] = [
