@@ -87,8 +87,8 @@ fn by_place(mut loads: Vec<(f64, Vector)>) -> Vec<(f64, Vector)> {
 impl SystemEquilibrium {
     /// The axial force along every member.
     ///
-    /// The weight of a member whose centre is in its middle counts as spread over it, which puts its extremes at loads and ends;
-    /// of another one it counts as acting at the centre. A cable that is slack and a strut that is loose bear nothing along them:
+    /// Spread loads, and the weight of a member whose centre is in its middle, put its extremes at other loads and ends; the
+    /// weight of another one counts as acting at its centre. A cable that is slack and a strut that is loose bear nothing along them:
     /// each joint carries its part of their weight.
     #[must_use]
     pub fn axial_forces(&self, system: &System) -> Vec<AxialForce> {
@@ -110,26 +110,33 @@ impl SystemEquilibrium {
         }
         let ends_m = (self.joints_m[member.from], self.joints_m[member.to]);
         let body = &member.body;
-        let weight_n = |part: f64| [0.0, 0.0, -part * body.mass_kg() * system.gravity_m_s2()];
         let place = |at_m: f64| at_m / body.length_m();
         let centre = place(body.centre_m());
-        let loads: Vec<(f64, Vector)> =
-            member.loads.iter().map(|load| (place(load.at_m), load.force_n)).collect();
-        let mut loads = by_place(loads);
-        if (centre - 0.5).abs() <= f64::EPSILON && !loads.is_empty() {
-            // The weight between one load and the next, in half before and half behind each load's jump.
+        let weight_n = [0.0, 0.0, -body.mass_kg() * system.gravity_m_s2()];
+        let weight = ((centre - 0.5).abs() <= f64::EPSILON, centre, weight_n);
+        let loads =
+            member.loads.iter().map(|load| (load.is_spread, place(load.at_m), load.force_n));
+        let (mut points, mut even_n) = (Vec::new(), [0.0; 3]);
+        for (is_spread, at, force_n) in loads.chain([weight]) {
+            if is_spread {
+                even_n.iter_mut().zip(force_n).for_each(|(sum, component)| *sum += component);
+            } else {
+                points.push((at, force_n));
+            }
+        }
+        let mut loads = by_place(points);
+        if !loads.is_empty() && even_n.iter().any(|component| component.abs() > 0.0) {
+            // What is spread between one load and the next: each load's jump is between two parts of it.
+            let part_n = |part: f64| even_n.map(|component| part * component);
             let mut spread = Vec::with_capacity(2 * loads.len() + 1);
             let mut before = 0.0;
             for (at, force) in loads {
-                spread.push((at, weight_n(at - before)));
+                spread.push((at, part_n(at - before)));
                 spread.push((at, force));
                 before = at;
             }
-            spread.push((1.0, weight_n(1.0 - before)));
+            spread.push((1.0, part_n(1.0 - before)));
             loads = spread;
-        } else {
-            loads.push((centre, weight_n(1.0)));
-            loads = by_place(loads);
         }
         let forces_n = (self.start_forces_n[k], self.end_forces_n[k]);
         AxialForce::along(ends_m, forces_n, self.axial_n[k], loads)

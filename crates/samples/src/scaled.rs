@@ -75,6 +75,7 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
         let load = |load: &PointLoad| PointLoad {
             at_m: load.at_m * length,
             force_n: times(load.force_n, force),
+            ..*load
         };
         let within_m = original.length_tolerance_m().map(|within_m| within_m * length);
         let within = original.tolerances.as_deref().copied().unwrap_or_default();

@@ -160,7 +160,7 @@ fn divided(member: &Member, part: f64, bar: usize) -> Result<Member, PointError>
     member.body = body.map_err(|error| PointError::Bar { bar, error })?;
     member.set_length_tolerance(member.length_tolerance_m().map(|within_m| part * within_m));
     let length_m = member.body.length_m();
-    for PointLoad { at_m, force_n } in &mut member.loads {
+    for PointLoad { at_m, force_n, .. } in &mut member.loads {
         *at_m = (part * *at_m).min(length_m);
         *force_n = force_n.map(|x| part * x);
     }

@@ -60,15 +60,17 @@ pub(crate) fn with_numbers(
 /// With the loads by name and the cases of the base: other numbers are changed beside them, later too.
 fn with_loads(system: System, base: &System, numbers: &[Number], values: &[f64]) -> System {
     let Factors { loads, lengths } = Factors::of(numbers, values);
+    let of_joint = |(number, value): (&Number, &f64)| match number {
+        Number::Joint(name, field) => Some((base.joint(name)?, *field, *value)),
+        _ => None,
+    };
+    let changed: Vec<_> = numbers.iter().zip(values).filter_map(of_joint).collect();
     let own = |joint: usize, mut mass_kg: f64, mut force_n: Vector| {
-        for (number, value) in numbers.iter().zip(values) {
-            match number {
-                Number::Joint(name, field) if base.joint(name) == Some(joint) => match field {
-                    JointField::Mass => mass_kg = *value,
-                    JointField::Force(axis) => force_n[*axis] = *value,
-                    _ => {}
-                },
-                _ => {}
+        for (_, field, value) in changed.iter().filter(|(of, ..)| *of == joint) {
+            match field {
+                JointField::Mass => mass_kg = *value,
+                JointField::Force(axis) => force_n[*axis] = *value,
+                JointField::Place(_) | JointField::Share => {}
             }
         }
         (mass_kg, force_n)

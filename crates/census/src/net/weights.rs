@@ -34,7 +34,7 @@ pub(super) fn weights_kg(
             if let Some(weight_kg) = shared_kg(member, is_start).filter(|_| !bears) {
                 weights.add(joint, weight_kg);
             }
-            for PointLoad { at_m, force_n } in &member.loads {
+            for PointLoad { at_m, force_n, .. } in &member.loads {
                 if let Some(share) = share(length_m, *at_m, is_start) {
                     weights.add_force(joint, *force_n, share)?;
                 }

@@ -145,7 +145,7 @@ fn the_loaded_string_is_in_the_list() {
     ];
     let mut members: Vec<Member> =
         [(0, 1), (2, 1), (3, 2)].into_iter().map(|(a, b)| Member::bar(a, b, light(5.0))).collect();
-    members[2].loads.push(PointLoad { at_m: 5.0, force_n: [0.0, 0.0, -4.5] });
+    members[2].loads.push(PointLoad { at_m: 5.0, force_n: [0.0, 0.0, -4.5], is_spread: false });
     let string = system(joints.clone(), members.clone());
     let census = taken(&string);
     assert!(census.complete && census.families() == 0);

@@ -63,6 +63,45 @@ fn what_acts_along_a_bar_is_that_of_the_case() {
 }
 
 /// What has no equilibrium in a case has one in the others.
+/// An upright rope of 20 m, 100 N/m heavy and lifted by 90 N/m, with a float of 1000 N on its end: 800 N at its foot and
+/// 1000 N at its top, whether the lift is a load of the bar, one by name, or a force that is spread. As one force in the middle
+/// it would make 1800 N and -800 N of it.
+#[test]
+fn loads_a_metre_change_the_force_evenly() {
+    let text = |bar: &str, loads: &str| {
+        format!(
+            "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = [0, 0, 0] }}, P = {{ force_n = [0, 0, 1000] }} }}\n\
+             bars = [{{ from = 'A', to = 'P', length_m = 20, mass_kg = 200, kind = 'cable', strength_n = 1500{bar} }}]\n{loads}"
+        )
+    };
+    let lift = "loads = [{ name = 'lift', bar = 1, force_n_per_m = [0, 0, 90] }]\n\
+                cases = [{ name = 'sea', factors = { lift = 1 } }]";
+    for (bar, loads) in [
+        (", force_n_per_m = [0, 0, 90]", ""),
+        (", forces = [{ force_n = [0, 0, 1800], spread = true }]", ""),
+        ("", lift),
+    ] {
+        let problem = Problem::parse(&text(bar, loads), "rope.toml").unwrap();
+        let again = Problem::parse(&problem.to_toml(), "again.toml").unwrap();
+        assert_eq!(again, problem);
+        let found = Solve::new().run(&again).unwrap();
+        let along = found.equilibria()[0].axial_force(found.system(), 0);
+        assert!(near(along.least_n, 800.0) && near(along.most_n, 1000.0), "{along:?}");
+        if !loads.is_empty() {
+            let bar = &Solve::new().load_cases(&problem).unwrap().bars()[0].clone();
+            assert!(near(bar.least_n.value, 800.0) && near(bar.most_n.value, 1000.0), "{bar:?}");
+        }
+    }
+    for (force, wrong) in [
+        ("force_n = [0, 0, 9], spread = 1", "expected true or false"),
+        ("force_n = [0, 0, 9], at_m = 4, spread = true", "`at_m`"),
+    ] {
+        let text = text(&format!(", forces = [{{ {force} }}]"), "");
+        let error = Problem::parse(&text, "rope.toml").unwrap_err();
+        assert!(format!("{error:?}{error}").contains(wrong), "{error:?}");
+    }
+}
+
 #[test]
 fn a_case_without_an_answer_leaves_the_others() {
     let text = POLE.replace("permanent = 1.2", "permanent = 0");

@@ -28,8 +28,8 @@ fn bridle() -> System {
     joints.push(Joint::free("S").with_mass(0.5).held_by(line));
     joints.push(Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]));
     joints.extend(["Q", "R"].map(|name| Joint::free(name).with_mass(0.7)));
-    let load = PointLoad { at_m: 0.4, force_n: [0.2, 0.0, -0.5] };
-    let on_spring = [PointLoad { at_m: 0.3, force_n: [-0.1, 0.6, 0.25] }];
+    let load = PointLoad { at_m: 0.4, force_n: [0.2, 0.0, -0.5], is_spread: false };
+    let on_spring = [PointLoad { at_m: 0.3, force_n: [-0.1, 0.6, 0.25], is_spread: false }];
     let spring = Member::bar(5, 4, Bar::new(1.5, 0.5, 0.4, [0.0; 3]).unwrap());
     let spring = spring.with_loads(on_spring.into()).with_stiffness(300.0);
     let held = Member::bar(0, 1, Bar::new(3.3, 0.3, 1.1, [0.0; 3]).unwrap());

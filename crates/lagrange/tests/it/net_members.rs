@@ -124,7 +124,7 @@ fn indeterminate_forces() {
 /// with a load at a quarter pulls the nearer one three times as hard.
 #[test]
 fn load_at_a_quarter() {
-    let load = PointLoad { at_m: 0.5, force_n: [0.0, 0.0, -8.0] };
+    let load = PointLoad { at_m: 0.5, force_n: [0.0, 0.0, -8.0], is_spread: false };
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint::anchor("B", [2.0, 0.0, 0.0]),

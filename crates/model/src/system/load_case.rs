@@ -1,5 +1,7 @@
 //! Loads by name, and the cases in which they act together.
 
+use std::collections::HashMap;
+
 use super::{Joint, Member, PointLoad, System, SystemError};
 use crate::{Bar, BarError, Vector};
 
@@ -88,7 +90,11 @@ impl NamedLoad {
                     let member = &mut members[*number];
                     let given_m = member.given_body().length_m();
                     let force_n = force_n_per_m.map(|x| factor * given_m * x);
-                    let middle = |length_m: f64| PointLoad { at_m: 0.5 * length_m, force_n };
+                    let middle = |length_m: f64| PointLoad {
+                        at_m: 0.5 * length_m,
+                        force_n,
+                        is_spread: true,
+                    };
                     let load = middle(member.body.length_m());
                     member.loads.push(load);
                     if let Some(given) = &mut member.prestress {
@@ -260,15 +266,20 @@ impl System {
             })
             .collect();
         // Loads without a name are beside what the joint has itself.
+        let owns: HashMap<_, _> = before
+            .own
+            .iter()
+            .map(|(joint, mass_kg, force_n)| (joint, (mass_kg, force_n)))
+            .collect();
         all.joints = before
             .joints
             .iter()
             .filter_map(|(joint, mass_kg, force_n)| {
-                let (_, own_kg, own_n) = before.own.iter().find(|(k, ..)| k == joint)?;
-                let (now_kg, now_n) = own_now(*joint, *own_kg, *own_n);
+                let (own_kg, own_n) = owns.get(joint)?;
+                let (now_kg, now_n) = own_now(*joint, **own_kg, **own_n);
                 let beside = |x: f64, own: f64, now: f64| now + at_joints * (x - own);
                 let force_n = std::array::from_fn(|k| beside(force_n[k], own_n[k], now_n[k]));
-                Some((here(*joint)?, beside(*mass_kg, *own_kg, now_kg), force_n))
+                Some((here(*joint)?, beside(*mass_kg, **own_kg, now_kg), force_n))
             })
             .collect();
         for load in &mut all.loads {

@@ -104,13 +104,16 @@ pub enum Kind {
     Strut,
 }
 
-/// A constant force at a point of a member.
+/// A constant force at a point of a member, or spread over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLoad {
     /// Distance of the point from the joint where the member begins, on the unstretched member, m.
     pub at_m: f64,
     /// The force, world frame, N.
     pub force_n: Vector,
+    /// Whether it is spread evenly over the member, so that `at_m` is its middle: the ends bear it as one there, and the axial
+    /// force between them changes evenly.
+    pub is_spread: bool,
 }
 
 impl Member {
@@ -173,7 +176,7 @@ impl Member {
     ///
     /// ```
     /// use model::{Bar, system::{Kind, Member, PointLoad}};
-    /// let load = PointLoad { at_m: 0.5, force_n: [0.0, 2.0, 0.0] };
+    /// let load = PointLoad { at_m: 0.5, force_n: [0.0, 2.0, 0.0], is_spread: false };
     /// let strut = Member::bar(0, 1, Bar::homogeneous(2.0, 1.0)?).of_kind(Kind::Strut);
     /// let strut = strut.with_loads(vec![load]).between(3, 4);
     /// assert_eq!((strut.from, strut.kind, strut.loads[0]), (3, Kind::Strut, load));

@@ -54,7 +54,7 @@ pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>, SystemFileEr
     }
 }
 
-/// A load a metre, as a force in the middle of a bar: `given_m` long as the file has it, `length_m` now.
+/// A load a metre, spread over a bar: `given_m` long as the file has it, `length_m` now.
 pub(super) fn spread(
     table: &Table<'_>,
     given_m: f64,
@@ -67,7 +67,7 @@ pub(super) fn spread(
         let kind = Kind::Force { component_n: bad };
         return Err(table.component_error(kind, "force_n_per_m", f64::is_finite));
     }
-    Ok(Some(PointLoad { at_m: 0.5 * length_m, force_n }))
+    Ok(Some(PointLoad { at_m: 0.5 * length_m, force_n, is_spread: true }))
 }
 
 /// Refuse a diameter of which nothing is made.

@@ -81,7 +81,7 @@ const MEMBER_KEYS: &[&str] = &[
     "safety",
     "forces",
 ];
-const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
+const FORCE_KEYS: &[&str] = &["force_n", "at_m", "spread"];
 const WANTED_JOINTS: &str = "a table of joints, such as A = { at_m = [0, 0, 0] }";
 const WANTED_BARS: &str = "one or more tables [[bars]] with from, to, length_m and mass_kg";
 
@@ -583,11 +583,16 @@ fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad, SystemFileError>
     let value: &Value<'_> = table.require("force_n", "a force in newtons, [x, y, z]")?;
     let force_n = table.vector("force_n", value)?;
     table.check_load(None, Some(force_n), "force_n")?;
+    let is_spread = table.boolean("spread")?.unwrap_or(false);
     let at_m = table.number("at_m")?.unwrap_or(0.5 * length_m);
-    if !(0.0..=length_m).contains(&at_m) {
-        let span = table.get("at_m").map_or(0..0, Spanned::span);
-        let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
-        return Err(table.error_at(kind, "at_m", span));
+    let span = || table.get("at_m").map_or(0..0, Spanned::span);
+    if is_spread && table.get("at_m").is_some() {
+        let kind = Kind::Conflict { key: "at_m", other: "spread" };
+        return Err(table.error_at(kind, "at_m", span()));
     }
-    Ok(PointLoad { at_m, force_n })
+    if !(0.0..=length_m).contains(&at_m) {
+        let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
+        return Err(table.error_at(kind, "at_m", span()));
+    }
+    Ok(PointLoad { at_m, force_n, is_spread })
 }

@@ -268,5 +268,5 @@ fn load(row: &Row<'_>, length_m: f64) -> Result<Vec<PointLoad>, Wrong> {
         let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
         return Err((Some("force_at_m"), kind));
     }
-    Ok(vec![PointLoad { at_m, force_n }])
+    Ok(vec![PointLoad { at_m, force_n, is_spread: false }])
 }

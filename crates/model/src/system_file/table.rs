@@ -137,6 +137,14 @@ impl<'a> Table<'a> {
         }
     }
 
+    pub(super) fn boolean(&self, key: &str) -> Result<Option<bool>, SystemFileError> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        let DeValue::Boolean(is) = value.get_ref() else {
+            return Err(self.wrong_type(key, value, "true or false"));
+        };
+        Ok(Some(*is))
+    }
+
     pub(super) fn number(&self, key: &str) -> Result<Option<f64>, SystemFileError> {
         self.get(key).map(|value| self.number_of(key, value)).transpose()
     }

@@ -167,7 +167,12 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if !loads.is_empty() {
         let forces = loads.iter();
         let forces = forces.map(|load| {
-            format!("{{ force_n = {}, at_m = {:?} }}", vector(load.force_n), load.at_m)
+            let force_n = vector(load.force_n);
+            if load.is_spread {
+                format!("{{ force_n = {force_n}, spread = true }}")
+            } else {
+                format!("{{ force_n = {force_n}, at_m = {:?} }}", load.at_m)
+            }
         });
         let _ = writeln!(text, "forces = [{}]", forces.collect::<Vec<_>>().join(", "));
     }

@@ -62,7 +62,7 @@ fn every_column_arrives_where_it_belongs() {
         Joint::free("4"),
     ];
     let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
-    let load = |at_m, force_n| vec![PointLoad { at_m, force_n }];
+    let load = |at_m, force_n| vec![PointLoad { at_m, force_n, is_spread: false }];
     let off = Bar::new(1.5, 1.0, 0.5, Bar::slender_inertia(1.5, 1.0)).unwrap();
     // A quarter of its stiffness makes it a quarter longer.
     let cable = Member::cable(1, 2, bar(1.5)).with_loads(load(0.75, [1.0, 0.0, 0.0]));

@@ -84,7 +84,7 @@ fn a_load_that_is_not_vertical_stops_the_turn() {
         axis(&System::new("", 9.81, joints, vec![bar(0, 1)]).unwrap())
     };
     let on_member = |force_n| {
-        let loads = vec![PointLoad { at_m: 0.5, force_n }];
+        let loads = vec![PointLoad { at_m: 0.5, force_n, is_spread: false }];
         let joints = vec![anchor.clone(), Joint::free("P")];
         let members = vec![bar(0, 1).with_loads(loads)];
         axis(&System::new("", 9.81, joints, members).unwrap())

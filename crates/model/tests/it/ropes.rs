@@ -176,7 +176,7 @@ fn a_slack_cable_hangs_in_the_joint_that_its_ends_are() {
         Joint::free("Q").with_mass(2.0),
     ];
     let body = |mass_kg| Bar::homogeneous(2.0, mass_kg).unwrap();
-    let load = PointLoad { at_m: 0.5, force_n: [0.0, 3.0, 0.0] };
+    let load = PointLoad { at_m: 0.5, force_n: [0.0, 3.0, 0.0], is_spread: false };
     let cable = Member::cable(2, 3, body(0.5)).with_loads(vec![load]);
     let ropes = [0, 1].map(|anchor| Member::cable(anchor, 2, body(0.0)).over(vec![3]));
     let with = |member: Member| {

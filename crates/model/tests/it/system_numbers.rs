@@ -85,7 +85,9 @@ fn members_refuse_what_cannot_be() {
         assert_eq!(found, SystemError::Stiffness { member: 1, stiffness_n });
     }
     assert!(accepted(9.81, joints(), bar(1.0, 1.0).with_stiffness(f64::MIN_POSITIVE)));
-    let loaded = |at_m, force_n| bar(2.0, 1.0).with_loads(vec![PointLoad { at_m, force_n }]);
+    let loaded = |at_m, force_n| {
+        bar(2.0, 1.0).with_loads(vec![PointLoad { at_m, force_n, is_spread: false }])
+    };
     for at_m in [0.0, 2.0] {
         assert!(accepted(9.81, joints(), loaded(at_m, [1.0, 2.0, -3.0])));
     }

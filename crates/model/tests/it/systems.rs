@@ -62,7 +62,7 @@ fn supports_loads_and_kinds_are_read() {
         [Kind::Bar, Kind::Cable, Kind::Strut, Kind::Bar]
     );
     assert_eq!(members[1].stiffness_n, Some(1e6));
-    let load = |at_m, force_n| PointLoad { at_m, force_n };
+    let load = |at_m, force_n| PointLoad { at_m, force_n, is_spread: false };
     assert_eq!(members[0].loads, [load(1.0, [0.0, 12.0, 0.0]), load(0.5, [1.0, 0.0, 0.0])]);
 }
 
@@ -223,7 +223,7 @@ fn a_prestress_gives_the_unstretched_length() {
     let read = system(&text);
     let member = &read.members()[0];
     assert_eq!(member.body, Bar::new(4.0, 3.0, 1.6, Bar::slender_inertia(4.0, 3.0)).unwrap());
-    assert_eq!(member.loads, [PointLoad { at_m: 2.0, force_n: [0.0, 1.0, 0.0] }]);
+    assert_eq!(member.loads, [PointLoad { at_m: 2.0, force_n: [0.0, 1.0, 0.0], is_spread: false }]);
     assert_eq!(member.stiffness_n, Some(1e3));
     let pressed =
         system(&strand("kind = \"strut\"\nstiffness_n = 1e3\nprestress_n = -500\ncount = 2"));

@@ -36,7 +36,7 @@ fn mixed() -> (System, Vec<[f64; 3]>) {
         Member::bar(4, 3, bar(1.0, 0.4, 0.2, 0.03)),
         Member::bar(4, 2, bar(1.0, 0.5, 0.5, 0.05)).with_stiffness(300.0),
     ];
-    members[1].loads.push(PointLoad { at_m: 0.1, force_n: [0.5, 0.2, 3.0] });
+    members[1].loads.push(PointLoad { at_m: 0.1, force_n: [0.5, 0.2, 3.0], is_spread: false });
     for member in &mut members {
         // The lengths are those of the places.
         let d: [f64; 3] = std::array::from_fn(|k| at[member.to][k] - at[member.from][k]);

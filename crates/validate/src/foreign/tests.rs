@@ -385,7 +385,7 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
     use super::complete::largest_n;
     use crate::systems::judge;
     let mut bar = Member::bar(0, 1, Bar::new(7.0, 8.0, 1.75, [0.0; 3]).unwrap());
-    bar.loads.push(PointLoad { at_m: 4.375, force_n: [5.0, -6.0, 4.0] });
+    bar.loads.push(PointLoad { at_m: 4.375, force_n: [5.0, -6.0, 4.0], is_spread: false });
     let along = [0.6, 0.0, 0.8];
     let guide = model::system::Support::Line { at_m: [3.0, 1.0, 11.0], direction: along };
     let joints = vec![

@@ -16,7 +16,7 @@ fn what_hangs_at_a_joint_is_its_share_of_all_loads() {
         Joint::free("Q"),
     ];
     let mut long = Member::bar(1, 2, Bar::new(8.0, 8.0, 2.0, [0.0; 3]).unwrap());
-    long.loads.push(PointLoad { at_m: 5.0, force_n: [0.0, 0.0, -16.0] });
+    long.loads.push(PointLoad { at_m: 5.0, force_n: [0.0, 0.0, -16.0], is_spread: false });
     let short = Member::bar(0, 1, Bar::homogeneous(4.0, 2.0).unwrap());
     let weights = |long: &Member| {
         let members = vec![long.clone(), short.clone()];
@@ -46,7 +46,7 @@ fn what_hangs_at_a_joint_is_its_share_of_all_loads() {
     assert_eq!(weights(&lifted), Err(NoCensus::LoadsNotDown { joint: 3 }));
     // A force of nothing is no load.
     let mut light = Member::bar(1, 2, Bar::new(8.0, 0.0, 2.0, [0.0; 3]).unwrap());
-    light.loads.push(PointLoad { at_m: 5.0, force_n: [0.0; 3] });
+    light.loads.push(PointLoad { at_m: 5.0, force_n: [0.0; 3], is_spread: false });
     assert!(weights(&light).unwrap()[2].is_none());
 }
 

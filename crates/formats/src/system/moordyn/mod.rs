@@ -336,7 +336,8 @@ impl Line<'_> {
         let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
         let body = Bar::homogeneous(piece_m, mass_kg)
             .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
-        let lift = PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n] };
+        let lift =
+            PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n], is_spread: true };
         let mut here = *from;
         for k in 1..=*count {
             let there = if k < *count {

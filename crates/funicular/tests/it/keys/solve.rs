@@ -185,6 +185,8 @@ fn the_paper_turned() {
         }
     }
     output.is("agreement.turned_parts", 1);
+    output.each("equilibria[].evidence.ladder[].proof.room.turning_parts", 1);
+    output.each("equilibria[].evidence.ladder[].proof.room.free_joints", 0);
     let at = |key: &str| format!("equilibria[].evidence.ladder[].{key}");
     output.each(&at("proof.system.turns"), 1);
     // Two circles.
@@ -374,12 +376,9 @@ fn three_cables() {
     output.is(&at("ranges[].least_n"), json!([0.0, 0.0, 0.0]));
     output.is(&at("ranges[].most_n"), json!([side / 2.0, 1.0, side / 2.0]));
     output.is("agreement.self_stresses", 1);
-    // The hanger turns about its vertical.
     // All of it lies on its vertical: a turn moves nothing.
     output.is("agreement.turned_parts", 0);
     let at = |key: &str| format!("equilibria[].evidence.{key}");
-    output.each(&at("ladder[].proof.room.turning_parts"), 1);
-    output.each(&at("ladder[].proof.room.free_joints"), 0);
     output.each(&at("ladder[].proof.shape_only"), true);
     // The closures leave one force open; no motion goes without restoring force.
     output.is(&at("nullity"), json!([1, 0]));

@@ -37,7 +37,9 @@ fn level_loads_feel_a_turn_in_both_directions() {
         assert_eq!(at_q(force_n), [true, false, true, false], "{force_n:?}");
     }
     let on_a_member = |force_n: [f64; 3]| {
-        feeling_turns(&tree(|_, members| members[1].loads = vec![PointLoad { at_m: 0.5, force_n }]))
+        feeling_turns(&tree(|_, members| {
+            members[1].loads = vec![PointLoad { at_m: 0.5, force_n, is_spread: false }];
+        }))
     };
     assert_eq!(on_a_member([0.0, 0.0, -3.0]), [true, false, false, false]);
     assert_eq!(on_a_member([0.0, -1.0, 0.0]), [true, true, true, false]);

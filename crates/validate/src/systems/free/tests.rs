@@ -257,7 +257,8 @@ fn joints_are_unloaded_where_nothing_acts_on_them_or_their_members() {
         let on_a_member = unloaded_with(&|_, members| {
             let mut force_n = [0.0; 3];
             force_n[axis] = 1.0;
-            members[1].loads = vec![model::system::PointLoad { at_m: 0.5, force_n }];
+            members[1].loads =
+                vec![model::system::PointLoad { at_m: 0.5, force_n, is_spread: false }];
         });
         assert_eq!(on_a_member, [false; 3]);
     }

@@ -170,7 +170,7 @@ pub(in crate::systems) fn crooked(
         Joint::free("B").with_mass(3.0).with_force([2.0, -1.0, 4.0]),
     ];
     let mut bar = Member::bar(0, 1, Bar::new(8.0, 8.0, 2.0, [0.0; 3]).unwrap());
-    bar.loads.push(PointLoad { at_m: 5.0, force_n: [5.0, -6.0, 4.0] });
+    bar.loads.push(PointLoad { at_m: 5.0, force_n: [5.0, -6.0, 4.0], is_spread: false });
     change(&mut joints, &mut bar);
     let system = System::new("crooked", 10.0, joints, vec![bar]).unwrap();
     let (_, like) = lamp();
