@@ -306,6 +306,17 @@ fn misfit_message(misfits: &[Misfit]) -> String {
 }
 
 impl Error {
+    /// [`Setting`](Self::Setting) for a value out of its range; NaN is in none.
+    pub(crate) fn unless_within(
+        field: &'static str,
+        value: f64,
+        low: f64,
+        high: f64,
+    ) -> Result<(), Self> {
+        let is_within = (low..=high).contains(&value);
+        if is_within { Ok(()) } else { Err(Self::Setting { field, value, low, high }) }
+    }
+
     /// The kind of an error of a chain in a few words, for counting.
     #[must_use]
     pub fn reason(&self) -> &'static str {

@@ -21,6 +21,29 @@ pub struct Stability {
     pub index_in_space: usize,
 }
 
+impl Stability {
+    /// Of the Morse indices in the plane, which has so many motions, and in space; `is_degenerate` where the second order
+    /// does not decide in the plane.
+    #[must_use]
+    pub fn of(
+        [index_in_plane, index_in_space]: [usize; 2],
+        motions: usize,
+        is_degenerate: bool,
+    ) -> Self {
+        Self {
+            in_plane: match index_in_plane {
+                _ if is_degenerate => InPlane::Degenerate,
+                0 => InPlane::Minimum,
+                index if index == motions => InPlane::Maximum,
+                _ => InPlane::Saddle,
+            },
+            index_in_plane,
+            in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
+            index_in_space,
+        }
+    }
+}
+
 /// Character of an equilibrium among the motions in its own vertical plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]

@@ -21,7 +21,7 @@ use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::simulation::CLOSED_TOLERANCE;
 use crate::state::{State, curvature, half_excess, rate, squared};
-use numerics::vector::{add_times, dot, minus};
+use numerics::vector::{add_times, minus};
 
 /// A gap that is less than this, in units of the length of its member or of all members, is closed.
 pub(crate) const CLOSED: f64 = 1e-12;
@@ -237,10 +237,9 @@ impl Contacts {
                 let pulls = self.system.members()[number].kind == Kind::Cable;
                 if pulls { by_member[number] } else { -by_member[number] }
             }
-            // Along what the joint's own support leaves, where that bears nothing.
             Contact::Floor(joint) => {
-                let rise = self.system.joints()[joint].support.free_part([0.0, 0.0, 1.0]);
-                dot(by_slot[mechanism.slot_of[joint]], rise) / rise[2]
+                let support = self.system.joints()[joint].support;
+                support.upright_part(by_slot[mechanism.slot_of[joint]]).unwrap_or_default()
             }
         };
         self.list.iter().map(force).collect()

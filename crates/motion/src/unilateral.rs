@@ -12,7 +12,7 @@ use crate::error::MotionError;
 use crate::mechanism::Mechanism;
 use crate::modes::LeftOver;
 use model::Vector;
-use numerics::vector::{dot, minus, norm, worse};
+use numerics::vector::{minus, norm, worse};
 
 /// How far the ends of a taut member may be from its length, relative: what lengths may be off in
 /// an equilibrium.
@@ -109,9 +109,8 @@ pub(crate) fn check_pushes(
     left: &LeftOver,
 ) -> Result<(), MotionError> {
     for (k, joint) in system.joints().iter().enumerate() {
-        // Up along what the joint's own support leaves, where that bears nothing.
-        let rise = joint.support.free_part(UP);
-        let push_n = -dot(left.forces[mechanism.slot_of[k]], rise) / rise[2];
+        let left_n = left.forces[mechanism.slot_of[k]];
+        let push_n = joint.support.upright_part(left_n).map_or(0.0, |part_n| -part_n);
         let is_pushed = push_n > BALANCE * left.unit_n;
         if lies(system, joint, joints_m[k][2]) && !is_pushed {
             return Err(MotionError::NotPushed { joint: joint.name.to_string(), push_n });

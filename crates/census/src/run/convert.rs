@@ -1,8 +1,8 @@
 //! The census in the words of the model: plain numbers with their evidence.
 
 use model::{
-    Complete, Equilibrium, Evidence, InPlane, InSpace, NoCertificate, Optimal, Reactions, Reason,
-    SolverName, Stability, Status, Vector, Verified,
+    Complete, Equilibrium, Evidence, NoCertificate, Optimal, Reactions, Reason, SolverName,
+    Stability, Status, Vector, Verified,
 };
 use numerics::Interval;
 
@@ -45,14 +45,7 @@ impl Census {
         let ends = [multipliers_n.first(), multipliers_n.last()];
         let [start, end] = ends.map(|force| force.copied().unwrap_or_default());
         let dimension = proven.signs.len().saturating_sub(2);
-        let in_plane = if proven.index_in_plane == 0 {
-            InPlane::Minimum
-        } else if proven.index_in_plane == dimension {
-            InPlane::Maximum
-        } else {
-            InPlane::Saddle
-        };
-        let index_in_space = proven.index_in_space();
+        let indices = [proven.index_in_plane, proven.index_in_space()];
         Equilibrium {
             solver: SolverName::CENSUS,
             energy_j: proven.energy_j.mid(),
@@ -60,12 +53,7 @@ impl Census {
             multipliers_n,
             reactions_n: Reactions { start, end },
             axial_n: proven.axial_n.iter().map(|force| force.mid()).collect(),
-            stability: Stability {
-                in_plane,
-                index_in_plane: proven.index_in_plane,
-                in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
-                index_in_space,
-            },
+            stability: Stability::of(indices, dimension, false),
             evidence: self.evidence(proven, all),
         }
     }

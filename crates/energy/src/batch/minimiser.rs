@@ -44,9 +44,7 @@ impl BatchSettings {
             ("closure", self.closure, 1e-15, 1e-6),
             ("max_iterations", steps, 1.0, 60_000.0),
         ] {
-            if !(low..=high).contains(&value) {
-                return Err(Error::Setting { field, value, low, high });
-            }
+            Error::unless_within(field, value, low, high)?;
         }
         Ok(())
     }

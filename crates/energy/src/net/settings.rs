@@ -43,13 +43,7 @@ impl Settings {
     ///
     /// [`Error::Setting`] with the first field that is out of range.
     pub fn validate(&self) -> Result<(), Error> {
-        let check = |field, value: f64, low: f64, high: f64| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(Error::Setting { field, value, low, high })
-            }
-        };
+        let check = Error::unless_within;
         check("tolerance", self.tolerance, 1e-15, 1e-3)?;
         check("max_iterations", self.max_iterations as f64, 1.0, u64::MAX as f64)?;
         check("max_work", self.max_work as f64, 1.0, u64::MAX as f64)

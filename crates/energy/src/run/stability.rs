@@ -95,17 +95,9 @@ impl SecondOrder {
         let zero = place.slope.zero;
 
         let index_in_plane = plane.index(zero);
-        let in_plane = if plane.index(-zero) + plane.undecided(-zero) > index_in_plane {
-            InPlane::Degenerate
-        } else if index_in_plane == 0 {
-            InPlane::Minimum
-        } else if index_in_plane == plane.dimension() {
-            InPlane::Maximum
-        } else {
-            InPlane::Saddle
-        };
+        let is_degenerate = plane.index(-zero) + plane.undecided(-zero) > index_in_plane;
         let index_in_space = space.index(zero);
-        let in_space = if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable };
+        let indices = [index_in_plane, index_in_space];
         let flat = space.index(-zero) - index_in_space;
         let rank = space.rank();
         let free = usize::from(space.links.turns());
@@ -113,7 +105,7 @@ impl SecondOrder {
         let turn = free.min((rank + 1).saturating_sub(3));
         let undetermined = (3 + turn).saturating_sub(rank);
         Self {
-            stability: Stability { in_plane, index_in_plane, in_space, index_in_space },
+            stability: Stability::of(indices, plane.dimension(), is_degenerate),
             nullity: flat + turn + undetermined,
             condition: space.condition(zero),
             residual: place.slope.residual(),

@@ -53,17 +53,7 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     let index_in_plane = (compressed + positive).saturating_sub(2);
     let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
     let index_in_space = index_in_plane + index_out_of_plane;
-    let stability = Stability {
-        in_plane: match index_in_plane {
-            _ if degenerate => InPlane::Degenerate,
-            0 => InPlane::Minimum,
-            index if index == freedoms => InPlane::Maximum,
-            _ => InPlane::Saddle,
-        },
-        index_in_plane,
-        in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
-        index_in_space,
-    };
+    let stability = Stability::of([index_in_plane, index_in_space], freedoms, degenerate);
     let out_of_plane = if vertical { 0.0 } else { horizontal };
     let values = [first, if degenerate { 0.0 } else { second }, out_of_plane].map(f64::abs);
     let regular = || values.into_iter().filter(|value| *value > 0.0 && value.is_finite());

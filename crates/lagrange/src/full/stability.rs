@@ -23,7 +23,7 @@
 //!
 //! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
 
-use model::{InPlane, InSpace, Stability};
+use model::{InPlane, Stability};
 use nalgebra::Vector3;
 
 use crate::full::mechanism::Mechanism;
@@ -78,18 +78,8 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
 
     let index_in_space = index_in_plane + index_out_of_plane;
-    let freedoms = mechanism.bars().saturating_sub(2);
-    Stability {
-        in_plane: match index_in_plane {
-            _ if degenerate => InPlane::Degenerate,
-            0 => InPlane::Minimum,
-            index if index == freedoms => InPlane::Maximum,
-            _ => InPlane::Saddle,
-        },
-        index_in_plane,
-        in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
-        index_in_space,
-    }
+    let motions = mechanism.bars().saturating_sub(2);
+    Stability::of([index_in_plane, index_in_space], motions, degenerate)
 }
 
 /// Unit normal of the vertical plane, horizontal.

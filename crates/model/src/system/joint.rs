@@ -160,6 +160,15 @@ impl Support {
         })
     }
 
+    /// The part of a force that an upright push takes where the support takes the rest: all of it but for what is normal to its
+    /// motions. `None` where the joint cannot rise.
+    #[must_use]
+    pub fn upright_part(&self, force_n: Vector) -> Option<f64> {
+        let rise = self.free_part(UP);
+        let along: f64 = force_n.iter().zip(rise).map(|(f, r)| f * r).sum();
+        (rise[2] > LEVEL).then(|| along / rise[2])
+    }
+
     /// Whether it takes an upright force.
     #[must_use]
     pub fn holds_height(&self) -> bool {
