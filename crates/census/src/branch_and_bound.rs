@@ -125,6 +125,11 @@ pub(crate) fn widest(at: &[Interval]) -> (usize, f64) {
     })
 }
 
+/// The smallest box around two.
+pub(crate) fn hull<const N: usize>(a: [Interval; N], b: [Interval; N]) -> [Interval; N] {
+    std::array::from_fn(|k| a[k].hull(b[k]))
+}
+
 /// A box cut in two halves across one coordinate.
 pub(crate) fn halves<const N: usize>(at: [Interval; N], across: usize) -> [[Interval; N]; 2] {
     let middle = at[across].mid();

@@ -38,7 +38,8 @@ pub(crate) const NO_STRAIN: f64 = 1e-12;
 /// The golden section: its multiples are spread evenly, alike in every run.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_75;
 
-/// Roundings of sums of some terms: below this part of its terms a number has lost all its digits.
+/// Roundings of sums of some terms: below this part of its terms a number has lost all its digits. The gap of a chain of
+/// many bars, each direction rounded, may not get below it.
 pub(crate) const LOST: f64 = 16.0 * f64::EPSILON;
 
 /// Closures, and forces over the largest, that are right to this need nothing more.

@@ -61,7 +61,7 @@
 //! |---|---|---|---|---|
 //! | tension | $\lvert G\rvert > l$ | force in the lowest bar, across and up | nested searches on two monotone functions | converged; minimum, stable |
 //! | taut | and $L - \lvert D\rvert < 10^{-3} L$ | along and across the line of the anchors | those searches, polished along the line | as above |
-//! | side by side | and strands of one depth, less than $10^{-3} L$ apart | along and across the vertical | tension | as above; the error of the forces if it is above 1e-9 |
+//! | side by side | and strands of one depth, less than $10^{-3} L$ apart | along and across the vertical | none | as above; the error of the forces if it is above 1e-9 |
 //! | strut | $\lvert G\rvert < l$ | compression and slope of the lowest bar | nested searches for both | as above |
 //! | taut strut | and nearly straight from anchor to anchor | the slope from the line of the anchors | as above | as above |
 //! | folded strut | and longer than all others, nearly as long as these and the span together | the slope from that line, the others against it | as above | as above |

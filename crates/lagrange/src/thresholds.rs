@@ -18,10 +18,6 @@ pub(crate) const CLOSURE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF;
 /// slack.
 pub(crate) const NEARLY_STRAIGHT: f64 = 1e-3;
 
-/// Tilt of a bottom bar, rad, below which it counts as one of two strands that hang side by side:
-/// its versine, 1.25e-3, is then of the size of [`NEARLY_STRAIGHT`].
-pub(crate) const STEEP: f64 = 0.05;
-
 /// A gap this near to the length of the bottom bar, in total lengths, is summed again to twice the
 /// digits: the plain sum of a million bars may err by $10^6 u$.
 pub(crate) const RECHECKED_GAP: f64 = 1e-10;
@@ -56,10 +52,6 @@ pub(crate) const REPORTED_FORCE_ERROR: f64 = 1e-9;
 /// A pivot of the closure's derivative this small beside the terms of which it is the difference is
 /// zero: they carry some $10^4 u$ where large forces cancel.
 pub(crate) const ZERO_PIVOT: f64 = 1e-12;
-
-/// Unloaded bars with less room than this, in total lengths, between them and a straight line are
-/// straight: their directions, like the square root of it, are within 1e-6 of one line.
-pub(crate) const NO_ROOM: f64 = 1e-12;
 
 /// Part of the promised decrease that a step must earn (Armijo's rule).
 pub(crate) const EARNED: f64 = 1e-4;

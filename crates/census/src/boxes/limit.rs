@@ -31,6 +31,7 @@ use numerics::Interval;
 
 use super::arithmetic::{difference, product, sum};
 use super::family::Family;
+use super::newton::{FALLS, REACH, far};
 use super::path::SingularKind;
 use super::side::Side;
 use super::tube::{Centre, Test, Tube, last, points};
@@ -41,10 +42,6 @@ pub const MAX_LIMIT_UNKNOWNS: usize = 4096;
 
 /// Steps to the zero of a test, which converge like Newton's method.
 const STEPS: usize = 16;
-/// A step that has not fallen to this part of the last one is at the level of rounding.
-const FALLS: f64 = 0.5;
-/// An answer further from the point than this, in units of the system's length and force, was none.
-const REACH: f64 = 1e-3;
 /// Half-lengths of the tube in which the point is proved to be the only one, in units of the least one.
 const LONGER: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
 
@@ -151,11 +148,8 @@ pub(super) struct Singular {
 
 /// Whether what is proved is next to the answer.
 pub(super) fn near(point: &[Interval], start: &[f64]) -> Result<(), NoBox> {
-    let far = |(x, from): (&Interval, &f64)| {
-        let distance = (x.mid() - from).abs();
-        distance.is_nan() || distance > REACH * (1.0 + from.abs())
-    };
-    if point.iter().zip(start).any(far) { Err(NoBox::NotConverged) } else { Ok(()) }
+    let point = point.iter().map(|x| x.mid());
+    if far(REACH, point, start) { Err(NoBox::NotConverged) } else { Ok(()) }
 }
 
 /// Prove the singular point of one block next to a guess: the limit point of the first one, the branch

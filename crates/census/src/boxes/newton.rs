@@ -11,8 +11,11 @@ use super::inverse::Inverse;
 /// Steps from an answer that is good to some digits; quadratic convergence needs three.
 const STEPS: usize = 8;
 
+/// A step that has not fallen to this part of the last one is at the level of rounding.
+pub(super) const FALLS: f64 = 0.5;
+
 /// An answer further from the zero than this, in units of the system's length and force, was none.
-const REACH: f64 = 1e-3;
+pub(super) const REACH: f64 = 1e-3;
 
 /// A point at which the equations hold as far as double precision allows.
 pub(crate) struct Refined {
@@ -51,21 +54,25 @@ pub(super) fn refine_within(
             inverse.apply(&equations.value(&point)?).iter().map(|part| part.mid()).collect();
         let next: Vec<f64> = at.iter().zip(&step).map(|(x, step)| x - step).collect();
         let size = step.iter().map(|step| step.abs()).fold(0.0, f64::max);
-        let away = next.iter().zip(start).any(|(x, from)| {
-            let distance = (x - from).abs();
-            distance.is_nan() || distance > reach * (1.0 + from.abs())
-        });
-        if away {
+        if far(reach, next.iter().copied(), start) {
             return Err(NoBox::NotConverged);
         }
         // At the level of rounding the steps stop shrinking.
-        if size >= 0.5 * last || size <= 0.0 {
+        if size >= FALLS * last || size <= 0.0 {
             return Ok(Refined { at, inverse });
         }
         at = next;
         last = size;
     }
     Err(NoBox::NotConverged)
+}
+
+/// Whether a point is further than this from where it started.
+pub(super) fn far(reach: f64, at: impl Iterator<Item = f64>, start: &[f64]) -> bool {
+    at.zip(start).any(|(x, from)| {
+        let distance = (x - from).abs();
+        distance.is_nan() || distance > reach * (1.0 + from.abs())
+    })
 }
 
 /// The middle of a matrix of intervals.

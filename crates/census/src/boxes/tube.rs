@@ -25,12 +25,11 @@ use super::equations::Entry;
 use super::family::Family;
 use super::inverse::{Defect, Inverse};
 use super::krawczyk::{Proved, prove_around};
+use super::newton::FALLS;
 use super::symmetry::Block;
 
 /// Newton steps towards the equilibrium next to a guess.
 const STEPS: usize = 24;
-/// A step that has not fallen to this part of the last one is at the level of rounding.
-const FALLS: f64 = 0.5;
 /// Steps below this size, relative, may be at the level of rounding.
 const SMALL: f64 = 1e-9;
 /// Least room in a tube, relative to its length.

@@ -179,10 +179,7 @@ impl Interior {
         let mean = shape.force.iter().sum::<f64>() / shape.force.len() as f64;
         let force = self.frame.rods.iter().enumerate().map(|(e, rod)| {
             let slack = self.slack[e] / rod.length > shape.force[e] / mean;
-            // A strut between anchors is no cable to any joint.
-            let held = rod.kind == Kind::Strut && self.frame.is_held(rod);
-            let none = held || (slack && rod.kind == Kind::Cable);
-            if none { 0.0 } else { shape.force[e] }
+            if slack && rod.kind == Kind::Cable { 0.0 } else { shape.force[e] }
         });
         Shape { x: shape.x.clone(), force: force.collect() }
     }

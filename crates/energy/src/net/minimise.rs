@@ -35,9 +35,6 @@ const RESTARTS: usize = 4;
 const COORDINATES: usize = 900;
 const MOST_RESTARTS: usize = 100;
 
-/// Misfit of a seed that is meant to be near its answer.
-const NEAR_SEED: f64 = 0.1;
-
 /// Square roots of numbers that no ratio connects, as turns that have nothing in common.
 const SPREAD: f64 = 7.0;
 
@@ -204,7 +201,7 @@ fn from_seed(system: &System, seed_m: &[Vector], settings: &Settings) -> Result<
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         let mut found =
             descend(frame, factor, start.clone(), Way::Free, settings, Effort::default());
-        if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
+        if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < RELAXED {
             // The loads have crushed it, which its lengths would not allow.
             let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
             let near = descend(frame, factor, start, Way::Relaxed, settings, Effort::default());
@@ -350,8 +347,8 @@ enum Way {
 /// First strain of the springs where the lengths come before the loads.
 const STIFF_STRAIN: f64 = 1e-3;
 
-/// Misfit from a relaxation, which is right for most members, up to which Newton's method for
-/// places and forces is tried: in any case.
+/// Misfit from a relaxation, or from a seed that is meant to be near its answer, which are right for most members, up to
+/// which Newton's method for places and forces is tried: in any case.
 const RELAXED: f64 = 0.5;
 
 /// The same next to a drawing: from further away it might leave the basin.

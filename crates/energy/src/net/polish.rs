@@ -52,9 +52,6 @@ const CHORD_NEAR: f64 = 1e-8;
 /// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
 const SLOW: f64 = 1e-5;
 
-/// Growth of the largest force with which stiffer springs have gone astray.
-const INFLATED: f64 = 100.0;
-
 /// A chord step must leave at most this part of the residual.
 const CHORD_PROGRESS: f64 = 0.3;
 
@@ -69,22 +66,13 @@ enum Polished {
     Astray,
 }
 
-impl Polished {
-    fn shape(&self) -> Option<&Shape> {
-        match self {
-            Self::Rounded(shape) | Self::Converged(shape) | Self::Slow(shape) => Some(shape),
-            Self::Astray => None,
-        }
-    }
-}
-
 impl Newton {
     /// Newton's method for places and forces. `None` where it does not converge, or not to a
     /// minimum.
     ///
     /// Steps that bring little are either rounding, or the springs are too soft for lengths that the
-    /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape that makes
-    /// forces of the misfits, and what was found before is the answer.
+    /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape none brings an end: that is
+    /// the business of [`limit`](crate::net::limit).
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
         let mut found = self.polish_with(shape, STIFF_STRAIN);
         let mut strain = STIFF_STRAIN * STIFFER;
@@ -93,11 +81,9 @@ impl Newton {
                 Polished::Converged(shape) | Polished::Slow(shape) => shape,
                 Polished::Rounded(_) | Polished::Astray => break,
             };
-            let most = INFLATED * self.frame.force_scale(&start.force);
-            let next = self.polish_with(start, strain);
-            match next.shape() {
-                Some(shape) if self.frame.force_scale(&shape.force) <= most => found = next,
-                _ => break,
+            match self.polish_with(start, strain) {
+                Polished::Astray => break,
+                next => found = next,
             }
             strain *= STIFFER;
         }
@@ -128,6 +114,10 @@ impl Newton {
                     return Polished::Astray;
                 }
                 if after >= before && before <= self.tolerance(&shape) {
+                    // Where no member bears anything they turn freely, and the step was made for other directions.
+                    if chord > 0 && before > rounding_floor(&frame, &shape) && frame.idle(&shape) {
+                        break;
+                    }
                     return self.polished(shape, before);
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
@@ -144,8 +134,6 @@ impl Newton {
                     return Polished::Astray;
                 }
                 (active, changes, steps) = (resist, changes - 1, steps + 1);
-                release(&mut shape, &active);
-                slope = frame.slope(&shape);
                 continue;
             }
             // Below the tolerance it goes on as long as that brings something.
@@ -239,6 +227,13 @@ fn stiff(
 }
 
 impl Frame {
+    /// Whether the floor bears all, and the members nothing but roundings.
+    fn idle(&self, shape: &Shape) -> bool {
+        let least = STEP_ROUNDING * self.largest_force(&shape.force);
+        let mut members = self.rods.iter().zip(&shape.force).filter(|(rod, _)| !rod.ground);
+        members.all(|(_, force)| force.abs() <= least)
+    }
+
     /// Which members resist: by the sign of their force, and where there is none by their length.
     fn active(&self, shape: &Shape) -> Vec<bool> {
         let rounding = rounding_floor(self, shape);
@@ -254,15 +249,6 @@ impl Frame {
             excess.abs() > rounding && rod.resists(excess)
         };
         self.rods.iter().enumerate().map(resists).collect()
-    }
-}
-
-/// Take the forces off the members that do not resist.
-fn release(shape: &mut Shape, active: &[bool]) {
-    for (force, active) in shape.force.iter_mut().zip(active) {
-        if !active {
-            *force = 0.0;
-        }
     }
 }
 

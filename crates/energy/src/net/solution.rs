@@ -14,7 +14,7 @@ use crate::net::settings::Settings;
 use crate::net::shape::Shape;
 use crate::net::stability::{SecondOrder, second_order};
 use crate::net::weak::{self, Settled};
-use crate::thresholds::NO_STRAIN;
+use crate::thresholds::{KNOWN, NO_STRAIN};
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -63,11 +63,6 @@ pub struct Work {
     /// Largest misfit of a length over the length.
     pub misfit: f64,
 }
-
-/// Error of a force over the largest that the residual may leave where the matrix is
-/// ill-conditioned: far above the tolerance, far below a force that carries anything. The statics
-/// judge sees the rest.
-const FORCE_ERROR: f64 = 1e-8;
 
 /// What `Evidence::residual` means here.
 const RESIDUAL_OF: &str =
@@ -143,7 +138,7 @@ impl Solution {
 /// A cable that pushes or a strut that pulls, by more than the error of a force: what balances the
 /// joints with such a force is no minimum, however small the residual.
 fn wrong_sign(frame: &Frame, shape: &Shape) -> Option<usize> {
-    let error = FORCE_ERROR * frame.largest_force(&shape.force);
+    let error = KNOWN * frame.largest_force(&shape.force);
     let forces = frame.rods.iter().zip(&shape.force);
     forces.enumerate().find_map(|(member, (rod, force))| {
         (force.abs() > error && !rod.resists(*force)).then_some(member)

@@ -13,15 +13,13 @@ use crate::net::factor::Factor;
 use crate::net::frame::{Frame, Spot};
 use crate::net::law::Excess;
 use crate::net::limit::{Limit, stressed};
+use crate::net::polish::STIFF_STRAIN;
 use crate::net::shape::{Shape, largest};
 use crate::thresholds::ZERO;
 use crate::vector::{along, cross, dot, norm, unit};
 
 /// Coordinates up to which dense matrices serve.
 pub(super) const DENSE: usize = 240;
-
-/// Strain of the springs that stand for the lengths in the sparse count.
-const STRAIN: f64 = 1e-6;
 
 /// The second order at an equilibrium.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,7 +167,7 @@ pub(super) fn below(
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
         let rod = &frame.rods[e];
-        let spring = force / STRAIN / rod.length;
+        let spring = force / STIFF_STRAIN / rod.length;
         let stiffness = match resists(frame, shape, e) {
             true if exact && rod.elastic() => rod.flexibility.recip(),
             true => spring / (1.0 + spring * rod.flexibility),

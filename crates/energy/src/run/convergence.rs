@@ -12,13 +12,10 @@ use crate::vector::norm;
 /// the distance of the verticals.
 const BLIND_TURNS: usize = 16;
 
-/// Factors of the shift after a good step and after a failure.
+/// Factors of the shift after a good step, and after a failure or while the Hessian is not positive definite.
 const SHIFT_DOWN: f64 = 0.1;
 /// See [`SHIFT_DOWN`].
 const SHIFT_UP: f64 = 4.0;
-
-/// Factor of the shift while the Hessian is not positive definite.
-const INDEFINITE_UP: f64 = 8.0;
 
 /// What an iterate is, by its first and second derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,7 +113,7 @@ impl Convergence {
     /// The shifted Hessian is not positive definite. A shift beyond the safe one is never needed; a
     /// smaller one often does.
     pub(crate) fn indefinite(&mut self, curvature: &Curvature) {
-        let next = (INDEFINITE_UP * self.shift).max(GRADIENT_PART * curvature.slope.mean);
+        let next = (SHIFT_UP * self.shift).max(GRADIENT_PART * curvature.slope.mean);
         let safe = curvature.safe_shift();
         self.shift = if self.shift < safe { next.min(safe) } else { next };
     }

@@ -56,9 +56,6 @@ pub(crate) struct Step {
     pub(crate) shift: f64,
 }
 
-/// The safe shift exceeds the most negative axial force by this part of it.
-const MARGIN: f64 = 0.25;
-
 impl Curvature {
     /// Rows of the closure in the motions considered.
     fn rows(&self) -> usize {
@@ -244,7 +241,7 @@ impl Curvature {
 
     /// A shift for which the shifted Hessian is positive definite whatever the closure allows.
     pub(crate) fn safe_shift(&self) -> f64 {
-        (1.0 + MARGIN) * (-self.slope.lowest).max(0.0) + GRADIENT_PART * self.slope.mean
+        (-self.slope.lowest).max(0.0) + GRADIENT_PART * self.slope.mean
     }
 
     /// The Newton step of the shifted Hessian, `None` if that is not positive definite.

@@ -16,19 +16,12 @@ use std::ops::Range;
 
 use model::{Chain, Sum};
 
-use crate::run::refine::Point;
+use crate::run::refine::{LIGHT, Point};
 use crate::thresholds::{CORRECTIONS, SETTLED};
 use crate::vector::{along, dot, norm, scaled, unit};
 
-/// Force along bars, over the largest of the chain, by which a minimiser leaves bars unsettled that
-/// carry nothing: their angle is the fourth root of rounding, the force its square.
-const SOFT: f64 = 1e-6;
-
 /// Angle, rad, within which such bars are left of their line, and the others of the vertical.
 const NEARLY_STRAIGHT: f64 = 1e-2;
-
-/// A gap that is too large for an answer, some ten times the tolerance of the closure.
-const OPEN: f64 = 1e-12;
 
 /// Sums to twice the digits of a double, relative to their terms: less than this is their rounding.
 const TWICE_THE_DIGITS: f64 = 64.0 * f64::EPSILON * f64::EPSILON;
@@ -73,12 +66,13 @@ impl Point {
         Some(unknown)
     }
 
-    /// Whether bars carry next to nothing.
+    /// Whether bars carry next to nothing: a minimiser leaves those that carry nothing at an angle of the fourth root of
+    /// rounding, with its square as their force.
     fn soft(&self, run: &Range<usize>) -> bool {
         let pull = norm(self.multiplier).max(1.0);
         run.clone().all(|i| {
             let load = self.links.load(i, self.multiplier);
-            dot(load, self.shape.u[i]).abs() <= SOFT * pull
+            dot(load, self.shape.u[i]).abs() <= LIGHT * pull
         })
     }
 
@@ -102,7 +96,7 @@ impl Point {
         if let Ok(shape) = self.links.close(self.shape.clone(), CORRECTIONS) {
             self.shape = shape;
         }
-        norm(self.shape.moments.gap) <= OPEN
+        norm(self.shape.moments.gap) <= SETTLED
     }
 }
 

@@ -49,7 +49,7 @@ const LARGEST_TURN: f64 = 0.5;
 
 /// Bars that carry this part of the largest force or less are minimised by themselves where they
 /// have to: of the others, what these pull, they change no more than Newton's method makes up for.
-const LIGHT: f64 = 1e-6;
+pub(crate) const LIGHT: f64 = 1e-6;
 
 /// What the refinement says of a minimum.
 pub(crate) enum Refinement {

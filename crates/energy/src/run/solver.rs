@@ -15,7 +15,7 @@ use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::straight_fold::off_the_line;
 use crate::run::vertical_plane::Turn;
-use crate::thresholds::{CORRECTIONS, FAIR_PART, LOST, PROGRESS};
+use crate::thresholds::{CORRECTIONS, FAIR_PART, LOST, PROGRESS, ROUNDING};
 use crate::vector::{dot, norm, scaled};
 
 /// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
@@ -54,11 +54,7 @@ const SADDLE_PART: f64 = 1e-2;
 /// Trials of one iteration: four to this power covers the range of a double's squares.
 const TRIALS: usize = 60;
 
-/// Energies are sums of rounded products: differences below this, times the size of the forces,
-/// say nothing, and the gradient decides alone.
-const ENERGY_NOISE: f64 = 2.0 * f64::EPSILON;
-
-/// Above this part of the noise a fall as large as predicted still says something.
+/// Above this part of the rounding of the energy a fall as large as predicted still says something.
 const HALF_BLIND: f64 = 0.05;
 
 /// A step on trial: the shape that it leads to, and what was predicted.
@@ -91,7 +87,8 @@ impl FeasibleNewton {
     ) -> Result<Search, argmin::core::Error> {
         let (shape, slope) = (&*curvature.shape, &*curvature.slope);
         let stationary = self.convergence.stationary(shape, slope);
-        let noise = ENERGY_NOISE * (slope.pull + slope.multiplier_size());
+        // Differences of energies below this say nothing, and the gradient decides alone.
+        let noise = ROUNDING * (slope.pull + slope.multiplier_size());
         for _ in 0..TRIALS {
             let Some(step) = curvature.step(self.convergence.shift) else {
                 if slope.mean <= SADDLE_PART * -slope.lowest
@@ -112,10 +109,8 @@ impl FeasibleNewton {
                 let lower = trial.predicted > HALF_BLIND * noise && good;
                 let shape = Arc::new(trial.shape);
                 let next = problem.gradient(&shape)?;
-                // On a straight chain the multiplier is another one.
-                let comparable = next.line.is_some() == slope.line.is_some();
                 let flatter = next.mean <= PROGRESS * slope.mean;
-                if decided || !comparable || flatter || lower {
+                if decided || flatter || lower {
                     if !decided || good {
                         self.convergence.good_step(&next);
                     }
@@ -153,7 +148,7 @@ impl FeasibleNewton {
         let moments = links.measure(&u);
         let turned = links.close(Shape { u, moments }, CORRECTIONS).ok()?;
         let fall = shape.moments.value - turned.moments.value;
-        let worth_it = if predicted > ENERGY_NOISE * slope.pull {
+        let worth_it = if predicted > ROUNDING * slope.pull {
             fall >= FAIR_PART * predicted
         } else {
             self.convergence.may_turn_blindly()
@@ -183,7 +178,7 @@ impl FeasibleNewton {
             if let Ok(trial) = links.close(moved, CORRECTIONS) {
                 let fall = shape.moments.value - trial.moments.value;
                 let predicted = -0.5 * lowest * size * length * length;
-                if fall >= 0.5 * predicted && fall > ENERGY_NOISE * slope.pull {
+                if fall >= 0.5 * predicted && fall > ROUNDING * slope.pull {
                     let place = with_slope(problem, trial)?;
                     self.convergence.left_saddle();
                     return Ok(Some(place));

@@ -15,6 +15,7 @@
 
 use super::lanes::Lanes;
 use super::numbers::Bar;
+use crate::full::multipliers::REGULARISATION;
 use crate::thresholds::{EARNED, SHORTEST};
 
 /// Passes for the closed shape: a seed needs no more digits than they give.
@@ -30,8 +31,6 @@ const PART: usize = 8;
 const DAMPING: f64 = 1e-2;
 const GROWTH: f64 = 8.0;
 const TOO_STIFF: f64 = 1e20;
-/// Keeps a step defined where all bars are parallel: far below what a seed asks for.
-const REGULARISATION: f64 = 1e-12;
 /// A force this small has no direction.
 const LEAST_FORCE: f64 = 1e-300;
 

@@ -13,9 +13,6 @@ const MARGIN: f64 = 0.1;
 /// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may
 /// still ask for a long step.
 const WELL_CONDITIONED: f64 = 1e4;
-/// A step is small when it changes the horizontal force, and the vertical one beside the whole, by
-/// less than this part.
-const SMALL_STEP: f64 = 1e-3;
 /// Residuals below this, in roundings, say nothing of the contraction.
 const NOISE: f64 = 1e3;
 /// How much the prediction of the next residual may be wrong.
@@ -113,7 +110,6 @@ pub(super) fn minimise(
         };
         if let Some(contraction) = contraction
             && CAUTION * contraction.max(root.contraction) * size * size <= 1.0
-            && small(step, root.force)
             && root.closure.condition() <= WELL_CONDITIONED
         {
             root.force = [root.force[0] + step[0], root.force[1] + step[1]];
@@ -130,12 +126,6 @@ pub(super) fn minimise(
             None => return system.settled(&root.closure, budget.closure).then_some(root),
         }
     }
-}
-
-/// Whether a step leaves the derivative nearly as it is.
-fn small(step: [f64; 2], force: [f64; 2]) -> bool {
-    let size = force[0].hypot(force[1]);
-    step[0].abs() <= SMALL_STEP * force[0].abs() && step[1].abs() <= SMALL_STEP * size
 }
 
 fn advance(from: [f64; 2], step: [f64; 2], part: f64) -> [f64; 2] {

@@ -19,7 +19,7 @@ use model::{InPlane, InSpace, Stability};
 
 use super::chain::Condensed;
 use super::pull::{Pull, Signs};
-use crate::thresholds::{NO_ROOM, ZERO_PIVOT};
+use crate::thresholds::{GIVEN, ZERO_PIVOT};
 
 /// Stability, dimension of the null space of the closure's derivative in space, and its condition.
 #[derive(Debug, Clone, Copy)]
@@ -72,7 +72,8 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
 fn unloaded(chain: &Condensed, bars: usize) -> SecondOrder {
     let gap = chain.span.across.hypot(chain.bottom.gap);
     let room = chain.bottom.room(gap);
-    let straight = room <= NO_ROOM * chain.bars.total_length;
+    // The directions of the bars, like the root of the room, are within 1e-6 of one line then.
+    let straight = room <= GIVEN * chain.bars.total_length;
     // Two bars between fixed ends cannot move in the plane, however straight.
     let in_plane = bars.saturating_sub(if straight && chain.bars() > 2 { 1 } else { 2 });
     let across = bars - 1;

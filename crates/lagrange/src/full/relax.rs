@@ -30,8 +30,6 @@ const FIRST_TAU: f64 = 1.0;
 const FASTEST_GROWTH: f64 = 3.0;
 /// ... and shrinks by this one when a step was cut, or at most when the residual rises.
 const CUT: f64 = 0.5;
-/// Beyond this the step is Newton's own.
-const LARGEST_TAU: f64 = 1e6;
 /// No bar turns by more than this in one step, rad: the steps are linear.
 const LARGEST_TURN: f64 = 0.5;
 /// A penalty above the multipliers is exact; twice as much leaves room for their errors.
@@ -61,7 +59,6 @@ pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
         chain.estimate();
         let before = std::mem::replace(&mut norm, chain.norm());
         tau *= if cut { CUT } else { (before / norm).clamp(CUT, FASTEST_GROWTH) };
-        tau = tau.min(LARGEST_TAU);
     }
     limit
 }

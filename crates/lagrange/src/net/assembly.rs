@@ -13,19 +13,15 @@ use super::signs::{SIGN_CHANGES, signs_mended};
 use super::solve::{KICKS, Solver};
 use super::state::State;
 use crate::error::Error;
-use crate::thresholds::FOUND;
+use crate::thresholds::HALVINGS;
 
 /// Starts of the search for places where lengths fit, the moves of joints for them in units of the
 /// mean length, and the part of its length by which a member may be off where it ends.
 const ASSEMBLIES: usize = 60;
-/// Shapes with fewer free directions are assembled again in search of less energy.
-const SMALL: usize = 30;
 const ASSEMBLY_KICK: f64 = 2.0;
 pub(super) const NEARLY: f64 = 1e-4;
 /// Ridge of the least squares for lengths, in units of their largest error.
 const LENGTH_RIDGE: f64 = 0.1;
-/// A step of these is halved at most so many times.
-const LENGTH_HALVINGS: i32 = 24;
 
 impl Solver<'_> {
     /// A rest where the lengths fit, from many starts: lengths that overdetermine a shape have many
@@ -51,25 +47,6 @@ impl Solver<'_> {
             }
         }
         Err(refused.unwrap_or(Error::Unloaded))
-    }
-
-    /// The rest with the least energy among those that other starts lead to: where lengths overdetermine
-    /// a small shape, and some members push.
-    pub(super) fn lowest(&mut self, from: &State, mut run: Run) -> Run {
-        let small = self.framework.freedoms() <= SMALL;
-        if !small || run.state.axial.iter().all(|n| *n >= 0.0) || self.cuts(&run.state).is_empty() {
-            return run;
-        }
-        for kick in 0..ASSEMBLIES {
-            let Some(state) = self.fits_at(from, kick) else { continue };
-            let Ok(other) = self.with_signs(state, Patience::Full) else { continue };
-            let [lower, known] =
-                [&other, &run].map(|run| run.state.energy(&self.framework, &Vector3::zeros()));
-            if lower < known - FOUND * known.abs().max(1.0) {
-                run = other;
-            }
-        }
-        run
     }
 
     /// A start moved to places where the lengths of rigid bars nearly fit, if that leads to any.
@@ -136,7 +113,7 @@ impl Solver<'_> {
                 break;
             }
             let step = self.length_step(&run);
-            let mut sizes = (0..LENGTH_HALVINGS).map(|k| 0.5_f64.powi(k));
+            let mut sizes = iter::successors(Some(1.0), |t| Some(0.5 * t)).take(HALVINGS);
             let better = sizes.find_map(|t| {
                 let next = Run::at(&self.framework, run.state.moved(&step, t));
                 (next.residual.merit < run.residual.merit).then_some(next)

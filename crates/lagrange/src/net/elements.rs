@@ -70,7 +70,7 @@ fn settled(framework: &Framework, runs: &Runs) -> Option<(State, usize)> {
     let mut stiffness = Stiffness::new(&shape.skeleton, false).ok()?;
     let mut error = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        shape.step(&mut stiffness, error <= CLOSED);
+        shape.step(&mut stiffness);
         steps += 1;
         let before = std::mem::replace(&mut error, shape.error());
         if error.is_nan()
@@ -190,8 +190,8 @@ impl<'a> Shape<'a> {
         Self { runs, skeleton, state, pulls: start.pulls, laws }
     }
 
-    /// One Newton step; the whole of it where the search along it has nothing left to tell.
-    fn step(&mut self, stiffness: &mut Stiffness, whole: bool) {
+    /// One Newton step.
+    fn step(&mut self, stiffness: &mut Stiffness) {
         let gaps = self.gaps();
         stiffness.assemble(&self.skeleton, self.laws.iter().map(|law| law.stiffness));
         stiffness.factorise_definite();
@@ -214,7 +214,7 @@ impl<'a> Shape<'a> {
             let pulls = before.iter().zip(&change).map(|(pull, change)| pull + change * t);
             self.pulls = pulls.collect();
             self.laws = laws(self.runs, &self.pulls);
-            if whole || slope(self) <= SLOPE * first.abs() {
+            if slope(self) <= SLOPE * first.abs() {
                 break;
             }
             t *= 0.5;

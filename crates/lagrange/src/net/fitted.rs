@@ -5,12 +5,9 @@
 //! $N_0$ is what a member bears at the length that it has in the shape; so a prestress stays what it
 //! is, and what does not fit is relaxed. Both are one solve with $\\sum k\\, u u^T$, $k = 1/c$.
 
-use model::system::Kind;
-
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::FOUND;
 
 /// Stiffness that stands for a rigid member, in units of the stiffest elastic one.
 pub(super) const RIGID: f64 = 1e3;
@@ -35,9 +32,7 @@ pub(super) fn fitted_forces(
         let length = framework.whole(k, |span| directions[span].1);
         let stretch = length - link.length;
         let own = stretch * along;
-        let slack =
-            link.kind != Kind::Bar && stretch.abs() > FOUND * link.length && !link.bears(own);
-        if slack { (0.0, 0.0) } else { (along, own) }
+        (along, own)
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
     stiffness.assemble_members(framework, |k| (directions[k].0, 0.0, members[k].0));

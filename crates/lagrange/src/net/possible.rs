@@ -11,11 +11,7 @@ use super::directions::Directions;
 use super::framework::{Framework, Link};
 use super::state::State;
 use crate::error::Error;
-use crate::thresholds::GIVEN;
-
-/// A direction is held when the sum of the squared cosines to the supports' normals is at least
-/// this.
-const HELD: f64 = 1e-18;
+use crate::thresholds::{GIVEN, ZERO};
 
 /// Refuse members between anchors that do not fit, and systems that no support holds.
 pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
@@ -31,7 +27,8 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
     }
     for part in 0..count {
         let free = loads[part] - onto_range(&held[part], &loads[part]);
-        let unsupported = held[part].trace() < HELD;
+        // The sum of the squared cosines to the supports' normals.
+        let unsupported = held[part].trace() < ZERO * ZERO;
         if unsupported || free.norm() > GIVEN * sizes[part] {
             let joints = component.iter().filter(|other| **other == part).count();
             let first = component.iter().position(|other| *other == part).unwrap_or(0);
@@ -81,7 +78,7 @@ fn check_held(framework: &Framework) -> Result<(), Error> {
 fn onto_range(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
     let (values, axes) = eigen_of_three(matrix).unwrap_or_default();
     let mut parts = axes.tr_mul(vector);
-    (0..3).filter(|&k| values[k] <= HELD.sqrt()).for_each(|k| parts[k] = 0.0);
+    (0..3).filter(|&k| values[k] <= ZERO).for_each(|k| parts[k] = 0.0);
     axes * parts
 }
 
@@ -108,7 +105,7 @@ pub(super) fn translations(framework: &Framework, joins: impl Fn(usize) -> bool)
         let anchored = held.diagonal().min() >= 1.0;
         let values =
             if anchored { held.diagonal() } else { eigen_of_three(held).unwrap_or_default().0 };
-        values.iter().filter(|value| **value <= HELD.sqrt()).count()
+        values.iter().filter(|value| **value <= ZERO).count()
     };
     supports.iter().map(free).sum()
 }

@@ -57,10 +57,7 @@ impl Solver<'_> {
         // The place it has come to may be singular where the start was not.
         let cuts = self.cuts(&run.state);
         for &cut in &cuts {
-            let mut state = run.state.clone();
-            state.axial =
-                Decided::new(&self.framework, &state, cut)?.share(&self.framework, &state.axial);
-            match self.at_cut(state, patience, cut) {
+            match self.at_cut(run.state.clone(), patience, cut) {
                 Ok(run) => return Ok(run),
                 Err(error) => refused = Some(clearer(refused, error)),
             }

@@ -31,8 +31,6 @@ const LARGEST_GROWTH: f64 = 1e6;
 const ROUNDS: usize = 60;
 /// Rounds without better lengths after which the members do not fit from here.
 const STUCK: usize = 5;
-/// Rounds on end without balance after which none is expected.
-const RESTLESS: usize = 5;
 /// A joint at this multiple of all lengths and supports together is on its way to infinity.
 const FAR: f64 = 1e3;
 /// Newton steps between two updates.
@@ -71,13 +69,12 @@ pub(super) fn settle(
 ) -> Rest {
     let mut penalty = Penalty::new(framework, &state, first);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
-    let (mut lost, mut restless) = (None, 0);
+    let mut lost = None;
     for _ in 0..ROUNDS {
         let (steps, balanced) = penalty.rest(framework, stiffness, &mut state);
         factorisations += steps;
         lost = penalty.lost(&state.places);
-        restless = if balanced { 0 } else { restless + 1 };
-        if lost.is_some() || restless > RESTLESS || framework.work.is_spent() {
+        if lost.is_some() || framework.work.is_spent() {
             break;
         }
         let axial = penalty.forces(framework, &state.places);

@@ -31,9 +31,9 @@ const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
-/// by more is slack. Stiff are those that the mean load stretches by less; cables and struts further off are loose.
+/// by more is slack. Stiff are those that the mean load stretches by no more.
 const MISDRAWN: f64 = 1e-3;
-const STIFF: f64 = 1e-3;
+/// Cables and struts that miss their lengths by more than this part are loose.
 const LOOSE: f64 = 0.1;
 
 /// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
@@ -95,7 +95,6 @@ fn hang(
         let start = hanging.state(&solver.framework);
         match solver.with_signs(start.clone(), patience) {
             Ok(run) => {
-                let run = solver.lowest(&start, run);
                 let second_order = solver.second_order(&run.state);
                 if second_order.index == 0 {
                     return Ok(solver.solution(run, second_order));
@@ -113,7 +112,6 @@ fn hang(
         Err(error) => solver.assembled(&start, error)?,
         Ok(run) => run,
     };
-    let run = solver.lowest(&start, run);
     solver.stable(run)
 }
 
@@ -137,7 +135,6 @@ fn from_densities(
         return Ok(solver.solution(run, second_order));
     }
     let run = solver.settled(&start, 0)?;
-    let run = solver.lowest(&start, run);
     solver.stable(run)
 }
 
@@ -393,7 +390,7 @@ impl<'a> Solver<'a> {
         for (k, link) in self.framework.links.iter().enumerate() {
             let length = self.framework.whole(k, |span| directions[span].1);
             let misfit = (length / link.length - 1.0).abs();
-            let stiff = link.compliance <= STIFF * link.length;
+            let stiff = link.compliance <= MISDRAWN * link.length;
             // What is stretched in the drawing by its prestress is as long there as it ought to be.
             let member = &self.system.members()[self.framework.member_of(k)];
             unloaded.taut[k] =

@@ -18,13 +18,10 @@ use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
-use crate::thresholds::{HALVED, ROUNDED};
+use crate::thresholds::{FOUND, HALVED, ROUNDED};
 
 /// Steps at most; two or three are enough.
 const ROUNDS: usize = 8;
-
-/// What a linear solve leaves of the errors.
-const SOLVED: f64 = 1e-9;
 
 /// The run with the forces of elastic members settled to rounding.
 pub(super) fn settled(
@@ -45,7 +42,7 @@ pub(super) fn settled(
     for _ in 0..ROUNDS {
         let derivative = Derivative::elastic(framework, stiffness, &best.state, &best.residual);
         let of = (best.residual.forces.as_slice(), misfits.as_slice());
-        let step = derivative.and_then(|d| d.solve(framework, stiffness, of, SOLVED, None));
+        let step = derivative.and_then(|d| d.solve(framework, stiffness, of, FOUND, None));
         let Some((step, _)) = step else { break };
         let state = step.applied(&best.state, 1.0);
         let residual = Residual::new(framework, &state);

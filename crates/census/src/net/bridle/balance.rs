@@ -19,6 +19,7 @@ use super::strand::{Span, Strand};
 use crate::boxes::arithmetic::{
     Vector, cross, det, dot, factors, minus, norm, plus, quotient, times,
 };
+use crate::branch_and_bound::hull;
 
 /// The force of the last bar of a strand over a cell of pulls and a box of places.
 #[derive(Debug, Clone)]
@@ -59,7 +60,7 @@ pub(super) fn balanced(load: Vector, lists: &[Vec<Held>]) -> Vec<Vec<usize>> {
     let mut rest = vec![[Interval::ZERO; 3]];
     for list in lists.iter().rev() {
         let forces = list.iter().map(|held| held.force);
-        let Some(hull) = forces.reduce(|a, b| std::array::from_fn(|k| a[k].hull(b[k]))) else {
+        let Some(hull) = forces.reduce(hull) else {
             return vec![];
         };
         rest.push(plus(rest[rest.len() - 1], hull));

@@ -10,17 +10,13 @@ use numerics::Interval;
 
 use super::strand::{Span, Strand};
 use crate::boxes::arithmetic::norm;
+use crate::branch_and_bound::hull;
 use crate::run::closure::Pattern;
 use crate::run::plane::cell::Cell;
 use crate::run::plane::face::Face;
+use crate::run::search::GOOD_CONTRACTION;
 use crate::run::search::pattern_sums::PatternSums;
 use crate::run::slack::exclusion::open_of;
-
-/// A part of a cell smaller than this is looked at by itself.
-const GOOD: f64 = 0.5;
-
-/// A cell is cut if it moves the end of the strand further than this, in widths of the box.
-const COARSE: f64 = 1.0;
 
 /// A cell narrower than this, in widths of the box, tells the force well enough.
 const FINE: f64 = 0.5;
@@ -128,7 +124,7 @@ pub(super) fn reaching(
         let mut rest = vec![];
         let mut left: Option<[Interval; 2]> = None;
         for open in sums.open(&patterns) {
-            if area(&open.left) < GOOD * area(&cell.at) {
+            if area(&open.left) < GOOD_CONTRACTION * area(&cell.at) {
                 let part = Cell { face: cell.face, at: open.left };
                 waiting.push(Pulls { cell: part, patterns: vec![open.pattern] });
                 continue;
@@ -142,14 +138,13 @@ pub(super) fn reaching(
                 continue;
             }
             rest.push(open.pattern);
-            left = Some(
-                left.map_or(open.left, |all| std::array::from_fn(|k| all[k].hull(open.left[k]))),
-            );
+            left = Some(left.map_or(open.left, |all| hull(all, open.left)));
         }
         let Some(at) = left else { continue };
         let cell = Cell { face: cell.face, at };
         let blur = sums.blur();
-        let coarse = blur[0].max(blur[1]) > COARSE * width && size > FINE * width;
+        // It moves the end of the strand further than the box is wide.
+        let coarse = blur[0].max(blur[1]) > width && size > FINE * width;
         if coarse && !many {
             let across = usize::from(blur[1] > blur[0]);
             waiting.extend(cell.cut(across).map(|cell| Pulls { cell, patterns: rest.clone() }));
@@ -187,8 +182,7 @@ fn both(strand: &Strand, span: &Span, one: &Pulls, other: &Pulls) -> Option<Cell
     if !touch {
         return None;
     }
-    let at = std::array::from_fn(|k| one.cell.at[k].hull(other.cell.at[k]));
-    let cell = Cell { face: one.cell.face, at };
+    let cell = Cell { face: one.cell.face, at: hull(one.cell.at, other.cell.at) };
     let sums = PatternSums::of(&strand.length, &strand.weight, span.way, &cell)?;
     let [open] = sums.open(&one.patterns)[..] else { return None };
     open.promising.then_some(Cell { face: cell.face, at: open.left })

@@ -56,6 +56,7 @@ use self::search::{Search, search};
 use super::bridle;
 use super::choice::Choice;
 use crate::boxes::arithmetic::NOWHERE;
+use crate::branch_and_bound::hull;
 use crate::run::search::Progress;
 use crate::settings::Settings;
 
@@ -297,7 +298,7 @@ pub(super) fn gathered<const N: usize, P: Ord>(
         };
         while let Some(k) = touching(&all, &at) {
             let (other, more) = all.swap_remove(k);
-            at = std::array::from_fn(|k| at[k].hull(other[k]));
+            at = hull(at, other);
             for (list, more) in patterns.iter_mut().zip(more) {
                 list.extend(more);
                 list.sort_unstable();

@@ -7,7 +7,7 @@ use super::box_test::{Examined, Found, Verdict};
 use super::cell::Pattern;
 use super::layout::Layout;
 use super::reach;
-use crate::branch_and_bound::{self, Plan, halves, widest};
+use crate::branch_and_bound::{self, Plan, halves, hull, widest};
 use crate::run::search::Progress;
 
 /// A box is not cut below this part of the unit of length, 2⁻²⁶: rounding errors of forces are far
@@ -74,7 +74,7 @@ fn examine<const N: usize>(layout: &Layout, known: &[Found<N>], task: &Task<N>) 
             }
             Verdict::Within(part) => {
                 patterns.push(pattern);
-                left = Some(left.map_or(part, |all| std::array::from_fn(|k| all[k].hull(part[k]))));
+                left = Some(left.map_or(part, |all| hull(all, part)));
             }
         }
     }

@@ -116,15 +116,16 @@ pub(crate) fn image(
 
 /// The zero of a cell that is known to hold exactly one, as narrow as the test gets it.
 pub(crate) fn narrow(system: &System, signs: &[i8], cell: &Cell) -> Cell {
+    narrowed(cell, |cell| krawczyk(system, signs, cell, cell.middle()))
+}
+
+/// The same with the images of cells about their middles.
+pub(crate) fn narrowed(cell: &Cell, image: impl Fn(&Cell) -> Option<Cell>) -> Cell {
     /// Quadratic convergence needs six; slower gain is not worth more.
     const ROUNDS: usize = 20;
     let mut best = *cell;
     for _ in 0..ROUNDS {
-        let Some(next) =
-            krawczyk(system, signs, &best, best.middle()).and_then(|image| common(&best, &image))
-        else {
-            break;
-        };
+        let Some(next) = image(&best).and_then(|image| common(&best, &image)) else { break };
         let gain = (0..2).any(|k| next.at[k].width() < 0.75 * best.at[k].width());
         best = next;
         if !gain {

@@ -10,7 +10,9 @@ pub(crate) mod undecided;
 
 use std::borrow::Cow;
 
-use crate::branch_and_bound::{self, Plan};
+use numerics::Interval;
+
+use crate::branch_and_bound::{self, Plan, hull};
 use crate::run::closure::Pattern;
 use crate::run::enclosure::krawczyk::{Finding, Zero, examine};
 use crate::run::plane::cell::Cell;
@@ -30,7 +32,7 @@ const WORTH_THREADS: usize = 2_000;
 const MIN_WIDTH: f64 = f64::from_bits((1023 - 40) << 52);
 
 /// A contracted cell smaller than this part of the old one is looked at again before it is cut.
-const GOOD_CONTRACTION: f64 = 0.5;
+pub(crate) const GOOD_CONTRACTION: f64 = 0.5;
 
 /// How far a census has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +111,7 @@ fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
         }
         Some(sums) => {
             let mut patterns = vec![];
-            let mut left: Option<Cell> = None;
+            let mut left: Option<[Interval; 2]> = None;
             let all = sums.open(&asked);
             // What is settled is asked last: few patterns are left, and the sums are shared.
             let of_all: Vec<Pattern> = all.iter().map(|open| open.pattern).collect();
@@ -133,17 +135,13 @@ fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
                 }
                 noisy = std::array::from_fn(|k| noisy[k] && open.noisy[k]);
                 patterns.push(open.pattern);
-                let part = Cell { face: cell.face, at: open.left };
-                left = Some(left.map_or(part, |all| Cell {
-                    face: cell.face,
-                    at: std::array::from_fn(|k| all.at[k].hull(part.at[k])),
-                }));
+                left = Some(left.map_or(open.left, |all| hull(all, open.left)));
             }
             let mut across = sums.widest();
             if settled.straight.are_near(system, &cell) {
                 (noisy, across) = ([false; 2], wider(&cell));
             }
-            (patterns, left.unwrap_or(cell), across)
+            (patterns, Cell { face: cell.face, at: left.unwrap_or(cell.at) }, across)
         }
     };
     if patterns.is_empty() {

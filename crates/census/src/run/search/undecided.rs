@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use numerics::Interval;
 use serde::Serialize;
 
+use crate::branch_and_bound::hull;
 use crate::run::closure::Pattern;
 use crate::run::plane::cell::Cell;
 use crate::run::plane::face::Face;
@@ -126,7 +127,7 @@ fn touch(a: &Task, b: &Task) -> bool {
 }
 
 fn unite(all: &mut Task, more: &Task) {
-    all.cell.at = std::array::from_fn(|k| all.cell.at[k].hull(more.cell.at[k]));
+    all.cell.at = hull(all.cell.at, more.cell.at);
     all.patterns.extend(&more.patterns);
     all.patterns.sort_unstable();
     all.patterns.dedup();

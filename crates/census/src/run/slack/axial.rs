@@ -25,7 +25,7 @@ use numerics::Interval;
 
 use crate::run::closure::bar::unit;
 use crate::run::closure::signed;
-use crate::run::enclosure::krawczyk::{image, inside};
+use crate::run::enclosure::krawczyk::{image, inside, narrowed};
 use crate::run::equilibrium::Observed;
 use crate::run::equilibrium::inertia::Indices;
 use crate::run::plane::cell::Cell;
@@ -37,9 +37,6 @@ use crate::run::plane::system::System;
 const WIDER: f64 = 0.25;
 /// See [`WIDER`].
 const WIDER_BY: f64 = 1e-12;
-
-/// Contractions of the proved box: quadratic convergence needs six.
-const ROUNDS: usize = 20;
 
 /// The closure in the coordinates (ρ, t), for the bars of one group and one pattern of the others.
 pub(crate) struct AxialClosure<'a> {
@@ -162,22 +159,9 @@ impl AxialClosure<'_> {
             face: self.face,
             at: [disc, Interval::new(turned.lo() - margin, turned.hi() + margin)],
         };
-        let mut best = self.krawczyk(&whole, whole.middle())?;
-        if !inside(&best, &whole) {
-            return None;
-        }
-        for _ in 0..ROUNDS {
-            let Some(next) = self.krawczyk(&best, best.middle()) else { break };
-            let parts = [0, 1].map(|k| best.at[k].intersect(next.at[k]));
-            let [Some(rho), Some(t)] = parts else { break };
-            let next = Cell { face: self.face, at: [rho, t] };
-            let gain = (0..2).any(|k| next.at[k].width() < 0.75 * best.at[k].width());
-            best = next;
-            if !gain {
-                break;
-            }
-        }
-        Some(best)
+        let image = |cell: &Cell| self.krawczyk(cell, cell.middle());
+        let first = image(&whole)?;
+        inside(&first, &whole).then(|| narrowed(&first, image))
     }
 
     /// The indices. The rotation rates of the other bars are the unknowns: that of bar k follows

@@ -51,6 +51,7 @@ use std::collections::HashMap;
 use numerics::Interval;
 use serde::Serialize;
 
+use crate::branch_and_bound::hull;
 use crate::run::closure::{Pattern, signed};
 use crate::run::plane::cell::Cell;
 use crate::run::plane::face::Face;
@@ -103,10 +104,7 @@ struct Settled {
 
 impl Settled {
     fn new(cells: HashMap<Pattern, Cell>) -> Option<Self> {
-        let unite = |all: Cell, cell: &Cell| Cell {
-            face: all.face,
-            at: std::array::from_fn(|k| all.at[k].hull(cell.at[k])),
-        };
+        let unite = |all: Cell, cell: &Cell| Cell { face: all.face, at: hull(all.at, cell.at) };
         let first = *cells.values().next()?;
         let hull = cells.values().fold(first, unite);
         Some(Self { cells, hull })

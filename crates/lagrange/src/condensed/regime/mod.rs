@@ -20,7 +20,7 @@ pub(super) use unloaded::fill;
 use super::chain::Condensed;
 use super::newton::Budget;
 use super::pull::Pull;
-use crate::thresholds::{CLOSURE_ROUNDING, NEARLY_STRAIGHT, STEEP};
+use crate::thresholds::{CLOSURE_ROUNDING, NEARLY_STRAIGHT};
 
 /// The way a chain is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,15 +96,13 @@ impl Regime {
     }
 
     /// Solve a chain of this regime; where the way of the regime does not lead to the end, by the
-    /// fallback of the table. `None` when that fails, too: the passes over the bars ran out, or
-    /// rounding errors prevent a closure within the settings.
+    /// fallback of the table, if it has one. `None` when that fails, too: the passes over the bars ran
+    /// out, or rounding errors prevent a closure within the settings.
     pub fn solve(self, chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
         match self {
             Self::Tension => tension::solve(chain, budget),
             Self::Taut => taut::solve(chain, budget),
-            Self::SideBySide => {
-                side_by_side::solve(chain, budget).or_else(|| tension::solve(chain, budget))
-            }
+            Self::SideBySide => side_by_side::solve(chain, budget),
             Self::Strut => strut::solve(chain, budget),
             Self::TautStrut => taut_strut::solve(chain, budget),
             Self::FoldedStrut => folded::solve(chain, budget),
@@ -129,12 +127,10 @@ fn nearly_folded(chain: &Condensed) -> bool {
         && others() < 0.0
 }
 
-/// Whether the strands hang nearly vertically, equally deep, and no farther apart than steep bottom
-/// bars can bridge.
+/// Whether the strands hang nearly vertically, and equally deep.
 fn side_by_side(chain: &Condensed) -> bool {
     let (across, bottom) = (chain.span.across, &chain.bottom);
     across < NEARLY_STRAIGHT * chain.bars.total_length
-        && across < STEEP * bottom.length
         && bottom.over.abs() < NEARLY_STRAIGHT * bottom.length
 }
 
