@@ -280,10 +280,12 @@ impl DerivativesAnswer {
                 add(bar(k, BarField::Prestress), gradient.by_prestress[k]);
             }
         }
+        // The plane that all joints are kept to moves with none of them.
+        let across = self.system.across().map(|(axis, _)| axis);
         for (k, joint) in self.system.joints().iter().enumerate() {
             let number = |field| Number::Joint(joint.name.to_string(), field);
             if joint.support.is_fixed() {
-                for axis in 0..3 {
+                for axis in (0..3).filter(|axis| across != Some(*axis)) {
                     add(number(JointField::Place(axis)), gradient.by_anchor[k][axis]);
                 }
                 continue;

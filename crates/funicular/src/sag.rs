@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 0.5;
 /// How deep a joint hangs below the line between two others.
 ///
 /// With $P$ the joint and $A$, $B$ the ends, the depth is $z_A + t (z_B - z_A) - z_P$, $t$ the part
-/// of the way from $A$ to $B$ in plan at which $P$ is.
+/// of the way from $A$ to $B$ in plan at which $P$ is, between 0 and 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sag {
     /// The depth, m.
@@ -53,7 +53,7 @@ impl Sag {
     }
 
     /// The largest of the way of fewest members from one joint to another, by number from 0; `None`
-    /// where no way connects them, or one is above the other.
+    /// where no way connects them, one is above the other, or no joint is between them in plan.
     #[must_use]
     pub fn between(system: &System, joints_m: &[Vector], ends: [usize; 2]) -> Option<Self> {
         let rows = Rows::new(system, joints_m);
@@ -141,7 +141,7 @@ impl<'a> Rows<'a> {
         best.filter(|(plan, ..)| *plan > STRAIGHT).map(|(.., other)| other)
     }
 
-    /// The deepest inner joint of a way below the line between its ends.
+    /// The inner joint of a way that is furthest below the line between its ends.
     fn deepest(&self, way: &[usize]) -> Option<Sag> {
         let [first, inner @ .., last] = way else { return None };
         let (ends, d) = ([*first, *last], self.way_m(*first, *last));
@@ -149,10 +149,13 @@ impl<'a> Rows<'a> {
         if level(d) <= LEVEL * d[2].abs() || first == last {
             return None;
         }
-        let depths = inner.iter().map(|&joint| {
+        let depths = inner.iter().filter_map(|&joint| {
             let p = self.way_m(*first, joint);
             let t = (p[0] * d[0] + p[1] * d[1]) / (level(d) * level(d));
-            Sag { depth_m: t * d[2] - p[2], joint, ends }
+            // What is beyond an end is below no point of the line.
+            let beside = t.clamp(0.0, 1.0) - t;
+            let sag = Sag { depth_m: t * d[2] - p[2], joint, ends };
+            (beside.abs() <= LEVEL).then_some(sag)
         });
         depths.reduce(deeper)
     }

@@ -22,7 +22,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 const BYTES_PER_DRAW: u64 = 32;
 
 /// An equilibrium, and its ranges over the tolerances of the system's numbers.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct TolerancesAnswer {
     answer: SolveAnswer,
     sag: Option<Sag>,
@@ -139,7 +139,7 @@ impl TolerancesAnswer {
     #[must_use]
     pub fn utilisation(&self, member: usize) -> Option<[f64; 2]> {
         let (system, ranges) = (self.answer.system(), self.ranges.as_ref().ok()?);
-        let strength: &Strength = system.members()[member].strength.as_deref()?;
+        let strength: &Strength = system.members().get(member)?.strength.as_deref()?;
         let [least_n, most_n] = ranges.axial_n[member].guaranteed;
         let more_n = own_load_n(system, member);
         // Of the force that is nearest to none.
@@ -297,6 +297,7 @@ impl TolerancesAnswer {
         json!({
             "is_proved": true,
             "boxes": ranges.boxes,
+            "free_turns": ranges.free_turns,
             "is_stable": self.is_stable(),
             "numbers": numbers.collect::<Vec<_>>(),
             "joints": joints.collect::<Vec<_>>(),

@@ -158,6 +158,10 @@ impl Contacts {
                 }
             }
         }
+        // A drawing may be elsewhere.
+        for joint in &mut joints {
+            joint.near_m = None;
+        }
         let system = &self.system;
         System::new(system.name(), system.gravity_m_s2(), joints, members).map_err(|error| {
             MotionError::Input { what: "what cables and the floor hold", reason: error.to_string() }

@@ -68,6 +68,8 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
     let mut joints = system.joints().to_vec();
     for (k, joint) in joints.iter_mut().enumerate() {
         let [x, y, z] = joints_m[k];
+        // A drawing may be elsewhere.
+        joint.near_m = None;
         match system.floor_m() {
             Some(floor_m) if !joint.support.is_fixed() && z < floor_m - near_m(system) => {
                 let (name, below_m) = (joint.name.clone(), floor_m - z);

@@ -1,6 +1,6 @@
 //! What a parameter needs to be there.
 
-use model::system::{Joint, System};
+use model::system::System;
 use model::system_file::nearest;
 
 use crate::parameter::error::ParameterError;
@@ -62,7 +62,7 @@ pub fn check(system: &System, parameter: &Parameter) -> Result<(), ParameterErro
                     let help = "it has a share of the rope on both sides of it";
                     return Err(of_path(parameter, what, help));
                 }
-                return held(parameter, &system.joints()[number], *field);
+                return held(parameter, system, number, *field);
             }
             let names: Vec<_> = system.joints().iter().map(|joint| joint.name.text()).collect();
             let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
@@ -90,9 +90,19 @@ fn one_row(parameter: &Parameter, resolved: &Number) -> Result<(), ParameterErro
 }
 
 /// Whether a joint has the number: places are those of supports, anchors bear no loads.
-fn held(parameter: &Parameter, joint: &Joint, field: JointField) -> Result<(), ParameterError> {
+fn held(
+    parameter: &Parameter,
+    system: &System,
+    joint: usize,
+    field: JointField,
+) -> Result<(), ParameterError> {
+    let joint = &system.joints()[joint];
     let name = &joint.name;
     match field {
+        JointField::Place(axis) if system.across().is_some_and(|(across, _)| across == axis) => {
+            let what = format!("joint `{name}` would leave the plane that holds all joints");
+            Err(of_path(parameter, what, "a file without `plane` lets joints leave it"))
+        }
         JointField::Place(_) if joint.support.at_m().is_none() => {
             let what = format!("joint `{name}` is free and has no `at_m`");
             Err(of_path(parameter, what, "joints that are held have a place"))

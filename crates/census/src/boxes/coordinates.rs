@@ -57,9 +57,10 @@ impl Coordinates {
 
     /// The coordinates next to a place.
     pub(super) fn of(&self, place: Vector) -> impl Iterator<Item = f64> {
-        // The axes are of unit length up to rounding, and normal to each other.
+        // The axes are normal to each other; those of a plane are shorter than one.
         self.axes.iter().map(move |axis| {
-            (0..3).map(|k| axis[k].mid() * (place[k].mid() - self.origin[k].mid())).sum()
+            let along = (0..3).map(|k| axis[k].mid() * (place[k].mid() - self.origin[k].mid()));
+            along.sum::<f64>() / (0..3).map(|k| axis[k].mid() * axis[k].mid()).sum::<f64>()
         })
     }
 }

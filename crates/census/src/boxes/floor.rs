@@ -8,7 +8,7 @@ use model::system::{Joint, Support, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
-use super::arithmetic::{minus, norm};
+use super::arithmetic::{Vector, minus, norm, plus, times};
 use super::frame::Frame;
 use super::prove::prove_without_floor;
 use super::proven::SystemBox;
@@ -36,7 +36,7 @@ pub(super) fn prove_above(
         let right = if lies[k] {
             pushes[k].lo() > 0.0
         } else {
-            joint.support.is_fixed() || height.lo() >= floor_m
+            stays_level(&joint.support) || height.lo() >= floor_m
         };
         if !right {
             return Err(NoBox::Floor { joint: k + 1 });
@@ -54,40 +54,59 @@ pub(super) fn laid(
     let near_m = NEAR * system.total_length_m() / system.members().len() as f64;
     let joints = || system.joints().iter().zip(joints_m);
     let near = |at_m: &Point| at_m[2] <= floor_m + near_m;
-    // A plane that leans would bear a part of the push.
     let rises = |joint: &Joint| match joint.support {
-        Support::Free => true,
-        Support::Plane { normal: [.., z], .. } => z.abs() <= 0.0,
+        Support::Free | Support::Plane { .. } => joint.support.on_level([0.0; 3]).is_some(),
         _ => false,
     };
     let lies: Vec<bool> = joints().map(|(joint, at_m)| rises(joint) && near(at_m)).collect();
     let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
         let on = || joint.support.on_level([at_m[0], at_m[1], floor_m]);
-        joint.clone().held_by(lies.then(on).flatten().unwrap_or(joint.support))
+        // A drawing may be above the floor.
+        let joint = joint.clone().drawn(None);
+        let support = lies.then(on).flatten().unwrap_or(joint.support);
+        joint.held_by(support)
     });
     let members = system.members().to_vec();
     let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members);
     Ok((laid.map_err(|_| NoBox::NotFinite)?, lies))
 }
 
+/// Whether no motion that a support leaves changes the height, without any rounding.
+pub(super) fn stays_level(support: &Support) -> bool {
+    support.free_part([0.0, 0.0, 1.0])[2] <= 0.0
+}
+
 /// What the members and loads of each joint leave for the floor to bear, up positive, N.
 fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval> {
     let frame = Frame::new(system, axial_n);
     let loads = frame.loads(system);
-    let mut pushes: Vec<Interval> =
-        loads.iter().map(|load| -load[2].scale(frame.force_n)).collect();
+    let mut left: Vec<Vector> =
+        loads.iter().map(|load| load.map(|part| part.scale(frame.force_n))).collect();
     for (member, axial) in system.members().iter().zip(&found.axial_n) {
         if *axial == Interval::ZERO {
             continue;
         }
         for [a, b] in member.spans() {
             let span = minus(found.joints_m[b], found.joints_m[a]);
-            let rising = *axial * span[2] / norm(span);
-            pushes[a] = pushes[a] - rising;
-            pushes[b] = pushes[b] + rising;
+            let pull = times(*axial / norm(span), span);
+            left[a] = plus(left[a], pull);
+            left[b] = minus(left[b], pull);
         }
     }
-    pushes
+    // A plane that leans bears what is normal to the ways it leaves: of `n` normal to it the upright push bears
+    // `f_z - n_z (n_x f_x + n_y f_y)/(n_x² + n_y²)`.
+    let supports = system.joints().iter().map(|joint| &joint.support);
+    supports
+        .zip(left)
+        .map(|(support, [x, y, z])| match support {
+            Support::Plane { normal, .. } if normal[2].abs() > 0.0 => {
+                let [along_x, along_y, up] = normal.map(Interval::point);
+                let level = along_x.square() + along_y.square();
+                up * (along_x * x + along_y * y) / level - z
+            }
+            _ => -z,
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -60,7 +60,7 @@ mod weights;
 
 use std::time::Instant;
 
-use model::system::{Kind, Support, System};
+use model::system::{Joint, Kind, Support, System};
 use model::{NoCensus, Vector as Point};
 use numerics::Interval;
 
@@ -293,19 +293,12 @@ impl SystemCensus {
 /// A system whose joints slide in one upright plane across x or y, with its anchors and loads in it, as one that moves
 /// freely: chains and trees stay in that plane by themselves. With the level axis of the plane.
 fn in_plane(system: &System) -> Option<(System, usize)> {
-    let moving = system.joints().iter().find(|joint| !joint.support.is_fixed())?;
-    let Support::Plane { at_m: origin_m, normal } = moving.support else { return None };
-    let across = [0, 1].into_iter().find(|k| normal[*k].abs() >= 1.0)?;
-    let is_level = |x: f64| (x - origin_m[across]).abs() <= 0.0;
+    let (across, _) = system.across().filter(|(across, _)| *across < 2)?;
     let none = |force: &Point| force[across].abs() <= 0.0;
-    let lies = system.joints().iter().all(|joint| match joint.support {
-        Support::Fixed { at_m } => is_level(at_m[across]),
-        Support::Plane { at_m, normal } => normal[across].abs() >= 1.0 && is_level(at_m[across]),
-        Support::Free | Support::Line { .. } => false,
-    });
+    let line = |joint: &Joint| matches!(joint.support, Support::Line { .. });
     let loads = system.members().iter().flat_map(|member| &member.loads).map(|load| &load.force_n);
     let mut loads = loads.chain(system.joints().iter().map(|joint| &joint.force_n));
-    if !lies || !loads.all(none) {
+    if system.joints().iter().any(line) || !loads.all(none) {
         return None;
     }
     let joints = system.joints().iter().map(|joint| match joint.support {

@@ -46,8 +46,17 @@ impl TolerancesAnswer {
             _ => "as stable as for the numbers given",
         };
         let boxes = if ranges.boxes == 1 { "1 box" } else { &format!("{} boxes", ranges.boxes) };
+        let turns = match ranges.free_turns {
+            0 => "",
+            1 => {
+                " (but for the free turn of one part about a vertical: the ranges are those of one turn)"
+            }
+            _ => {
+                " (but for the free turns of parts about verticals: the ranges are those of one turn of each)"
+            }
+        };
         let line = format!(
-            "For all of them exactly one equilibrium is near, {stable}, and no cable or strut changes between \
+            "For all of them exactly one equilibrium is near{turns}, {stable}, and no cable or strut changes between \
              slack and taut (proved in {boxes})."
         );
         writeln!(f, "{}\n\n{}", wrapped(&line, 0), self.bars(ranges))?;
@@ -134,7 +143,8 @@ impl TolerancesAnswer {
         let heads = names.map(|name| [format!("{name} / {unit}"), format!("to / {unit}")]);
         let heads = heads.as_flattened().iter().map(String::as_str);
         let mut rows = table(std::iter::once("joint").chain(heads));
-        let mut tall = table(["joint", "", &format!("least / {unit}"), &format!("most / {unit}")]);
+        let mut tall =
+            table(["joint", "axis", &format!("least / {unit}"), &format!("most / {unit}")]);
         let all: Vec<_> = all.collect();
         let widths: Vec<f64> =
             all.iter().map(|(_, of)| of.iter().map(width).fold(0.0, f64::max)).collect();

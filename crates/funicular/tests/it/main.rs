@@ -45,5 +45,6 @@ mod study;
 mod study_rows;
 mod sweep;
 mod systems;
+mod together;
 mod tolerances;
 mod trace;

@@ -48,7 +48,10 @@ impl Residual {
     /// With the part of the lengths that places decide alone.
     pub fn within(framework: &Framework, state: &State, decided: Option<&mut Decided>) -> Self {
         let directions = state.directions(framework);
-        let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+        // What pushes while its ends are in one place pushes them apart, this way or that: no balance.
+        let pulls = directions.iter().zip(&state.axial).map(|((u, length), axial)| {
+            if *length <= 0.0 && *axial < 0.0 { Vector3::x() * *axial } else { u * *axial }
+        });
         let forces = framework.unbalance(pulls);
         let unit = state.largest_force(framework).max(f64::MIN_POSITIVE);
         // In units of what is too large for a number every force would be small.

@@ -8,6 +8,7 @@
 
 use model::system::{Kind, RunTogether, System};
 
+use super::floor::lift;
 use super::framework::Framework;
 use super::residual::Residual;
 use super::solution::{NO_FORCE, NO_SLACK, Solution};
@@ -85,13 +86,13 @@ fn touching(
     lying.find(|(_, push)| push.abs() <= NO_FORCE * largest).map(|(lying, _)| lying.joint)
 }
 
-/// The first joint that can move and is at the height of the floor, without lying on it.
+/// The first joint that can rise and is at the height of the floor, without lying on it.
 fn above(system: &System, framework: &Framework, solution: &Solution) -> Option<usize> {
     let floor_m = system.floor_m()?;
     let near_m = NO_SLACK * framework.units.length_m;
     let heights = solution.equilibrium.joints_m.iter().map(|at_m| at_m[2] - floor_m);
     let mut free = heights.enumerate().filter(|(joint, _)| {
-        framework.nodes[*joint].freedom() > 0
+        lift(&framework.nodes[*joint]).is_some()
             && framework.lying.iter().all(|lying| lying.joint != *joint)
     });
     free.find(|(_, height_m)| height_m.abs() <= near_m).map(|(joint, _)| joint)

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Joint, LENGTH_ROUNDING, System, SystemError};
+use super::{Joint, LENGTH_ROUNDING, Support, System, SystemError};
 use crate::{Anchors, Vector};
 
 impl System {
@@ -47,6 +47,36 @@ impl System {
         }
         super::error::check(self.gravity_m_s2, &self.joints, &self.members)?;
         Ok(self)
+    }
+
+    /// The axis (0 for *x*) across the plane of two axes that supports keep every joint to, and its coordinate there, m;
+    /// `None` where some joint may leave such a plane, or none can move.
+    ///
+    /// ```
+    /// use model::system::{Joint, Member, Support, System};
+    /// use model::Bar;
+    /// let wall = Support::Plane { at_m: [0.0, 2.0, 0.0], normal: [0.0, 1.0, 0.0] };
+    /// let joints = vec![Joint::anchor("A", [0.0, 2.0, 1.0]), Joint::free("P").with_mass(1.0).held_by(wall)];
+    /// let system = System::new("", 10.0, joints, vec![Member::bar(0, 1, Bar::homogeneous(1.0, 0.0)?)])?;
+    /// assert_eq!(system.across(), Some((1, 2.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn across(&self) -> Option<(usize, f64)> {
+        let plane = |joint: &Joint| match joint.support {
+            Support::Plane { at_m, normal } => Some((at_m, normal)),
+            _ => None,
+        };
+        let (origin_m, normal) = self.joints.iter().find_map(plane)?;
+        let axis = (0..3).find(|axis| normal[*axis].abs() >= 1.0)?;
+        let in_plane = |at_m: Vector| (at_m[axis] - origin_m[axis]).abs() <= 0.0;
+        let kept = self.joints.iter().all(|joint| match joint.support {
+            Support::Free => false,
+            Support::Fixed { at_m } => in_plane(at_m),
+            Support::Line { at_m, direction } => direction[axis].abs() <= 0.0 && in_plane(at_m),
+            Support::Plane { at_m, normal } => normal[axis].abs() >= 1.0 && in_plane(at_m),
+        });
+        kept.then_some((axis, origin_m[axis]))
     }
 
     /// The same system without a drawing: the question is the lowest equilibrium.

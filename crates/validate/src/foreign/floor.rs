@@ -20,7 +20,8 @@ pub(super) fn laid(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Sys
         let level_m = [at_m[0], at_m[1], floor_m];
         let level = Support::Plane { at_m: level_m, normal: UP };
         let support = if lies { meeting(joint.support, level) } else { joint.support };
-        joint.clone().held_by(support)
+        // A drawing may be above the floor.
+        joint.clone().held_by(support).drawn(None)
     };
     let joints = system.joints().iter().zip(joints_m).map(joint).collect();
     let members = system.members().to_vec();

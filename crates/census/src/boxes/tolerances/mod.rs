@@ -32,14 +32,14 @@ mod region;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use model::system::{Kind, System, Uncertain, UncertainNumber};
+use model::system::{Kind, Support, System, Uncertain, UncertainNumber};
 use model::{NoBox, Vector};
 use numerics::Interval;
 
 use super::activity::Activity;
 use super::arithmetic::sum;
 use super::diagnosis::diagnosed;
-use super::floor::laid;
+use super::floor::{laid, stays_level};
 use super::newton::refine;
 use super::prove::Posed;
 use super::proven::{reach, spring_n};
@@ -94,6 +94,9 @@ pub struct ToleranceRanges {
     pub depths_m: Vec<Range>,
     /// How many boxes of the numbers were needed.
     pub boxes: usize,
+    /// How many parts turn freely about a vertical: each turn of them is an equilibrium as well, and the ranges are those
+    /// of one.
+    pub free_turns: usize,
 }
 
 /// Why nothing is proved for all values.
@@ -193,12 +196,23 @@ pub fn prove_ranges(
     let stays = |joint: &usize| match found.reactions_n[*joint] {
         Some([_, _, push]) if lies[*joint] => push.guaranteed[0] > 0.0,
         _ => {
-            let fixed = system.joints()[*joint].support.is_fixed();
-            fixed || found.joints_m[*joint][2].guaranteed[0] >= floor_m
+            let level = stays_level(&system.joints()[*joint].support);
+            level || found.joints_m[*joint][2].guaranteed[0] >= floor_m
         }
     };
     let joints: Vec<usize> = (0..lies.len()).filter(|joint| !stays(joint)).collect();
     if joints.is_empty() { Ok(found) } else { Err(NoRanges::Floor { joints }) }
+}
+
+/// Whether a support may bear a force along an axis: not along a line on which it slides, and in a plane not across its normal.
+fn bears(support: &Support, axis: usize) -> bool {
+    match support {
+        Support::Plane { normal, .. } => normal[axis].abs() > 0.0,
+        Support::Line { direction, .. } => {
+            (0..3).any(|other| other != axis && direction[other].abs() > 0.0)
+        }
+        Support::Free | Support::Fixed { .. } => true,
+    }
 }
 
 /// The same for the joints and members alone.
@@ -403,7 +417,9 @@ impl Cover<'_> {
                 }
                 Output::Reaction(joint, axis) => {
                     let all = reactions_n[joint].get_or_insert([Range::of(Interval::ZERO); 3]);
-                    all[axis] = range.scaled(frame.force_n, 0.0);
+                    if bears(&self.system.joints()[joint].support, axis) {
+                        all[axis] = range.scaled(frame.force_n, 0.0);
+                    }
                 }
                 Output::Depth(_) => depths_m.push(range.scaled(frame.length_m, 0.0)),
                 Output::Spare(_) => {}
@@ -415,7 +431,8 @@ impl Cover<'_> {
             }
         }
         let numbers = self.numbers.to_vec();
-        ToleranceRanges { numbers, joints_m, axial_n, reactions_n, depths_m, boxes }
+        let free_turns = self.posed.equations.holds.len();
+        ToleranceRanges { numbers, joints_m, axial_n, reactions_n, depths_m, boxes, free_turns }
     }
 
     /// Forces of elastic members between two anchors by their law alone, N, and 0 of all others. Each number is

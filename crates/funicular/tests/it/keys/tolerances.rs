@@ -24,6 +24,7 @@ fn tolerances_of_a_plumb_bob() {
     output.is("tolerances.is_proved", true);
     output.is("tolerances.is_stable", true);
     output.is("tolerances.boxes", 1);
+    output.is("tolerances.free_turns", 0);
     let [x, y, z, mass] =
         ["A.at_m.x", "A.at_m.y", "A.at_m.z", "P.mass_kg"].map(|n| format!("joints.{n}"));
     output.is("tolerances.numbers[].name", json!([x, y, z, mass]));

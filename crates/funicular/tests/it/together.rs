@@ -1,0 +1,165 @@
+//! Systems in which two features meet: a floor and a drawing, a plane and a support that moves, tolerances and a part that
+//! turns. Expected values are closed forms.
+
+use funicular::prelude::*;
+use serde_json::Value;
+
+use crate::run::{holding, run};
+
+fn problem(text: &str) -> Problem {
+    Problem::parse(text, "system.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn near(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0)
+}
+
+fn is_verified(text: &str) -> bool {
+    let answer = Solve::new().run(&problem(text)).expect("an answer");
+    answer.agrees() && answer.equilibria()[0].evidence.rung() >= Some(Rung::Verified)
+}
+
+/// A heavy joint on the floor between a bar and an elastic cable, drawn at some height.
+fn drawn_at(height_m: f64) -> String {
+    format!(
+        "floor_m = -1.5\n\
+         joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [3, 0, 0] }}, \
+         U = {{ near_m = [0.9, 1, {height_m}], mass_kg = 3, force_n = [0, 2, 0], mass_tolerance_kg = 0.01 }}, \
+         V = {{ near_m = [1.8, 0.55, {height_m}], mass_kg = 3 }} }}\n\
+         bars = [{{ from = 'A', to = 'U', length_m = 2, mass_kg = 1 }}, {{ from = 'U', to = 'V', length_m = 1, mass_kg = 0 }}, \
+         {{ from = 'V', to = 'B', length_m = 2, mass_kg = 0, kind = 'cable', stiffness_n = 1e3 }}]"
+    )
+}
+
+#[test]
+fn what_is_drawn_above_the_floor_that_it_lies_on_is_judged_as_on_it() {
+    let folder = holding([("on.toml", &drawn_at(-1.5)), ("above.toml", &drawn_at(-1.48))]);
+    let frequencies = |file: &str| -> Vec<f64> {
+        let (code, out, said) = run(&folder, &["modes", file, "--json"]);
+        assert_eq!(code, Some(0), "{said}");
+        let found: Value = serde_json::from_str(&out).unwrap();
+        let modes = found["equilibria"][0]["modes"].as_array().unwrap().clone();
+        modes.iter().map(|mode| mode["omega2_s2"].as_f64().unwrap()).collect()
+    };
+    let [on, above] = ["on.toml", "above.toml"].map(frequencies);
+    assert!(on.len() == 2 && on.iter().zip(&above).all(|(a, b)| near(*a, *b)), "{on:?} {above:?}");
+    let (code, answer, _) = run(&folder, &["solve", "above.toml", "--json"]);
+    assert_eq!(code, Some(0));
+    std::fs::write(folder.path().join("answer.json"), answer).unwrap();
+    for arguments in [
+        &["judge", "above.toml", "--answer", "answer.json"][..],
+        &["solve", "above.toml", "--tolerances"],
+        &["simulate", "above.toml", "--time", "0.1"],
+    ] {
+        let (code, out, said) = run(&folder, arguments);
+        assert_eq!(code, Some(0), "{arguments:?}: {out}{said}");
+    }
+    assert!(is_verified(&drawn_at(-1.48)));
+}
+
+/// A ball on a bar against a wall that leans, `a x + b y + c z = d`: any wall has a proof, on the floor too.
+#[test]
+fn what_slides_in_a_plane_that_leans_in_all_directions_is_verified() {
+    for normal in ["[1, 2, 3]", "[3, -1, 2]", "[1, 1, 1]"] {
+        let text = format!(
+            "joints = {{ A = {{ at_m = [0, 0, 0] }}, T = {{ at_m = [1, 0, -1], normal = {normal}, mass_kg = 1 }} }}\n\
+             bars = [{{ from = 'A', to = 'T', length_m = 2, mass_kg = 0 }}]"
+        );
+        assert!(is_verified(&text), "{normal}");
+    }
+    let on_floor = "floor_m = -1\njoints = { A = { at_m = [0, 0, 0] }, \
+        S = { at_m = [1.5, 0, 0], normal = [1, 0, 0.2], mass_kg = 1, force_n = [0, 5, 0] } }\n\
+        bars = [{ from = 'A', to = 'S', length_m = 2.5, mass_kg = 0.5 }]";
+    assert!(is_verified(on_floor));
+}
+
+/// A truss that stands at the height of the floor on a pin and a roller: the apex is at sqrt(l² - 1) m.
+#[test]
+fn a_roller_at_the_height_of_the_floor_neither_lies_there_nor_rises() {
+    let text = "floor_m = 0\nplane = 'xz'\njoints = { A = { at_m = [0, 0, 0] }, S = { at_m = [2, 0, 0], free = 'x' }, \
+        P = { near_m = [1, 0, 1], mass_kg = 100, mass_tolerance_kg = 0.1 } }\n\
+        bars = [{ from = 'A', to = 'P', mass_kg = 0 }, { from = 'S', to = 'P', mass_kg = 0 }, { from = 'A', to = 'S', mass_kg = 0 }]";
+    let problem = problem(text);
+    let found = Derivatives::new().run(&problem).unwrap();
+    let height = found.gradient("joints.P.at_m.z").unwrap();
+    // z² = l² - x² with x = (d² + l² - k²)/(2 d): z' = (l - x l/d)/z of the first leg.
+    let by_leg = height.by("bars.1.length_m").unwrap().value;
+    assert!(near(by_leg, 0.5_f64.sqrt()), "{by_leg}");
+    let ranges = Solve::new().tolerances(&problem).unwrap();
+    let forces = &ranges.ranges().unwrap().reactions_n;
+    // The ground bears half of 100 ± 0.1 kg under each leg; nothing along the roller, nor across the plane.
+    let [along, across, up] = forces[1].unwrap();
+    assert!(along.guaranteed.iter().all(|n| n.abs() <= 0.0));
+    assert!(across.guaranteed.iter().all(|n| n.abs() < 1e-300));
+    let half_n = 0.5 * 9.80665;
+    assert!(near(up.guaranteed[0], 99.9 * half_n) && near(up.guaranteed[1], 100.1 * half_n));
+}
+
+#[test]
+fn ranges_of_a_part_that_turns_freely_are_said_to_be_those_of_one_turn() {
+    let text = "tolerances = { mass_tolerance_kg = 0.01 }\n\
+        joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 }, Q = { mass_kg = 2 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 }, { from = 'A', to = 'Q', length_m = 1.2, mass_kg = 0 }, \
+        { from = 'P', to = 'Q', length_m = 0.8, mass_kg = 0 }]";
+    let found = Solve::new().tolerances(&problem(text)).unwrap();
+    assert_eq!(found.ranges().unwrap().free_turns, 1);
+    let said = found.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("but for the free turn of one part about a vertical"), "{said}");
+}
+
+/// No number of a file moves one joint out of the plane that `plane` keeps all to.
+#[test]
+fn supports_stay_in_the_plane_of_all() {
+    let text = "plane = 'xz'\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 2 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0 }]";
+    let problem = problem(text);
+    let study = Study::new().vary("joints.A.at_m.y=0,0.1").unwrap();
+    let error = study.run(&problem).unwrap_err().to_string();
+    assert!(error.contains("joint `A` would leave the plane that holds all joints"), "{error}");
+    let found = Derivatives::new().run(&problem).unwrap();
+    let height = found.gradient("joints.P.at_m.z").unwrap();
+    assert!(height.by("joints.A.at_m.y").is_none());
+    assert!(near(height.by("joints.A.at_m.z").unwrap().value, 1.0));
+}
+
+/// A weight that is drawn aside beyond both of its supports hangs below no point of the line between them.
+#[test]
+fn what_hangs_beyond_the_ends_of_a_steep_line_has_its_depth_below_the_lowest_support() {
+    let text = "plane = 'xz'\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [0.1, 0, 0.5] }, \
+        P = { mass_kg = 1, force_n = [30, 0, 0] } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 2, mass_kg = 0.1 }, { from = 'P', to = 'B', length_m = 2.2, mass_kg = 0.1 }]";
+    let folder = holding([("aside.toml", text)]);
+    let (_, out, _) = run(&folder, &["solve", "aside.toml"]);
+    // |P| = 2 and |P - B| = 2.2: with 0.1 x + 0.5 z = -0.29 that is 26 z² + 29 z + 4.41 = 0 of the lower point.
+    let depth_m = (29.0 + (29.0_f64 * 29.0 - 4.0 * 26.0 * 4.41).sqrt()) / 52.0;
+    assert!(
+        out.contains(&format!("Sag: {depth_m:.6} m, of joint P below the lowest support, A")),
+        "{out}"
+    );
+}
+
+/// A massless elastic bar that bears nothing has its length, and stores nothing.
+#[test]
+fn an_elastic_bar_without_load_is_not_pressed_into_a_point() {
+    let text = "joints = { A = { at_m = [0, 0, 0] }, U = {}, P = { mass_kg = 2 } }\n\
+        bars = [{ from = 'A', to = 'U', length_m = 1, mass_kg = 0, stiffness_n = 1e3 }, { from = 'A', to = 'P', length_m = 1, mass_kg = 0 }]";
+    let answer = Solve::new().run(&problem(text)).unwrap();
+    assert!(answer.agrees());
+    let found = &answer.equilibria()[0];
+    assert!(near(found.energy_j, -2.0 * 9.80665), "{}", found.energy_j);
+    let [x, y, z] = found.joints_m[1];
+    assert!(near(x.hypot(y).hypot(z), 1.0) && found.axial_n[0].abs() < 1e-6);
+}
+
+/// Bars that lie on a floor or slide on a level bear nothing: the stiffest are as long as they are, to rounding.
+#[test]
+fn the_stiffest_bars_agree_where_they_bear_nothing() {
+    for stiffness_n in ["1e6", "1e7", "1e9"] {
+        let text = format!(
+            "floor_m = -1.88\njoints = {{ A = {{ at_m = [1, 2, -1.24] }}, S = {{ at_m = [-1.02, 1.4, -0.67], free = 'xy' }}, \
+             P = {{ mass_kg = 0.5 }} }}\nbars = [{{ from = 'A', to = 'P', length_m = 3.29, mass_kg = 1 }}, \
+             {{ from = 'S', to = 'P', length_m = 2.93, mass_kg = 0.3, stiffness_n = {stiffness_n} }}]"
+        );
+        assert!(Solve::new().run(&problem(&text)).unwrap().agrees(), "{stiffness_n}");
+    }
+}
