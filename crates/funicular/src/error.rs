@@ -1,5 +1,7 @@
 //! What can go wrong.
 
+use validate::foreign::GivenError;
+
 use crate::solve::SolveAnswer;
 use crate::threads::MOST_THREADS;
 
@@ -74,7 +76,7 @@ pub enum Error {
     Format(#[from] formats::FormatError),
     /// Occurs when an answer from elsewhere does not fit the system.
     #[error(transparent)]
-    Given(#[from] validate::foreign::GivenError),
+    Given(#[from] GivenError),
     /// Occurs when the tolerance of an answer from elsewhere is out of range.
     #[error(transparent)]
     Tolerance(#[from] validate::foreign::ToleranceError),
@@ -193,6 +195,38 @@ pub enum Error {
 }
 
 impl Error {
+    /// What is allowed, what is near to what was given, or what to do about it.
+    ///
+    /// ```
+    /// let error = funicular::Problem::case("three-equal-bar").unwrap_err();
+    /// assert!(error.help().unwrap().starts_with("did you mean `three-equal-bars`?"));
+    /// ```
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        Some(match self {
+            Self::File(error) => return error.help(),
+            Self::UnknownCase { suggestion, .. } => {
+                let names: Vec<_> = model::cases::named().map(|(name, _)| name).collect();
+                let near = suggestion.map(|name| format!("did you mean `{name}`? "));
+                format!("{}the cases are: {}", near.unwrap_or_default(), names.join(", "))
+            }
+            Self::Given(GivenError::UnknownJoint { suggestion: Some(near), .. }) => {
+                format!("did you mean {near:?}?")
+            }
+            Self::Format(error) => return error.help.clone(),
+            #[cfg(feature = "sweep")]
+            Self::Store(error) => error.help()?.into(),
+            #[cfg(feature = "sweep")]
+            Self::GridSeeds { nearest, bars, .. } => {
+                let near = nearest.iter().map(|(side, all)| format!("{all} = {side}^{bars}"));
+                format!("the nearest are {}", near.collect::<Vec<_>>().join(" and "))
+            }
+            #[cfg(feature = "branches")]
+            Self::Parameter(error) => error.help.clone(),
+            _ => return None,
+        })
+    }
+
     pub(crate) fn unknown_case(name: &str) -> Self {
         let names: Vec<_> = model::cases::named().map(|(name, _)| name).collect();
         let suggestion = model::system_file::nearest(name, &names);

@@ -135,6 +135,32 @@ mod weakest;
 pub mod guide;
 pub mod prelude;
 
+/// The crates whose types stand in the answers and errors here, and of which systems are built: none of them need be
+/// a dependency of its own.
+///
+/// ```
+/// use funicular::model::system::{LoadCase, LoadOn, NamedLoad, Strength};
+/// use funicular::prelude::*;
+/// // 100 N at the end of a rope that bears 200 N, and twice the 75 N of a gust.
+/// let rope = Bar::homogeneous(1.0, 0.0)?;
+/// let strength = Strength::new(Some(200.0), None, 1.0)?;
+/// let lamp = System::builder("lamp")
+///     .gravity_m_s2(10.0)
+///     .joint(Joint::anchor("hook", [0.0; 3]))
+///     .joint(Joint::free("lamp").with_mass(10.0))
+///     .member("hook", "lamp", move |a, b| Member::cable(a, b, rope).bearing(Some(strength)))
+///     .build()?;
+/// let gust = LoadOn::Joints { joints: vec![1], mass_kg: 0.0, force_n: [75.0, 0.0, 0.0] };
+/// let storm = LoadCase { name: "storm".into(), factors: vec![("gust".into(), 2.0)] };
+/// let lamp = lamp.with_loads(vec![NamedLoad { name: "gust".into(), on: gust }], vec![storm])?;
+/// let found = Solve::new().load_cases(&lamp.into())?;
+/// let used = found.bars()[0].utilisation.as_ref().expect("a strength");
+/// assert!((used.value - 100.0_f64.hypot(150.0) / 200.0).abs() < 1e-9 && used.case == "storm");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(no_inline)]
+pub use {energy, formats, lagrange, model, motion, validate};
+
 /// The Rust of the README is run with the tests of the documentation.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

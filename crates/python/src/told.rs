@@ -93,7 +93,9 @@ impl Told {
 
     /// Of any error of the library.
     pub fn of(error: &Error) -> Self {
-        let (class, fields) = parts(error);
+        let (class, mut fields) = parts(error);
+        let help = error.help();
+        fields.extend(fields!(help));
         Self::new(class, error.to_string(), fields)
     }
 }
@@ -119,8 +121,8 @@ fn parts(error: &Error) -> Parts {
         Error::Census(error) => no_census(error.reason()),
         Error::SystemCensus(because, _) => no_census(*because),
         Error::Parameter(error) => {
-            let (text, help, column) = (&error.text, &error.help, error.column());
-            ("ParameterError", fields!(text, help, column))
+            let (text, column) = (&error.text, error.column());
+            ("ParameterError", fields!(text, column))
         }
         Error::Point(PointError::Refused(refusal)) => refused(refusal),
         Error::Derivatives(
@@ -136,8 +138,8 @@ fn parts(error: &Error) -> Parts {
         Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
         Error::Continuation(_) | Error::Load(_) => ("TraceError", vec![]),
         Error::Format(error) => {
-            let (file, line, help) = (&error.file, error.line, &error.help);
-            ("FileError", fields!(file, line, help))
+            let (file, line) = (&error.file, error.line);
+            ("FileError", fields!(file, line))
         }
         Error::Export(_) => ("InputError", vec![]),
         _ => ("Error", vec![]),
@@ -158,12 +160,11 @@ fn file(error: &SystemFileError) -> Parts {
         SystemFileErrorKind::Refused(refusal) => refused(refusal),
         _ => ("FileError", vec![]),
     };
-    let (file, key, help) = (error.file(), error.key(), error.help());
-    let file = file.to_owned();
+    let (file, key) = (error.file().to_owned(), error.key());
     let position = error.position();
     let line = position.map(|at| at.line);
     let column = position.map(|at| at.column);
-    all.extend(fields!(file, key, help, line, column));
+    all.extend(fields!(file, key, line, column));
     (class, all)
 }
 

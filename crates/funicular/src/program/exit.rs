@@ -1,7 +1,6 @@
 //! How the program ends.
 
 use branches::{ContinuationError, ParameterError};
-use funicular::judge::GivenError;
 use funicular::{Error, LoadError};
 use model::steers;
 use validate::systems::SystemFailure;
@@ -82,79 +81,6 @@ impl Failure {
         Self { diagnostic: diagnostic.into(), exit: Exit::Undecided }
     }
 
-    /// What the library refuses is bad input; what its solvers do not reach is undecided.
-    fn of(error: Error) -> Self {
-        match error {
-            Error::File(error) => Self::bad_input(Diagnostic::of_file(&error)),
-            Error::UnknownCase { suggestion, .. } => {
-                let names: Vec<_> = model::cases::named().map(|(name, _)| name).collect();
-                let all = format!("the cases are: {}", names.join(", "));
-                let help = match suggestion {
-                    Some(name) => format!("did you mean `{name}`? {all}"),
-                    None => all,
-                };
-                Self::bad_input(Diagnostic::from(error).with_help(help))
-            }
-            Error::Unsolved(ref answer)
-                if answer.failures().iter().all(SystemFailure::is_misfit) =>
-            {
-                Self::bad_input(error)
-            }
-            Error::Disagreed => Self { diagnostic: error.into(), exit: Exit::CheckFailed },
-            Error::Unsolved(_)
-            | Error::Lagrange(_)
-            | Error::Energy(_)
-            | Error::Basins(_)
-            | Error::Reproduction(_)
-            | Error::Report(_)
-            | Error::Load(
-                LoadError::Solver(_)
-                | LoadError::NotNear { .. }
-                | LoadError::Start { .. }
-                | LoadError::Singular,
-            ) => Self::undecided(error),
-            // A disk that fails says nothing about the input, and those who run many may try again.
-            Error::Store(error) => {
-                let help = error.help().map(Into::into);
-                let diagnostic = Diagnostic::from(&error).with_help(help);
-                if error.may_pass() {
-                    Self::undecided(diagnostic)
-                } else {
-                    Self::bad_input(diagnostic)
-                }
-            }
-            Error::GridSeeds { ref nearest, bars, .. } => {
-                let near = nearest.iter().map(|(side, all)| format!("{all} = {side}^{bars}"));
-                let near = near.collect::<Vec<_>>().join(" and ");
-                let help = format!("the nearest are --seeds {near}");
-                Self::bad_input(Diagnostic::from(error).with_help(help))
-            }
-            Error::Parameter(error) => Self::parameter(&error),
-            Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
-                let help = format!("with --max-points {points} it is done all the same");
-                Self::bad_input(Diagnostic::from(error).with_help(help))
-            }
-            Error::Format(error) => {
-                let diagnostic = Diagnostic::from(&error);
-                Self::bad_input(diagnostic.with_help(error.help))
-            }
-            Error::Given(GivenError::UnknownJoint { name, suggestion: Some(near) }) => {
-                let help = format!("did you mean {near:?}?");
-                let message = format!("the system has no joint {name:?}");
-                Self::bad_input(Diagnostic::from(message).with_help(help))
-            }
-            _ => Self::bad_input(error),
-        }
-    }
-
-    /// The error with the place in the text of the parameter.
-    fn parameter(error: &ParameterError) -> Self {
-        let (text, what) = (in_place(&error.text), in_place(&error.what));
-        let message = format!("{text}, character {}: {what}", error.column());
-        let diagnostic = Diagnostic::from(message).with_help(in_place(&error.help));
-        Self::bad_input(diagnostic.at(&text, error.span.clone(), what))
-    }
-
     /// The way to end.
     pub fn exit(&self) -> Exit {
         self.exit
@@ -178,8 +104,47 @@ fn in_place(text: &str) -> String {
     text.chars().map(shown).collect()
 }
 
+/// The error with the place in the text of the parameter.
+fn of_parameter(error: &ParameterError) -> Diagnostic {
+    let (text, what) = (in_place(&error.text), in_place(&error.what));
+    let message = format!("{text}, character {}: {what}", error.column());
+    let diagnostic = Diagnostic::from(message).with_help(in_place(&error.help));
+    diagnostic.at(&text, error.span.clone(), what)
+}
+
 impl From<Error> for Failure {
+    /// What the library refuses is bad input; what its solvers do not reach is undecided.
     fn from(error: Error) -> Self {
-        Self::of(error)
+        let help = error.help();
+        let diagnostic = match &error {
+            Error::File(error) => Diagnostic::of_file(error),
+            Error::Parameter(error) => of_parameter(error),
+            Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
+                let help = format!("with --max-points {points} it is done all the same");
+                Diagnostic::from(&error).with_help(help)
+            }
+            _ => Diagnostic::from(&error).with_help(help),
+        };
+        let exit = match error {
+            Error::Disagreed => Exit::CheckFailed,
+            // A disk that fails says nothing about the input, and those who run many may try again.
+            Error::Store(error) if error.may_pass() => Exit::Undecided,
+            Error::Unsolved(answer) if !answer.failures().iter().all(SystemFailure::is_misfit) => {
+                Exit::Undecided
+            }
+            Error::Lagrange(_)
+            | Error::Energy(_)
+            | Error::Basins(_)
+            | Error::Reproduction(_)
+            | Error::Report(_)
+            | Error::Load(
+                LoadError::Solver(_)
+                | LoadError::NotNear { .. }
+                | LoadError::Start { .. }
+                | LoadError::Singular,
+            ) => Exit::Undecided,
+            _ => Exit::BadInput,
+        };
+        Self { diagnostic, exit }
     }
 }

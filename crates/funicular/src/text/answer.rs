@@ -114,7 +114,7 @@ fn stiffness(system: &System) -> String {
 
 /// The energy, and whether it rises in every direction.
 fn energy(found: &SystemEquilibrium) -> String {
-    let energy = numbers(&[found.energy_j], "J", long);
+    let energy = numbers(&[found.energy_j], "J", short);
     let index = match found.stability.index_in_space {
         0 => String::new(),
         1 => ", the energy falls in 1 direction".to_owned(),
@@ -183,8 +183,11 @@ fn question(solution: &SolveAnswer) -> String {
     } else {
         format!("Not the neighbour of the shape given ({moved}{barrier})")
     };
-    let lower = match near.lower_j {
-        Some(lower_j) => format!("; a lower one exists, at {} J", long(lower_j)),
+    let energy_j = solution.equilibria().first().map(|e| e.energy_j);
+    let lower = match near.lower_j.zip(energy_j) {
+        Some((lower_j, here_j)) => {
+            format!("; another is lower, by {} J", short(here_j - lower_j))
+        }
         None if proved => "; it is the lowest of all (proved)".to_owned(),
         None => String::new(),
     };

@@ -28,7 +28,7 @@ pub fn stiffness(pairs: &[AnchorStiffness]) -> String {
             Printable(&pair.by)
         );
         let numbers = Numbers::of(pair.stiffness_n_m.as_flattened());
-        let mut rows = table(["", "by x", "by y", "by z"]);
+        let mut rows = table(["force", "by x", "by y", "by z"]);
         for (axis, row) in ["Fx", "Fy", "Fz"].into_iter().zip(pair.stiffness_n_m) {
             let cells = row.map(|x| numbers.short(x));
             rows.add_row([axis.to_owned()].into_iter().chain(cells));

@@ -7,13 +7,13 @@ use paper::claims::Claim;
 use paper::printed::{Assessment, Printed};
 use paper::seeds::Survey;
 
-use super::tables::{numbers_from, short, significant, table, word};
+use super::tables::{fitted, numbers_from, short, significant, table, word};
 use crate::reproduce::ReproduceAnswer;
 
 /// As `funicular reproduce` prints it.
 impl fmt::Display for ReproduceAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&reproduction(self.reproduction()))
+        f.write_str(&fitted(&reproduction(self.reproduction())))
     }
 }
 
@@ -63,34 +63,25 @@ fn wrong(r: &Reproduction) -> String {
 }
 
 fn equilibria(r: &Reproduction) -> String {
-    let mut table = table([
-        "",
-        "theta",
-        "alpha",
-        "beta",
-        "V, lagrange",
-        "V, energy",
-        "in plane",
-        "in space",
-        "proved",
-    ]);
+    let mut table =
+        table(["at", "theta", "alpha", "beta", "V lagrange", "V energy", "index", "proved"]);
     for p in &r.equilibria {
-        let [theta, alpha, beta] = p.lagrange_deg.map(|a| format!("{a:.8}"));
+        let [theta, alpha, beta] = p.lagrange_deg.map(|a| format!("{a:.5}"));
         table.add_row([
             p.name.to_owned(),
             theta,
             alpha,
             beta,
-            format!("{:.10}", p.lagrange_mgl),
-            p.energy_mgl.map_or_else(|| "no minimum".to_owned(), |v| format!("{v:.10}")),
-            format!("{} ({})", word(&p.stability.in_plane), p.stability.index_in_plane),
-            format!("{} ({})", word(&p.stability.in_space), p.stability.index_in_space),
+            format!("{:.8}", p.lagrange_mgl),
+            p.energy_mgl.map_or_else(|| "no minimum".to_owned(), |v| format!("{v:.8}")),
+            format!("{}, {}", p.stability.index_in_plane, p.stability.index_in_space),
             p.rung().map_or_else(|| "-".to_owned(), |rung| rung.to_string()),
         ]);
     }
     numbers_from(&mut table, 1);
     format!(
-        "{table}\n(in brackets: the number of directions in which the energy falls; proved: the highest rung of evidence)"
+        "{table}\n(index: in how many directions the energy falls, in the plane and in space; of 0 it is stable. \
+         proved: the highest rung of evidence)"
     )
 }
 
@@ -104,11 +95,11 @@ fn complete(r: &Reproduction) -> String {
         );
     }
     format!(
-        "Proved: these are all. The example has exactly {} equilibria in the plane ({}) and {} circles of them in space,\n\
-         and no others: each lies alone in a box of relative width {:.0e}, and interval arithmetic excludes all {} patterns\n\
-         of tension and compression everywhere else ({} cells of pulls). Exact root counting of the sextic finds {} cosines,\n\
+        "Proved: these are all. The example has exactly {} equilibria in the plane ({}) and {} circles of them in space, \
+         and no others: each lies alone in a box of relative width {:.0e}, and interval arithmetic excludes all {} patterns \
+         of tension and compression everywhere else ({} cells of pulls). Exact root counting of the sextic finds {} cosines, \
          and the Euler characteristic {} of the closure curve comes out.\n\
-         Proved: (x) is none of them. Wherever the angles round to the printed ones, V has a slope of at least {:.4} mgl/rad,\n\
+         Proved: (x) is none of them. Wherever the angles round to the printed ones, V has a slope of at least {:.4} mgl/rad, \
          and the nearest equilibrium is {:.4} deg away; for (ix) that is {:.4} deg.",
         c.planar,
         c.indices(),
@@ -146,7 +137,7 @@ fn bounds(r: &Reproduction) -> String {
     let b = &r.bounds;
     format!(
         "No configuration has less energy than {:.12} mgl nor more than {:.12} mgl (stress \
-         matrices of E1 and E2):\nE1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.",
+         matrices of E1 and E2): E1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.",
         b.lower_mgl, b.upper_mgl, b.gap_to_e1_mgl, b.gap_to_e2_mgl,
     )
 }

@@ -111,7 +111,7 @@ impl Shape<'_> {
 
     /// The table of some bars; how steeply they rise is left out where there is no room for it.
     fn bars_table(&self, bars: &[usize], rises: bool) -> Table {
-        let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", ""];
+        let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", "state"];
         head.extend(self.weakest.map(|_| "used"));
         head.extend(rises.then_some("rises / deg"));
         head.extend(self.ranges.map(|_| "may be / N"));

@@ -60,10 +60,10 @@ fn its_first_structures_are_solved() {
     // against Newton's method.
     for (arguments, said) in [
         (&["solve", "triangle.toml"][..], &["tension: 490.332 N", "compression: 693.435 N"][..]),
-        (&["solve", "triangle.toml"], &["a lower one exists, at -980.665 J"]),
+        (&["solve", "triangle.toml"], &["another is lower, by 1961.33 J"]),
         (&["solve", "--case", "warren-truss"], &["2758.12 N", "2891.12 N", " 2451.66 "]),
         (&["solve", "--case", "lattice-tower"], &["1884.22", "2954.56"]),
-        (&["solve", "--case", "star-dome"], &["joint N1 is 0.00184273 m", "a lower one exists"]),
+        (&["solve", "--case", "star-dome"], &["joint N1 is 0.00184273 m", "another is lower, by"]),
     ] {
         let (code, text, _) = run(&folder, arguments);
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");

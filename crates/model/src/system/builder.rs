@@ -1,9 +1,11 @@
 //! Systems of joints by name.
 
-use super::{Joint, Member, System, SystemError};
+use std::fmt;
+
+use super::{Joint, Kind, Member, System, SystemError};
 use crate::{Bar, STANDARD_GRAVITY_M_S2};
 
-type Between = Box<dyn FnOnce(usize, usize) -> Member>;
+type Between = Box<dyn FnOnce(usize, usize) -> Member + Send + Sync>;
 
 /// Joints, and members that name the joints they connect: see [`System::builder`].
 pub struct SystemBuilder {
@@ -46,6 +48,16 @@ impl System {
     }
 }
 
+impl fmt::Debug for SystemBuilder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, gravity_m_s2, joints, members } = self;
+        let ends: Vec<_> = members.iter().map(|(ends, _)| ends).collect();
+        let mut said = f.debug_struct("SystemBuilder");
+        said.field("name", name).field("gravity_m_s2", gravity_m_s2);
+        said.field("joints", joints).field("members", &ends).finish_non_exhaustive()
+    }
+}
+
 impl SystemBuilder {
     /// Gravity along −Z, m/s².
     #[must_use]
@@ -72,13 +84,19 @@ impl SystemBuilder {
         self.member(from, to, move |from, to| Member::cable(from, to, body))
     }
 
+    /// A rigid strut between two joints, which only pushes.
+    #[must_use]
+    pub fn strut(self, from: &str, to: &str, body: Bar) -> Self {
+        self.member(from, to, move |from, to| Member::bar(from, to, body).of_kind(Kind::Strut))
+    }
+
     /// Any member between two joints, whose numbers are handed to `member`.
     #[must_use]
     pub fn member(
         mut self,
         from: &str,
         to: &str,
-        member: impl FnOnce(usize, usize) -> Member + 'static,
+        member: impl FnOnce(usize, usize) -> Member + Send + Sync + 'static,
     ) -> Self {
         self.members.push(([from, to].map(str::to_owned), Box::new(member)));
         self

@@ -114,14 +114,14 @@ impl System {
 }
 
 impl SystemEquilibrium {
-    /// Which part of its strength a member, from 0, uses; nothing for a member without strength.
+    /// Which part of its strength a member, from 0, uses; `None` without a strength, or without such a member.
     ///
     /// Of the largest force anywhere along it, its own weight included. Where balance leaves forces open
     /// (more members than are needed, none of which stretches) it is that of the largest force that
     /// balances; infinite where nothing bounds the force, or nobody has said what does.
     #[must_use]
     pub fn utilisation(&self, system: &System, member: usize) -> Option<f64> {
-        let strength = system.members()[member].strength.as_deref()?;
+        let strength = system.members().get(member)?.strength.as_deref()?;
         let along = self.axial_force(system, member);
         let family = self.evidence.self_stresses.as_ref();
         let range = family.map_or(ForceRange::Unique, |family| match &family.ranges {

@@ -439,7 +439,10 @@ fn rope_help(fault: &RopeFault) -> Option<&'static str> {
 fn refusal_help(refusal: &Refusal) -> &'static str {
     match refusal {
         Refusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
-        Refusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
+        Refusal::Falls { .. } => {
+            "give one of its joints a place: at_m = [x, y, z]; where all of it stands on a floor, one on the level \
+             of the floor with free = \"xy\""
+        }
         Refusal::NothingMoves => "leave one joint without at_m, or use at least two bars",
         Refusal::NoLoad => {
             "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"

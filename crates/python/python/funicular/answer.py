@@ -187,7 +187,8 @@ class Equilibrium(Result):
         if isinstance(joint, str):
             if joint not in names:
                 meant = [*get_close_matches(joint, names, 1), None][0]
-                raise InputError(f"there is no joint {joint!r:.80}", suggestion=meant)
+                near = meant and f"did you mean `{meant}`?"
+                raise InputError(f"there is no joint {joint!r:.80}", suggestion=meant, help=near)
             return names.index(joint)
         number = whole("joint", joint)
         if number >= len(names):

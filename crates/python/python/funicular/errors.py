@@ -55,9 +55,11 @@ class Error(Exception):
     """Whatever goes wrong in this package.
 
     Numbers stand as attributes under the names of the errors' documentation; ``details`` has all of them. An
-    attribute that an error of this class may have, and this one has not, is ``None``.
+    attribute that an error of this class may have, and this one has not, is ``None``. ``help`` says what is allowed,
+    what is near to what was given, or what to do about it.
     """
 
+    help: str
     details: dict[str, Any]
 
     def __init__(self, message: str, **details: Any) -> None:
@@ -78,8 +80,7 @@ class Error(Exception):
     def __str__(self) -> str:
         message = str(self.args[0]) if self.args else ""
         details = self.__dict__.get("details", {})
-        meant = details.get("suggestion")
-        helps = details.get("help") or (meant and f"did you mean `{meant}`?")
+        helps = details.get("help")
         return f"{message}\nhelp: {helps}" if helps else message
 
     def __reduce__(self) -> Any:
@@ -144,7 +145,6 @@ class FileError(InputError):
     line: int
     column: int
     key: str
-    help: str
 
 
 class UnknownCase(InputError):
@@ -174,7 +174,6 @@ class ParameterError(InputError):
     """A parameter of a trace is written wrongly, or does not fit the chain."""
 
     text: str
-    help: str
     column: int
 
 
