@@ -32,7 +32,7 @@ use crate::net::polish::NEUTRAL;
 use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
-use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
 /// First strain of the springs under the largest force.
@@ -43,6 +43,9 @@ const STIFFEN: f64 = 5.0;
 
 /// where an update of the forces leaves more than this part of the misfit.
 const ENOUGH: f64 = 0.2;
+
+/// Strain at which the springs are stiff enough for any solution.
+const LAST_STRAIN: f64 = 1e-9;
 
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
@@ -325,8 +328,7 @@ impl Newton {
         let force: Vec<f64> = local.soft.iter().map(|soft| soft.force).collect();
         if misfit > ENOUGH * self.misfit {
             self.stiffness *= STIFFEN;
-            // Stiffer springs are of no use.
-            if self.stiffness * NO_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
+            if self.stiffness * LAST_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
                 let (rod, off) = (&self.frame.rods[slope.worst], slope.misfit);
                 let misfit_m = off * rod.length * self.frame.length_m;
                 let not_closed = Error::NotClosed { member: slope.worst + 1, misfit_m };

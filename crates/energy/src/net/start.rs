@@ -23,6 +23,10 @@ const UPDATES: usize = 5;
 /// The most by which one update changes a density.
 const CLAMP: f64 = 20.0;
 
+/// A strand has at least this part of the length of its rope: the density of one without length has no
+/// bound.
+const NO_STRAND: f64 = 1e-3;
+
 /// A joint that moves has this one coordinate in the scalar system, for each of the three axes
 /// alike.
 const SCALAR: Spot = Spot { first: 0, freedom: 1, axes: [[1.0, 0.0, 0.0]; 3] };
@@ -118,6 +122,7 @@ pub(super) fn hanging(frame: &Frame) -> Result<Shape, Error> {
             let ratio = if update == 0 { mean } else { stretch };
             *density *= ratio.clamp(1.0 / CLAMP, CLAMP);
         }
+        share_in_ropes(frame, &x, &mut density);
         x = densities.places(frame, &density)?;
     }
     // The floor pushes each joint with a part of the loads, whose sum is one.
@@ -138,4 +143,15 @@ fn mean_force(frame: &Frame, x: &[Vector], density: &[f64], rope: &[usize]) -> f
     let work: f64 = rope.iter().map(|e| density[*e] * square(e)).sum();
     let length: f64 = rope.iter().map(|e| square(e).sqrt()).sum();
     if length > 0.0 { work / length } else { density[rope[0]] * frame.rods[rope[0]].length }
+}
+
+/// Give the strands of each rope the densities of one force.
+fn share_in_ropes(frame: &Frame, x: &[Vector], density: &mut [f64]) {
+    for rope in &frame.ropes {
+        let force = mean_force(frame, x, density, rope);
+        for e in rope {
+            let least = NO_STRAND * frame.rods[*e].length;
+            density[*e] = force / norm(frame.span(x, *e)).max(least);
+        }
+    }
 }
