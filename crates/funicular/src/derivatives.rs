@@ -281,7 +281,7 @@ impl DerivativesAnswer {
             }
         }
         // The plane that all joints are kept to moves with none of them.
-        let across = self.system.across().map(|(axis, _)| axis);
+        let across = self.system.across();
         for (k, joint) in self.system.joints().iter().enumerate() {
             let number = |field| Number::Joint(joint.name.to_string(), field);
             if joint.support.is_fixed() {

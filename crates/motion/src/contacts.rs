@@ -139,8 +139,9 @@ impl Contacts {
     /// The system with bars and supports for what holds, and nothing else in its place; ropes stay,
     /// those that do not hold without stiffness.
     pub(crate) fn held(&self) -> Result<System, MotionError> {
-        let (mut joints, mut members) =
-            (self.system.joints().to_vec(), self.system.members().to_vec());
+        let supports = self.system.joints().iter().map(|joint| joint.support);
+        let (mut supports, mut members): (Vec<Support>, _) =
+            (supports.collect(), self.system.members().to_vec());
         for (contact, holds) in self.list.iter().zip(&self.holds) {
             match *contact {
                 Contact::Member(number) if !holds => let_go(&mut members[number]),
@@ -148,22 +149,16 @@ impl Contacts {
                 Contact::Member(number) => hold(&mut members[number]),
                 Contact::Floor(number) => {
                     let at_m = [0.0, 0.0, self.system.floor_m().unwrap_or_default()];
-                    let support = joints[number].support;
+                    let support = supports[number];
                     if matches!(support, Support::Line { .. }) {
-                        let joint = joints[number].name.to_string();
+                        let joint = self.system.joints()[number].name.to_string();
                         return Err(MotionError::FloorEndsLine { joint });
                     }
-                    let support = support.on_level(at_m).unwrap_or(support);
-                    joints[number] = joints[number].clone().held_by(support);
+                    supports[number] = support.on_level(at_m).unwrap_or(support);
                 }
             }
         }
-        // A drawing may be elsewhere.
-        for joint in &mut joints {
-            joint.near_m = None;
-        }
-        let system = &self.system;
-        System::new(system.name(), system.gravity_m_s2(), joints, members).map_err(|error| {
+        self.system.on_supports(|joint, _| supports[joint], members).map_err(|error| {
             MotionError::Input { what: "what cables and the floor hold", reason: error.to_string() }
         })
     }

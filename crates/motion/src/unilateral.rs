@@ -5,7 +5,7 @@
 //! One that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and
 //! a joint that the floor pushes slides in its level.
 
-use model::system::{Joint, Kind, System};
+use model::system::{Joint, Kind, Support, System};
 
 use crate::contacts::{hold, let_go};
 use crate::error::MotionError;
@@ -65,24 +65,22 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
             let_go(member);
         }
     }
-    let mut joints = system.joints().to_vec();
-    for (k, joint) in joints.iter_mut().enumerate() {
+    let mut supports: Vec<Support> = system.joints().iter().map(|joint| joint.support).collect();
+    for (k, joint) in system.joints().iter().enumerate() {
         let [x, y, z] = joints_m[k];
-        // A drawing may be elsewhere.
-        joint.near_m = None;
         match system.floor_m() {
             Some(floor_m) if !joint.support.is_fixed() && z < floor_m - near_m(system) => {
                 let (name, below_m) = (joint.name.clone(), floor_m - z);
                 return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
             }
             Some(floor_m) if lies(system, joint, z) => {
-                joint.support = joint.support.on_level([x, y, floor_m]).unwrap_or(joint.support);
+                supports[k] = joint.support.on_level([x, y, floor_m]).unwrap_or(joint.support);
             }
             _ => {}
         }
     }
-    System::new(system.name(), system.gravity_m_s2(), joints, members)
-        .map_err(|error| refused(error.to_string()))
+    let held = system.on_supports(|joint, _| supports[joint], members);
+    held.map_err(|error| refused(error.to_string()))
 }
 
 const UP: Vector = [0.0, 0.0, 1.0];

@@ -99,7 +99,7 @@ fn held(
     let joint = &system.joints()[joint];
     let name = &joint.name;
     match field {
-        JointField::Place(axis) if system.across().is_some_and(|(across, _)| across == axis) => {
+        JointField::Place(axis) if system.across() == Some(axis) => {
             let what = format!("joint `{name}` would leave the plane that holds all joints");
             Err(of_path(parameter, what, "a file without `plane` lets joints leave it"))
         }

@@ -59,15 +59,12 @@ pub(super) fn laid(
         _ => false,
     };
     let lies: Vec<bool> = joints().map(|(joint, at_m)| rises(joint) && near(at_m)).collect();
-    let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
-        let on = || joint.support.on_level([at_m[0], at_m[1], floor_m]);
-        // A drawing may be above the floor.
-        let joint = joint.clone().drawn(None);
-        let support = lies.then(on).flatten().unwrap_or(joint.support);
-        joint.held_by(support)
-    });
-    let members = system.members().to_vec();
-    let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members);
+    let support = |k: usize, joint: &Joint| {
+        let [x, y, _] = joints_m[k];
+        let on = || joint.support.on_level([x, y, floor_m]);
+        lies[k].then(on).flatten().unwrap_or(joint.support)
+    };
+    let laid = system.on_supports(support, system.members().to_vec());
     Ok((laid.map_err(|_| NoBox::NotFinite)?, lies))
 }
 

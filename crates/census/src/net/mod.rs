@@ -293,7 +293,7 @@ impl SystemCensus {
 /// A system whose joints slide in one upright plane across x or y, with its anchors and loads in it, as one that moves
 /// freely: chains and trees stay in that plane by themselves. With the level axis of the plane.
 fn in_plane(system: &System) -> Option<(System, usize)> {
-    let (across, _) = system.across().filter(|(across, _)| *across < 2)?;
+    let across = system.across().filter(|across| *across < 2)?;
     let none = |force: &Point| force[across].abs() <= 0.0;
     let line = |joint: &Joint| matches!(joint.support, Support::Line { .. });
     let loads = system.members().iter().flat_map(|member| &member.loads).map(|load| &load.force_n);
@@ -301,13 +301,11 @@ fn in_plane(system: &System) -> Option<(System, usize)> {
     if system.joints().iter().any(line) || !loads.all(none) {
         return None;
     }
-    let joints = system.joints().iter().map(|joint| match joint.support {
-        Support::Plane { .. } => joint.clone().held_by(Support::Free),
-        _ => joint.clone(),
-    });
-    let members = system.members().to_vec();
-    let freed = System::new(system.name(), system.gravity_m_s2(), joints.collect(), members);
-    Some((freed.ok()?, 1 - across))
+    let free = |_, joint: &Joint| match joint.support {
+        Support::Plane { .. } => Support::Free,
+        support => support,
+    };
+    Some((system.on_supports(free, system.members().to_vec()).ok()?, 1 - across))
 }
 
 /// Each of these positions with each of those.

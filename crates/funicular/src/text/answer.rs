@@ -7,7 +7,7 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Anchors, Evidence, Rung, SolverName, Vector};
 
 use super::printable::Printable;
-use super::printed::{numbers, quantity};
+use super::printed::quantity;
 use super::shape::Shape;
 use super::tables::{counted, duration, long, numbers_from, rung, short, table, word, wrapped};
 use crate::extremes::Extremes;
@@ -114,7 +114,7 @@ fn stiffness(system: &System) -> String {
 
 /// The energy, and whether it rises in every direction.
 fn energy(found: &SystemEquilibrium) -> String {
-    let energy = numbers(&[found.energy_j], "J", short);
+    let energy = quantity(found.energy_j, "J");
     let index = match found.stability.index_in_space {
         0 => String::new(),
         1 => ", the energy falls in 1 direction".to_owned(),

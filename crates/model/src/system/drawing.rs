@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Joint, LENGTH_ROUNDING, Support, System, SystemError};
+use super::{Joint, LENGTH_ROUNDING, Member, Support, System, SystemError};
 use crate::{Anchors, Vector};
 
 impl System {
@@ -49,8 +49,24 @@ impl System {
         Ok(self)
     }
 
-    /// The axis (0 for *x*) across the plane of two axes that supports keep every joint to, and its coordinate there, m;
-    /// `None` where some joint may leave such a plane, or none can move.
+    /// The same joints, with their own loads, on other supports, and with these members: without floor and drawing, of which
+    /// supports may know nothing.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn on_supports(
+        &self,
+        support: impl Fn(usize, &Joint) -> Support,
+        members: Vec<Member>,
+    ) -> Result<Self, SystemError> {
+        let joints = self.joints.iter().enumerate();
+        let joints = joints.map(|(k, joint)| joint.clone().held_by(support(k, joint)).drawn(None));
+        Self::new(self.name.clone(), self.gravity_m_s2, joints.collect(), members)
+    }
+
+    /// The axis (0 for *x*) across the plane of two axes that supports keep every joint to; `None` where some joint may leave
+    /// such a plane, or none can move.
     ///
     /// ```
     /// use model::system::{Joint, Member, Support, System};
@@ -58,11 +74,11 @@ impl System {
     /// let wall = Support::Plane { at_m: [0.0, 2.0, 0.0], normal: [0.0, 1.0, 0.0] };
     /// let joints = vec![Joint::anchor("A", [0.0, 2.0, 1.0]), Joint::free("P").with_mass(1.0).held_by(wall)];
     /// let system = System::new("", 10.0, joints, vec![Member::bar(0, 1, Bar::homogeneous(1.0, 0.0)?)])?;
-    /// assert_eq!(system.across(), Some((1, 2.0)));
+    /// assert_eq!(system.across(), Some(1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn across(&self) -> Option<(usize, f64)> {
+    pub fn across(&self) -> Option<usize> {
         let plane = |joint: &Joint| match joint.support {
             Support::Plane { at_m, normal } => Some((at_m, normal)),
             _ => None,
@@ -76,7 +92,7 @@ impl System {
             Support::Line { at_m, direction } => direction[axis].abs() <= 0.0 && in_plane(at_m),
             Support::Plane { at_m, normal } => normal[axis].abs() >= 1.0 && in_plane(at_m),
         });
-        kept.then_some((axis, origin_m[axis]))
+        kept.then_some(axis)
     }
 
     /// The same system without a drawing: the question is the lowest equilibrium.

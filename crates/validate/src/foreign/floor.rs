@@ -15,19 +15,15 @@ const UP: Vector = [0.0, 0.0, 1.0];
 /// balances are those of this one, whichever way the floor pushes.
 pub(super) fn laid(system: &System, joints_m: &[Vector], bounds: &Bounds) -> System {
     let Some(floor_m) = system.floor_m() else { return system.clone() };
-    let joint = |(joint, at_m): (&Joint, &Vector)| {
-        let lies = (at_m[2] - floor_m).abs() <= bounds.position_m;
-        let level_m = [at_m[0], at_m[1], floor_m];
-        let level = Support::Plane { at_m: level_m, normal: UP };
-        let support = if lies { meeting(joint.support, level) } else { joint.support };
-        // A drawing may be above the floor.
-        joint.clone().held_by(support).drawn(None)
+    let support = |k: usize, joint: &Joint| {
+        let [x, y, z] = joints_m[k];
+        let lies = (z - floor_m).abs() <= bounds.position_m;
+        let level = Support::Plane { at_m: [x, y, floor_m], normal: UP };
+        if lies { meeting(joint.support, level) } else { joint.support }
     };
-    let joints = system.joints().iter().zip(joints_m).map(joint).collect();
-    let members = system.members().to_vec();
     // Of what was accepted only supports have changed, to good ones.
-    System::new(system.name(), system.gravity_m_s2(), joints, members)
-        .unwrap_or_else(|_| system.clone())
+    let laid = system.on_supports(support, system.members().to_vec());
+    laid.unwrap_or_else(|_| system.clone())
 }
 
 /// No joint is below the floor, and none is pulled by it.

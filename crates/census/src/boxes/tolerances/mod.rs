@@ -204,15 +204,11 @@ pub fn prove_ranges(
     if joints.is_empty() { Ok(found) } else { Err(NoRanges::Floor { joints }) }
 }
 
-/// Whether a support may bear a force along an axis: not along a line on which it slides, and in a plane not across its normal.
+/// Whether a support may bear a force along an axis: not where all of that moves what it holds.
 fn bears(support: &Support, axis: usize) -> bool {
-    match support {
-        Support::Plane { normal, .. } => normal[axis].abs() > 0.0,
-        Support::Line { direction, .. } => {
-            (0..3).any(|other| other != axis && direction[other].abs() > 0.0)
-        }
-        Support::Free | Support::Fixed { .. } => true,
-    }
+    let unit: Vector = std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 });
+    let moves = support.free_part(unit);
+    (0..3).any(|k| (unit[k] - moves[k]).abs() > 0.0)
 }
 
 /// The same for the joints and members alone.
