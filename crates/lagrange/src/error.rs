@@ -133,7 +133,11 @@ pub enum Error {
     },
     /// Occurs when an inextensible member between two anchors has not the length of their distance,
     /// or, as a cable, is shorter, or, as a strut, longer.
-    #[error("member {member} of {length_m} m is held at both ends, {distance_m} m apart")]
+    #[error(
+        "member {member} of {length} m is held at both ends, {off} m {} apart than that",
+        if distance_m > length_m { "further" } else { "less" },
+        length = Brief(*length_m), off = Brief((distance_m - length_m).abs())
+    )]
     HeldMisfit {
         /// Number of the member, from 1.
         member: usize,

@@ -163,3 +163,43 @@ fn the_stiffest_bars_agree_where_they_bear_nothing() {
         assert!(Solve::new().run(&problem(&text)).unwrap().agrees(), "{stiffness_n}");
     }
 }
+
+/// A ball on a wall, `x = 1`, at the end of a bar of `sqrt(2)` m: of the two places where it can be one is below the floor.
+#[test]
+fn what_cannot_lie_on_the_floor_stands_where_its_bar_lets_it() {
+    let text = "floor_m = -0.5\njoints = { A = { at_m = [0, 0, 0] }, S = { at_m = [1, 0, 0], free = 'z', mass_kg = 1 } }\n\
+        bars = [{ from = 'A', to = 'S', length_m = 1.4142135623730951, mass_kg = 0 }]";
+    let answer = Solve::new().run(&problem(text)).unwrap();
+    assert!(answer.agrees());
+    let found = &answer.equilibria()[0];
+    let weight_n = 9.80665;
+    assert!(near(found.joints_m[1][2], 1.0) && near(found.axial_n[0], -weight_n * 2.0_f64.sqrt()));
+}
+
+/// Two chains of bars that meet on the floor, in a plane: one stands, the other lies.
+#[test]
+fn bars_that_stand_on_the_floor_in_a_plane_agree() {
+    let text = "plane = 'xz'\nfloor_m = -0.05\n\
+        joints = { A = { at_m = [0, 0, 0] }, C = { at_m = [-2, 0, 1] }, P = { mass_kg = 0.84 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 0.5355, mass_kg_per_m = 0.63, count = 2 }, \
+        { from = 'C', to = 'P', length_m = 1.071, mass_kg_per_m = 1.33, count = 2 }]";
+    assert!(Solve::new().run(&problem(text)).unwrap().agrees());
+}
+
+/// A bar whose weight is at its first end, with nothing at the other, is at rest in any direction; so is what lies on the
+/// floor at the end of bars that bear nothing.
+#[test]
+fn places_on_which_nothing_acts_are_not_compared() {
+    let dangling = "joints = { A = { at_m = [-1, -2, 0] }, P = {}, Q = { mass_kg = 4.63 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 1.3117, mass_kg_per_m = 0.23, count = 2, centre_m = 0 }, \
+        { from = 'A', to = 'Q', length_m = 0.5049, mass_kg_per_m = 0.94, count = 3, centre_m = 0.1262 }]";
+    let lying = "plane = 'xz'\nfloor_m = -0.79\ngravity_m_s2 = 1.62\n\
+        joints = { C = { at_m = [-1.67, 0, -0.41] }, S = { at_m = [1.93, 0, 1.18], free = 'x' }, P = { mass_kg = 4.3 } }\n\
+        bars = [{ from = 'C', to = 'S', length_m = 1.405, mass_kg = 0, count = 3 }, \
+        { from = 'S', to = 'P', length_m = 2.41404225315134, mass_kg = 1.01 }]";
+    for text in [dangling, lying] {
+        let answer = Solve::new().run(&problem(text)).unwrap();
+        assert!(answer.agrees(), "{text}");
+        assert!(answer.agreement().is_some_and(|found| found.free_joints > 0), "{text}");
+    }
+}

@@ -92,7 +92,8 @@ impl Solver<'_> {
         sizes.into_iter().find_map(|(kick, size)| {
             let mut run = self.fitted(self.kicked(&start, kick, size));
             for _ in 0..SIGN_CHANGES {
-                if run.residual.size() > self.settings.tolerance {
+                let size = run.residual.size();
+                if size.is_nan() || size > self.settings.tolerance {
                     return None;
                 }
                 match signs_mended(&self.framework, &self.settings, &run, 0.0) {

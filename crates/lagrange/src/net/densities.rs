@@ -53,9 +53,9 @@ fn nearer(framework: &Framework, places: &[Vector3<f64>], densities: &[f64]) -> 
             let stretched = link.length + link.compliance * densities[k] * span(k);
             return densities[k] * (span(k) / stretched);
         }
-        let length = framework.whole(k, span);
-        let force = framework.whole(k, |k| densities[k] * span(k) * span(k)) / length;
-        let density = force / span(k).max(LEAST * length);
+        let (length, least) = (framework.whole(k, span), LEAST * link.length);
+        let force = framework.whole(k, |k| densities[k] * span(k) * span(k)) / length.max(least);
+        let density = force / span(k).max(least);
         density * (length / (link.length + link.compliance * force))
     };
     framework.links.iter().enumerate().map(nearer).collect()

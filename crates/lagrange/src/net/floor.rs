@@ -44,9 +44,8 @@ pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
 /// A joint that lies on a floor at this height.
 fn laid(node: &Node, floor: f64) -> Node {
     let Some(free) = lift(node) else { return node.clone() };
-    let rise = free.norm_squared();
-    let base = node.base + free * ((floor - node.base.z) / rise);
-    let up = free / rise.sqrt();
+    let base = raised(node, &node.base, floor);
+    let up = free.normalize();
     // What is left of the free directions normal to the rising one.
     let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
     for level in across(&up) {
@@ -180,18 +179,9 @@ pub(super) fn above(
 ) -> Result<Solution, Error> {
     let Some(floor) = framework.floor(system) else { return solve(framework) };
     let mut lies = begin.unwrap_or_else(|| vec![false; framework.nodes.len()]);
-    let (mut factorisations, mut lost) = (0, None);
+    let mut factorisations = 0;
     for round in 0..ROUNDS {
-        let mut solution = match solve(framework.with_laid(floor, &lies)) {
-            Ok(solution) => solution,
-            // The floor may catch what has no rest without it: from all joints on it then.
-            Err(error) if lost.is_none() && catches(&error) => {
-                lost = Some(error);
-                lies = framework.nodes.iter().map(|node| lift(node).is_some()).collect();
-                continue;
-            }
-            Err(error) => return Err(lost.unwrap_or(error)),
-        };
+        let mut solution = solve(framework.with_laid(floor, &lies))?;
         factorisations += solution.factorisations;
         let next = mended(system, &framework, &solution.equilibrium, &lies, round < TOGETHER);
         if next == lies {
@@ -203,10 +193,24 @@ pub(super) fn above(
     Err(Error::Floor { rounds: ROUNDS })
 }
 
-/// Whether a floor may hold what this says of a system without one.
-fn catches(error: &Error) -> bool {
-    use Error::{Escapes, Jammed, NotConverged, Unstable};
-    matches!(error, Escapes { .. } | Jammed(_) | NotConverged { .. } | Unstable { .. })
+/// Whether there may be an equilibrium with other joints on the floor.
+pub(super) fn catches(error: &Error) -> bool {
+    use Error::{Escapes, Floor, HeldMisfit, Jammed, Misfit, NotConverged, Unstable};
+    matches!(
+        error,
+        Escapes { .. }
+            | Floor { .. }
+            | HeldMisfit { .. }
+            | Jammed(_)
+            | Misfit { .. }
+            | NotConverged { .. }
+            | Unstable { .. }
+    )
+}
+
+/// The place raised to this height, as far as its support lets it rise.
+pub(super) fn raised(node: &Node, place: &Vector3<f64>, floor: f64) -> Vector3<f64> {
+    lift(node).map_or(*place, |free| place + free * ((floor - place.z) / free.norm_squared()))
 }
 
 /// Which joints lie below the floor or on it, m.

@@ -5,10 +5,12 @@
 //! given the compliance
 //! $c + 1/\rho$ beside a force $N_0$: $N = (|d| - l + N_0/\rho)/(c + 1/\rho)$, kept to the sign the
 //! member can bear. The energy of that is smooth, Newton's method brings it to a minimum, and $N_0
-//! \leftarrow N$ leads to the true law.
+//! \leftarrow N$ leads to the true law. A floor at the height $h$ pushes each joint up in the same way, with
+//! $\max(0, \rho (h - z) + N_0)$.
 
 use nalgebra::Vector3;
 
+use super::floor::lift;
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
@@ -58,16 +60,19 @@ pub(super) struct Rest {
     pub fits: bool,
     /// A joint that has left every bound, if there is one.
     pub lost: Option<usize>,
+    /// Whether the floor pushes each joint.
+    pub lies: Vec<bool>,
 }
 
-/// Settle from a state, with a first penalty.
+/// Settle from a state, with a first penalty, above a floor at this height.
 pub(super) fn settle(
     framework: &Framework,
     stiffness: &mut Stiffness,
     mut state: State,
     first: f64,
+    floor: Option<f64>,
 ) -> Rest {
-    let mut penalty = Penalty::new(framework, &state, first);
+    let mut penalty = Penalty::new(framework, &state, first, floor);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
     let mut lost = None;
     for _ in 0..ROUNDS {
@@ -78,8 +83,9 @@ pub(super) fn settle(
             break;
         }
         let axial = penalty.forces(framework, &state.places);
-        let misfit = penalty.misfit(framework, &axial);
-        penalty.offsets = axial;
+        let pushes = penalty.pushes(framework, &state.places);
+        let misfit = penalty.misfit(framework, &axial, &pushes);
+        (penalty.offsets, penalty.push_offsets) = (axial, pushes);
         fits = misfit <= CLOSE;
         if fits && balanced {
             break;
@@ -96,7 +102,8 @@ pub(super) fn settle(
     state.axial = penalty.offsets;
     let links = framework.links.iter().zip(&state.axial);
     state.taut = links.map(|(link, axial)| link.kind == Kind::Bar || link.bears(*axial)).collect();
-    Rest { state, factorisations, fits, lost }
+    let lies = penalty.push_offsets.iter().map(|push| *push > 0.0).collect();
+    Rest { state, factorisations, fits, lost, lies }
 }
 
 struct Penalty {
@@ -104,12 +111,14 @@ struct Penalty {
     first: f64,
     mean: f64,
     offsets: Vec<f64>,
+    floor: Option<f64>,
+    push_offsets: Vec<f64>,
     /// No joint of a system that hangs together gets further from the origin.
     reach: f64,
 }
 
 impl Penalty {
-    fn new(framework: &Framework, state: &State, first: f64) -> Self {
+    fn new(framework: &Framework, state: &State, first: f64, floor: Option<f64>) -> Self {
         let densities =
             framework.links.iter().zip(&state.axial).map(|(l, axial)| axial.abs() / l.length);
         let mean = densities.sum::<f64>() / framework.links.len().max(1) as f64;
@@ -118,7 +127,9 @@ impl Penalty {
         let bases = framework.nodes.iter().map(|node| node.base.amax()).fold(0.0, f64::max);
         let lengths: f64 = framework.links.iter().map(|link| link.length).sum();
         let reach = FAR * (bases + lengths);
-        Self { rho: first * mean, first: first * mean, mean, offsets, reach }
+        let push_offsets = vec![0.0; framework.nodes.len()];
+        let rho = first * mean;
+        Self { rho, first: rho, mean, offsets, floor, push_offsets, reach }
     }
 
     fn lost(&self, places: &[Vector3<f64>]) -> Option<usize> {
@@ -141,12 +152,25 @@ impl Penalty {
         links.map(|(k, (link, n))| self.force(link, framework.whole(k, length), *n)).collect()
     }
 
-    /// Largest error of a length, in units of the length: the update of the force over $\rho$.
-    fn misfit(&self, framework: &Framework, axial: &[f64]) -> f64 {
+    /// Push of the floor on each joint.
+    fn pushes(&self, framework: &Framework, places: &[Vector3<f64>]) -> Vec<f64> {
+        let joints = framework.nodes.iter().zip(places).zip(&self.push_offsets);
+        let push = |((node, place), offset): ((_, &Vector3<f64>), &f64)| match self.floor {
+            Some(floor) if lift(node).is_some() => (self.rho * (floor - place.z) + offset).max(0.0),
+            _ => 0.0,
+        };
+        joints.map(push).collect()
+    }
+
+    /// Largest error of a length, in units of the length, and of a height: the update of the force over $\rho$.
+    fn misfit(&self, framework: &Framework, axial: &[f64], pushes: &[f64]) -> f64 {
+        let pushes = pushes.iter().zip(&self.push_offsets);
+        let heights = pushes.map(|(push, offset)| (push - offset).abs() / self.rho);
         let links = framework.links.iter().zip(axial).zip(&self.offsets);
         let moved = links.filter(|((link, _), _)| framework.moves(link));
         moved
             .map(|((link, axial), offset)| (axial - offset).abs() / (self.rho * link.length))
+            .chain(heights)
             .fold(0.0, f64::max)
     }
 
@@ -155,7 +179,8 @@ impl Penalty {
         let links = members.iter().zip(self.forces(framework, places));
         let stored = links.map(|(link, force)| 0.5 * force * force / self.stiffness(link));
         let loads = framework.nodes.iter().zip(places).map(|(node, place)| -node.load.dot(place));
-        stored.sum::<f64>() + loads.sum::<f64>()
+        let pressed = self.pushes(framework, places).into_iter().map(|push| 0.5 * push * push);
+        stored.sum::<f64>() + loads.sum::<f64>() + pressed.sum::<f64>() / self.rho
     }
 
     /// Newton's method on the energy; the number of factorisations, and whether it ended in
@@ -171,7 +196,10 @@ impl Penalty {
             state.axial = self.forces(framework, &state.places);
             let directions = state.directions(framework);
             let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-            let gradient = stiffness.gather(framework, &framework.unbalance(pulls));
+            let mut unbalance = framework.unbalance(pulls);
+            let pushes = self.pushes(framework, &state.places);
+            unbalance.iter_mut().zip(&pushes).for_each(|(force, push)| force.z += push);
+            let gradient = stiffness.gather(framework, &unbalance);
             let largest = gradient.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
             if largest <= BALANCED * state.largest_force(framework) * self.accuracy() {
                 return (factorisations, true);
@@ -259,5 +287,13 @@ impl Penalty {
             let works = link.kind == Kind::Bar || axial != 0.0;
             (u, axial / length, if works { self.stiffness(link) } else { 0.0 })
         });
+        let pushed = self.pushes(framework, &state.places).into_iter().enumerate();
+        for (joint, _) in pushed.filter(|(_, push)| *push > 0.0) {
+            stiffness.press(
+                joint,
+                self.rho,
+                &framework.nodes[joint].free.components(&Vector3::z()),
+            );
+        }
     }
 }

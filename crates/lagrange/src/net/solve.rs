@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::densities::by_densities;
 use super::elements;
 use super::fitted::fitted_forces;
-use super::floor::{above, below};
+use super::floor::{above, below, catches, raised};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::jam::joined;
@@ -30,6 +30,8 @@ use crate::thresholds::{FOUND, GIVEN};
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
+/// All of them so many times above a floor, where a shape is more easily caught.
+const REBOUNDS: usize = 3;
 /// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
 /// by more is slack. Stiff are those that the mean load stretches by no more.
 const MISDRAWN: f64 = 1e-3;
@@ -46,8 +48,9 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
     let framework = Framework::new(system).within(settings.max_work);
-    let work = framework.work.clone();
+    let (work, floor) = (framework.work.clone(), framework.floor(system));
     check_loaded(&framework)?;
+    let on_floor = floor.map(|floor| (framework.clone(), floor));
     let solution = above(system, framework, None, settings, |framework| {
         joined(system, framework, |system, framework, _| {
             check(system, &framework)?;
@@ -57,6 +60,12 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
             }
         })
     });
+    let solution = match (solution, on_floor) {
+        (Err(error), Some((framework, floor))) if catches(&error) => {
+            caught(system, framework, floor, settings, began).ok_or(error)
+        }
+        (solution, _) => solution,
+    };
     decided(system, work.judged(solution)?)
 }
 
@@ -123,19 +132,62 @@ fn from_densities(
     settings: &Settings,
     began: Instant,
 ) -> Result<Solution, Error> {
-    let (places, densities) = by_densities(&framework)?;
+    let start = of_densities(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
-    let axial = framework.links.iter().zip(&densities);
-    let axial: Vec<f64> = axial.map(|(link, w)| w * link.span(&places).norm()).collect();
-    let taut = vec![true; axial.len()];
-    let axial = framework.by_link(axial[..framework.members()].to_vec());
-    let start = State::new(places, axial, taut);
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
     if let Some((run, second_order)) = solver.lying(&start.places) {
         return Ok(solver.solution(run, second_order));
     }
     let run = solver.settled(&start, 0)?;
     solver.stable(run)
+}
+
+/// The shape of force densities.
+fn of_densities(framework: &Framework) -> Result<State, Error> {
+    let (places, densities) = by_densities(framework)?;
+    let axial = framework.links.iter().zip(&densities);
+    let axial: Vec<f64> = axial.map(|(link, w)| w * link.span(&places).norm()).collect();
+    let taut = vec![true; axial.len()];
+    Ok(State::new(places, framework.by_link(axial[..framework.members()].to_vec()), taut))
+}
+
+/// From a rest above a floor that gives way a little, where laying joints down round by round found nothing.
+fn caught(
+    system: &System,
+    framework: Framework,
+    floor: f64,
+    settings: &Settings,
+    began: Instant,
+) -> Option<Solution> {
+    let mut start = of_densities(&framework).ok()?;
+    for (place, node) in start.places.iter_mut().zip(&framework.nodes) {
+        if place.z < floor {
+            *place = raised(node, place, floor);
+        }
+    }
+    let stiffness = Stiffness::new(&framework, false).ok()?;
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    (0..REBOUNDS * KICKS.len()).find_map(|kick| {
+        let size = KICKS[kick % KICKS.len()];
+        let state = solver.kicked(&start, kick, size);
+        let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
+        let rest = settle(framework, stiffness, state, FIRST_PENALTY, Some(floor));
+        if !rest.fits {
+            return None;
+        }
+        let units = framework.units;
+        let joints = rest.state.places.iter().zip(&framework.nodes).zip(&rest.lies);
+        let joints = joints.map(|((place, node), lies)| {
+            let place = if *lies { raised(node, place, floor) } else { *place };
+            (place * units.length_m + units.origin_m).into()
+        });
+        let members = rest.state.axial[..framework.members()].iter();
+        let axial_n = Some(members.map(|axial| axial * units.force_n).collect());
+        let seed = Seed { axial_n, ..Seed::at(joints.collect()) };
+        let framework = framework.clone();
+        let found = from_seed(system, framework, rest.lies, &seed, settings, began);
+        found.ok().filter(|found| found.equilibrium.stability.index_in_space == 0)
+    })
 }
 
 /// The equilibrium that Newton's method reaches from a seed, stable or not.
@@ -151,7 +203,20 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     let work = framework.work.clone();
     check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
-    let solution = above(system, framework, Some(lies), settings, |framework| {
+    let solution = from_seed(system, framework, lies, seed, settings, began);
+    decided(system, work.judged(solution)?)
+}
+
+/// The same, with the joints that lie on the floor first.
+fn from_seed(
+    system: &System,
+    framework: Framework,
+    lies: Vec<bool>,
+    seed: &Seed,
+    settings: &Settings,
+    began: Instant,
+) -> Result<Solution, Error> {
+    above(system, framework, Some(lies), settings, |framework| {
         joined(system, framework, |system, framework, joined| {
             let seed = joined.map_or_else(
                 || seed.clone(),
@@ -159,8 +224,7 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
             );
             reached(system, framework, &seed, settings, began)
         })
-    });
-    decided(system, work.judged(solution)?)
+    })
 }
 
 /// The same with these joints on the floor.
@@ -198,8 +262,8 @@ fn reached(
             // From where it comes to rest, unless that is a corner.
             let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
             let rest = match drawn {
-                Some(drawn) => settle(framework, stiffness, drawn, NEAR_PENALTY),
-                None => settle(framework, stiffness, start, FIRST_PENALTY),
+                Some(drawn) => settle(framework, stiffness, drawn, NEAR_PENALTY, None),
+                None => settle(framework, stiffness, start, FIRST_PENALTY, None),
             };
             solver.factorisations += rest.factorisations;
             if system.is_unloaded() && rest.fits && is_idle(&solver.framework, &rest.state) {
@@ -309,7 +373,7 @@ impl<'a> Solver<'a> {
         let mut found = Err(Error::Unloaded);
         for (tries, size) in KICKS.into_iter().enumerate() {
             let state = self.kicked(from, kick + tries, size);
-            let rest = settle(&self.framework, &mut self.stiffness, state, FIRST_PENALTY);
+            let rest = settle(&self.framework, &mut self.stiffness, state, FIRST_PENALTY, None);
             self.factorisations += rest.factorisations;
             if let (Some(joint), Err(_)) = (rest.lost, &found) {
                 let distance_m = rest.state.places[joint].norm() * self.framework.units.length_m;

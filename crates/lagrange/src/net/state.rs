@@ -57,7 +57,8 @@ impl State {
         spans
             .map(|span| {
                 let length = span.norm();
-                if length > 0.0 { (span / length, length) } else { (Vector3::zeros(), 0.0) }
+                // NaN stays what it is.
+                if length <= 0.0 { (Vector3::zeros(), 0.0) } else { (span / length, length) }
             })
             .collect()
     }

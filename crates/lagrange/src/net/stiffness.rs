@@ -151,13 +151,7 @@ impl Stiffness {
     /// Add $k g g^T$ with the components of $g$ at the joints of a rope.
     fn tie(&mut self, rope: usize, k: f64, parts: &BTreeMap<usize, Vector3<f64>>) {
         for (joint, part) in parts {
-            let own = self.unknowns[*joint];
-            for column in 0..own.count {
-                let start = self.columns[own.first + column];
-                for row in column..own.count {
-                    self.values[start + row - column] += k * part[row] * part[column];
-                }
-            }
+            self.press(*joint, k, part);
         }
         for place in &self.ties[rope] {
             let (low, high) = (self.unknowns[place.low], self.unknowns[place.high]);
@@ -167,6 +161,17 @@ impl Stiffness {
                     self.values[start + row] +=
                         k * parts[&place.high][row] * parts[&place.low][column];
                 }
+            }
+        }
+    }
+
+    /// Add $k g g^T$ with the components of $g$ at one joint.
+    pub fn press(&mut self, joint: usize, k: f64, part: &Vector3<f64>) {
+        let own = self.unknowns[joint];
+        for column in 0..own.count {
+            let start = self.columns[own.first + column];
+            for row in column..own.count {
+                self.values[start + row - column] += k * part[row] * part[column];
             }
         }
     }

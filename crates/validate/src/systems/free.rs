@@ -1,29 +1,29 @@
 //! Joints whose places equilibrium leaves open.
 //!
-//! A joint that nothing loads, and whose members bear no force, is in equilibrium wherever the
-//! lengths of these members let it be. That no force is borne is proved joint by joint: a slack
-//! member bears none, and at a joint without load neither do members in independent directions.
-//! What room the lengths leave follows from their derivative: with independent rows, fewer than
-//! there are coordinates, the places are a manifold (implicit function theorem), and the joints
-//! that its tangents move are free. So are joints that lie on the floor with members that bear nothing, where the lengths leave
-//! them room to slide.
+//! A joint on which nothing acts along what it may move, and whose members bear nothing, is in equilibrium wherever the
+//! lengths of these members let it be; one that the floor pushes is so along the floor. What room the lengths leave
+//! follows from their derivative: with independent rows, fewer than there are coordinates, the places are a manifold
+//! (implicit function theorem), and the joints that its tangents move are free.
 
 use matrices::dense::Kernels;
 use model::Vector;
-use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::{along_supports, joint_loads, largest_force_n, total_load_n};
+use super::certificate::{joint_loads, largest_force_n};
 use super::family::motions;
 use super::floor::{push_n, sliding};
 use super::spans::{gradient, length_m};
 use nalgebra::DMatrix;
-use numerics::vector::{cross, dot, norm};
+use numerics::vector::{dot, norm};
 
 /// Slack by this part of the length: far above the rounding of places, far below what anybody calls
 /// slack.
 const CLEAR: f64 = 1e-6;
-/// Directions, or rows of lengths, with a volume or a singular value above this part of the largest
-/// are independent: far above the rounding of places.
+/// Members that bear nothing are slack where they are shorter by this part: above the rounding of places.
+const SHORTER: f64 = 1e-12;
+/// A force below this part of the least load, or of the largest force, is none: far above the error of forces.
+const NOTHING: f64 = 1e-8;
+/// Rows of lengths with a singular value above this part of the largest are independent: far above the rounding of places.
 const INDEPENDENT: f64 = 1e-6;
 /// Joints of which the room is looked at together: dense singular values.
 const TOGETHER: usize = 80;
@@ -39,19 +39,25 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
     if !answers.iter().all(complete) {
         return vec![false; joints];
     }
-    let unloaded = unloaded(system, answers);
-    let mut free = lie_loose(system, answers);
-    if unloaded.contains(&true) {
-        let members_of = members_of(system);
-        let bears = bearing(system, answers, &members_of, &unloaded);
-        let idle: Vec<bool> = (0..joints)
-            .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
-            .collect();
-        for part in parts(system, &members_of, &idle) {
-            let room = with_room(system, answers, &members_of, &part, &IN_SPACE);
-            for (joint, open) in part.iter().zip(room) {
-                free[*joint] |= open;
-            }
+    let supports = system.joints().iter().map(|joint| &joint.support);
+    let pushed = |joint: usize| answers.iter().all(|answer| push_n(system, answer, joint) > 0.0);
+    let pushed: Vec<bool> = (0..joints).map(pushed).collect();
+    let ways = supports.zip(&pushed);
+    let ways: Vec<Vec<Vector>> = ways
+        .map(|(support, pushed)| if *pushed { sliding(support) } else { motions(support) })
+        .collect();
+    let members_of = members_of(system);
+    let idle = idle(system, answers, &ways);
+    let mut free = vec![false; joints];
+    for part in parts(system, &members_of, &idle) {
+        // Of the long rest of a mooring line all is taken to slide: there is more room than bars.
+        if part.len() > TOGETHER {
+            part.iter().for_each(|joint| free[*joint] = pushed[*joint]);
+            continue;
+        }
+        for (joint, open) in part.iter().zip(with_room(system, answers, &members_of, &part, &ways))
+        {
+            free[*joint] = open;
         }
     }
     for joint in in_row(system, answers) {
@@ -80,51 +86,26 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
     }
 }
 
-/// Which joints nothing but the floor acts on in every answer, and can slide on it.
-fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
-    /// A force below this part of the largest is none, or of all that acts where that is less: far
-    /// above the error of forces.
-    const NONE: f64 = 1e-8;
-    let joints = system.joints();
-    let slides = |joint: usize| !sliding(&joints[joint].support).is_empty();
-    let mut loose: Vec<bool> = (0..joints.len())
-        .map(|joint| {
-            slides(joint) && answers.iter().all(|answer| push_n(system, answer, joint) > 0.0)
-        })
-        .collect();
-    if !loose.contains(&true) {
-        return loose;
-    }
-    let acts_n = total_load_n(system);
-    let acts_n = if acts_n > 0.0 { acts_n } else { f64::INFINITY };
+/// Which joints nothing acts on along these ways, nor any member, in every answer.
+fn idle(system: &System, answers: &[SystemEquilibrium], ways: &[Vec<Vector>]) -> Vec<bool> {
+    let loads = joint_loads(system);
+    let acts = |(load, ways): (&Vector, &Vec<Vector>)| {
+        ways.iter().any(|way| dot(*load, *way).abs() > f64::EPSILON * norm(*load))
+    };
+    let mut idle: Vec<bool> =
+        loads.iter().zip(ways).map(|of| !of.1.is_empty() && !acts(of)).collect();
+    // The least load holds the joints above it where they hang.
+    let sizes = loads.iter().map(|load| norm(*load)).filter(|size_n| *size_n > 0.0);
+    let least_n = sizes.fold(f64::INFINITY, f64::min);
     for answer in answers {
-        let least_n = NONE * largest_force_n(answer).min(acts_n);
+        let nothing_n = NOTHING * largest_force_n(answer).min(least_n);
         for (member, axial_n) in system.members().iter().zip(&answer.axial_n) {
-            if axial_n.abs() > least_n {
-                for joint in member.path() {
-                    loose[joint] = false;
-                }
-            } else if !is_slack_by(ON_FLOOR.clear, member, answer) {
-                // At a member that is upright, and just as long as it is high, a joint would have to rise.
-                for (joint, pull) in gradient(member.spans(), &answer.joints_m) {
-                    let axes = sliding(&joints[joint].support);
-                    loose[joint] &= axes.iter().any(|axis| dot(pull, *axis).abs() > INDEPENDENT);
-                }
+            if axial_n.abs() > nothing_n {
+                member.path().for_each(|joint| idle[joint] = false);
             }
         }
     }
-    let members_of = members_of(system);
-    for part in parts(system, &members_of, &loose) {
-        // Of the long rest of a mooring line all is taken to slide: there is more room than bars.
-        if part.len() > TOGETHER {
-            continue;
-        }
-        let room = with_room(system, answers, &members_of, &part, &ON_FLOOR);
-        for (joint, open) in part.iter().zip(room) {
-            loose[*joint] = open;
-        }
-    }
-    loose
+    idle
 }
 
 fn members_of(system: &System) -> Vec<Vec<usize>> {
@@ -137,72 +118,6 @@ fn members_of(system: &System) -> Vec<Vec<usize>> {
         }
     }
     members_of
-}
-
-/// Joints that can move, on which and on whose members nothing acts.
-fn unloaded(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
-    let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
-    let mut unloaded: Vec<bool> = system
-        .joints()
-        .iter()
-        .map(|j| !j.support.is_fixed() && j.mass_kg <= 0.0 && still(j.force_n))
-        .collect();
-    for (k, unloaded) in unloaded.iter_mut().enumerate() {
-        *unloaded &= answers.iter().all(|answer| push_n(system, answer, k) <= 0.0);
-    }
-    for member in system.members() {
-        let light = member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
-        if !light {
-            unloaded[member.from] = false;
-            unloaded[member.to] = false;
-        }
-    }
-    unloaded
-}
-
-/// Which members may bear a force.
-fn bearing(
-    system: &System,
-    answers: &[SystemEquilibrium],
-    members_of: &[Vec<usize>],
-    unloaded: &[bool],
-) -> Vec<bool> {
-    let members = system.members();
-    let mut bears: Vec<bool> =
-        members.iter().map(|member| !answers.iter().all(|a| is_slack(member, a))).collect();
-    let mut open: Vec<usize> = (0..unloaded.len()).filter(|joint| unloaded[*joint]).collect();
-    while let Some(joint) = open.pop() {
-        let here: Vec<usize> = members_of[joint].iter().copied().filter(|k| bears[*k]).collect();
-        let apart = |answer: &SystemEquilibrium| {
-            let along = here.iter().flat_map(|k| pulls(system, *k, answer));
-            let along = along.filter(|(end, _)| *end == joint).map(|(_, along)| along);
-            independent(&along.collect::<Vec<_>>())
-        };
-        if !here.is_empty() && answers.iter().all(apart) {
-            for k in here {
-                bears[k] = false;
-                let others = members[k].path();
-                open.extend(others.filter(|other| *other != joint && unloaded[*other]));
-            }
-        }
-    }
-    bears
-}
-
-/// The derivatives of the length of a member by the places of its joints, along what their supports leave free.
-fn pulls(system: &System, k: usize, answer: &SystemEquilibrium) -> Vec<(usize, Vector)> {
-    let all = gradient(system.members()[k].spans(), &answer.joints_m).into_iter();
-    all.map(|(joint, pull)| (joint, along_supports(system, joint, pull))).collect()
-}
-
-/// Whether vectors are independent; NaN never is.
-fn independent(along: &[Vector]) -> bool {
-    match *along {
-        [one] => norm(one) > INDEPENDENT,
-        [a, b] => norm(cross(a, b)) > INDEPENDENT,
-        [a, b, c] => dot(cross(a, b), c).abs() > INDEPENDENT,
-        _ => false,
-    }
 }
 
 /// Whether a member is slack by more than any rounding.
@@ -245,18 +160,6 @@ fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec
     parts
 }
 
-/// How joints may move.
-struct Way {
-    /// The directions that a support leaves.
-    motions: fn(&Support) -> Vec<Vector>,
-    /// Members slack by more than this part of their length hold nothing.
-    clear: f64,
-}
-
-const IN_SPACE: Way = Way { motions, clear: CLEAR };
-/// Of members that bear nothing, so that any length to spare, above the rounding of places, lets a joint slide.
-const ON_FLOOR: Way = Way { motions: sliding, clear: 1e-12 };
-
 /// Which of some joints can move, all others held, while no taut member changes its length: in every answer in which
 /// the lengths are independent. Where they are not, as in a line folded onto itself, another answer has to tell.
 fn with_room(
@@ -264,9 +167,9 @@ fn with_room(
     answers: &[SystemEquilibrium],
     members_of: &[Vec<usize>],
     part: &[usize],
-    way: &Way,
+    ways: &[Vec<Vector>],
 ) -> Vec<bool> {
-    let room = answers.iter().filter_map(|answer| room(system, answer, members_of, part, way));
+    let room = answers.iter().filter_map(|answer| room(system, answer, members_of, part, ways));
     let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
     all.unwrap_or_else(|| vec![false; part.len()])
 }
@@ -276,10 +179,10 @@ fn room(
     answer: &SystemEquilibrium,
     members_of: &[Vec<usize>],
     part: &[usize],
-    way: &Way,
+    ways: &[Vec<Vector>],
 ) -> Option<Vec<bool>> {
     let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
-    taut.retain(|k| !is_slack_by(way.clear, &system.members()[*k], answer));
+    taut.retain(|k| !is_slack_by(SHORTER, &system.members()[*k], answer));
     taut.sort_unstable();
     taut.dedup();
     if taut.is_empty() {
@@ -289,12 +192,10 @@ fn room(
     let axes: Vec<(usize, Vector)> = part
         .iter()
         .enumerate()
-        .flat_map(|(at, joint)| {
-            (way.motions)(&system.joints()[*joint].support).into_iter().map(move |axis| (at, axis))
-        })
+        .flat_map(|(at, joint)| ways[*joint].iter().map(move |axis| (at, *axis)))
         .collect();
     let (rank, coordinates) = (taut.len(), axes.len());
-    if part.len() > TOGETHER || rank >= coordinates {
+    if rank >= coordinates {
         return Some(vec![false; part.len()]);
     }
     let mut rows = DMatrix::<f64>::zeros(rank, coordinates);

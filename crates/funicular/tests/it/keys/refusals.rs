@@ -238,7 +238,7 @@ fn refusals_of_lagrange_for_systems() {
         ),
         of(
             &Error::HeldMisfit { member: 10, length_m: 3.5, distance_m: 2.25 },
-            &["member 10 of 3.5 m is held at both ends, 2.25 m apart"],
+            &["member 10 of 3.5 m is held at both ends, 1.25 m less apart than that"],
         ),
         of(&Error::Unloaded, &["nothing decides the shape"]),
         of(
