@@ -360,7 +360,8 @@ impl TraceAnswer {
             .clone()
             .find_map(|branch| branch.points.first())
             .map_or(0, |point| point.angles_rad.len());
-        write!(to, "path,branch,position,{},span_m,grid,proved,event", first.parameters.join(","))?;
+        let parameters: Vec<String> = first.parameters.iter().map(crate::csv::quoted).collect();
+        write!(to, "path,branch,position,{},span_m,grid,proved,event", parameters.join(","))?;
         write!(to, ",pull_horizontal_n,pull_vertical_n,energy_j,index_in_plane,index_in_space")?;
         for bar in 1..=bars {
             write!(to, ",angle_{bar}_rad,axial_{bar}_n")?;

@@ -2,7 +2,7 @@
 
 use model::Vector;
 use model::budget::Budget;
-use model::system::{Joint, Member, Support, System};
+use model::system::{Joint, Member, PointLoad, Support, System};
 
 use crate::parameter::apply::{PointError, UncheckedBar, counts};
 use crate::parameter::base::resolved;
@@ -199,6 +199,9 @@ pub(crate) struct UncheckedMember {
     /// numbers, as an unstretched length, is found when all are set.
     member: Member,
     is_changed: bool,
+    /// The length that the file would have, once that is set, m.
+    length_m: Option<f64>,
+    has_own_mass: bool,
     pub(crate) body: UncheckedBar,
     prestress_n: Option<f64>,
 }
@@ -207,7 +210,14 @@ impl UncheckedMember {
     fn new(member: &Member) -> Self {
         let body = UncheckedBar::new(member.given_body());
         let prestress_n = member.prestress_n();
-        Self { member: member.clone(), is_changed: false, body, prestress_n }
+        Self {
+            member: member.clone(),
+            is_changed: false,
+            length_m: None,
+            has_own_mass: false,
+            body,
+            prestress_n,
+        }
     }
 
     fn changed(&mut self) -> &mut Member {
@@ -221,6 +231,8 @@ impl UncheckedMember {
     fn scale(&mut self, factors: Factors) {
         let member = self.changed();
         let half_m = 0.5 * member.body.length_m();
+        let by_length = &mut member.by_length.force_n_per_m;
+        *by_length = by_length.map(|x| x * factors.loads);
         for load in &mut member.loads {
             load.force_n = load.force_n.map(|force| force * factors.loads);
             // In the middle it stays there, whatever length is set.
@@ -234,21 +246,40 @@ impl UncheckedMember {
 
     fn set(&mut self, field: BarField, value: f64) {
         let member = self.changed();
+        let growth = member.by_length.growth;
         match field {
+            BarField::Length | BarField::Centre => {
+                self.body.set(field, growth * value);
+                self.length_m = if field == BarField::Length { Some(value) } else { self.length_m };
+            }
             BarField::Stiffness => member.stiffness_n = Some(value),
             BarField::Prestress => self.prestress_n = Some(value),
             BarField::LengthTolerance => member.set_length_tolerance(Some(value)),
-            _ => self.body.set(field, value),
+            _ => {
+                self.body.set(field, value);
+                self.has_own_mass |= field == BarField::Mass;
+            }
         }
     }
 
     /// The member of this number, from 1.
     fn checked(self, bar: usize) -> Result<Member, PointError> {
-        let Self { mut member, is_changed, body, prestress_n } = self;
+        let Self { mut member, is_changed, length_m, has_own_mass, mut body, prestress_n } = self;
         if !is_changed {
             return Ok(member);
         }
         let half_m = 0.5 * member.body.length_m();
+        let by_length = member.by_length;
+        // What is given a metre follows the length.
+        let from_m = member.body.length_m() / by_length.growth;
+        let more_m = length_m.map_or(0.0, |length_m| length_m - from_m);
+        if by_length.mass && !has_own_mass {
+            body.mass_kg *= 1.0 + more_m / from_m;
+        }
+        let force_n = by_length.force_n_per_m.map(|x| x * more_m);
+        if force_n.iter().any(|x| x.abs() > 0.0) {
+            member.loads.push(PointLoad { at_m: half_m, force_n, is_spread: true });
+        }
         member.body = body.bar().map_err(|error| PointError::Bar { bar, error })?;
         let new_half_m = 0.5 * member.body.length_m();
         for load in &mut member.loads {

@@ -38,6 +38,9 @@ pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
 
+/// The same with elastic members, of which what a turn leaves of their lengths is a force.
+const ELASTIC_NEUTRAL: f64 = 1e-8;
+
 /// Steps of Newton's method for places and forces, and with one factorisation.
 const POLISH: usize = 12;
 const CHORDS: usize = 6;
@@ -175,7 +178,8 @@ impl Newton {
         let largest = frame.largest_force(&shape.force);
         let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
         let along = if frame.ropes.is_empty() { 0.0 } else { STEP_ROUNDING * stiffness / largest };
-        let neutral = NEUTRAL.max(along);
+        let own = if frame.rods.iter().any(Rod::elastic) { ELASTIC_NEUTRAL } else { NEUTRAL };
+        let neutral = own.max(along);
         let block = |e: usize| {
             let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
             excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)

@@ -5,26 +5,44 @@ use clap_complete::Shell;
 
 /// How commands end, with what an interruption leaves.
 macro_rules! exit_codes {
-    ($interrupted:literal) => {
+    ($failed:literal, $last:literal) => {
         concat!(
             "Exit codes:\n  \
                0  done, and every check agreed\n  \
-               1  a check failed: the solvers disagree, or a claim came out otherwise than expected\n  \
+               1  a check failed: ",
+            $failed,
+            "\n  \
                2  bad input or usage\n  \
-               3  not converged, not decided, or not written (the disk is full)\n  \
-               of several systems the worst: 1 before 2 before 3\n\
-             130  interrupted; ",
-            $interrupted
+               3  not converged, not decided, or not written (the disk is full)\n",
+            $last
         )
     };
 }
 
 /// Of the program.
-const EXIT_CODES: &str = exit_codes!("what `sweep` and `merge` have done is kept, to go on from");
+const EXIT_CODES: &str = exit_codes!(
+    "the solvers disagree, or a claim of `reproduce` came out otherwise than expected",
+    "130  interrupted; what `sweep` and `merge` have done is kept, to go on from"
+);
 
 /// Of the commands that begin from the start.
-const ALL_OR_NOTHING: &str =
-    exit_codes!("nothing is kept to go on from, and no file is half written");
+const ALL_OR_NOTHING: &str = exit_codes!(
+    "the solvers disagree",
+    "130  interrupted; nothing is kept to go on from, and no file is half written"
+);
+
+/// Of `solve`, which takes several systems.
+const OF_SEVERAL: &str = exit_codes!(
+    "the solvers disagree",
+    "  of several systems the worst: 1 before 2 before 3\n\
+     130  interrupted; nothing is kept to go on from, and no file is half written"
+);
+
+/// Of `reproduce`.
+const OF_CLAIMS: &str = exit_codes!(
+    "a claim came out otherwise than expected",
+    "130  interrupted; nothing is kept to go on from, and no file is half written"
+);
 
 const EXAMPLES: &str = "\
 Examples:
@@ -79,7 +97,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Reproduce the paper: its claims, what both solvers find, and the verdicts
-    #[command(after_help = ALL_OR_NOTHING)]
+    #[command(after_help = OF_CLAIMS)]
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
@@ -90,8 +108,8 @@ pub enum Command {
     /// (`funicular cases footbridge` prints one).
     ///
     /// One answer is printed whole, the other solver's compared with it. Time and memory grow with
-    /// the number of bars: a chain of a million takes some 4 s, and 870 bytes each.
-    #[command(after_help = ALL_OR_NOTHING)]
+    /// the number of bars: a chain of a million takes some 5 s, and 600 bytes each.
+    #[command(after_help = OF_SEVERAL)]
     Solve(crate::solve::Solve),
     /// Find every equilibrium, stable or not, and prove that there is no other
     #[command(after_help = ALL_OR_NOTHING)]
@@ -111,7 +129,7 @@ pub enum Command {
     Study(crate::study::Arguments),
     /// Derivatives of the hanging shape: stiffness of anchors, gradients by all parameters
     Derivatives(crate::derivatives::Arguments),
-    /// Follow all equilibria over a parameter: branches, folds, exchanges of stability
+    /// Follow equilibria over a parameter: load paths, branches, limit points, exchanges of stability
     Trace(crate::trace::Arguments),
     /// Write a page to look at a system: turn it, choose an equilibrium, a load case, a mode, and move
     /// along a load path

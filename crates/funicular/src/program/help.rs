@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io::Write as _;
 
-use clap::builder::Resettable;
+use clap::builder::{Resettable, StyledStr};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory, FromArgMatches, Id};
 
@@ -126,17 +126,48 @@ pub fn with_chapters(mut command: Command) -> Command {
         command.get_subcommands().map(|sub| sub.get_name().to_owned()).collect();
     for name in names {
         let line = format!("The guide: `funicular guide {}`", guide::chapter_of(&name));
-        let after = |words: Option<&clap::builder::StyledStr>| match words {
-            Some(words) => format!("{words}\n\n{line}"),
-            None => line.clone(),
-        };
         command = command.mut_subcommand(&name, |sub| {
-            let short = after(sub.get_after_help());
-            let long = after(sub.get_after_long_help().or(sub.get_after_help()));
-            sub.after_help(short).after_long_help(long)
+            let words = |words: Option<&StyledStr>| words.map(ToString::to_string);
+            let short = words(sub.get_after_help()).unwrap_or_default();
+            let mut long = words(sub.get_after_long_help()).unwrap_or_default();
+            if !long.contains(&short) {
+                long = format!("{long}\n\n{short}");
+            }
+            let after = |text: &str| laid_out(format!("{text}\n\n{line}").trim_start());
+            sub.after_help(after(&short)).after_long_help(after(&long))
         });
     }
     command
+}
+
+/// A text in lines that fit a terminal: sentences one after the other; of a list, which is indented, each item with
+/// what follows it below its second column.
+fn laid_out(text: &str) -> String {
+    const FURTHER: usize = 3;
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let mut paragraphs: Vec<String> = Vec::new();
+    for line in text.lines() {
+        let goes_on = paragraphs.last().is_some_and(|last| {
+            !last.is_empty() && !line.is_empty() && !last.ends_with(':') && {
+                if indent(last) == 0 {
+                    indent(line) == 0
+                } else {
+                    indent(line) >= indent(last) + FURTHER
+                }
+            }
+        });
+        match paragraphs.last_mut().filter(|_| goes_on) {
+            Some(last) => *last = format!("{last} {}", line.trim_start()),
+            None => paragraphs.push(line.to_owned()),
+        }
+    }
+    let laid = |paragraph: &String| {
+        let own = indent(paragraph);
+        let gap = paragraph[own..].find("  ").map(|gap| own + gap);
+        let column = gap.map(|gap| gap + indent(&paragraph[gap..]));
+        wrapped(paragraph, if own == 0 { 0 } else { column.filter(|c| *c < 30).unwrap_or(own + 2) })
+    };
+    paragraphs.iter().map(laid).collect::<Vec<_>>().join("\n")
 }
 
 /// Words for people. Where the terminal is gone there is nobody to read them.
@@ -193,6 +224,26 @@ mod tests {
         grouped.sort_unstable();
         commands.sort_unstable();
         assert_eq!(grouped, commands);
+    }
+
+    #[test]
+    fn every_help_fits_a_terminal() {
+        for command in with_chapters(Cli::command()).get_subcommands() {
+            let text = command.get_after_long_help().unwrap().to_string();
+            // A word of an example may be longer.
+            let long = text.lines().filter(|line| line.len() > 80);
+            assert_eq!(long.collect::<Vec<_>>(), [""; 0], "{}", command.get_name());
+        }
+    }
+
+    #[test]
+    fn sentences_and_items_are_laid_out_on_their_own() {
+        let text = "One sentence\ngoes on. It is long enough, with a few words more, to be in two lines of a terminal.\n\n\
+            Codes:\n  0  done, and all that there is to be said of it is said here in one item of a list\n     that goes on\n  1  not";
+        let laid = "One sentence goes on. It is long enough, with a few words more, to be in two\n\
+            lines of a terminal.\n\nCodes:\n  0  done, and all that there is to be said of it is said here in one item of a\n     \
+            list that goes on\n  1  not";
+        assert_eq!(laid_out(text), laid);
     }
 
     #[test]

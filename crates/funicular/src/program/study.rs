@@ -45,13 +45,15 @@ what it means in the file:
 A system with joints by name has besides
   --vary joints.P.force_n.x=0..50:51        --vary joints.B.at_m.x=1..3:21
   --vary 'bars.*.stiffness_n=1e4,1e6'       --vary floor_m=-3..-1:5
-  --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
+  --vary bars.1.prestress_n=0..200:21
+  --vary bars.1.length_tolerance_m=1e-3
   --vary loads=1,1.35                       --vary lengths=1,1.001
 are factors of all masses and forces, or lengths, but those that vary themselves: these are what they say.
 Forces on bars and directions of supports do not vary. [[loads]] at a joint and the factors of a load case stay beside what
 varies there. Lengths that a drawing gives stay when a support moves: it settles.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
-  --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
+  --vary bars.4-6.mass_kg=1,2
+  --vary 'bars.A-P.*.length_m=0.5..0.6:5'
 are a range and a row of a system, by the joints at its ends. A rider between two rows of one rope
 moves along it, with length, mass and loads of both sides, by the share of the first side:
   --vary joints.rider.share=0.1..0.9:17

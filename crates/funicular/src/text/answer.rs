@@ -100,15 +100,20 @@ pub(super) fn system_line(system: &System) -> String {
 
 /// The axial stiffness of the members that have one, which may be made of other numbers of the file.
 fn stiffness(system: &System) -> String {
-    let all = || system.members().iter().filter_map(|member| member.stiffness_n);
+    let members = system.members();
+    let all = || members.iter().filter_map(|member| member.stiffness_n);
+    let of = match all().count() {
+        elastic if elastic < members.len() => format!(" in {elastic} of {} members", members.len()),
+        _ => String::new(),
+    };
     let (least, most) =
         all().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), n| (a.min(n), b.max(n)));
     match all().next() {
         None => String::new(),
         Some(_) if least < most => {
-            format!(", EA {} to {}", quantity(least, "N"), quantity(most, "N"))
+            format!(", EA {} to {}{of}", quantity(least, "N"), quantity(most, "N"))
         }
-        Some(_) => format!(", EA {}", quantity(most, "N")),
+        Some(_) => format!(", EA {}{of}", quantity(most, "N")),
     }
 }
 
@@ -166,12 +171,16 @@ fn question(solution: &SolveAnswer) -> String {
     let Some(near) = solution.near() else {
         return lowest(proved).to_owned() + &again(solution.asked_again());
     };
-    let moved = format!(
-        "joint {} is {} m from it, {:.2} % of the shortest member there",
-        Printable(&near.joint),
-        short(near.moved_m),
-        100.0 * near.moved
-    );
+    let moved = if near.moved <= UNMOVED {
+        "no joint moves".to_owned()
+    } else {
+        format!(
+            "joint {} is {} m from it, {:.2} % of the shortest member there",
+            Printable(&near.joint),
+            short(near.moved_m),
+            100.0 * near.moved
+        )
+    };
     let barrier = near.barrier_j.map_or_else(String::new, |barrier_j| {
         format!(", and the energy rises by {} J on the way", short(barrier_j))
     });
@@ -197,6 +206,8 @@ fn question(solution: &SolveAnswer) -> String {
     wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
 
+/// What rounding moves, as a part of the shortest member at a joint.
+const UNMOVED: f64 = 1e-12;
 /// A joint that has moved by more than this part of the shortest member there is far from where it was drawn.
 const FAR: f64 = 0.25;
 

@@ -13,7 +13,9 @@ impl fmt::Display for BasinsAnswer {
         for solver in [SolverName::LAGRANGE, SolverName::ENERGY] {
             match self.failed(&solver) {
                 0 => writeln!(f, "{solver}: each of {starts} starts reached an equilibrium")?,
-                failed => writeln!(f, "{solver}: {failed} of {starts} starts reached none")?,
+                failed => {
+                    writeln!(f, "{solver}: {failed} of {starts} starts reached no equilibrium")?
+                }
             }
             let unlisted = self.unlisted(&solver);
             if unlisted > 0 {

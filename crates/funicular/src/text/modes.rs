@@ -11,7 +11,7 @@ use crate::modes::{ModesAnswer, WithModes};
 
 /// The modes of an equilibrium as a table.
 fn rows(found: &WithModes) -> Table {
-    let head = ["mode", "omega^2, 1/s^2", "+-", "f, Hz", "rate, 1/s", "what"];
+    let head = ["mode", "omega^2 / s^-2", "+-", "f / Hz", "rate / s^-1", "what"];
     let is_enclosed = matches!(found.enclosed, Enclosed::Reached { .. });
     let shown = |column: &usize| is_enclosed || *column != 2;
     let mut rows = table(head.into_iter().enumerate().filter(|(k, _)| shown(k)).map(|(_, h)| h));

@@ -64,13 +64,17 @@ impl Summary {
         });
         fitted(&format!(
             "{}: {} s{ended}, {} stored times{parted}\n\
-             energy at the beginning {} J, largest change {} J{lost}\n\
+             energy at the beginning {} J, then within {} J of it{lost}\n\
              lengths kept to {}, Newton's and Euler's laws to {} of the largest force\n",
             Printable(system.name()),
             short(self.last_s),
             self.stored,
             short(self.first_j),
-            Number::size(self.energy_off_j, 1),
+            if self.energy_off_j < 1e-3 {
+                Number::size(self.energy_off_j, 1).to_string()
+            } else {
+                short(self.energy_off_j)
+            },
             Number::size(self.lengths_off, 1),
             Number::size(self.laws_off, 1),
         ))

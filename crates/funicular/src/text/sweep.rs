@@ -43,7 +43,7 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     };
     let kind = if manifest.source == Manifest::PLACES { "spatial" } else { &manifest.source };
     let mut text = format!(
-        "{}: {all} {kind} seeds of number {}{shard}\n",
+        "{}: {all} {kind} seeds, seed number {}{shard}\n",
         Printable(&manifest.system.name),
         manifest.seed_number
     );

@@ -16,7 +16,8 @@ use crate::observable::Observable;
 /// tenths of a second; of a larger one the first loss of stability alone.
 const PROVED_ALL: usize = 300;
 
-/// The coordinate that moves most along the paths, as `joints.NAME.z`; where nothing moves a force.
+/// The coordinate that moves most along the paths, as `joints.NAME.z`, of joints that no support holds; where nothing
+/// moves a force.
 pub(super) fn most_moved<'a: 'b, 'b>(
     system: &System,
     paths: impl Iterator<Item = &'b FollowedPath<Family<'a>>>,
@@ -25,9 +26,9 @@ pub(super) fn most_moved<'a: 'b, 'b>(
     for path in paths {
         let first = &path.points.first()?.record.equilibrium.joints_m;
         for point in &path.points {
-            for (joint, (at_m, from_m)) in
-                point.record.equilibrium.joints_m.iter().zip(first).enumerate()
-            {
+            let joints = point.record.equilibrium.joints_m.iter().zip(first).enumerate();
+            let moves = |joint: usize| !system.joints()[joint].support.is_fixed();
+            for (joint, (at_m, from_m)) in joints.filter(|(joint, _)| moves(*joint)) {
                 for axis in 0..3 {
                     let moved = (at_m[axis] - from_m[axis]).abs();
                     // What is equal to rounding is the first of them, upright if that is one.

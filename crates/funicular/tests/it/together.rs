@@ -203,3 +203,60 @@ fn places_on_which_nothing_acts_are_not_compared() {
         assert!(answer.agreement().is_some_and(|found| found.free_joints > 0), "{text}");
     }
 }
+
+/// Elastic bodies that hang from one hook turn freely about it: of bars as stiff as these a rounding of a length is a force,
+/// and both solvers have their lengths to rounding.
+#[test]
+fn stiff_bodies_that_turn_about_one_hook_agree() {
+    for stiffness_n in ["1e4", "1e6", "92619070.6"] {
+        let bar = |from: &str, to: &str, length_m: f64| {
+            format!(
+                "{{ from = '{from}', to = '{to}', length_m = {length_m}, mass_kg = 4.01, stiffness_n = {stiffness_n} }}"
+            )
+        };
+        for [first, second, third] in [[2.0, 1.8, 1.5], [3.08, 2.39, 1.6705]] {
+            let text = format!(
+                "joints = {{ H = {{ at_m = [0, 0, 0] }}, P = {{ mass_kg = 66.45 }}, Q = {{ mass_kg = 77.13 }} }}\nbars = [{}, {}, {}]",
+                bar("H", "P", first),
+                bar("H", "Q", second),
+                bar("P", "Q", third)
+            );
+            let answer = Solve::new().run(&problem(&text)).unwrap();
+            assert!(answer.agrees(), "{stiffness_n} {first}");
+            assert_eq!(answer.agreement().unwrap().turned_parts, 1);
+        }
+    }
+}
+
+/// A bar of 2 m that hangs, with 3 kg and a pull of 5 N a metre, 100 K warmer: of another length it is heavier and has more of
+/// all that is given a metre. As a chain between two anchors, too.
+#[test]
+fn what_is_given_a_metre_follows_a_length_that_varies() {
+    let hanging = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 2, mass_kg_per_m = 3, force_n_per_m = [0, 0, -5], \
+        temperature_k = 100, expansion_per_k = 1e-3 }]";
+    let chain = "anchors = { start_m = [0, 0, 0], end_m = [2, 0, 0] }\n\
+        bars = [{ length_m = 2, mass_kg_per_m = 3 }, { length_m = 2, mass_kg_per_m = 3 }]";
+    let folder = holding([("hanging.toml", hanging), ("chain.toml", chain)]);
+    let study = |file: &str, of: &str| -> Vec<f64> {
+        let arguments = ["study", file, "--vary", "bars.1.length_m=2,3", "--of", of, "--json"];
+        let (code, out, said) = run(&folder, &arguments);
+        assert_eq!(code, Some(0), "{said}");
+        let found: Value = serde_json::from_str(&out).unwrap();
+        let points = found["points"].as_array().unwrap();
+        points.iter().map(|point| point["of"][0].as_f64().unwrap()).collect()
+    };
+    let gravity = 9.80665;
+    let places = study("hanging.toml", "joints.P.z");
+    assert!(near(places[0], -2.2) && near(places[1], -3.3), "{places:?}");
+    let forces = study("hanging.toml", "bars.1.axial_from_n");
+    let wanted = |length_m: f64| (1.0 + 3.0 * length_m) * gravity + 5.0 * length_m;
+    assert!(near(forces[0], wanted(2.0)) && near(forces[1], wanted(3.0)), "{forces:?}");
+    // Of the chain as the file with that length has it.
+    let pulls = study("chain.toml", "bars.1.axial_n");
+    for (pull_n, length_m) in pulls.into_iter().zip(["2", "3"]) {
+        let text = chain.replacen("length_m = 2", &format!("length_m = {length_m}"), 1);
+        let wanted = Solve::new().run(&problem(&text)).unwrap().equilibria()[0].axial_n[0];
+        assert!(near(pull_n, wanted), "{pull_n} {wanted}");
+    }
+}

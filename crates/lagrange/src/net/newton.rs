@@ -20,11 +20,13 @@ use super::residual::Residual;
 use super::settings::Settings;
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::{EARNED, HALVED, ROUNDED};
+use crate::thresholds::{EARNED, HALVED, ROUNDED, SUM_ROUNDING};
 
 /// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
 /// and far below the inverse of rounding.
 const PENALTY: f64 = 1e5;
+/// Stiffness given to each joint, in units of $N/l$ of its members, where steps do not help.
+const HELD: f64 = 1e-8;
 /// Sweeps of refinement in a step.
 const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
@@ -86,6 +88,9 @@ pub(super) fn polish(
 ) -> Run {
     let mut run = Run::within(framework, with_held(framework, state), decided.as_deref_mut());
     let (mut merit, mut slow, mut anew) = (run.residual.merit, 0, false);
+    // Of stiff members a rounding of a length is a force.
+    let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
+    let rounded = if elastic { SUM_ROUNDING } else { ROUNDED };
     while run.steps < settings.max_iterations && !framework.work.is_spent() {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
@@ -94,7 +99,8 @@ pub(super) fn polish(
         let derivative = if last {
             Some(Derivative::unfactored(framework, &run.state, &run.residual))
         } else {
-            Derivative::new(framework, stiffness, &run.state, &run.residual)
+            let held = if elastic && (done || slow > 0) { HELD } else { 0.0 };
+            Derivative::new(framework, stiffness, &run.state, &run.residual, held)
         };
         let step = derivative.and_then(|d| {
             let decided = decided.as_deref_mut();
@@ -104,12 +110,13 @@ pub(super) fn polish(
         run.steps += 1;
         let next = search(framework, &run, &step, done, decided.as_deref_mut());
         let Some((state, residual)) = next else {
-            anew = last && run.residual.size() > ROUNDED;
+            anew = last && run.residual.size() > rounded;
             if anew {
                 continue;
             }
             break;
         };
+        let before = run.residual.size();
         (run.state, run.residual) = (state, residual);
         if let Some(decided) = decided.as_deref_mut() {
             decided.renew(framework, &run.state);
@@ -118,6 +125,11 @@ pub(super) fn polish(
         slow += 1;
         if run.residual.merit <= HALVED * merit {
             (merit, slow) = (run.residual.merit, 0);
+        }
+        // A factor from before may be none of a part that turns freely.
+        anew = last && run.residual.length.0 > rounded && run.residual.size() > HALVED * before;
+        if anew {
+            continue;
         }
         if done || (patience == Patience::Little && slow >= SLOW_STEPS) {
             break;
@@ -170,18 +182,27 @@ pub(super) struct Derivative {
     rows: Vec<Row>,
     /// Largest force, the unit of balance.
     unit: f64,
+    /// Whether joints are held a little.
+    is_held: bool,
 }
 
 impl Derivative {
-    /// Factorise it; nothing when the factor is not finite.
+    /// Factorise it, with each joint held a little; nothing when the factor is not finite.
     pub fn new(
         framework: &Framework,
         stiffness: &mut Stiffness,
         state: &State,
         residual: &Residual,
+        held: f64,
     ) -> Option<Self> {
-        let new = Self::unfactored(framework, state, residual);
+        let mut new = Self::unfactored(framework, state, residual);
+        new.is_held = held > 0.0;
         new.assembled(framework, stiffness);
+        // What turns freely would move by what rounding leaves of its stiffness; refinement takes this out again.
+        for (link, row) in framework.links.iter().zip(&new.rows) {
+            let held = held * row.across.abs();
+            [link.from, link.to].into_iter().for_each(|joint| stiffness.hold(joint, held));
+        }
         stiffness.factorise_indefinite().then_some(new)
     }
 
@@ -215,7 +236,11 @@ impl Derivative {
 
     /// The same for a stiffness that holds a factor from nearby.
     fn unfactored(framework: &Framework, state: &State, residual: &Residual) -> Self {
-        Self { rows: rows(framework, state, &residual.directions), unit: residual.unit }
+        Self {
+            rows: rows(framework, state, &residual.directions),
+            unit: residual.unit,
+            is_held: false,
+        }
     }
 
     /// What concerns taut members; zero for the others.
@@ -253,7 +278,8 @@ impl Derivative {
         for _ in 0..SWEEPS {
             let mut better = self.refined(&step, framework, stiffness, &left.0, &left.1);
             let (mut leaves_now, mut size) = leaves(&better);
-            if size > POOR_SWEEP * POOR_SWEEP * last.min(first) {
+            // Of what is held that would be what turns freely.
+            if !self.is_held && size > POOR_SWEEP * POOR_SWEEP * last.min(first) {
                 let by = self.best_length(framework, &left, &leaves_now);
                 let longer = step.towards(&better, by);
                 let (leaves_longer, least) = leaves(&longer);
@@ -421,7 +447,8 @@ mod tests {
         let state = State::new(places, vec![0.5; 2], vec![true; 2]);
         let mut stiffness = Stiffness::new(&framework, false).unwrap();
         let residual = Residual::new(&framework, &state);
-        let derivative = Derivative::new(&framework, &mut stiffness, &state, &residual).unwrap();
+        let derivative =
+            Derivative::new(&framework, &mut stiffness, &state, &residual, 0.0).unwrap();
         for size in [1.0, 1e-3] {
             let sides = (&[Vector3::zeros(); 3][..], &[size, 0.0][..]);
             let (_, left) =

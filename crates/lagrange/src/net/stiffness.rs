@@ -165,6 +165,14 @@ impl Stiffness {
         }
     }
 
+    /// Add a stiffness in all directions of one joint.
+    pub fn hold(&mut self, joint: usize, by: f64) {
+        let own = self.unknowns[joint];
+        for column in own.first..own.first + own.count {
+            self.values[self.columns[column]] += by;
+        }
+    }
+
     /// Add $k g g^T$ with the components of $g$ at one joint.
     pub fn press(&mut self, joint: usize, k: f64, part: &Vector3<f64>) {
         let own = self.unknowns[joint];

@@ -97,6 +97,9 @@ impl NamedLoad {
                     };
                     let load = middle(member.body.length_m());
                     member.loads.push(load);
+                    let growth = member.by_length.growth;
+                    let own = member.by_length.force_n_per_m.iter_mut().zip(force_n_per_m);
+                    own.for_each(|(sum, x)| *sum += factor * growth * x);
                     if let Some(given) = &mut member.prestress {
                         given.loads.push(middle(given_m));
                     }
@@ -123,6 +126,7 @@ fn scale(factor: f64, joints: &mut [Joint], members: &mut [Member]) -> Result<()
         member.body = heavier(&member.body, factor)?;
         member.scale_tolerances(factor);
         member.loads.iter_mut().for_each(|load| times(&mut load.force_n));
+        times(&mut member.by_length.force_n_per_m);
         if let Some(given) = &mut member.prestress {
             given.body = heavier(&given.body, factor)?;
             given.loads.iter_mut().for_each(|load| times(&mut load.force_n));

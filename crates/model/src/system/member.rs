@@ -45,6 +45,32 @@ pub struct MemberProperties {
     pub tolerances: Option<Box<MemberTolerances>>,
     /// Constant forces at points of the member, besides its weight.
     pub loads: Vec<PointLoad>,
+    /// What of this follows the length that a file gives.
+    pub by_length: ByLength,
+}
+
+/// What of a member follows the length that its file gives: where that length is another one, so are these.
+#[derive(Debug, Clone, Copy)]
+pub struct ByLength {
+    /// How many times as long the member is, after a change of temperature.
+    pub growth: f64,
+    /// Whether its mass is given a metre.
+    pub mass: bool,
+    /// The force on each metre, N/m.
+    pub force_n_per_m: Vector,
+}
+
+impl Default for ByLength {
+    fn default() -> Self {
+        Self { growth: 1.0, mass: false, force_n_per_m: [0.0; 3] }
+    }
+}
+
+/// Members are equal by their numbers, whatever these were made of.
+impl PartialEq for ByLength {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Deref for Member {
@@ -129,6 +155,7 @@ impl Member {
             strength: None,
             tolerances: None,
             loads: Vec::new(),
+            by_length: ByLength::default(),
         };
         Self { from, to, properties: Arc::new(properties) }
     }

@@ -41,7 +41,7 @@ pub(crate) use error::UNIT_TOLERANCE;
 pub use jam::Joined;
 pub use joint::{Joint, JointProperties, Support};
 pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};
-pub use member::{Kind, LENGTH_ROUNDING, Member, MemberProperties, Misfit, PointLoad};
+pub use member::{ByLength, Kind, LENGTH_ROUNDING, Member, MemberProperties, Misfit, PointLoad};
 pub use name::Name;
 pub use prestress::{Prestress, PrestressError};
 pub use refusal::Refusal;

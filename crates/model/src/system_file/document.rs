@@ -99,7 +99,11 @@ impl Source<'_> {
         }
         let (chain, places) = chain_of(&root)?;
         let bare = BEYOND_CHAINS.iter().all(|key| root.get(key).is_none());
-        let given = || strength::given(&root).or_else(|| tolerance::given(&root));
+        let given = || {
+            strength::given(&root)
+                .or_else(|| tolerance::given(&root))
+                .or_else(|| material::given(&root))
+        };
         if bare && given().is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|found| refusal(&root, found, &places));

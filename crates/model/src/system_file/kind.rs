@@ -13,8 +13,7 @@ pub const SCOPE: &str = "known are joints without friction, bars, cables and str
      friction (floor_m); not known are friction, other contact, bending and damping";
 
 /// Keys that ask for what is not modelled.
-pub const NOT_MODELLED: &[&str] =
-    &["stiffness", "friction", "damping", "contact", "bending", "temperature"];
+pub const NOT_MODELLED: &[&str] = &["friction", "damping", "contact", "bending"];
 
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]

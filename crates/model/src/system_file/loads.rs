@@ -6,6 +6,7 @@ use toml::de::DeArray;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::material;
 use super::network::unknown_joint;
 use super::strength;
 use super::table::{Table, Value};
@@ -28,7 +29,7 @@ type JointOf<'a> = &'a dyn Fn(&Table<'_>, &Value<'_>) -> Result<usize, SystemFil
 /// The chain as a system with the loads of the file at its joints, the strengths of its bars and the
 /// tolerances of its numbers, above its floor.
 pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
-    let system = strength::put(root, System::from(chain))?;
+    let system = material::put(root, strength::put(root, System::from(chain))?)?;
     let last = system.joints().len() - 1;
     let system = put(root, system, &|table, value| numbered(table, value, last))?;
     let system = tolerance::put(root, system)?;

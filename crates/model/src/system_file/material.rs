@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::strength::{first_of, with_bars};
 use super::table::Table;
-use crate::system::PointLoad;
+use crate::system::{ByLength, PointLoad, System};
 
 /// The keys that give a mass, one of which a bar has.
 const MASS: [&str; 3] = ["mass_kg", "mass_kg_per_m", "density_kg_m3"];
@@ -68,6 +69,33 @@ pub(super) fn spread(
         return Err(table.component_error(kind, "force_n_per_m", f64::is_finite));
     }
     Ok(Some(PointLoad { at_m: 0.5 * length_m, force_n, is_spread: true }))
+}
+
+/// What follows the length of a bar.
+pub(super) fn by_length(table: &Table<'_>) -> Result<ByLength, SystemFileError> {
+    let force = table.get("force_n_per_m");
+    let force = force.map(|value| table.vector("force_n_per_m", value)).transpose()?;
+    Ok(ByLength {
+        growth: expansion(table)?,
+        mass: MASS[1..].iter().any(|key| table.get(key).is_some()),
+        force_n_per_m: force.unwrap_or_default(),
+    })
+}
+
+/// The first key of a bar of a chain that has anything follow its length.
+pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
+    first_of(root, &[MASS[1], MASS[2], "temperature_k"])
+}
+
+/// The bars of a chain, as a system, with what follows their lengths.
+pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+    if given(root).is_none() {
+        return Ok(system);
+    }
+    with_bars(root, &system, |table, member| {
+        member.by_length = by_length(table)?;
+        Ok(())
+    })
 }
 
 /// Refuse a diameter of which nothing is made.

@@ -572,7 +572,8 @@ fn member(
     let stiffness_n = material::stiffness_n(table)?;
     let strength = strength::of(table, body.length_m(), safety)?;
     let member = Member::bar(0, 0, body).of_kind(kind).stretching(stiffness_n);
-    let member = member.bearing(strength).with_loads(loads);
+    let mut member = member.bearing(strength).with_loads(loads);
+    member.by_length = material::by_length(table)?;
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -6,7 +6,7 @@ use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::table::Table;
 use super::tolerance::Numbers;
-use crate::system::{Strength, StrengthError, System};
+use crate::system::{Member, Strength, StrengthError, System};
 
 /// The keys of a bar.
 const KEYS: [&str; 4] = ["strength_n", "compression_n", "bending_n_m2", "safety"];
@@ -88,18 +88,28 @@ pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFile
         return Ok(system);
     }
     let safety = safety(root)?;
+    let system = with_bars(root, &system, |table, member| {
+        member.strength = of(table, member.body.length_m(), safety)?.map(Box::new);
+        Ok(())
+    })?;
+    check(root, &system)?;
+    Ok(system)
+}
+
+/// A chain, as a system, with more of each of its bars.
+pub(super) fn with_bars(
+    root: &Table<'_>,
+    system: &System,
+    set: impl Fn(&Table<'_>, &mut Member) -> Result<(), SystemFileError>,
+) -> Result<System, SystemFileError> {
     let mut members = system.members().to_vec();
     let mut left = members.iter_mut();
     for table in tables(root)? {
-        for member in left.by_ref().take(table.count("count")?) {
-            member.strength = of(&table, member.body.length_m(), safety)?.map(Box::new);
-        }
+        left.by_ref().take(table.count("count")?).try_for_each(|member| set(&table, member))?;
     }
     let (name, gravity_m_s2) = (system.name(), system.gravity_m_s2());
     let system = System::new(name, gravity_m_s2, system.joints().to_vec(), members);
-    let system = system.map_err(|error| root.error(Kind::System(error), "bars"))?;
-    check(root, &system)?;
-    Ok(system)
+    system.map_err(|error| root.error(Kind::System(error), "bars"))
 }
 
 /// The `[[bars]]` of a chain; none where they are in a file of their own.

@@ -31,6 +31,7 @@ up is said, and is no error. Where many end without a possible step take a short
 
 /// What a release of many positions asks for.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Many positions, with --seeds")]
 pub struct Arguments {
     /// Release so many positions at random and tell where each comes to rest: 100000 or 1e5
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true,
