@@ -19,7 +19,7 @@ use crate::weakest::from_one;
 pub struct CaseAnswer {
     /// The name of the case.
     pub name: String,
-    /// What it comes to rest in, or why it does not. How far joints move is from the first case of the file.
+    /// What it comes to rest in, or why it does not. How far joints move is from the first case of the file that has an answer.
     #[serde(flatten, serialize_with = "either")]
     pub settled: Result<Settled, Unsettled>,
 }
@@ -143,7 +143,9 @@ impl Solve {
         watch: &(dyn Fn() + Sync),
     ) -> Result<LoadCasesAnswer, Error> {
         let system = problem.system();
-        let (first, others) = system.load_cases().split_first().ok_or(Error::NoCases)?;
+        if system.load_cases().is_empty() {
+            return Err(Error::NoCases);
+        }
         let solve = self.census(UseCensus::Never);
         let answer = |name: &str, before_m: &[_]| {
             let changed = system.in_case(name).map_err(|error| Unsettled {
@@ -154,11 +156,18 @@ impl Solve {
             watch();
             settled
         };
-        let one = answer(&first.name, &[]);
-        let places = one.as_ref().map_or_else(|_| vec![], |(.., found)| found.joints_m.clone());
-        let rest = || others.par_iter().map(|case| answer(&case.name, &places)).collect::<Vec<_>>();
-        let rest = solve.on_threads(rest)?;
-        let all: Vec<_> = std::iter::once(one).chain(rest).collect();
+        let (mut all, mut places) = (vec![], vec![]);
+        let mut cases = system.load_cases().iter();
+        for case in cases.by_ref() {
+            let one = answer(&case.name, &[]);
+            places = one.as_ref().map_or_else(|_| vec![], |(.., found)| found.joints_m.clone());
+            all.push(one);
+            if !places.is_empty() {
+                break;
+            }
+        }
+        let rest = || cases.as_slice().par_iter().map(|case| answer(&case.name, &places));
+        all.extend(solve.on_threads(|| rest().collect::<Vec<_>>())?);
         Ok(LoadCasesAnswer::new(&system, &all))
     }
 }

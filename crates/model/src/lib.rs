@@ -18,10 +18,9 @@
 //! chain that has an answer; [`Refusal`](system::Refusal) says why another has none. An [`Equilibrium`] is an answer
 //! of one solver with its [`Evidence`].
 //!
-//! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
-//! this crate; a formula of statics in it would be common to both. Sums of lengths and
-//! masses, the distance of two anchors and whether they stand on one vertical, and the moments of a
-//! slender bar (which no equilibrium depends on) are all it computes.
+//! No mechanics that a solver asks for lives here. The two solvers, which must know nothing of each other, both depend
+//! on this crate; a formula of statics that both took from it would be common to both. Loads by the lever rule and the sign
+//! of a kind are for checks and motion, and a test in `validate` sees that neither solver asks for them.
 //!
 //! # Conventions
 //!

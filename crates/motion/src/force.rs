@@ -71,12 +71,7 @@ impl Forces {
 impl Spring {
     /// Elongation that the member resists, m, where its spans have this length together.
     fn elongation(&self, length_m: f64) -> f64 {
-        let elongation = length_m - self.length_m;
-        match self.kind {
-            Kind::Bar => elongation,
-            Kind::Cable => elongation.max(0.0),
-            Kind::Strut => elongation.min(0.0),
-        }
+        self.kind.borne(length_m - self.length_m)
     }
 
     /// Axial force over the length of a span, N/m, tension positive. Zero where the member is slack,

@@ -1,6 +1,8 @@
 //! The method of generalised minimal residuals (Y. Saad, M. Schultz, SIAM J. Sci. Stat. Comput. 7
 //! (1986) 856-869).
 
+use crate::modes::lanczos::{dot, length};
+
 /// Directions after which the solution found so far is returned.
 const MOST_DIRECTIONS: usize = 40;
 
@@ -57,14 +59,6 @@ pub(crate) fn solve(product: &mut dyn FnMut(&[f64]) -> Vec<f64>, b: &[f64]) -> V
         solution.iter_mut().zip(&directions[k]).for_each(|(x, d)| *x += right[k] * d);
     }
     solution
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn length(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 #[cfg(test)]

@@ -99,7 +99,7 @@ pub(crate) fn judge(
         let left = minus(own, at.reactions_n[joint]);
         needed = plus(needed, left);
         turning = plus(turning, cross(x, left));
-        found.joint = worse(found.joint, norm(free_part(data.support, at.reactions_n[joint])));
+        found.joint = worse(found.joint, norm(data.support.free_part(at.reactions_n[joint])));
     }
     for (number, member) in system.members().iter().enumerate() {
         for (joint, moment) in [member.from, member.to].into_iter().zip(at.pin_moments_n_m[number])
@@ -190,16 +190,5 @@ fn member_balance(
         spins: turning.is_some(),
         needed,
         turning: of_whole,
-    }
-}
-
-/// The part of a reaction in the directions that the support leaves free.
-fn free_part(support: model::system::Support, reaction: Vector) -> Vector {
-    use model::system::Support;
-    match support {
-        Support::Free => reaction,
-        Support::Fixed { .. } => [0.0; 3],
-        Support::Line { direction, .. } => times(dot(reaction, direction), direction),
-        Support::Plane { normal, .. } => add_times(reaction, -dot(reaction, normal), normal),
     }
 }

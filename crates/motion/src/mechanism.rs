@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use model::Vector;
-use model::system::{Kind, Member, Support, System};
+use model::system::{Kind, System};
 
 use crate::corners::{Cornered, Expanded, expand};
 use crate::error::MotionError;
@@ -199,11 +199,10 @@ impl Mechanism {
             self.mass[slot] += data.mass_kg;
             let weight = [0.0, 0.0, -data.mass_kg * gravity];
             self.load[slot] = std::array::from_fn(|k| data.force_n[k] + weight[k]);
-            let (at_m, normals) = match data.support {
-                Support::Free | Support::Fixed { .. } => continue,
-                Support::Plane { at_m, normal } => (at_m, vec![normal]),
-                Support::Line { at_m, direction } => (at_m, across(direction).to_vec()),
+            let Some(at_m) = data.support.at_m().filter(|_| !data.support.is_fixed()) else {
+                continue;
             };
+            let normals = data.support.normals();
             let at = minus(at_m, reference);
             self.slides.extend(normals.into_iter().map(|normal| Slide { slot, normal, at }));
         }
@@ -216,7 +215,7 @@ impl Mechanism {
             let [a, b] = [member.from, member.to].map(|joint| self.slot_of[joint]);
             self.mass[a] += inertia[number].from;
             self.mass[b] += inertia[number].to;
-            let [at_a, at_b] = end_loads(member, self.system.gravity_m_s2());
+            let [at_a, at_b] = member.end_loads_n(self.system.gravity_m_s2());
             self.load[a] = add_times(self.load[a], 1.0, at_a);
             self.load[b] = add_times(self.load[b], 1.0, at_b);
             // Inextensible cables and struts that come here are slack, ropes are taut.
@@ -352,32 +351,4 @@ fn coupled(system: &System, moves: &[bool]) -> Vec<(usize, usize)> {
         }
     }
     found
-}
-
-/// Weight and forces of a member at its ends, N, by the lever rule.
-pub(crate) fn end_loads(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
-    let bar = &member.body;
-    let weight = [0.0, 0.0, -bar.mass_kg() * gravity_m_s2];
-    let own = member.loads.iter().map(|load| (load.at_m, load.force_n));
-    let mut ends = [[0.0; 3]; 2];
-    for (at_m, force_n) in own.chain([(bar.centre_m(), weight)]) {
-        let far = at_m / bar.length_m();
-        ends[0] = add_times(ends[0], (bar.length_m() - at_m) / bar.length_m(), force_n);
-        ends[1] = add_times(ends[1], far, force_n);
-    }
-    ends
-}
-
-/// Two unit vectors across a unit vector and each other.
-fn across(direction: Vector) -> [Vector; 2] {
-    let unit = |v: Vector| {
-        let length = numerics::vector::norm(v);
-        v.map(|x| x / length)
-    };
-    // The axis that the direction has least of.
-    let least = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()));
-    let mut axis = [0.0; 3];
-    axis[least.unwrap_or(0)] = 1.0;
-    let first = unit(numerics::vector::cross(direction, axis));
-    [first, unit(numerics::vector::cross(direction, first))]
 }

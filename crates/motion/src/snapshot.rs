@@ -6,7 +6,7 @@ use crate::corners::Turning;
 use crate::damping::Damping;
 use crate::force::couple;
 use crate::laws::{self, Laws};
-use crate::mechanism::{Link, end_loads};
+use crate::mechanism::Link;
 use crate::simulation::Simulation;
 use numerics::vector::{add_times, dot, minus, norm, plus, times};
 
@@ -76,7 +76,7 @@ impl Snapshot {
             let number = mechanism.owner(link.member);
             let (a, b) = (accelerations[link.a], accelerations[link.b]);
             let member = &mechanism.system.members()[link.member];
-            let [load_a, load_b] = end_loads(member, system.gravity_m_s2());
+            let [load_a, load_b] = member.end_loads_n(system.gravity_m_s2());
             let [damping_a, damping_b] = damping.on_members[link.member];
             let at_a = minus(plus(times(m.from, a), times(m.between, b)), plus(load_a, damping_a));
             let at_b = minus(plus(times(m.between, a), times(m.to, b)), plus(load_b, damping_b));

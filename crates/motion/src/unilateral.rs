@@ -5,7 +5,7 @@
 //! One that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and
 //! a joint that the floor pushes slides in its level.
 
-use model::system::{Joint, Kind, Support, System};
+use model::system::{Joint, Kind, System};
 
 use crate::contacts::{hold, let_go};
 use crate::error::MotionError;
@@ -25,11 +25,7 @@ pub(crate) const BALANCE: f64 = 1e-7;
 /// `cable` or `strut`, of a member that is one and does not stretch.
 pub(crate) fn inextensible(system: &System, number: usize) -> Option<&'static str> {
     let member = &system.members()[number];
-    match (member.stiffness_n, member.kind) {
-        (Some(_), _) | (None, Kind::Bar) => None,
-        (None, Kind::Cable) => Some("cable"),
-        (None, Kind::Strut) => Some("strut"),
-    }
+    (member.stiffness_n.is_none() && member.kind != Kind::Bar).then(|| member.kind.name())
 }
 
 /// Refuse inextensible cables and struts.
@@ -65,21 +61,16 @@ pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<Sy
             let_go(member);
         }
     }
-    let mut supports: Vec<Support> = system.joints().iter().map(|joint| joint.support).collect();
-    for (k, joint) in system.joints().iter().enumerate() {
-        let [x, y, z] = joints_m[k];
-        match system.floor_m() {
-            Some(floor_m) if !joint.support.is_fixed() && z < floor_m - near_m(system) => {
-                let (name, below_m) = (joint.name.clone(), floor_m - z);
-                return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
-            }
-            Some(floor_m) if lies(system, joint, z) => {
-                supports[k] = joint.support.on_level([x, y, floor_m]).unwrap_or(joint.support);
-            }
-            _ => {}
-        }
+    let below = |(joint, [.., z]): (&Joint, &Vector)| {
+        let below_m = system.floor_m()? - z;
+        (!joint.support.is_fixed() && below_m > near_m(system))
+            .then(|| (joint.name.clone(), below_m))
+    };
+    if let Some((name, below_m)) = system.joints().iter().zip(joints_m).find_map(below) {
+        return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
     }
-    let held = system.on_supports(|joint, _| supports[joint], members);
+    let lies = |k: usize, joint: &Joint| lies(system, joint, joints_m[k][2]);
+    let held = system.laid(joints_m, lies, members);
     held.map_err(|error| refused(error.to_string()))
 }
 

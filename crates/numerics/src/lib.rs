@@ -16,7 +16,6 @@
 //! | [`Interval`] | all numbers between two doubles | every proof |
 //! | [`IntervalSum`] | an interval | sums of many terms |
 //! | [`DoubleDouble`] | two doubles and an error | residuals of ill-conditioned systems |
-//! | [`CompensatedSum`] | a double, without a proof | sums of many terms |
 //!
 //! Of mechanics only the [lever rule](lever()) lives here, which every proof needs; the two solvers
 //! use nothing of this crate: what judges their answers shares nothing with them.
@@ -28,7 +27,6 @@ mod interval_sum;
 mod lever;
 mod parallel;
 mod rounding;
-mod sum;
 pub mod vector;
 
 pub use angle::{PI, atan2};
@@ -38,4 +36,3 @@ pub use interval_sum::IntervalSum;
 pub use lever::lever;
 pub use parallel::in_parallel;
 pub use rounding::{down, two_sum, up};
-pub use sum::CompensatedSum;

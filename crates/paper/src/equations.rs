@@ -30,6 +30,7 @@ mod motion;
 mod multipliers;
 mod rotations;
 mod sample;
+pub(crate) use sample::largest;
 
 use serde::Serialize;
 

@@ -258,12 +258,7 @@ impl Problem {
 
     /// The kind of each member.
     fn member_kinds(&self) -> Vec<&'static str> {
-        let word = |member: &Member| match member.kind {
-            Kind::Bar => "bar",
-            Kind::Cable => "cable",
-            Kind::Strut => "strut",
-        };
-        self.system().members().iter().map(word).collect()
+        self.system().members().iter().map(|member| member.kind.name()).collect()
     }
 
     /// Lengths of the members, m.

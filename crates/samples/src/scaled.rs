@@ -1,6 +1,6 @@
 //! The same system or chain in other units.
 
-use model::system::{Joint, PointLoad, Support, System};
+use model::system::{Joint, PointLoad, System};
 use model::{Anchors, Bar, Chain, Problem, Vector};
 
 fn times(vector: Vector, factor: f64) -> Vector {
@@ -50,12 +50,7 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
     let given = |within: f64| (within > 0.0).then_some(within);
     let joints = system.joints().iter().map(|joint| {
         let mut support = joint.support;
-        match &mut support {
-            Support::Free => {}
-            Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
-                *at_m = times(*at_m, length);
-            }
-        }
+        support.at_m_mut().into_iter().for_each(|at_m| *at_m = times(*at_m, length));
         let scaled = Joint::free(joint.name.to_string())
             .held_by(support)
             .with_mass(joint.mass_kg * mass)

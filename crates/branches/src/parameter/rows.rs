@@ -54,7 +54,8 @@ pub(super) fn sides(joints: &[Joint], members: &[Member], joint: usize) -> Optio
     let (first, second) = (at.next()?.0, at.next()?.0);
     let side = |of: usize| run(of, members.len(), in_row(joints, members));
     let both = [side(first), side(second)];
-    (at.next().is_none() && both[0] != both[1]).then_some(both)
+    let straight = [first, second].iter().all(|k| members[*k].rope.is_none());
+    (straight && at.next().is_none() && both[0] != both[1]).then_some(both)
 }
 
 /// A joint with another share of the length of both rows that meet there on the side of the first.

@@ -2,7 +2,7 @@
 
 use model::Vector;
 use model::budget::Budget;
-use model::system::{Joint, Member, PointLoad, Support, System};
+use model::system::{Joint, Member, PointLoad, System};
 
 use crate::parameter::apply::{PointError, UncheckedBar, counts};
 use crate::parameter::base::resolved;
@@ -171,7 +171,7 @@ fn set_joint(
     };
     match field {
         JointField::Place(axis) => {
-            if let Some(at_m) = place(&mut joint.support) {
+            if let Some(at_m) = joint.support.at_m_mut() {
                 at_m[axis] = value;
             }
         }
@@ -181,15 +181,6 @@ fn set_joint(
         }
         // Of the rows that meet there.
         JointField::Share => {}
-    }
-}
-
-fn place(support: &mut Support) -> Option<&mut Vector> {
-    match support {
-        Support::Free => None,
-        Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
-            Some(at_m)
-        }
     }
 }
 

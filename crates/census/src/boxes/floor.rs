@@ -59,12 +59,7 @@ pub(super) fn laid(
         _ => false,
     };
     let lies: Vec<bool> = joints().map(|(joint, at_m)| rises(joint) && near(at_m)).collect();
-    let support = |k: usize, joint: &Joint| {
-        let [x, y, _] = joints_m[k];
-        let on = || joint.support.on_level([x, y, floor_m]);
-        lies[k].then(on).flatten().unwrap_or(joint.support)
-    };
-    let laid = system.on_supports(support, system.members().to_vec());
+    let laid = system.laid(joints_m, |k, _| lies[k], system.members().to_vec());
     Ok((laid.map_err(|_| NoBox::NotFinite)?, lies))
 }
 
@@ -122,6 +117,7 @@ mod tests {
             |(k, length_m)| Member::bar(k, k + 1, Bar::homogeneous(length_m, 0.0).unwrap());
         let members = [2.0, 5.0, 8.0].into_iter().enumerate().map(member).collect();
         let system = System::new("floor", 10.0, joints, members).unwrap();
+        let system = system.with_floor(1.0).unwrap();
         let at =
             [[0.0, 0.0, 3.0], [1.0, 0.0, 0.9e-7 * 5.0], [6.0, 0.0, 1.1e-7 * 5.0], [9.0, 0.0, -1.0]];
         let at = at.map(|[x, y, z]| [x, y, z + 1.0]);

@@ -114,15 +114,8 @@ struct Net<'a> {
 
 impl<'a> Net<'a> {
     fn new(system: &'a System, activities: &[Activity], held: &'a [bool]) -> Self {
-        let level = |[x, y, _]: Vector| x.abs() > 0.0 || y.abs() > 0.0;
-        let mut level_loads: Vec<bool> =
-            system.joints().iter().map(|joint| level(joint.force_n)).collect();
         let mut neighbours = vec![vec![]; system.joints().len()];
         for (member, activity) in system.members().iter().zip(activities) {
-            if member.loads.iter().any(|load| level(load.force_n)) {
-                level_loads[member.from] = true;
-                level_loads[member.to] = true;
-            }
             if *activity == Activity::Acts {
                 for [a, b] in member.spans() {
                     neighbours[a].push(b);
@@ -130,7 +123,7 @@ impl<'a> Net<'a> {
                 }
             }
         }
-        Self { system, neighbours, held, level: level_loads }
+        Self { system, neighbours, held, level: system.joints_with_level_loads() }
     }
 
     fn moving(&self) -> Vec<usize> {

@@ -25,7 +25,7 @@ pub use dxf::escaped as dxf_text;
 pub use vtu::collection;
 
 use model::Vector;
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::system::{Member, System, SystemEquilibrium};
 use numerics::lever;
 
 /// A format that is written.
@@ -203,12 +203,7 @@ struct Line<'a> {
 
 /// Name of a kind of member.
 fn kind(member: &Member) -> &'static str {
-    match member.kind {
-        _ if member.rope.is_some() => "rope",
-        Kind::Bar => "bar",
-        Kind::Cable => "cable",
-        Kind::Strut => "strut",
-    }
+    if member.rope.is_some() { "rope" } else { member.kind.name() }
 }
 
 /// What acts on each joint when the loads of members are shared by the lever rule: forces, N, and masses, kg.

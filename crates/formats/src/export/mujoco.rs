@@ -12,9 +12,7 @@
 
 use std::fmt::Write as _;
 
-use model::Vector;
-use model::system::{Kind, Support};
-use numerics::vector::{cross, norm, times};
+use model::system::Kind;
 
 use super::dxf::extent;
 use super::{Shape, attribute, joint_loads, row};
@@ -52,7 +50,7 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
     }
     let mut motors = String::new();
     for (k, (joint, at_m)) in shape.system.joints().iter().zip(shape.joints_m).enumerate() {
-        let (at, axes) = (row(at_m), axes(&joint.support));
+        let (at, axes) = (row(at_m), joint.support.motions());
         if axes.is_empty() {
             let _ = writeln!(text, "<site name=\"j{k}\" pos=\"{at}\" size=\"{radius_m:?}\"/>");
             continue;
@@ -148,20 +146,4 @@ fn least_masses(shape: &Shape<'_>) -> Vec<f64> {
 /// The stiffest constraint that the time step bears.
 fn stiff(of: &str) -> String {
     format!("solref{of}=\"{:?} 1\" solimp{of}=\"0.9999 0.9999 1 0.5 2\"", 2.0 * STEP_S)
-}
-
-/// Directions in which a support lets a joint move.
-fn axes(support: &Support) -> Vec<Vector> {
-    let unit = |k: usize| std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 });
-    match *support {
-        Support::Free => (0..3).map(unit).collect(),
-        Support::Fixed { .. } => vec![],
-        Support::Line { direction, .. } => vec![direction],
-        Support::Plane { normal, .. } => {
-            let least = (0..3).min_by(|i, j| normal[*i].abs().total_cmp(&normal[*j].abs()));
-            let first = cross(normal, unit(least.unwrap_or(0)));
-            let first = times(1.0 / norm(first), first);
-            vec![first, cross(normal, first)]
-        }
-    }
 }

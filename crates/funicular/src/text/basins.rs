@@ -14,7 +14,7 @@ impl fmt::Display for BasinsAnswer {
             match self.failed(&solver) {
                 0 => writeln!(f, "{solver}: each of {starts} starts reached an equilibrium")?,
                 failed => {
-                    writeln!(f, "{solver}: {failed} of {starts} starts reached no equilibrium")?
+                    writeln!(f, "{solver}: {failed} of {starts} starts reached no equilibrium")?;
                 }
             }
             let unlisted = self.unlisted(&solver);

@@ -82,7 +82,7 @@ pub(super) fn confirm(
         let critical = energy::net::critical(&system, &equilibrium.joints_m).ok().flatten();
         let looked_at = *minimised && critical.is_some() && !system.is_unloaded();
         Some(Seen {
-            load_n: load_n(&system),
+            load_n: system.total_load_n(),
             statics: judge(&system, equilibrium).largest(),
             minimum: looked_at.then(|| is_minimum(&system, equilibrium)),
             critical,
@@ -127,15 +127,6 @@ fn minimised(system: &System, points: &[Point<'_>]) -> Vec<bool> {
         is_stable(point) && stable % every == every / 2
     };
     points.iter().map(chosen).collect()
-}
-
-/// All loads together, N.
-fn load_n(system: &System) -> f64 {
-    let size = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
-    let joints = system.joints().iter().map(|joint| size(joint.force_n));
-    let bars = system.members().iter().flat_map(|member| &member.loads);
-    let forces = joints.chain(bars.map(|load| size(load.force_n)));
-    model::sum(forces) + system.total_mass_kg() * system.gravity_m_s2()
 }
 
 /// Whether the energy has its minimum here.

@@ -201,7 +201,8 @@ impl Derivative {
         // What turns freely would move by what rounding leaves of its stiffness; refinement takes this out again.
         for (link, row) in framework.links.iter().zip(&new.rows) {
             let held = held * row.across.abs();
-            [link.from, link.to].into_iter().for_each(|joint| stiffness.hold(joint, held));
+            stiffness.hold(link.from, held);
+            stiffness.hold(link.to, held);
         }
         stiffness.factorise_indefinite().then_some(new)
     }

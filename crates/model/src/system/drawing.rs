@@ -65,6 +65,25 @@ impl System {
         Self::new(self.name.clone(), self.gravity_m_s2, joints.collect(), members)
     }
 
+    /// The same [on supports](Self::on_supports) that keep the joints that lie on the floor in its level, at these places, m,
+    /// where they may rise.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn laid(
+        &self,
+        joints_m: &[Vector],
+        lies: impl Fn(usize, &Joint) -> bool,
+        members: Vec<Member>,
+    ) -> Result<Self, SystemError> {
+        let level = |k: usize, joint: &Joint| {
+            let floor_m = self.floor_m.filter(|_| lies(k, joint))?;
+            joint.support.on_level([joints_m[k][0], joints_m[k][1], floor_m])
+        };
+        self.on_supports(|k, joint| level(k, joint).unwrap_or(joint.support), members)
+    }
+
     /// The axis (0 for *x*) across the plane of two axes that supports keep every joint to; `None` where some joint may leave
     /// such a plane, or none can move.
     ///

@@ -69,7 +69,9 @@ static FREE: LazyLock<Arc<JointProperties>> = LazyLock::new(|| {
 /// What leans by less than this part of its length is level or upright.
 const LEVEL: f64 = 1e-12;
 
-const UP: Vector = [0.0, 0.0, 1.0];
+const UP: Vector = AXES[2];
+
+const AXES: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,7 +183,7 @@ impl Support {
     }
 
     /// The same to change; of unit vectors nothing changes.
-    pub(super) fn at_m_mut(&mut self) -> Option<&mut Vector> {
+    pub fn at_m_mut(&mut self) -> Option<&mut Vector> {
         match self {
             Self::Free => None,
             Self::Fixed { at_m } | Self::Line { at_m, .. } | Self::Plane { at_m, .. } => Some(at_m),
@@ -215,7 +217,8 @@ impl Support {
     }
 
     /// What holds a joint that both supports hold; nothing where they have no place in common.
-    pub(super) fn meeting(&self, other: &Self) -> Option<Self> {
+    #[must_use]
+    pub fn meeting(&self, other: &Self) -> Option<Self> {
         /// Rounding of directions, and of places over the largest coordinate.
         const ROUNDING: f64 = 1e-12;
         let dot = |a: Vector, b: Vector| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
@@ -257,18 +260,39 @@ impl Support {
         (off_m(self).max(off_m(other)) <= ROUNDING * far_m).then_some(meeting)
     }
 
-    /// Directions that span those in which the joint cannot move, of unit length.
-    fn normals(&self) -> Vec<Vector> {
-        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// Orthonormal directions in which the joint may move.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let level = Support::Plane { at_m: [0.0, 0.0, 2.0], normal: [0.0, 0.0, 1.0] };
+    /// assert_eq!(level.motions(), [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
+    /// ```
+    #[must_use]
+    pub fn motions(&self) -> Vec<Vector> {
+        let unit = |v: Vector| v.map(|x| x / v.iter().map(|x| x * x).sum::<f64>().sqrt());
+        match *self {
+            Self::Free => AXES.to_vec(),
+            Self::Fixed { .. } => vec![],
+            Self::Line { direction, .. } => vec![unit(direction)],
+            Self::Plane { normal: n, .. } => {
+                let across = |[x, y, z]: Vector| {
+                    unit([n[1] * z - n[2] * y, n[2] * x - n[0] * z, n[0] * y - n[1] * x])
+                };
+                let least = (0..3).min_by(|i, j| n[*i].abs().total_cmp(&n[*j].abs()));
+                let first = across(AXES[least.unwrap_or(0)]);
+                vec![first, across(first)]
+            }
+        }
+    }
+
+    /// Orthonormal directions in which it cannot.
+    #[must_use]
+    pub fn normals(&self) -> Vec<Vector> {
         match *self {
             Self::Free => vec![],
-            Self::Fixed { .. } => axes.to_vec(),
+            Self::Fixed { .. } => AXES.to_vec(),
             Self::Plane { normal, .. } => vec![normal],
-            Self::Line { direction: [a, b, c], .. } => {
-                let across = [[0.0, c, -b], [-c, 0.0, a], [b, -a, 0.0]];
-                let size = |v: &Vector| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-                across.iter().filter(|v| size(v) > 0.5).map(|v| v.map(|x| x / size(v))).collect()
-            }
+            Self::Line { at_m, direction } => Self::Plane { at_m, normal: direction }.motions(),
         }
     }
 

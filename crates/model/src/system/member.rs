@@ -130,6 +130,34 @@ pub enum Kind {
     Strut,
 }
 
+impl Kind {
+    /// What of a force (tension positive) or an elongation it resists.
+    ///
+    /// ```
+    /// use model::system::Kind;
+    /// let pushed = [Kind::Bar, Kind::Cable, Kind::Strut].map(|kind| kind.borne(-2.0));
+    /// assert_eq!((pushed, Kind::Strut.borne(2.0)), ([-2.0, 0.0, -2.0], 0.0));
+    /// ```
+    #[must_use]
+    pub fn borne(self, x: f64) -> f64 {
+        match self {
+            Self::Bar => x,
+            Self::Cable => x.max(0.0),
+            Self::Strut => x.min(0.0),
+        }
+    }
+
+    /// Its name in system files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bar => "bar",
+            Self::Cable => "cable",
+            Self::Strut => "strut",
+        }
+    }
+}
+
 /// A constant force at a point of a member, or spread over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLoad {
@@ -260,6 +288,30 @@ impl Member {
             (Kind::Bar | Kind::Cable, None) => self.body.length_m(),
             _ => f64::INFINITY,
         }
+    }
+
+    /// Weight and loads as forces at the two ends, by the lever rule, N: for checks and motion. Each solver derives its own.
+    ///
+    /// ```
+    /// use model::{Bar, system::{Member, PointLoad}};
+    /// let load = PointLoad { at_m: 1.0, force_n: [8.0, 0.0, 0.0], is_spread: false };
+    /// let bar = Member::bar(0, 1, Bar::homogeneous(4.0, 2.0)?).with_loads(vec![load]);
+    /// assert_eq!(bar.end_loads_n(10.0), [[6.0, 0.0, -10.0], [2.0, 0.0, -10.0]]);
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    #[must_use]
+    pub fn end_loads_n(&self, gravity_m_s2: f64) -> [Vector; 2] {
+        let (length_m, centre_m) = (self.body.length_m(), self.body.centre_m());
+        let weight = [0.0, 0.0, -self.body.mass_kg() * gravity_m_s2];
+        let loads = self.loads.iter().map(|load| (load.at_m, load.force_n));
+        let mut ends = [[0.0; 3]; 2];
+        for (at_m, force_n) in loads.chain([(centre_m, weight)]) {
+            let part = at_m / length_m;
+            for (end, part) in ends.iter_mut().zip([1.0 - part, part]) {
+                end.iter_mut().zip(force_n).for_each(|(sum, x)| *sum += part * x);
+            }
+        }
+        ends
     }
 
     /// Whether the ends can come no nearer to each other than the length: a rigid bar or strut.

@@ -265,6 +265,31 @@ impl System {
         self.total_mass_kg
     }
 
+    /// Weight and force of each joint with what its members bring there by [`Member::end_loads_n`], N.
+    #[must_use]
+    pub fn joint_loads_n(&self) -> Vec<Vector> {
+        let weight_n = |joint: &Joint| joint.mass_kg * self.gravity_m_s2;
+        let own = self.joints.iter().map(|joint| (joint.force_n, weight_n(joint)));
+        let mut loads: Vec<Vector> = own.map(|([x, y, z], w)| [x, y, z - w]).collect();
+        for member in &self.members {
+            let ends = [member.from, member.to].into_iter();
+            for (joint, load) in ends.zip(member.end_loads_n(self.gravity_m_s2)) {
+                loads[joint].iter_mut().zip(load).for_each(|(sum, x)| *sum += x);
+            }
+        }
+        loads
+    }
+
+    /// Sum of the sizes of all loads, N.
+    #[must_use]
+    pub fn total_load_n(&self) -> f64 {
+        let on_members = self.members.iter().flat_map(|member| &member.loads);
+        let forces = self.joints.iter().map(|joint| joint.force_n);
+        let sizes = forces.chain(on_members.map(|load| load.force_n));
+        let sizes = sizes.map(|[x, y, z]| x.hypot(y).hypot(z));
+        crate::sum(sizes) + self.total_mass_kg * self.gravity_m_s2
+    }
+
     /// The number of the joint of this name.
     #[must_use]
     pub fn joint(&self, name: &str) -> Option<usize> {

@@ -62,7 +62,8 @@ impl System {
     }
 
     /// Which joints feel a load that is not vertical, by number.
-    fn joints_with_level_loads(&self) -> Vec<bool> {
+    #[must_use]
+    pub fn joints_with_level_loads(&self) -> Vec<bool> {
         let level = |[x, y, _]: [f64; 3]| x.abs() > 0.0 || y.abs() > 0.0;
         let mut found: Vec<bool> = self.joints.iter().map(|joint| level(joint.force_n)).collect();
         for member in &self.members {

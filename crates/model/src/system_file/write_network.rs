@@ -131,10 +131,8 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
         let _ = writeln!(text, "via = [{}]", via.join(", "));
     }
     write_given(text, body);
-    match member.kind {
-        Kind::Bar => {}
-        Kind::Cable => text.push_str("kind = \"cable\"\n"),
-        Kind::Strut => text.push_str("kind = \"strut\"\n"),
+    if member.kind != Kind::Bar {
+        let _ = writeln!(text, "kind = \"{}\"", member.kind.name());
     }
     if let Some(stiffness_n) = member.stiffness_n {
         let _ = writeln!(text, "stiffness_n = {stiffness_n:?}");

@@ -48,7 +48,9 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
         let rest: Vec<f64> = images.column(k).iter().zip(&vectors.column(k)).map(off).collect();
         length(&rest)
     };
-    let rounding = size as f64 * f64::EPSILON * length(symmetric.as_slice());
+    // Where nothing resists there is rounding of the forces alone.
+    let scale = length(symmetric.as_slice()).max(stiffness.unit());
+    let rounding = size as f64 * f64::EPSILON * scale;
     let is_zero = |(omega2, y): (&f64, &Vec<f64>)| {
         omega2.abs() <= ZERO * stiffness.energy(sector, y)[1] + rounding
     };

@@ -111,12 +111,12 @@ pub(super) fn divide(w: &mut [f64], by: f64) {
 }
 
 /// The length of a vector.
-pub(super) fn length(v: &[f64]) -> f64 {
+pub(crate) fn length(v: &[f64]) -> f64 {
     dot(v, v).sqrt()
 }
 
 /// The product of two vectors.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

@@ -26,7 +26,7 @@
 
 mod balance;
 mod dense;
-mod lanczos;
+pub(crate) mod lanczos;
 mod lowest;
 mod planes;
 mod shape;

@@ -21,6 +21,7 @@ mod space;
 use serde::Serialize;
 
 use crate::completeness::Completeness;
+use crate::equations::largest;
 use crate::example::Example;
 pub use crate::printed::Assessment;
 use crate::printed::{Paper, Printed};
@@ -125,13 +126,6 @@ impl Claim {
             number_is: finding.number_is,
         }
     }
-}
-
-/// The largest of some sizes; NaN if one is (`f64::max` would forget it).
-fn largest(sizes: impl IntoIterator<Item = f64>) -> f64 {
-    sizes.into_iter().fold(0.0, |most: f64, size| {
-        if most.is_nan() || size.is_nan() { f64::NAN } else { most.max(size.abs()) }
-    })
 }
 
 /// The smallest of some sizes; NaN if one is.

@@ -28,11 +28,10 @@ fn worst_of(residual: &mut dyn FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
 }
 
 /// Largest magnitude; NaN if one is (`f64::max` would lose it).
-pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values
-        .into_iter()
-        .map(f64::abs)
-        .fold(0.0, |most, value| if value <= most { most } else { value })
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| {
+        if most.is_nan() || value.is_nan() { f64::NAN } else { most.max(value.abs()) }
+    })
 }
 
 /// Largest entry of a matrix.

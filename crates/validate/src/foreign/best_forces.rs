@@ -1,13 +1,13 @@
 //! The forces that leave the joints of given positions least out of balance.
 
-use model::system::{Kind, Support, System};
+use model::system::{Kind, System};
 use model::{Jam, Vector};
 use serde::Serialize;
 
 use super::bounds::{Bounds, IMPLAUSIBLE};
 use super::least_squares::{Column, Found, Problem};
 use crate::systems::spans;
-use numerics::vector::{cross, dot, minus, norm, plus, times};
+use numerics::vector::{dot, norm, times};
 
 /// Forces found for positions that came without.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -43,79 +43,9 @@ pub struct BestForces {
 /// of rounding over the residual, 1e-8 of them at worst.
 const CLOSE: f64 = 1e-6;
 
-/// The load of each joint, with those of the members lumped by the lever rule, N.
-pub(super) fn joint_loads(system: &System) -> Vec<Vector> {
-    let gravity = system.gravity_m_s2();
-    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
-    let joints = system.joints().iter();
-    let mut loads: Vec<_> = joints.map(|j| plus(j.force_n, weight(j.mass_kg))).collect();
-    for (k, member) in system.members().iter().enumerate() {
-        let [start, end] = shares_n(system, k);
-        loads[member.from] = plus(loads[member.from], start);
-        loads[member.to] = plus(loads[member.to], end);
-    }
-    loads
-}
-
-/// What of its own loads a member puts on its two joints, N.
-pub(super) fn shares_n(system: &System, k: usize) -> [Vector; 2] {
-    let member = &system.members()[k];
-    let body = &member.body;
-    let weight = (body.centre_m(), [0.0, 0.0, -body.mass_kg() * system.gravity_m_s2()]);
-    let loads = member.loads.iter().map(|load| (load.at_m, load.force_n));
-    loads.chain([weight]).fold([[0.0; 3]; 2], |[start, end], (at_m, force)| {
-        let part = at_m / body.length_m();
-        [plus(start, times(1.0 - part, force)), plus(end, times(part, force))]
-    })
-}
-
-/// The part of a vector along the motions that a support leaves free.
-pub(super) fn free_part(support: &Support, vector: Vector) -> Vector {
-    match *support {
-        Support::Free => vector,
-        Support::Fixed { .. } => [0.0; 3],
-        Support::Line { direction, .. } => times(dot(vector, direction), direction),
-        Support::Plane { normal, .. } => minus(vector, times(dot(vector, normal), normal)),
-    }
-}
-
-/// The sine of an angle below which two supports are parallel.
-pub(super) const PARALLEL: f64 = 1e-6;
-
-/// A support that leaves free what both leave free. Its place is that of one of them.
-pub(super) fn meeting(first: Support, second: Support) -> Support {
-    let (at_m, turned) = (first.at_m().unwrap_or_default(), |sine: f64| sine > PARALLEL);
-    match (first, second) {
-        (Support::Free, other) | (other, Support::Free) => other,
-        (Support::Plane { normal: a, .. }, Support::Plane { normal: b, .. })
-            if turned(norm(cross(a, b))) =>
-        {
-            let along = cross(a, b);
-            Support::Line { at_m, direction: times(1.0 / norm(along), along) }
-        }
-        (Support::Line { direction, .. }, Support::Plane { normal, .. })
-        | (Support::Plane { normal, .. }, Support::Line { direction, .. })
-            if turned(dot(direction, normal).abs()) =>
-        {
-            Support::Fixed { at_m }
-        }
-        (Support::Line { direction: a, .. }, Support::Line { direction: b, .. })
-            if turned(norm(cross(a, b))) =>
-        {
-            Support::Fixed { at_m }
-        }
-        (held @ (Support::Fixed { .. } | Support::Line { .. }), _) | (_, held) => held,
-    }
-}
-
 /// The force of an elastic member by its law, N.
 pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64) -> f64 {
-    let force = stiffness_n * ((distance_m - length_m) / length_m);
-    match kind {
-        Kind::Bar => force,
-        Kind::Cable => force.max(0.0),
-        Kind::Strut => force.min(0.0),
-    }
+    kind.borne(stiffness_n * ((distance_m - length_m) / length_m))
 }
 
 /// A span whose joints meet: member, number of the span in it, and the columns of its pull.
@@ -182,9 +112,9 @@ pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Bes
         .collect();
     let met = met_spans(system, joints_m, bounds, &columns);
     columns.extend(met.iter().flat_map(|(.., pulls)| pulls.clone()));
-    let loads = joint_loads(system);
+    let loads = system.joint_loads_n();
     let joints = system.joints();
-    let free = |joint: usize, vector: Vector| free_part(&joints[joint].support, vector);
+    let free = |joint: usize, vector: Vector| joints[joint].support.free_part(vector);
     let problem = Problem { columns: &columns, loads: &loads, free: &free };
     let found = problem.solve();
     let (axial_n, parts_n) = found.x.split_at(system.members().len());

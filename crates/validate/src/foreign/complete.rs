@@ -1,11 +1,11 @@
 //! An answer of positions and axial forces with everything that follows from them.
 
 use model::system::{System, SystemEquilibrium, SystemStability};
-use model::{Evidence, InSpace, SolverName, Vector, sum};
+use model::{Evidence, InSpace, SolverName, Vector};
 
-use super::best_forces::{free_part, joint_loads, law_n, shares_n};
-use crate::systems::spans::{length_m, unit};
-use numerics::vector::{dot, minus, norm, plus, times};
+use crate::systems::near::potential_j;
+use crate::systems::spans::unit;
+use numerics::vector::{minus, norm, plus, times};
 
 /// Positions and axial forces with end forces, reactions and energy by the lever rule and the
 /// members' laws. Its second-order behaviour is nobody's finding and must not be read.
@@ -15,13 +15,14 @@ pub(super) fn complete(
     joints_m: &[Vector],
     axial_n: &[f64],
 ) -> SystemEquilibrium {
-    let loads = joint_loads(system);
-    let mut left: Vec<Vector> = loads.clone();
+    let origin = system.reference_m();
+    let from_origin_m: Vec<Vector> = joints_m.iter().map(|at| minus(*at, origin)).collect();
+    let mut left = system.joint_loads_n();
     let (mut start_forces_n, mut end_forces_n) = (vec![], vec![]);
     for (k, member) in system.members().iter().enumerate() {
         let pulls: Vec<Vector> =
             member.spans().map(|span| times(axial_n[k], unit(span, joints_m))).collect();
-        let [start, end] = shares_n(system, k);
+        let [start, end] = member.end_loads_n(system.gravity_m_s2());
         start_forces_n.push(minus(times(-1.0, pulls[0]), start));
         end_forces_n.push(minus(pulls[pulls.len() - 1], end));
         for ([a, b], pull) in member.spans().zip(pulls) {
@@ -30,13 +31,12 @@ pub(super) fn complete(
         }
     }
     let held = |(joint, left): (&model::system::Joint, Vector)| {
-        let free = free_part(&joint.support, left);
-        times(-1.0, minus(left, free))
+        times(-1.0, minus(left, joint.support.free_part(left)))
     };
     let reactions_n = system.joints().iter().zip(left).map(held).collect();
     SystemEquilibrium {
         solver: source.clone(),
-        energy_j: energy_j(system, joints_m, &loads),
+        energy_j: potential_j(system, system.members(), &from_origin_m),
         joints_m: joints_m.to_vec(),
         start_forces_n,
         end_forces_n,
@@ -52,22 +52,9 @@ pub(super) fn complete(
     }
 }
 
-/// Potential energy relative to the system's reference.
-fn energy_j(system: &System, joints_m: &[Vector], loads: &[Vector]) -> f64 {
-    let origin = system.reference_m();
-    let works = joints_m.iter().zip(loads).map(|(at, load)| -dot(*load, minus(*at, origin)));
-    let elastic = system.members().iter().filter_map(|member| {
-        let (stiffness_n, unstretched_m) = (member.stiffness_n?, member.body.length_m());
-        let force = law_n(member.kind, stiffness_n, unstretched_m, length_m(member, joints_m));
-        // F^2 / 2k, and with it none where the member is slack.
-        Some(0.5 * force * force * unstretched_m / stiffness_n)
-    });
-    sum(works.chain(elastic))
-}
-
 /// The largest force of an answer: axial, of the ground, or load of a joint, N.
 pub(super) fn largest_n(system: &System, answer: &SystemEquilibrium) -> f64 {
     let forces = answer.axial_n.iter().map(|force| force.abs());
-    let vectors = joint_loads(system).into_iter().chain(answer.reactions_n.iter().copied());
+    let vectors = system.joint_loads_n().into_iter().chain(answer.reactions_n.iter().copied());
     forces.chain(vectors.map(norm)).fold(0.0, f64::max)
 }

@@ -4,7 +4,7 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Jam, Place, Vector};
 use serde::Serialize;
 
-use super::best_forces::{BestForces, free_part, joint_loads, law_n, meeting};
+use super::best_forces::{BestForces, law_n};
 use super::bounds::Bounds;
 use super::given::ForeignAnswer;
 use crate::systems::spans;
@@ -152,14 +152,7 @@ pub(super) fn geometry_and_laws(
 
 /// How far a joint is from its support; nothing for a free one.
 fn off_support_m(support: &Support, at: Vector) -> Option<f64> {
-    let off = minus(at, support.at_m()?);
-    Some(norm(minus(
-        off,
-        match support {
-            Support::Fixed { .. } | Support::Free => [0.0; 3],
-            movable => free_part(movable, off),
-        },
-    )))
+    support.at_m().map(|_| norm(minus(at, support.nearest_m(at))))
 }
 
 /// The law of one member. Forces that were found obey the laws of force by construction.
@@ -223,7 +216,7 @@ pub(super) fn balances(
     bounds: &Bounds,
 ) -> Vec<(Vector, f64)> {
     let mut left: Vec<(Vector, f64)> =
-        joint_loads(system).into_iter().map(|load| (load, bounds.force_n)).collect();
+        system.joint_loads_n().into_iter().map(|load| (load, bounds.force_n)).collect();
     let joints_m = &answer.joints_m;
     for (member, force) in system.members().iter().zip(&answer.axial_n) {
         for [a, b] in member.spans() {
@@ -266,7 +259,7 @@ fn balances_of_groups(
         group.iter_mut().filter(|of| **of == from).for_each(|of| *of = into);
     }
     let mut left: Vec<(Vector, f64)> = vec![([0.0; 3], 0.0); at_m.len()];
-    for (load, of) in joint_loads(system).into_iter().zip(&group) {
+    for (load, of) in system.joint_loads_n().into_iter().zip(&group) {
         left[*of] = (plus(left[*of].0, load), left[*of].1 + bounds.force_n);
     }
     for (member, force) in system.members().iter().zip(&answer.axial_n) {
@@ -285,8 +278,14 @@ fn balances_of_groups(
     }
     let groups = joints.into_iter().zip(left).filter(|(all, _)| all.len() > 1);
     let of_group = |(all, (left_n, allowed)): (Vec<usize>, (Vector, f64))| {
-        let supports = all.iter().map(|joint| system.joints()[*joint].support);
-        let left_n = free_part(&supports.fold(Support::Free, meeting), left_n);
+        // Which motions are left is a matter of directions: the places differ by what the bounds explain.
+        let support = |joint: &usize| {
+            let mut support = system.joints()[*joint].support;
+            support.at_m_mut().into_iter().for_each(|at_m| *at_m = [0.0; 3]);
+            support
+        };
+        let both = |a: Support, b: Support| a.meeting(&b).unwrap_or(a);
+        let left_n = all.iter().map(support).fold(Support::Free, both).free_part(left_n);
         (all[0], left_n, allowed)
     };
     groups.map(of_group).collect()
@@ -302,7 +301,7 @@ pub(super) fn balance_given(
 ) {
     for (k, (left, allowed)) in balances(system, answer, None, bounds).into_iter().enumerate() {
         let support = &system.joints()[k].support;
-        let left_n = free_part(support, left);
+        let left_n = support.free_part(left);
         if !support.is_fixed() {
             found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), allowed);
         }
@@ -357,7 +356,7 @@ pub(super) fn whole(
     bounds: &Bounds,
     found: &mut Measured,
 ) {
-    let loads = joint_loads(system);
+    let loads = system.joint_loads_n();
     let all = || loads.iter().chain(reactions_n);
     let left_n: Vector = std::array::from_fn(|c| model::sum(all().map(|force| force[c])));
     let supported = system.joints().iter().filter(|joint| joint.support.at_m().is_some());

@@ -50,7 +50,7 @@ const ONE_JOINT: Alteration = |system, answer, size| {
 /// A self-stress that the answer names, of this part of all loads.
 const SELF_STRESS: Alteration = |system, answer, size| {
     let stress = &answer.evidence.self_stresses.as_ref().unwrap().basis[0];
-    let load_n = super::certificate::total_load_n(system);
+    let load_n = system.total_load_n();
     added(system, answer, |k| size * load_n * stress[k])
 };
 
@@ -282,7 +282,7 @@ fn a_sign_and_a_load_left_out_are_seen() {
 fn forces_beyond_all_that_acts_are_a_finding_and_then_no_answer() {
     let (system, mut right) = tetrapod();
     right.evidence.self_stresses = None;
-    let load_n = super::certificate::total_load_n(&system);
+    let load_n = system.total_load_n();
     let found = |times_load: f64| {
         let axial = |k: usize| [1.0, 1.0, -1.0, -1.0][k] * times_load * load_n;
         let altered = added(&system, &right, axial);

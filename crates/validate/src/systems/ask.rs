@@ -2,18 +2,23 @@
 
 use census::net::SystemCensus;
 use lagrange::net::Seed;
-use model::system::{Row, System, SystemEquilibrium};
+use model::system::{Joint, Kind, Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Quantity, Reason, Rung, SolverName, Status, Vector};
 use numerics::Interval;
+use numerics::vector::{minus, norm};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
-use super::near::{FAR, Near, is_below, lower_j, next_to};
+use super::near::{FAR, LOWER, Near, is_below, lower_j, next_to};
 use super::statics::judge;
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
 use crate::tolerances::Tolerances;
+
+/// Starts at random of a system of up to so many members that may push, of which no answer is proved the lowest.
+const STARTS: usize = 8;
+const STARTED: usize = 60;
 
 /// Both answers for a system with what is known of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +33,7 @@ pub struct SystemAnswer {
     /// the equilibrium next to it, and else the lowest of all.
     pub near: Option<Near>,
     /// The solvers that were asked again, because they had no answer or another equilibrium: next to the lowest
-    /// one of a complete census, or next to that of the other solver.
+    /// one of a complete census, next to a lower one that other starts lead to, or next to that of the other solver.
     pub asked_again: Vec<SolverName>,
 }
 
@@ -76,17 +81,21 @@ impl SystemFailure {
     }
 
     /// Whether the search went astray, which another start may mend: no refusal, and no limit of work or memory.
-    fn is_astray(&self) -> bool {
+    fn is_astray(&self, system: &System) -> bool {
         use energy::Error as Energy;
         use lagrange::Error as Lagrange;
         match self {
-            Self::Lagrange(error) => matches!(
-                error,
-                Lagrange::NotConverged { .. }
-                    | Lagrange::Unstable { .. }
-                    | Lagrange::Escapes { .. }
-                    | Lagrange::Jammed(_)
-            ),
+            Self::Lagrange(error) => {
+                matches!(
+                    error,
+                    Lagrange::NotConverged { .. }
+                        | Lagrange::Unstable { .. }
+                        | Lagrange::Escapes { .. }
+                        | Lagrange::Jammed(_)
+                        | Lagrange::Floor { .. }
+                ) || system.floor_m().is_some()
+                    && matches!(error, Lagrange::Misfit { .. } | Lagrange::HeldMisfit { .. })
+            }
             Self::Energy(error) => matches!(
                 error,
                 Energy::NotClosed { .. }
@@ -194,6 +203,13 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     }
     let mut agreement = judged(system, &mut equilibria, &failures);
     let drawing_m = drawing_m.as_deref();
+    if drawing_m.is_none()
+        && let Some((both, one)) = lower(system, question, watch, &equilibria)
+    {
+        (equilibria, agreement) = (both, Some(one));
+        failures.clear();
+        asked_again = vec![SolverName::LAGRANGE, SolverName::ENERGY];
+    }
     if !agreement.as_ref().is_some_and(SystemAgreement::agrees) {
         let beside = ask_beside(
             system,
@@ -296,7 +312,7 @@ fn ask_beside(
         !excesses.any(|excess| matches!(excess.what, Quantity::Energy { .. }))
     });
     let known: Vec<(&SystemEquilibrium, SolverName)> = match (&answers[..], failures) {
-        ([known], [failure]) if failure.is_astray() => vec![(known, failure.solver())],
+        ([known], [failure]) if failure.is_astray(system) => vec![(known, failure.solver())],
         ([first, second], []) => {
             let (low, high) =
                 if first.energy_j < second.energy_j { (first, second) } else { (second, first) };
@@ -344,7 +360,7 @@ fn elsewhere(
     answers: &mut Vec<SystemEquilibrium>,
     failures: &[SystemFailure],
 ) -> Option<SystemAgreement> {
-    let astray = !failures.is_empty() && failures.iter().all(SystemFailure::is_astray);
+    let astray = !failures.is_empty() && failures.iter().all(|failure| failure.is_astray(system));
     if !astray || question.solvers != Solvers::Both || question.equations == Equations::Full {
         return None;
     }
@@ -353,6 +369,62 @@ fn elsewhere(
     let agreement = answer.agreement.filter(SystemAgreement::agrees)?;
     *answers = answer.equilibria;
     Some(agreement)
+}
+
+/// A lower equilibrium than those found, where members may push and none is proved the lowest: `energy` from places at
+/// random, and if that ends lower both solvers next to it. What both find there, and the comparison, if they agree.
+fn lower(
+    system: &System,
+    question: &Question,
+    watch: &dyn Fn(&str),
+    found: &[SystemEquilibrium],
+) -> Option<(Vec<SystemEquilibrium>, SystemAgreement)> {
+    let pushes = system.members().iter().any(|member| member.kind != Kind::Cable);
+    let is_asked = question.solvers == Solvers::Both
+        && question.equations != Equations::Full
+        && question.census != UseCensus::Never;
+    let is_lowest = found.iter().any(|answer| answer.evidence.ladder.optimal.is_reached());
+    if !is_asked || is_lowest || !pushes || system.members().len() > STARTED {
+        return None;
+    }
+    watch("other starts");
+    let known_j = found.iter().map(|answer| answer.energy_j).reduce(f64::min)?;
+    let settings = question.energy();
+    let ends = (1..=STARTS).filter_map(|start| {
+        let places_m = scattered(system, start);
+        Some(energy::net::minimise_from(system, &places_m, &settings).ok()?.equilibrium)
+    });
+    let stable = ends.filter(|end| end.stability.index_in_space == 0);
+    let lowest = stable.min_by(|a, b| a.energy_j.total_cmp(&b.energy_j))?;
+    let unit_j = system.total_load_n() * system.total_length_m();
+    if lowest.energy_j >= known_j - LOWER * unit_j {
+        return None;
+    }
+    let at_rest = Seed::at_rest(lowest.joints_m);
+    let both = near_to(system, &at_rest, question, watch).into_iter();
+    let mut both = both.collect::<Result<Vec<_>, _>>().ok()?;
+    let one = compare(system, &mut both, &Tolerances::project());
+    let is_stable = both.iter().all(|answer| answer.stability.index_in_space == 0);
+    (is_stable && one.agrees()).then_some((both, one))
+}
+
+/// Places of the joints without pattern, as far apart as the longest member and the supports, above the floor.
+fn scattered(system: &System, start: usize) -> Vec<Vector> {
+    /// Fractions of multiples of the plastic number's powers fill a cube evenly.
+    const STEPS: [f64; 3] = [0.819_172_513_396_164, 0.671_043_606_703_789, 0.549_700_477_901_897];
+    let longest_m = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
+    let origin_m = system.reference_m();
+    let held = system.joints().iter().filter_map(|joint| joint.support.at_m());
+    let reach_m = held.map(|at_m| norm(minus(at_m, origin_m))).fold(2.0 * longest_m, f64::max);
+    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let place = |(k, joint): (usize, &Joint)| {
+        let number = (start * 97 + k * 13 + 1) as f64;
+        let [x, y, z]: Vector = std::array::from_fn(|axis| {
+            origin_m[axis] + reach_m * (2.0 * (number * STEPS[axis]).fract() - 1.0)
+        });
+        joint.support.nearest_m([x, y, z.max(floor_m)])
+    };
+    system.joints().iter().enumerate().map(place).collect()
 }
 
 /// What one solver finds next to an equilibrium.

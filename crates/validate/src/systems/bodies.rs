@@ -311,25 +311,13 @@ fn nodes(system: &System) -> Vec<usize> {
 
 /// Joints that a turn about a vertical outside them would do work at, or whose supports forbid it.
 fn feeling_turns(system: &System) -> Vec<bool> {
-    let level = |[x, y, _]: [f64; 3]| x.abs() > 0.0 || y.abs() > 0.0;
-    let joints = system.joints().iter();
-    let mut fixed: Vec<bool> = joints
-        .map(|joint| {
-            let support = match joint.support {
-                Support::Free => false,
-                Support::Plane { normal: [x, y, _], .. } => x.hypot(y) > ONE_VERTICAL,
-                Support::Fixed { .. } | Support::Line { .. } => true,
-            };
-            support || level(joint.force_n)
-        })
-        .collect();
-    for member in system.members() {
-        if member.loads.iter().any(|load| level(load.force_n)) {
-            fixed[member.from] = true;
-            fixed[member.to] = true;
-        }
-    }
-    fixed
+    let joints = system.joints().iter().zip(system.joints_with_level_loads());
+    let feels = |(joint, level): (&Joint, bool)| match joint.support {
+        Support::Free => level,
+        Support::Plane { normal: [x, y, _], .. } => level || x.hypot(y) > ONE_VERTICAL,
+        Support::Fixed { .. } | Support::Line { .. } => true,
+    };
+    joints.map(feels).collect()
 }
 
 #[cfg(test)]

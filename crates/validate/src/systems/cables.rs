@@ -21,8 +21,6 @@ use model::system::{Kind, Member, System};
 use model::{Vector, sum};
 
 use self::program::{Affine, Program};
-use super::certificate::joint_loads;
-use super::family::motions;
 use super::near::potential_j;
 use numerics::vector::{dot, minus, norm, plus, times};
 
@@ -76,7 +74,7 @@ pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
         return Err(ConeError::Rope { member: rope + 1 });
     }
     let cables = as_cables(system)?;
-    let loads_n = joint_loads(system);
+    let loads_n = system.joint_loads_n();
     // Units in which all numbers of the programme are of size one.
     let length_m = system.total_length_m() / cables.len() as f64;
     let force_n =
@@ -150,7 +148,7 @@ fn places(system: &System, length_m: f64) -> (Vec<Place>, usize) {
     let places = system.joints().iter().map(|joint| {
         let at_m = joint.support.at_m().unwrap_or(origin);
         let base = times(1.0 / length_m, minus(at_m, origin));
-        let place = Place { base, first, axes: motions(&joint.support) };
+        let place = Place { base, first, axes: joint.support.motions() };
         first += place.axes.len();
         place
     });

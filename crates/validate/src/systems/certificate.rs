@@ -35,7 +35,7 @@
 //!
 //! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices).
 
-use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::system::{Member, System, SystemEquilibrium};
 use model::{NoCertificate, Optimal, Vector, sum};
 
 use super::definite::{Symmetric, gamma};
@@ -54,13 +54,6 @@ pub(super) fn size_m(system: &System, answer: &SystemEquilibrium) -> f64 {
     let origin = system.reference_m();
     let longest = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
     answer.joints_m.iter().map(|x| norm(minus(*x, origin))).fold(longest, worse)
-}
-
-/// Sum of the sizes of all loads, N.
-pub(super) fn total_load_n(system: &System) -> f64 {
-    let joints = system.joints().iter().map(|joint| joint.force_n);
-    let members = system.members().iter().flat_map(|m| m.loads.iter().map(|load| load.force_n));
-    sum(joints.chain(members).map(norm)) + system.total_mass_kg() * system.gravity_m_s2()
 }
 
 /// The largest force at an end of a member or of a support, N.
@@ -83,7 +76,7 @@ pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, N
     if !fits || !answer.energy_j.is_finite() {
         return Err(NoCertificate::Unusable);
     }
-    let unit_j = total_load_n(system) * size_m(system, answer);
+    let unit_j = system.total_load_n() * size_m(system, answer);
     let unit_j = if unit_j > 0.0 { unit_j } else { elastic_unit_j(system) };
     if system.has_ropes() {
         return within(answer.energy_j, super::convex::bound_j(system, answer)?, unit_j);
@@ -125,12 +118,7 @@ fn densities(system: &System, answer: &SystemEquilibrium) -> Vec<f64> {
         if distance_m <= 0.0 {
             return 0.0;
         }
-        let density = axial_n / distance_m;
-        match member.kind {
-            Kind::Bar => density,
-            Kind::Cable => density.max(0.0),
-            Kind::Strut => density.min(0.0),
-        }
+        member.kind.borne(axial_n / distance_m)
     };
     system.members().iter().zip(&answer.axial_n).map(of_member).collect()
 }
@@ -215,22 +203,12 @@ pub(super) fn pushed(
     loads.iter_mut().enumerate().map(push).collect()
 }
 
-/// What of a force moves a joint along its support.
-pub(super) fn along_supports(system: &System, joint: usize, force: Vector) -> Vector {
-    match system.joints()[joint].support {
-        Support::Fixed { .. } => [0.0; 3],
-        Support::Free => force,
-        Support::Line { direction, .. } => times(dot(force, direction), direction),
-        Support::Plane { normal, .. } => minus(force, times(dot(force, normal), normal)),
-    }
-}
-
 /// The quadratic function at an answer. What is added is paired with the size of all that was
 /// rounded on the way: of differences, with the size of what was subtracted.
 fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Tangent {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    let mut loads = joint_loads(system);
+    let mut loads = system.joint_loads_n();
     let mut terms = pushed(system, answer, &mut loads);
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
     let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
@@ -255,7 +233,7 @@ fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Ta
             if system.joints()[k].support.is_fixed() {
                 return 0.0;
             }
-            let moving = along_supports(system, k, *force);
+            let moving = system.joints()[k].support.free_part(*force);
             let most = norm(moving) + ulps * size;
             most * most
         }));
@@ -280,24 +258,6 @@ fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> (f64, f64) {
     let size = rate * stretch_m.abs() * (length_m + stretched_m.abs())
         + 0.5 * density.abs() * (squared_m2 + kept_m2);
     (0.5 * rate * stretch_m * stretch_m + 0.5 * density * (squared_m2 - kept_m2), size)
-}
-
-/// Weights and forces at the joints, those of members by the lever rule, N.
-pub(super) fn joint_loads(system: &System) -> Vec<Vector> {
-    let gravity = system.gravity_m_s2();
-    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
-    let own = system.joints().iter().map(|j| plus(j.force_n, weight(j.mass_kg)));
-    let mut loads: Vec<Vector> = own.collect();
-    for member in system.members() {
-        let body = &member.body;
-        let at = |at_m: f64| at_m / body.length_m();
-        let forces = member.loads.iter().map(|load| (at(load.at_m), load.force_n));
-        for (part, force) in forces.chain([(at(body.centre_m()), weight(body.mass_kg()))]) {
-            loads[member.from] = plus(loads[member.from], times(1.0 - part, force));
-            loads[member.to] = plus(loads[member.to], times(part, force));
-        }
-    }
-    loads
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use census::net::{SystemCensus, SystemPosition};
 use model::system::{System, SystemEquilibrium};
 use model::{NoCensus, Reason, Status, Vector};
 
-use super::certificate::total_load_n;
 use super::near::LOWER;
 use crate::question::UseCensus;
 use crate::tolerances::Tolerances;
@@ -66,7 +65,7 @@ pub(super) fn lowest_listed<'a>(
     }
     let listed = census.equilibria.iter();
     let least_j = listed.clone().map(|position| position.energy_j.hi()).min_by(f64::total_cmp)?;
-    let rounding_j = LOWER * total_load_n(system) * system.total_length_m();
+    let rounding_j = LOWER * system.total_load_n() * system.total_length_m();
     if answers.iter().any(|answer| answer.energy_j < least_j - rounding_j) {
         return None;
     }

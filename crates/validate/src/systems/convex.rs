@@ -22,9 +22,7 @@ use std::collections::VecDeque;
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{NoCertificate, Vector, sum};
 
-use super::certificate::{
-    TERM_ULPS, along_supports, joint_loads, pushed, size_m, total_load_n, works,
-};
+use super::certificate::{TERM_ULPS, pushed, size_m, works};
 use super::spans::pull_n;
 use numerics::vector::{dot, minus, norm, plus, times};
 
@@ -53,7 +51,7 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
     }
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    let mut loads = joint_loads(system);
+    let mut loads = system.joint_loads_n();
     let mut terms = pushed(system, answer, &mut loads);
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
     let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
@@ -89,7 +87,7 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
         f64::EPSILON * system.members().iter().map(|m| m.via().len() + 1).sum::<usize>() as f64;
     let left_j = gradient.iter().zip(sizes_n).zip(reaches_m).enumerate();
     let left_j = left_j.map(|(k, ((force, size), reach_m))| {
-        let moving = norm(along_supports(system, k, *force)) + (ulps + many) * size;
+        let moving = norm(system.joints()[k].support.free_part(*force)) + (ulps + many) * size;
         if system.joints()[k].support.is_fixed() { 0.0 } else { moving * far_m(reach_m) }
     });
     Ok(sum(terms.iter().map(|(term, _)| *term)) - rounding_j - sum(left_j))
@@ -126,7 +124,7 @@ fn stretch_m(system: &System, answer: &SystemEquilibrium, reach_m: f64) -> f64 {
     if rates.is_empty() {
         return 0.0;
     }
-    let load_n = total_load_n(system);
+    let load_n = system.total_load_n();
     let soft = rates.iter().copied().fold(f64::INFINITY, f64::min) / rates.len() as f64;
     let energy_j = (answer.energy_j + load_n * (size_m(system, answer) + reach_m)).max(0.0);
     (load_n + (load_n * load_n + 2.0 * soft * energy_j).sqrt()) / soft

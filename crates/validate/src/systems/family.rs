@@ -18,7 +18,7 @@ use super::floor::{push_n, sliding};
 use super::spans::{has_corner, length_m, unit as unit_vector};
 use super::statics::rounding_m;
 use nalgebra::DMatrix;
-use numerics::vector::{cross, dot, minus, norm, plus, times, worse};
+use numerics::vector::{dot, plus, times, worse};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
 const COUNTED: usize = 240;
@@ -284,7 +284,7 @@ impl Family {
         let joints: Vec<usize> = (0..self.free.len())
             .filter(|k| {
                 let support = &system.joints()[*k].support;
-                self.free[*k].len() < motions(support).len()
+                self.free[*k].len() < support.motions().len()
                     && push_n(system, answer, *k).abs() <= least_n
             })
             .collect();
@@ -393,7 +393,7 @@ fn unit(member: usize, members: usize) -> Vec<f64> {
 pub(super) fn motions_above_floor(system: &System, answer: &SystemEquilibrium) -> Vec<Vec<Vector>> {
     let joints = system.joints().iter().zip(&answer.joints_m);
     let Some(floor_m) = system.floor_m() else {
-        return joints.map(|(joint, _)| motions(&joint.support)).collect();
+        return joints.map(|(joint, _)| joint.support.motions()).collect();
     };
     let rounding_m = rounding_m(system, answer);
     let rigid = system.members().iter().filter(|m| m.kind == Kind::Bar && m.stiffness_n.is_none());
@@ -401,28 +401,9 @@ pub(super) fn motions_above_floor(system: &System, answer: &SystemEquilibrium) -
     let near_m = rounding_m + off.fold(0.0, f64::max).min(LEFT_OF_LENGTHS * rounding_m);
     let motions_of = |(joint, at_m): (&Joint, &Vector)| {
         let touches = at_m[2] - floor_m <= near_m;
-        if touches { sliding(&joint.support) } else { motions(&joint.support) }
+        if touches { sliding(&joint.support) } else { joint.support.motions() }
     };
     joints.map(motions_of).collect()
-}
-
-/// Orthonormal directions in which a joint may move.
-pub(super) fn motions(support: &Support) -> Vec<Vector> {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    match *support {
-        Support::Free => axes.to_vec(),
-        Support::Fixed { .. } => vec![],
-        Support::Line { direction, .. } => vec![times(1.0 / norm(direction), direction)],
-        Support::Plane { normal, .. } => {
-            let normal = times(1.0 / norm(normal), normal);
-            let level = |axis: &Vector| dot(*axis, normal).abs();
-            let helper = axes.into_iter().min_by(|a, b| level(a).total_cmp(&level(b)));
-            let helper = helper.unwrap_or(axes[0]);
-            let first = minus(helper, times(dot(helper, normal), normal));
-            let first = times(1.0 / norm(first), first);
-            vec![first, cross(normal, first)]
-        }
-    }
 }
 
 /// The vectors whose combination of the rows of a matrix vanishes.

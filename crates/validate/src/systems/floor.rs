@@ -3,26 +3,18 @@
 use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
-use super::family::motions;
-use numerics::vector::{cross, dot, norm, plus, times};
+use numerics::vector::{cross, dot, norm, times};
+
+/// What a push straight up is along.
+pub(super) const UP: Vector = [0.0, 0.0, 1.0];
 
 /// A direction that rises less than this is level: the floor cannot push along it.
 const LEVEL: f64 = 1e-9;
 
-/// What of a push straight up a joint's support leaves to it.
-pub(super) fn rising(system: &System, joint: usize) -> Vector {
-    rise(&motions(&system.joints()[joint].support))
-}
-
-/// What of a push straight up is along some directions.
-fn rise(free: &[Vector]) -> Vector {
-    free.iter().fold([0.0; 3], |sum, axis| plus(sum, times(axis[2], *axis)))
-}
-
 /// Orthonormal directions in which a joint may move on the floor.
 pub(super) fn sliding(support: &Support) -> Vec<Vector> {
-    let free = motions(support);
-    let rising = rise(&free);
+    let free = support.motions();
+    let rising = support.free_part(UP);
     match free[..] {
         _ if norm(rising) <= LEVEL => free,
         [a, b, _] => vec![a, b],
@@ -38,7 +30,7 @@ pub(super) fn push_n(system: &System, answer: &SystemEquilibrium, joint: usize) 
     if system.floor_m().is_none() {
         return 0.0;
     }
-    let rising = rising(system, joint);
+    let rising = system.joints()[joint].support.free_part(UP);
     let rate = dot(rising, rising);
     if rate <= LEVEL * LEVEL {
         return 0.0;

@@ -9,8 +9,7 @@ use matrices::dense::Kernels;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::{joint_loads, largest_force_n};
-use super::family::motions;
+use super::certificate::largest_force_n;
 use super::floor::{push_n, sliding};
 use super::spans::{gradient, length_m};
 use nalgebra::DMatrix;
@@ -28,6 +27,9 @@ const INDEPENDENT: f64 = 1e-6;
 /// Joints of which the room is looked at together: dense singular values.
 const TOGETHER: usize = 80;
 
+/// The directions in which a joint may move.
+type Ways<'a> = &'a dyn Fn(usize) -> Vec<Vector>;
+
 /// Which joints an equilibrium leaves free, by every one of the answers: on which nothing acts but
 /// the floor perhaps.
 pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
@@ -39,20 +41,20 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
     if !answers.iter().all(complete) {
         return vec![false; joints];
     }
-    let supports = system.joints().iter().map(|joint| &joint.support);
     let pushed = |joint: usize| answers.iter().all(|answer| push_n(system, answer, joint) > 0.0);
-    let pushed: Vec<bool> = (0..joints).map(pushed).collect();
-    let ways = supports.zip(&pushed);
-    let ways: Vec<Vec<Vector>> = ways
-        .map(|(support, pushed)| if *pushed { sliding(support) } else { motions(support) })
-        .collect();
-    let members_of = members_of(system);
+    let ways = |joint: usize| {
+        let support = &system.joints()[joint].support;
+        if pushed(joint) { sliding(support) } else { support.motions() }
+    };
     let idle = idle(system, answers, &ways);
+    let members_of = if idle.contains(&true) { members_of(system) } else { vec![] };
     let mut free = vec![false; joints];
     for part in parts(system, &members_of, &idle) {
         // Of the long rest of a mooring line all is taken to slide: there is more room than bars.
         if part.len() > TOGETHER {
-            part.iter().for_each(|joint| free[*joint] = pushed[*joint]);
+            for joint in &part {
+                free[*joint] = pushed(*joint);
+            }
             continue;
         }
         for (joint, open) in part.iter().zip(with_room(system, answers, &members_of, &part, &ways))
@@ -70,7 +72,7 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
 fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
     // Bars bear nothing between joints without any load alone.
     let still = |load: &Vector| load.iter().all(|x| x.abs() <= 0.0);
-    if !joint_loads(system).iter().any(still) {
+    if !system.joint_loads_n().iter().any(still) {
         return vec![];
     }
     let Some(row) = system.as_row() else { return vec![] };
@@ -87,13 +89,9 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
 }
 
 /// Which joints nothing acts on along these ways, nor any member, in every answer.
-fn idle(system: &System, answers: &[SystemEquilibrium], ways: &[Vec<Vector>]) -> Vec<bool> {
-    let loads = joint_loads(system);
-    let acts = |(load, ways): (&Vector, &Vec<Vector>)| {
-        ways.iter().any(|way| dot(*load, *way).abs() > f64::EPSILON * norm(*load))
-    };
-    let mut idle: Vec<bool> =
-        loads.iter().zip(ways).map(|of| !of.1.is_empty() && !acts(of)).collect();
+fn idle(system: &System, answers: &[SystemEquilibrium], ways: Ways<'_>) -> Vec<bool> {
+    let loads = system.joint_loads_n();
+    let mut idle = vec![true; loads.len()];
     // The least load holds the joints above it where they hang.
     let sizes = loads.iter().map(|load| norm(*load)).filter(|size_n| *size_n > 0.0);
     let least_n = sizes.fold(f64::INFINITY, f64::min);
@@ -104,6 +102,14 @@ fn idle(system: &System, answers: &[SystemEquilibrium], ways: &[Vec<Vector>]) ->
                 member.path().for_each(|joint| idle[joint] = false);
             }
         }
+    }
+    let is_still = |joint: usize| {
+        let (load, ways) = (loads[joint], ways(joint));
+        let acts = ways.iter().any(|way| dot(load, *way).abs() > f64::EPSILON * norm(load));
+        !ways.is_empty() && !acts
+    };
+    for (joint, idle) in idle.iter_mut().enumerate() {
+        *idle = *idle && is_still(joint);
     }
     idle
 }
@@ -167,7 +173,7 @@ fn with_room(
     answers: &[SystemEquilibrium],
     members_of: &[Vec<usize>],
     part: &[usize],
-    ways: &[Vec<Vector>],
+    ways: Ways<'_>,
 ) -> Vec<bool> {
     let room = answers.iter().filter_map(|answer| room(system, answer, members_of, part, ways));
     let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
@@ -179,7 +185,7 @@ fn room(
     answer: &SystemEquilibrium,
     members_of: &[Vec<usize>],
     part: &[usize],
-    ways: &[Vec<Vector>],
+    ways: Ways<'_>,
 ) -> Option<Vec<bool>> {
     let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
     taut.retain(|k| !is_slack_by(SHORTER, &system.members()[*k], answer));
@@ -192,7 +198,7 @@ fn room(
     let axes: Vec<(usize, Vector)> = part
         .iter()
         .enumerate()
-        .flat_map(|(at, joint)| ways[*joint].iter().map(move |axis| (at, *axis)))
+        .flat_map(|(at, joint)| ways(*joint).into_iter().map(move |axis| (at, axis)))
         .collect();
     let (rank, coordinates) = (taut.len(), axes.len());
     if rank >= coordinates {

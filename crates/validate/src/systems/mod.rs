@@ -19,7 +19,7 @@ mod forces;
 pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
-mod near;
+pub(crate) mod near;
 mod prestress;
 mod proved;
 mod scale;

@@ -6,7 +6,6 @@ use model::{SolverName, Vector, sum};
 use serde::Serialize;
 
 use super::ask::SystemFailure;
-use super::certificate::total_load_n;
 use super::spans::length_m;
 use crate::question::{Question, Solvers};
 use numerics::vector::{dot, minus, norm, plus, times, worse};
@@ -144,7 +143,7 @@ pub(super) fn lower_j(
     let lagrange =
         || lagrange::net::solve(&hanging, &question.lagrange()).ok().map(|found| found.equilibrium);
     let lowest = if question.solvers == Solvers::Lagrange { lagrange() } else { energy() }?;
-    let unit_j = total_load_n(system) * system.total_length_m();
+    let unit_j = system.total_load_n() * system.total_length_m();
     (answer.energy_j - lowest.energy_j > LOWER * unit_j).then_some(lowest.energy_j)
 }
 
@@ -278,30 +277,14 @@ fn square(system: &System, spans: &[Spans]) -> Entries {
 }
 
 /// Energy of the loads and of the elastic ones of these members at these places, J.
-pub(super) fn potential_j(system: &System, members: &[Member], places_m: &[Vector]) -> f64 {
-    let gravity = system.gravity_m_s2();
-    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
-    let joints = system.joints().iter().zip(places_m);
-    let joints = joints.map(|(joint, at)| -dot(plus(joint.force_n, weight(joint.mass_kg)), *at));
-    let members = members.iter().map(|member| {
-        let [a, b] = [places_m[member.from], places_m[member.to]];
-        let body = &member.body;
-        let at = |at_m: f64| plus(a, times(at_m / body.length_m(), minus(b, a)));
-        let own = -dot(weight(body.mass_kg()), at(body.centre_m()));
-        let loads = member.loads.iter().map(|load| -dot(load.force_n, at(load.at_m)));
-        own + sum(loads) + strain_j(member, length_m(member, places_m))
-    });
-    sum(joints) + sum(members)
+pub(crate) fn potential_j(system: &System, members: &[Member], places_m: &[Vector]) -> f64 {
+    let loads = system.joint_loads_n().into_iter().zip(places_m).map(|(load, at)| -dot(load, *at));
+    let strains = members.iter().map(|member| strain_j(member, length_m(member, places_m)));
+    sum(loads.chain(strains))
 }
 
 /// Energy of an elastic member at this length, J.
 fn strain_j(member: &Member, length_m: f64) -> f64 {
-    let longer = length_m - member.body.length_m();
-    let resists = match member.kind {
-        Kind::Bar => true,
-        Kind::Cable => longer > 0.0,
-        Kind::Strut => longer < 0.0,
-    };
-    let stiffness_n = member.stiffness_n.filter(|_| resists).unwrap_or(0.0);
-    0.5 * stiffness_n * longer * longer / member.body.length_m()
+    let longer = member.kind.borne(length_m - member.body.length_m());
+    0.5 * member.stiffness_n.unwrap_or(0.0) * longer * longer / member.body.length_m()
 }

@@ -21,9 +21,8 @@
 
 use matrices::dense::{Kernels, eigen, eigenvalues};
 use model::Vector;
-use model::system::{Kind, System};
+use model::system::{Kind, Support, System};
 
-use super::family::motions;
 use nalgebra::DMatrix;
 use numerics::vector::{cross, dot, minus, norm, times};
 
@@ -173,8 +172,8 @@ impl<'a> Geometry<'a> {
         if joints_m.len() != system.joints().len() || !finite {
             return None;
         }
-        let free = |support| match standing {
-            Standing::Supported => motions(support),
+        let free = |support: &Support| match standing {
+            Standing::Supported => support.motions(),
             Standing::Free => vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         };
         let joints = system.joints().iter().enumerate();

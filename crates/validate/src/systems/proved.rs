@@ -18,7 +18,7 @@ use model::system::{Kind, Member, System, SystemEquilibrium};
 use model::{Proved, Vector};
 
 use super::definite::{Symmetric, gamma};
-use super::family::{motions, motions_above_floor};
+use super::family::motions_above_floor;
 use super::spans::{self, has_corner};
 use numerics::vector::{dot, minus, norm};
 
@@ -65,7 +65,7 @@ pub(super) fn proved(system: &System, answer: &SystemEquilibrium) -> Option<Prov
         return None;
     }
     let free: Vec<Vec<Vector>> =
-        system.joints().iter().map(|joint| motions(&joint.support)).collect();
+        system.joints().iter().map(|joint| joint.support.motions()).collect();
     if free.iter().map(Vec::len).sum::<usize>() > MOST {
         return None;
     }

@@ -18,7 +18,7 @@
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::{joint_loads, size_m, total_load_n};
+use super::certificate::size_m;
 use super::spans::length_m;
 use super::statics::STORED_ULPS;
 use numerics::vector::{minus, norm, worse};
@@ -63,11 +63,11 @@ impl Scale {
         let joints = system.joints().len();
         let prestress_n = |member| prestress_n(member, &answer.joints_m);
         let all_prestress_n: f64 = system.members().iter().map(prestress_n).sum();
-        let load_n = total_load_n(system);
+        let load_n = system.total_load_n();
         let loaded = load_n > 0.0;
         let mut joint_n = if loaded {
             // Not in the memory of the vectors, which is three times as large.
-            joint_loads(system).iter().map(|load| norm(*load)).collect()
+            system.joint_loads_n().iter().map(|load| norm(*load)).collect()
         } else {
             vec![0.0; joints]
         };

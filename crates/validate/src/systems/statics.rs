@@ -16,7 +16,7 @@ mod units;
 
 use std::collections::BTreeMap;
 
-use model::system::{Kind, Member, Row, Support, System, SystemEquilibrium};
+use model::system::{Kind, Member, Row, System, SystemEquilibrium};
 use model::{Equilibrium, Place, Problem, Sum, Vector, sum};
 use serde::Serialize;
 
@@ -24,7 +24,7 @@ pub(crate) use self::units::STORED_ULPS;
 pub(super) use self::units::rounding_m;
 use self::units::{BORNE, Local, Units};
 use super::family::Family;
-use super::floor::{push_n, rising};
+use super::floor::{UP, push_n};
 use super::scale::{MOST_FORCE, MOST_ROUNDING, Scale, stored_n};
 use super::spans::{self, span_forces};
 use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
@@ -301,11 +301,7 @@ fn law(
             (member.given_body().length_m(), member.prestress_n().unwrap_or(0.0));
         let elastic_n =
             (stiffness_n + prestress_n) * ((distance_m - given_m) / given_m) + prestress_n;
-        let wanted_n = match member.kind {
-            Kind::Bar => elastic_n,
-            Kind::Cable => elastic_n.max(0.0),
-            Kind::Strut => elastic_n.min(0.0),
-        };
+        let wanted_n = member.kind.borne(elastic_n);
         let rounding = stored_n(member, rounding_m);
         found.note(|s| &mut s.law, of_force((axial_n - wanted_n).abs(), rounding), place);
         return;
@@ -381,23 +377,12 @@ fn support(
     found: &mut SystemStatics,
 ) {
     let reaction = answer.reactions_n[k];
-    let place = |at: Vector| minus(answer.joints_m[k], at);
-    let (off, along) = match system.joints()[k].support {
-        Support::Free => ([0.0; 3], reaction),
-        Support::Fixed { at_m } => (place(at_m), [0.0; 3]),
-        Support::Line { at_m, direction } => {
-            let along = |v: Vector| times(dot(v, direction), direction);
-            (minus(place(at_m), along(place(at_m))), along(reaction))
-        }
-        Support::Plane { at_m, normal } => {
-            let across = |v: Vector| times(dot(v, normal), normal);
-            (across(place(at_m)), minus(reaction, across(reaction)))
-        }
-    };
+    let (at_m, support) = (answer.joints_m[k], &system.joints()[k].support);
+    let (off, along) = (minus(at_m, support.nearest_m(at_m)), support.free_part(reaction));
     let off = beyond(norm(off), units.rounding_m) / units.size_m;
     found.note(|s| &mut s.support, off, Place::Joint(k));
     let push_n = push_n(system, answer, k);
-    let along = minus(along, times(push_n, rising(system, k)));
+    let along = minus(along, times(push_n, support.free_part(UP)));
     let off = units.at(&[k]).part(norm(along), norm(reaction));
     found.note(|s| &mut s.joint, off, Place::Joint(k));
     if let Some(floor_m) = system.floor_m() {
@@ -472,12 +457,7 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     for member in system.members() {
         let Some(stiffness_n) = member.stiffness_n else { continue };
         let length_m = member.body.length_m();
-        let stretch_m = spans::length_m(member, &answer.joints_m) - length_m;
-        let stretch_m = match member.kind {
-            Kind::Bar => stretch_m,
-            Kind::Cable => stretch_m.max(0.0),
-            Kind::Strut => stretch_m.min(0.0),
-        };
+        let stretch_m = member.kind.borne(spans::length_m(member, &answer.joints_m) - length_m);
         let elastic_j = 0.5 * stiffness_n / length_m * stretch_m * stretch_m;
         terms.push(elastic_j);
         unit_j += elastic_j + stiffness_n * units.rounding_m;

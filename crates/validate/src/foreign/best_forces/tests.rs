@@ -2,8 +2,9 @@
 //! nalgebra's singular value decomposition.
 
 use model::Bar;
-use model::system::{Joint, Member};
+use model::system::{Joint, Member, Support};
 use nalgebra::{DMatrix, DVector};
+use numerics::vector::{minus, plus};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
@@ -41,11 +42,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
     for (joint, place) in joints.iter_mut().zip(&mut places) {
         let on = joint.support.at_m().unwrap_or(*place);
         let off = minus(*place, on);
-        *place = if joint.support == Support::Free {
-            *place
-        } else {
-            plus(on, free_part(&joint.support, off))
-        };
+        *place = plus(on, joint.support.free_part(off));
         joint.force_n = vector(random);
     }
     let floor = free > 0 && random.random_bool(0.5);
@@ -84,7 +81,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
         for joint in &mut joints {
             joint.force_n = [0.0; 3];
         }
-        let mut left = joint_loads(&system_of(&joints, &members));
+        let mut left = system_of(&joints, &members).joint_loads_n();
         for member in &members {
             let along = minus(places[member.to], places[member.from]);
             let [low, high] = limits(member, norm(along), bounds.distance_m(member));
@@ -143,7 +140,7 @@ fn least_of_all(system: &System, places: &[Vector], reach_m: f64) -> f64 {
         }
         bounds.push(limits(member, norm(along), reach_m));
     }
-    let loads = joint_loads(system).into_iter().enumerate();
+    let loads = system.joint_loads_n().into_iter().enumerate();
     let loads: Vec<f64> = loads.flat_map(|(joint, load)| projected(joint, load)).collect();
     let loads = DVector::from_vec(loads);
     let choices = |[low, high]: &[f64; 2]| {

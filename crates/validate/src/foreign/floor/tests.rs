@@ -1,6 +1,6 @@
 //! Joints on and beside a floor, by hand.
 
-use model::system::Member;
+use model::system::{Member, Support};
 use model::{Bar, STANDARD_GRAVITY_M_S2, SolverName};
 
 use super::super::complete::complete;

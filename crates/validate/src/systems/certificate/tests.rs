@@ -1,7 +1,7 @@
 //! The quadratic function below the energy, against the energy itself.
 
 use model::Bar;
-use model::system::Joint;
+use model::system::{Joint, Kind};
 
 use super::super::tests::lamp;
 use super::*;
@@ -160,10 +160,10 @@ fn a_small_gradient_costs_its_square_over_the_eigenvalue() {
 fn loads_and_sizes_are_those_of_the_lever_rule() {
     use super::super::statics::tests::crooked;
     let (system, mut answer) = crooked(|_, _| ());
-    let loads = joint_loads(&system);
+    let loads = system.joint_loads_n();
     assert_eq!(loads, [[1.875, -2.25, -58.5], [5.125, -4.75, -43.5]]);
     let total = 21.0_f64.sqrt() + 77.0_f64.sqrt() + 110.0;
-    assert!((total_load_n(&system) / total - 1.0).abs() < 1e-15);
+    assert!((system.total_load_n() / total - 1.0).abs() < 1e-15);
     assert_eq!(size_m(&system, &answer).to_bits(), 8.0_f64.to_bits());
     answer.joints_m[1] = [5.0, 4.0, 17.0];
     assert_eq!(size_m(&system, &answer).to_bits(), 14.0_f64.to_bits());

@@ -2,6 +2,7 @@
 
 use model::Bar;
 use model::system::{Joint, Member};
+use numerics::vector::{cross, minus, norm};
 
 use super::super::tests::lamp;
 use super::*;
@@ -70,18 +71,18 @@ fn stresses_are_counted_against_motions_and_lengths() {
 fn motions_in_a_plane_are_a_right_handed_pair() {
     let at_m = [0.0; 3];
     for normal in [[2.0, 3.0, 6.0], [-6.0, 2.0, 3.0], [3.0, -6.0, -2.0], [0.0, 0.0, 1.0]] {
-        let [first, second] = motions(&Support::Plane { at_m, normal })[..] else { panic!() };
+        let [first, second] = Support::Plane { at_m, normal }.motions()[..] else { panic!() };
         let turned = cross(first, second);
         let along = times(1.0 / norm(normal), normal);
         assert!(norm(minus(turned, along)) < 1e-15, "{normal:?}");
         assert!((norm(first) - 1.0).abs() < 1e-15 && (norm(second) - 1.0).abs() < 1e-15);
     }
-    let [along] = motions(&Support::Line { at_m, direction: [2.0, 3.0, 6.0] })[..] else {
+    let [along] = Support::Line { at_m, direction: [2.0, 3.0, 6.0] }.motions()[..] else {
         panic!()
     };
     assert!(norm(minus(along, [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0])) < 1e-15);
-    assert!(motions(&Support::Fixed { at_m }).is_empty());
-    assert_eq!(motions(&Support::Free), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    assert!(Support::Fixed { at_m }.motions().is_empty());
+    assert_eq!(Support::Free.motions(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
 
 /// (1, 2, 2) and (2, 4, 4) cancel as (2, -1)/√5; the other value is 3 √5, and a billionth counts.

@@ -1,7 +1,7 @@
 //! Violations in units by hand.
 
 use model::Bar;
-use model::system::{Joint, PointLoad};
+use model::system::{Joint, PointLoad, Support};
 
 use super::super::tests::lamp;
 use super::*;
