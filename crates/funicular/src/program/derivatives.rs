@@ -24,6 +24,9 @@ Examples:
   funicular derivatives bridle.toml --of bars.2.axial_n --csv gradient.csv
   funicular derivatives bridle.toml --by bars.1.length_m      of joints and forces, by one
 
+A derivative by a length is that of the bar as it is solved, after a change of temperature, with its mass and its loads as they are, also where the file
+gives them a metre; `funicular study --vary bars.1.length_m=...` has the lengths of the file, and what is given a metre follows.
+
 Exit codes:
   0  done
   1  the solvers disagree

@@ -30,9 +30,10 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
     let mut text = system_line(system) + "\n";
     let equilibria = solution.equilibria();
-    if let Some(first) = equilibria.first() {
-        text += &shape(system, first, Some(summary));
-        text += &energy(first);
+    let shown = shown(solution);
+    if let Some(found) = shown {
+        text += &shape(system, found, Some(summary));
+        text += &energy(found);
     }
     text += &question(solution);
     let answers: Vec<_> = equilibria.iter().map(|e| (&e.solver, &e.evidence)).collect();
@@ -41,7 +42,7 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         text += &overview(equilibria);
         text += &ladder(&answers);
     } else {
-        text += &in_a_line(&answers);
+        text += &shown.map_or_else(String::new, |found| in_a_line(&found.evidence, answers.len()));
     }
     for failure in solution.failures() {
         text += &(wrapped(&format!("No answer of {failure}"), 2) + "\n");
@@ -155,6 +156,17 @@ fn again(asked_again: &[SolverName]) -> String {
     ) + "\n"
 }
 
+/// The first of the answers; where they differ the one that is proved further, or lower.
+fn shown(solution: &SolveAnswer) -> Option<&SystemEquilibrium> {
+    let further = |a: &SystemEquilibrium, b: &SystemEquilibrium| {
+        let rungs = a.evidence.rung().cmp(&b.evidence.rung());
+        rungs.then(b.energy_j.total_cmp(&a.energy_j)).is_lt()
+    };
+    let differ = solution.agreement().is_some_and(|both| !both.agrees());
+    let all = solution.equilibria().iter();
+    all.reduce(|best, next| if differ && further(best, next) { next } else { best })
+}
+
 /// What is known of an answer, to stand with what is made of it.
 #[must_use]
 pub fn remarks(answer: &SolveAnswer) -> String {
@@ -192,13 +204,14 @@ fn question(solution: &SolveAnswer) -> String {
     } else {
         format!("Not the neighbour of the shape given ({moved}{barrier})")
     };
-    let energy_j = solution.equilibria().first().map(|e| e.energy_j);
+    let energy_j = shown(solution).map(|e| e.energy_j);
     let lower = match near.lower_j.zip(energy_j) {
-        Some((lower_j, here_j)) => {
+        // That of the other answer is not lower than this one.
+        Some((lower_j, here_j)) if here_j - lower_j > 1e-9 * here_j.abs() => {
             format!("; another is lower, by {} J", short(here_j - lower_j))
         }
         None if proved => "; it is the lowest of all (proved)".to_owned(),
-        None => String::new(),
+        _ => String::new(),
     };
     // As past a limit load.
     let way =
@@ -220,14 +233,12 @@ fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
 }
 
 /// The rungs in a line; and, where a check was not passed or forces are not unique, how that is.
-fn in_a_line(answers: &[(&SolverName, &Evidence)]) -> String {
-    let highest = |(_, evidence): &&(&SolverName, &Evidence)| evidence.rung();
-    let Some((_, best)) = answers.iter().max_by_key(highest) else { return String::new() };
+fn in_a_line(best: &Evidence, answers: usize) -> String {
     let marks = best.ladder.statements().map(|s| format!("{} {}", mark(s.reached), s.rung));
     let mut text = wrapped(&format!("Evidence: {} (--evidence)", marks.join(" ")), 2) + "\n";
     for statement in best.ladder.statements() {
         let checked = matches!(statement.rung, Rung::Converged | Rung::Agreed);
-        if checked && !statement.reached && answers.len() > 1 {
+        if checked && !statement.reached && answers > 1 {
             text += &line('-', &statement.rung.to_string(), &statement.how);
         }
     }
