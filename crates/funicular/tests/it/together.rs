@@ -311,3 +311,42 @@ fn cases_move_from_the_first_that_has_an_answer() {
         "{moves:?}"
     );
 }
+
+/// Two lamps at one place, with a slack tie between them that bears nothing in any direction: it explains nothing of what is
+/// left over at a third one, a third of a metre from its place.
+#[test]
+fn a_slack_tie_without_span_explains_no_force_elsewhere() {
+    let spring = |from: &str, to: &str, length_m: f64| {
+        format!(
+            "{{ from = '{from}', to = '{to}', length_m = {length_m}, mass_kg = 0, stiffness_n = 1000 }}"
+        )
+    };
+    let bars = [
+        spring("A", "P", 1.0),
+        spring("P", "B", 1.0),
+        spring("A", "Q", 1.0),
+        spring("Q", "B", 1.0),
+        spring("A", "R", 0.5),
+    ];
+    let text = format!(
+        "joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [2, 0, 0] }}, P = {{ mass_kg = 2 }}, Q = {{ mass_kg = 2 }}, R = {{ mass_kg = 2 }} }}\n\
+         bars = [{}, {{ from = 'P', to = 'Q', length_m = 0.5, mass_kg = 0, kind = 'cable' }}]",
+        bars.join(", ")
+    );
+    // P and Q by `2 (1000/1) (l - 1) z/l = 2 g`, l^2 = 1 + z^2.
+    let answer = |r: &str| {
+        format!(
+            "joint,x_m,y_m,z_m\nA,0,0,0\nB,2,0,0\nP,1,0,-0.27464367150555574\nQ,1,0,-0.2746436715055558\nR,{r}\n"
+        )
+    };
+    let right = format!("0,0,{}", -0.5 * (1.0 + 2.0 * 9.80665 / 1000.0));
+    let folder = holding([
+        ("lamps.toml", &text),
+        ("moved.csv", &answer("0.3,0,-0.7")),
+        ("right.csv", &answer(&right)),
+    ]);
+    for (file, code) in [("moved.csv", 1), ("right.csv", 0)] {
+        let (found, out, said) = run(&folder, &["judge", "lamps.toml", "--answer", file]);
+        assert_eq!(found, Some(code), "{out}{said}");
+    }
+}

@@ -225,7 +225,9 @@ pub(super) fn balances(
                 ([0.0; 3], at_most_n.map_or(force.abs(), |_| 0.0))
             } else {
                 let pull = times(*force, spans::unit([a, b], joints_m));
-                (pull, at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m))
+                let most_n =
+                    at_most_n.map_or(force.abs(), |n| n.min(most_n(member, joints_m, bounds)));
+                (pull, most_n * bounds.turn(distance_m))
             };
             let explained = bounds.force_n + open_n;
             left[a] = (plus(left[a].0, pull), left[a].1 + explained);
@@ -233,6 +235,22 @@ pub(super) fn balances(
         }
     }
     left
+}
+
+/// What a member may bear by its law at lengths that the bounds allow: nothing where it is slack, what its elongation tells
+/// where it is elastic.
+fn most_n(member: &Member, joints_m: &[Vector], bounds: &Bounds) -> f64 {
+    let (length_m, distance_m) = (member.body.length_m(), spans::length_m(member, joints_m));
+    let reach_m = bounds.distance_m(member);
+    match (member.stiffness_n, member.kind) {
+        (Some(stiffness_n), kind) => {
+            let borne_n = |off_m: f64| law_n(kind, stiffness_n, length_m, distance_m + off_m).abs();
+            borne_n(-reach_m).max(borne_n(reach_m))
+        }
+        (None, Kind::Cable) if distance_m < length_m - reach_m => 0.0,
+        (None, Kind::Strut) if distance_m > length_m + reach_m => 0.0,
+        _ => f64::INFINITY,
+    }
 }
 
 /// Joints that have run together on a rope: the span between them bears what one of them is out of balance by, up to its
