@@ -9,6 +9,7 @@ use super::tables::{numbers_from, short, significant, table, wrapped};
 use crate::csv::Numbers;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
+use validate::Tolerances;
 
 /// Points of a path printed one by one besides its events; of more, as many spread over the path.
 const PRINTED: usize = 16;
@@ -291,10 +292,19 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
 fn confirmed(found: &Confirmed) -> String {
     let Confirmed { points, critical, same_index, minimised, minima, singular, flat, statics } =
         *found;
+    let budget = Tolerances::project().statics;
+    let over = if statics <= budget {
+        String::new()
+    } else {
+        format!(", over its budget of {}", significant(budget, 1))
+    };
     let statics = significant(statics, 1);
+    let flat = match singular {
+        0 => String::new(),
+        _ => format!(", no curvature at {flat} of {singular} limit and branch points"),
+    };
     format!(
         "energy: an equilibrium at {critical} of {points} points, as many falling directions at {same_index}, a minimum at \
-         {minima} of {minimised} stable ones, no curvature at {flat} of {singular} limit and branch points; statics to \
-         {statics}. Other equilibria are not looked for"
+         {minima} of {minimised} stable ones{flat}; statics to {statics}{over}. Other equilibria are not looked for"
     )
 }

@@ -33,8 +33,9 @@ Examples:
 The folder holds manifest.json, part-000000.parquet and so on, and at the end summary.json. It is the same to
 the last byte for any number of threads and shards, interrupted or not.
 
-Where no census proves that there are no other equilibria, the list grows with the seeds: those that are reached
-stand under `discovered` of summary.json, by energy, the lowest 1000 if there are more.
+Where no census proves that there are no other equilibria: of a row of rigid bars the list grows with the seeds, and those that
+are reached stand under `discovered` of summary.json, by energy, the lowest 1000 if there are more; of any other system the
+list, in manifest.json, is what 256 other starts reach.
 
 Columns: seed; theta_1_rad, ... (with --angles); and of each solver outcome (a number in `equilibria` of the
 manifest and, behind these, of `discovered`, or -1 iteration limit, -2 stalled, -3 a number overflowed, -4 in no
