@@ -307,8 +307,9 @@ impl Member {
         let mut ends = [[0.0; 3]; 2];
         for (at_m, force_n) in loads.chain([(centre_m, weight)]) {
             let part = at_m / length_m;
-            for (end, part) in ends.iter_mut().zip([1.0 - part, part]) {
-                end.iter_mut().zip(force_n).for_each(|(sum, x)| *sum += part * x);
+            for (k, x) in force_n.iter().enumerate() {
+                ends[0][k] += (1.0 - part) * x;
+                ends[1][k] += part * x;
             }
         }
         ends

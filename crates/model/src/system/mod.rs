@@ -272,9 +272,10 @@ impl System {
         let own = self.joints.iter().map(|joint| (joint.force_n, weight_n(joint)));
         let mut loads: Vec<Vector> = own.map(|([x, y, z], w)| [x, y, z - w]).collect();
         for member in &self.members {
-            let ends = [member.from, member.to].into_iter();
-            for (joint, load) in ends.zip(member.end_loads_n(self.gravity_m_s2)) {
-                loads[joint].iter_mut().zip(load).for_each(|(sum, x)| *sum += x);
+            let [start, end] = member.end_loads_n(self.gravity_m_s2);
+            for k in 0..3 {
+                loads[member.from][k] += start[k];
+                loads[member.to][k] += end[k];
             }
         }
         loads

@@ -90,19 +90,25 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
 
 /// Which joints nothing acts on along these ways, nor any member, in every answer.
 fn idle(system: &System, answers: &[SystemEquilibrium], ways: Ways<'_>) -> Vec<bool> {
-    let loads = system.joint_loads_n();
-    let mut idle = vec![true; loads.len()];
-    // The least load holds the joints above it where they hang.
-    let sizes = loads.iter().map(|load| norm(*load)).filter(|size_n| *size_n > 0.0);
-    let least_n = sizes.fold(f64::INFINITY, f64::min);
-    for answer in answers {
-        let nothing_n = NOTHING * largest_force_n(answer).min(least_n);
-        for (member, axial_n) in system.members().iter().zip(&answer.axial_n) {
-            if axial_n.abs() > nothing_n {
-                member.path().for_each(|joint| idle[joint] = false);
+    let mut idle = vec![true; system.joints().len()];
+    let bears = |idle: &mut [bool], least_n: f64| {
+        for answer in answers {
+            let nothing_n = NOTHING * largest_force_n(answer).min(least_n);
+            for (member, axial_n) in system.members().iter().zip(&answer.axial_n) {
+                if axial_n.abs() > nothing_n {
+                    member.path().for_each(|joint| idle[joint] = false);
+                }
             }
         }
+    };
+    bears(&mut idle, f64::INFINITY);
+    if !idle.contains(&true) {
+        return idle;
     }
+    let loads = system.joint_loads_n();
+    // The least load holds the joints above it where they hang.
+    let sizes = loads.iter().map(|load| norm(*load)).filter(|size_n| *size_n > 0.0);
+    bears(&mut idle, sizes.fold(f64::INFINITY, f64::min));
     let is_still = |joint: usize| {
         let (load, ways) = (loads[joint], ways(joint));
         let acts = ways.iter().any(|way| dot(load, *way).abs() > f64::EPSILON * norm(load));
