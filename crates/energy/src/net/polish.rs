@@ -117,10 +117,6 @@ impl Newton {
                     return Polished::Astray;
                 }
                 if after >= before && before <= self.tolerance(&shape) {
-                    // Where no member bears anything they turn freely, and the step was made for other directions.
-                    if chord > 0 && before > rounding_floor(&frame, &shape) && frame.idle(&shape) {
-                        break;
-                    }
                     return self.polished(shape, before);
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
@@ -231,13 +227,6 @@ fn stiff(
 }
 
 impl Frame {
-    /// Whether the floor bears all, and the members nothing but roundings.
-    fn idle(&self, shape: &Shape) -> bool {
-        let least = STEP_ROUNDING * self.largest_force(&shape.force);
-        let mut members = self.rods.iter().zip(&shape.force).filter(|(rod, _)| !rod.ground);
-        members.all(|(_, force)| force.abs() <= least)
-    }
-
     /// Which members resist: by the sign of their force, and where there is none by their length.
     fn active(&self, shape: &Shape) -> Vec<bool> {
         let rounding = rounding_floor(self, shape);

@@ -199,7 +199,7 @@ impl Derivative {
         new.is_held = held > 0.0;
         new.assembled(framework, stiffness);
         // What turns freely would move by what rounding leaves of its stiffness; refinement takes this out again.
-        for (link, row) in framework.links.iter().zip(&new.rows) {
+        for (link, row) in framework.links.iter().zip(&new.rows).filter(|_| new.is_held) {
             let held = held * row.across.abs();
             stiffness.hold(link.from, held);
             stiffness.hold(link.to, held);
