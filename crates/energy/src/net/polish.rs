@@ -19,7 +19,7 @@ use model::system::Kind;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
-use crate::net::shape::Shape;
+use crate::net::shape::{Shape, Slope};
 use crate::thresholds::STEP_ROUNDING;
 use crate::vector::{dot, scaled};
 
@@ -101,6 +101,7 @@ impl Newton {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
         let stiffness = frame.force_scale(&shape.force) / strain;
+        let error = frame.error();
         let (mut steps, mut changes) = (POLISH, CHANGES);
         let mut active = frame.active(&shape);
         while steps > 0 {
@@ -112,12 +113,14 @@ impl Newton {
             for chord in 0..CHORDS {
                 let next = self.chord(&shape, stiffness, &active);
                 let there = frame.slope(&next);
-                let (before, after) = (slope.residual(), there.residual());
+                let (before, after) = (error(&slope), error(&there));
                 if !after.is_finite() {
                     return Polished::Astray;
                 }
-                if after >= before && before <= self.tolerance(&shape) {
-                    return self.polished(shape, before);
+                // With the factorisation of another shape it may be that which brings nothing.
+                let left = if chord == 0 { slope.residual() } else { before };
+                if after >= before && left <= self.tolerance(&shape) {
+                    return self.polished(shape, slope.residual());
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
                     break;
@@ -227,6 +230,14 @@ fn stiff(
 }
 
 impl Frame {
+    /// The residual of a shape, in which the misfit of a stiff elastic member counts as the force that
+    /// it stands for.
+    fn error(&self) -> impl Fn(&Slope) -> f64 + use<> {
+        let elastic = self.rods.iter().filter(|rod| rod.elastic());
+        let stiffest = elastic.map(|rod| rod.length / rod.flexibility).fold(1.0, f64::max);
+        move |slope| slope.unbalance.max(stiffest * slope.misfit)
+    }
+
     /// Which members resist: by the sign of their force, and where there is none by their length.
     fn active(&self, shape: &Shape) -> Vec<bool> {
         let rounding = rounding_floor(self, shape);
