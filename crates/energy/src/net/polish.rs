@@ -43,7 +43,7 @@ const ELASTIC_NEUTRAL: f64 = 1e-8;
 
 /// Steps of Newton's method for places and forces, and with one factorisation.
 const POLISH: usize = 12;
-const CHORDS: usize = 6;
+const CHORDS: usize = 12;
 
 /// Steps more for each change of the members that resist; changes that are allowed.
 const CHANGES: usize = 40;

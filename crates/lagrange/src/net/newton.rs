@@ -126,9 +126,12 @@ pub(super) fn polish(
         if run.residual.merit <= HALVED * merit {
             (merit, slow) = (run.residual.merit, 0);
         }
-        // A factor from before may be none of a part that turns freely.
-        anew = last && run.residual.length.0 > rounded && run.residual.size() > HALVED * before;
-        if anew {
+        // Lengths are brought to rounding as long as steps help; a factor from before may be none of a
+        // part that turns freely.
+        let halved = run.residual.size() <= HALVED * before;
+        let rough = done && run.residual.length.0 > rounded;
+        anew = rough && last && !halved;
+        if anew || (rough && halved) {
             continue;
         }
         if done || (patience == Patience::Little && slow >= SLOW_STEPS) {

@@ -44,13 +44,8 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
 }
 
 /// Above a floor a little below the lowest anchor.
-fn above_a_floor(system: System) -> System {
-    let heights = system.joints().iter().filter_map(|joint| match joint.support {
-        Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
-            Some(at_m[2])
-        }
-        Support::Free => None,
-    });
+pub(crate) fn above_a_floor(system: System) -> System {
+    let heights = system.joints().iter().filter_map(|joint| Some(joint.support.at_m()?[2]));
     let floor_m = heights.fold(f64::INFINITY, f64::min) - 0.3;
     system.with_floor(floor_m).expect("below the anchors")
 }
@@ -152,26 +147,26 @@ fn work_on_exhibits() {
         found.push((exhibit.name, row));
     }
     let expected = [
-        ("lamp", [2, 2, 20, 2, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("lamp", [2, 2, 21, 2, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("bridle", [2, 2, 23, 84, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("mobile", [2, 2, 115, 30, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("mobile", [2, 2, 114, 30, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("footbridge", [2, 2, 25, 46, 0, 0, 10, 0, 0, 0, 0, 0]),
         ("net", [2, 2, 27, 174, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("ring", [2, 2, 24, 42, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("tripod", [2, 2, 18, 0, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("pendulum-chain", [2, 2, 23, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("four-bar-linkage", [2, 2, 21, 8, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("x-cross", [2, 2, 47, 4, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("prism", [2, 2, 61, 10, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("expandable-octahedron", [2, 2, 84, 40, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("simplex-tower", [2, 2, 79, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("x-cross", [2, 2, 54, 4, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("prism", [2, 2, 62, 10, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("expandable-octahedron", [2, 2, 87, 40, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("simplex-tower", [2, 2, 83, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("warren-truss", [2, 2, 15, 0, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("pratt-truss", [2, 2, 19, 0, 8, 0, 0, 2, 0, 0, 0, 0]),
         ("lattice-tower", [2, 2, 13, 72, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("star-dome", [2, 2, 22, 42, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("geiger-dome", [2, 2, 116, 108, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("ring-on-a-rope", [2, 2, 19, 4, 0, 0, 0, 0, 0, 0, 0, 0]),
-        ("tackle", [2, 2, 11, 6, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("geiger-dome", [2, 2, 120, 108, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("ring-on-a-rope", [2, 2, 20, 4, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("tackle", [2, 2, 12, 6, 0, 0, 0, 0, 0, 0, 0, 0]),
     ];
     assert_frozen(&found[..], &expected);
 }

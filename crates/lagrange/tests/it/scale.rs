@@ -6,13 +6,14 @@ use lagrange::condensed;
 use lagrange::net::{self, Solution};
 use lagrange::{Settings, solve_from};
 use model::cases::Exhibit;
-use model::system::{Kind, Support, System};
+use model::system::{Kind, System};
 use model::{Ends, Problem, Vector};
 use rand::RngExt;
 use samples::scaled_chain;
 
 use crate::common::{problem, spatial_seed, stream};
 use crate::net_random::random;
+use crate::net_work::above_a_floor;
 
 /// Powers of two by which lengths, masses and gravity are multiplied.
 const FACTORS: [[f64; 3]; 3] = [[1024.0, 1.0, 1.0], [1.0, 0.0625, 1.0], [0.125, 64.0, 0.25]];
@@ -183,16 +184,7 @@ fn floors_push_small_weights() {
     let mut answers = 0;
     for seed in 3100..3112 {
         let system = random(seed, &[Kind::Cable], false);
-        let lowest = system.joints().iter().filter_map(|joint| match joint.support {
-            Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
-                Some(at_m[2])
-            }
-            Support::Free => None,
-        });
-        let floor_m = lowest.fold(f64::INFINITY, f64::min) - 0.3;
-        let on = |system: System| {
-            net::solve(&system.with_floor(floor_m).unwrap(), &net::Settings::default())
-        };
+        let on = |system| net::solve(&above_a_floor(system), &net::Settings::default());
         let other = on(samples::scaled(&system, factors));
         match (on(system), other) {
             (Ok(one), Ok(other)) => {

@@ -4,6 +4,7 @@
 use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::system_file::{Described, parse};
 use model::{Bar, Excess, Quantity, Status, Vector};
+use numerics::vector::{minus, norm};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
@@ -279,4 +280,38 @@ fn tripods_on_level_rollers_may_be_anywhere() {
             assert!((found.axial_n[3] - leg).abs() < 1e-9 * leg.abs(), "{:?} {leg}", found.axial_n);
         }
     }
+}
+
+/// Stiff elastic bodies on one hook: of such members a rounding of a length is a force.
+#[test]
+fn both_solvers_agree_on_stiff_bodies_that_hang_from_one_hook() {
+    let mut agreed = 0;
+    for seed in 0..100 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut places_m: Vec<Vector> = vec![[0.0; 3]];
+        let mut joints = vec![Joint::anchor("H", [0.0; 3])];
+        for k in 0..random.random_range(3..6) {
+            let mut within = |low, high| random.random_range(low..high);
+            places_m.push([within(-1.5, 1.5), within(-1.5, 1.5), within(-3.0, -1.0)]);
+            joints.push(Joint::free(format!("P{k}")).with_mass(within(0.5, 100.0)));
+        }
+        let stiffness_n = 10_f64.powf(random.random_range(6.0..9.0));
+        let mut members = Vec::new();
+        for to in 1..places_m.len() {
+            for from in 0..to {
+                if from == 0 || random.random_range(0..10) > 0 {
+                    let length_m = norm(minus(places_m[from], places_m[to]));
+                    let body = Bar::homogeneous(length_m, random.random_range(0.0..5.0)).unwrap();
+                    members.push(Member::bar(from, to, body).stretching(Some(stiffness_n)));
+                }
+            }
+        }
+        let system = System::new("a load", 9.81, joints, members).unwrap();
+        let answer = ask(&system, Solvers::Both, &|_| {});
+        if answer.agreement.is_some() {
+            assert!(answer.agrees(), "{seed}: {:?}", answer.agreement);
+            agreed += 1;
+        }
+    }
+    assert!(agreed >= 98, "{agreed}");
 }
