@@ -384,6 +384,56 @@ pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     Some((values, found.eigenvectors.select_columns(&order)))
 }
 
+/// The least value found on the unit sphere of `v·A v + Σ max(0, r·v)²`, `r` the rows: a quadratic form with springs that
+/// resist on one side alone. From every direction in which the form falls without them, and from where each of
+/// them goes slack, to the least with those that resist there. Zero where the form never falls.
+///
+/// ```
+/// use matrices::dense::least_one_sided;
+/// use nalgebra::DMatrix;
+/// // A post that falls to all sides, and springs against it at these angles, in degrees.
+/// let post = -DMatrix::<f64>::identity(2, 2);
+/// let held = |angles: &[f64]| {
+///     let rows = DMatrix::from_fn(angles.len(), 2, |row, axis| {
+///         let angle = angles[row].to_radians();
+///         2.0 * if axis == 0 { angle.cos() } else { angle.sin() }
+///     });
+///     least_one_sided(&post, &rows)
+/// };
+/// assert!(held(&[0.0, 90.0, 180.0, 270.0]) >= 0.0 && held(&[0.0, 120.0, 240.0]) >= 0.0);
+/// // Nothing holds it at 255 degrees, whatever is opposite.
+/// assert!((held(&[0.0, 1.0, 3.0, 165.0]) + 1.0).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
+    let Some((values, vectors)) = eigen(form) else { return 0.0 };
+    let falling = values.iter().take_while(|value| **value < 0.0).count();
+    let starts = (0..falling).flat_map(|k| [vectors.column(k).into_owned(), -vectors.column(k)]);
+    let slack = rows.row_iter().map(|row| -row.transpose()).filter(|_| falling > 0);
+    let resist = |v: &DVector<f64>| (rows * v).map(|stretch| stretch.max(0.0));
+    let value = |v: &DVector<f64>| v.dot(&(form * v)) + resist(v).norm_squared();
+    let mut least: f64 = 0.0;
+    for mut v in starts.chain(slack) {
+        let mut before = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let resisting = resist(&v);
+            let stiff = rows.row_iter().zip(&resisting).filter(|(_, stretch)| **stretch > 0.0);
+            let with = stiff.fold(form.clone(), |with, (row, _)| with + row.tr_mul(&row));
+            let Some((_, vectors)) = eigen(&with) else { break };
+            let next = vectors.column(0).into_owned();
+            let [this, other] = [value(&next), value(&-&next)];
+            v = if this <= other { next } else { -next };
+            let here = this.min(other);
+            if here >= before {
+                break;
+            }
+            before = here;
+        }
+        least = least.min(before);
+    }
+    least
+}
+
 /// The same of three rows.
 #[must_use]
 pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {

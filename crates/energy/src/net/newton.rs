@@ -77,6 +77,9 @@ const STATIONARY: f64 = 1e-3;
 /// Largest displacement of a joint in the first step off a saddle, over the unit of length.
 const OFF_SADDLE: f64 = 0.3;
 
+/// Steps after which Newton's method for places and forces is tried again, however near it was.
+const AGAIN: u64 = 20;
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ended {
@@ -98,6 +101,8 @@ pub(super) struct Newton {
     definite: bool,
     /// Misfit below which Newton's method for places and forces is tried next.
     near: f64,
+    /// Steps since it was tried.
+    since: u64,
     /// The solution where lengths overdetermine it.
     pub(super) limit: Option<Limit>,
     /// Largest relative displacement of the ends of a member in one step, over its length.
@@ -156,6 +161,7 @@ impl Newton {
             shift: 0.0,
             definite: false,
             near: pace.near,
+            since: 0,
             limit: None,
             step: pace.step,
             own: pace.own,
@@ -387,13 +393,16 @@ impl Solver<Potential, Iterate> for Newton {
         self.frame.meter.check()?;
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
-        if slope.misfit <= self.near {
+        self.since += 1;
+        // Off a saddle the misfit need not become less than it was there.
+        let again = slope.misfit <= NEAR && self.near < NEAR && self.since >= AGAIN;
+        if slope.misfit <= self.near || again {
             if let Some(solution) = self.finish(&shape)? {
                 self.ended = Ended::Converged;
                 return accept(problem, state, Arc::new(solution));
             }
-            // Off a saddle the misfit need not become less than it was there.
             self.near = NEAR.min((0.1 * slope.misfit).max(STEP_ROUNDING));
+            self.since = 0;
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

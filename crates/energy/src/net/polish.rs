@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::STEP_ROUNDING;
+use crate::thresholds::{FORCE_ROUNDING, STEP_ROUNDING};
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -238,19 +238,21 @@ impl Frame {
         move |slope| slope.unbalance.max(stiffest * slope.misfit)
     }
 
-    /// Which members resist: by the sign of their force, and where there is none by their length.
+    /// Which members resist: by the sign of their force, and where it is rounding by their length; what is just taut
+    /// would resist.
     fn active(&self, shape: &Shape) -> Vec<bool> {
         let rounding = rounding_floor(self, shape);
+        let none = FORCE_ROUNDING * self.largest_force(&shape.force);
         let resists = |(e, rod): (usize, &Rod)| {
             let force = shape.force[e];
             if rod.kind == Kind::Bar {
                 return true;
             }
-            if force.abs() > 0.0 {
+            if force.abs() > none {
                 return rod.resists(force);
             }
             let excess = self.excess(&shape.x, e).value / rod.length;
-            excess.abs() > rounding && rod.resists(excess)
+            excess.abs() <= rounding || rod.resists(excess)
         };
         self.rods.iter().enumerate().map(resists).collect()
     }

@@ -5,7 +5,8 @@
 //! derivative in that basis. Large ones: the signs of the pivots of the sparse matrix with stiff
 //! springs for the lengths.
 
-use matrices::dense::{Kernels, eigenvalues};
+use matrices::dense::{Kernels, eigenvalues, least_one_sided};
+use model::system::Kind;
 use model::{Rigidity, Vector};
 use nalgebra::DMatrix;
 
@@ -229,6 +230,10 @@ pub(super) struct Dense {
     /// Those members.
     taut: Vec<usize>,
     rigidity: Rigidity,
+    /// Basis of the motions that keep the lengths.
+    motions: DMatrix<f64>,
+    /// The index where some members have just their length, and resist on one side alone.
+    one_sided: Option<usize>,
 }
 
 impl Dense {
@@ -239,8 +244,55 @@ impl Dense {
                 let shape = stressed(shape, &limit.stiffening);
                 Self::with(frame, &shape, |e| limit.taut[e], limit.rank)
             }
-            None => Self::with(frame, shape, |e| resists(frame, shape, e), ZERO),
+            None => {
+                let one_sided = Self::one_sided(frame, shape);
+                Self { one_sided, ..Self::resisting(frame, shape) }
+            }
         }
+    }
+
+    /// With the members that resist by the sign of their force.
+    fn resisting(frame: &Frame, shape: &Shape) -> Self {
+        Self::with(frame, shape, |e| resists(frame, shape, e), ZERO)
+    }
+
+    /// The index where cables, struts or the floor are just taut, if some are: the sign of their force is rounding. Where
+    /// the energy falls with all of them it falls; else it may where some go slack.
+    fn one_sided(frame: &Frame, shape: &Shape) -> Option<usize> {
+        let excess = frame.excesses(&shape.x);
+        let none = ZERO * frame.largest_force(&shape.force);
+        let open = frame.rods.iter().enumerate().filter(|(e, rod)| {
+            let reaches = excess[*e].value.abs() <= ZERO * rod.length;
+            let may_go = rod.kind != Kind::Bar && !frame.is_held(rod) && !frame.again(*e);
+            may_go && reaches && shape.force[*e].abs() <= none
+        });
+        let open: Vec<usize> = open.map(|(e, _)| e).collect();
+        if open.is_empty() {
+            return None;
+        }
+        let with = |force: f64| {
+            let mut shape = shape.clone();
+            for e in &open {
+                let pulls = frame.rods[*e].kind == Kind::Cable;
+                shape.force[*e] = if pulls { force } else { -force };
+            }
+            frame.spread(&mut shape.force);
+            Self::resisting(frame, &shape)
+        };
+        let index = with(f64::MIN_POSITIVE).count().index;
+        if index > 0 {
+            return Some(index);
+        }
+        let slack = with(0.0);
+        let mut rows = rows(frame, &excess, &open) * &slack.motions;
+        for (mut row, e) in rows.row_iter_mut().zip(&open) {
+            let rod = &frame.rods[*e];
+            let own = slack.size / STIFF_STRAIN / rod.length;
+            let stiffness = if rod.elastic() { rod.flexibility.recip() } else { own };
+            row *= if rod.kind == Kind::Strut { -1.0 } else { 1.0 } * stiffness.sqrt();
+        }
+        let zero = ZERO * slack.hessian.amax().max(slack.size);
+        Some(usize::from(least_one_sided(&slack.hessian, &rows) < -zero))
     }
 
     /// With the members that are taut, and the part of the largest singular value below which all
@@ -281,7 +333,8 @@ impl Dense {
         let floors = floors.filter(|row| (0..n).any(|k| rigidity[(*row, k)].abs() > zero)).count();
         let (motions, stresses, counted) = kernels(&rigidity, zero);
         let rigidity = Rigidity { rank: counted.rank.saturating_sub(floors), ..counted };
-        Self { hessian: motions.transpose() * &hessian * &motions, size, stresses, taut, rigidity }
+        let hessian = motions.transpose() * &hessian * &motions;
+        Self { hessian, size, stresses, taut, rigidity, motions, one_sided: None }
     }
 
     /// What the eigenvalues say.
@@ -295,7 +348,9 @@ impl Dense {
         let others = values.iter().map(|value| value.abs()).filter(|value| *value > zero);
         let smallest = others.fold(f64::INFINITY, f64::min);
         Count {
-            index: values.iter().filter(|value| **value < -zero).count(),
+            index: self
+                .one_sided
+                .unwrap_or_else(|| values.iter().filter(|value| **value < -zero).count()),
             neutral: values.iter().filter(|value| value.abs() <= zero).count(),
             condition: if smallest.is_finite() { largest(&values) / smallest } else { 1.0 },
             nearest_to_zero: values.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs())),

@@ -5,7 +5,7 @@
 //! transpose (self-stresses). The energy's second derivative among such motions is
 //! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
 
-use matrices::dense::{Kernels, eigen, eigenvalues, product, projected};
+use matrices::dense::{Kernels, eigen, eigenvalues, least_one_sided, product, projected};
 use model::system::Kind;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -14,7 +14,7 @@ use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
 use super::possible::translations;
-use super::solution::NO_FORCE;
+use super::solution::{NO_FORCE, NO_SLACK};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::thresholds::{ROUNDED, ZERO};
@@ -77,9 +77,10 @@ impl SecondOrder {
     ) -> Self {
         if framework.freedoms() <= dense {
             let space = Dense::new(framework, state);
-            let (index, neutral) = space.count;
+            let (index, neutral) = (space.index(framework, state), space.count.1);
             let planar = in_plane(framework, state);
-            let index_in_plane = planar.map(|planar| Dense::new(&planar, state).count.0);
+            let index_in_plane =
+                planar.map(|planar| Dense::new(&planar, state).index(&planar, state));
             let (mechanisms, self_stresses) = (Some(space.mechanisms), Some(space.self_stresses));
             let rank_gap = Some(space.rank_gap);
             return Self { index, neutral, mechanisms, self_stresses, rank_gap, index_in_plane };
@@ -148,6 +149,11 @@ struct Dense {
     mechanisms: usize,
     self_stresses: Vec<Vec<f64>>,
     rank_gap: [f64; 2],
+    /// Basis of the motions that keep all lengths, and the second derivative among them.
+    motions: DMatrix<f64>,
+    form: DMatrix<f64>,
+    /// A curvature of this size is none.
+    flat: f64,
 }
 
 /// The gradients of the lengths of some members by the free directions, a row for each.
@@ -218,7 +224,7 @@ impl Dense {
         let mut curvatures = eigenvalues(&form).unwrap_or_else(|| vec![0.0; form.nrows()]);
         if stresses.ncols() > 0 && curvatures.iter().any(|c| *c < -flat) {
             let of = (framework, links.as_slice(), first_unknown.as_slice(), rigid.as_slice());
-            curvatures = stiffened(of, &motions, &stresses, form).unwrap_or(curvatures);
+            curvatures = stiffened(of, &motions, &stresses, form.clone()).unwrap_or(curvatures);
         }
         let index = curvatures.iter().filter(|c| **c < -flat).count();
         let neutral = curvatures.iter().filter(|c| c.abs() <= flat).count();
@@ -231,7 +237,52 @@ impl Dense {
                 framework.by_link(forces)
             })
             .collect();
-        Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses, rank_gap }
+        let (count, mechanisms) = ((index, neutral), motions.ncols());
+        Self { count, mechanisms, self_stresses, rank_gap, motions, form, flat }
+    }
+
+    /// The number of directions in which the energy falls. Of cables and struts that bear no force at just their length it
+    /// is open whether they are taut: where it rises with all of them it may yet fall where some go slack.
+    fn index(&self, framework: &Framework, state: &State) -> usize {
+        let none = NO_FORCE * state.largest_force(framework);
+        let directions = state.directions(framework);
+        let open = (0..framework.members()).filter(|&k| {
+            let link = &framework.links[k];
+            let length = framework.whole(k, |span| directions[span].1);
+            let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
+            let may_go = link.kind != Kind::Bar && framework.moves(link);
+            may_go && reaches && state.axial[k].abs() <= none
+        });
+        let open: Vec<usize> = open.collect();
+        if open.is_empty() {
+            return self.count.0;
+        }
+        let with = |taut: bool| {
+            let mut state = state.clone();
+            state.taut.truncate(framework.members());
+            state.axial.truncate(framework.members());
+            for k in &open {
+                (state.taut[*k], state.axial[*k]) = (taut, 0.0);
+            }
+            state.taut = framework.by_link(state.taut);
+            state.axial = framework.by_link(state.axial);
+            state
+        };
+        let all = Self::new(framework, &with(true)).count.0;
+        if all > 0 {
+            return all;
+        }
+        let slack = Self::new(framework, &with(false));
+        let links = links(framework, state);
+        let mut rows =
+            gradients(framework, &links, &first_unknowns(framework), &open) * &slack.motions;
+        let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
+        for (mut row, k) in rows.row_iter_mut().zip(&open) {
+            let stiffness = links[*k].along.unwrap_or(RIGID * largest);
+            let outwards = if framework.links[*k].kind == Kind::Strut { -1.0 } else { 1.0 };
+            row *= outwards * stiffness.sqrt();
+        }
+        usize::from(least_one_sided(&slack.form, &rows) < -slack.flat)
     }
 }
 
