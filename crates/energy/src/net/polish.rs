@@ -248,7 +248,9 @@ impl Frame {
             if rod.kind == Kind::Bar {
                 return true;
             }
-            if force.abs() > none {
+            let of_length =
+                if rod.elastic() { rounding * rod.length / rod.flexibility } else { 0.0 };
+            if force.abs() > none.max(of_length) {
                 return rod.resists(force);
             }
             let excess = self.excess(&shape.x, e).value / rod.length;

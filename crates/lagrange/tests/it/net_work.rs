@@ -1,7 +1,7 @@
 //! The work of the solver of systems, frozen as that of chains in `work`.
 
 use lagrange::net::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -19,13 +19,53 @@ use super::verticals::firsts;
 /// Level distance of supports on one vertical over the length of all members.
 const ONE_VERTICAL: f64 = model::VERTICAL_TOLERANCE;
 
+/// What supports leave of moves in the level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Slides {
+    Not,
+    /// Along level guides of one direction.
+    Along([f64; 2]),
+    /// Anywhere, on level planes alone.
+    Anywhere,
+}
+
+impl Slides {
+    /// What a support leaves.
+    fn on(support: &Support) -> Self {
+        match support {
+            Support::Free => Self::Anywhere,
+            Support::Line { direction: [x, y, z], .. } if z.abs() <= ONE_VERTICAL * x.hypot(*y) => {
+                Self::Along([x / x.hypot(*y), y / x.hypot(*y)])
+            }
+            Support::Plane { normal: [x, y, _], .. } if x.hypot(*y) <= ONE_VERTICAL => {
+                Self::Anywhere
+            }
+            Support::Plane { normal: [x, y, _], .. } => {
+                Self::Along([-y / x.hypot(*y), x / x.hypot(*y)])
+            }
+            Support::Fixed { .. } | Support::Line { .. } => Self::Not,
+        }
+    }
+
+    /// What two leave together.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Anywhere, slides) | (slides, Self::Anywhere) => slides,
+            (Self::Along([x, y]), Self::Along([u, v])) if (x * v - y * u).abs() <= ONE_VERTICAL => {
+                self
+            }
+            _ => Self::Not,
+        }
+    }
+}
+
 /// Joints that keep their distances under all free turns.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     /// The joint about whose vertical it turns; nothing for what does not turn.
     pub pivot: Option<usize>,
-    /// Whether it moves in the level as it is: what level planes alone hold.
-    pub slides: bool,
+    /// How it moves in the level as it is.
+    pub slides: Slides,
     /// Number of turning bodies from the ground to this one.
     pub depth: usize,
 }
@@ -72,8 +112,7 @@ impl Bodies {
         let node = nodes(system);
         let mut new = Self { of_joint: vec![0; joints], all: vec![], fixed, neighbours };
         let walk = new.walk(&node);
-        let stands = |joint: &Joint| matches!(joint.support, Support::Plane { .. });
-        new.divide(&node, &walk, system.joints().iter().map(stands).collect());
+        new.divide(&node, &walk, system.joints());
         new
     }
 
@@ -108,14 +147,18 @@ impl Bodies {
         walk
     }
 
-    /// A body for the ground, one for whatever hangs on one node alone, and one for whatever stands on level planes alone:
-    /// `stands` are the joints on planes.
-    fn divide(&mut self, node: &[usize], walk: &Walk, mut stands: Vec<bool>) {
+    /// A body for the ground, one for whatever hangs on one node alone, and one for whatever stands on level planes or
+    /// guides of one direction alone.
+    fn divide(&mut self, node: &[usize], walk: &Walk, all: &[Joint]) {
         let joints = node.len();
+        let mut stands: Vec<bool> =
+            all.iter().map(|joint| matches!(joint.support, Support::Plane { .. })).collect();
+        let mut slides = vec![Slides::Anywhere; joints];
         let mut low = walk.rank.clone();
         let mut held = vec![false; joints];
         for joint in 0..joints {
             held[node[joint]] |= self.fixed[joint];
+            slides[node[joint]] = slides[node[joint]].and(Slides::on(&all[joint].support));
             for other in &self.neighbours[joint] {
                 low[node[joint]] = low[node[joint]].min(walk.rank[node[*other]]);
             }
@@ -126,8 +169,9 @@ impl Bodies {
             // Where a walk begins, nothing turns by itself.
             held[parent] |= held[*v];
             stands[parent] |= stands[*v];
+            slides[parent] = slides[parent].and(slides[*v]);
         }
-        self.all.push(Body { pivot: None, slides: false, depth: 0 });
+        self.all.push(Body { pivot: None, slides: Slides::Not, depth: 0 });
         let mut body = vec![0; joints];
         for v in &walk.order {
             let parent = walk.parent[*v];
@@ -136,10 +180,16 @@ impl Bodies {
             if hangs {
                 let depth = self.all[body[parent]].depth + 1;
                 body[*v] = self.all.len();
-                self.all.push(Body { pivot: Some(walk.door[*v]), slides: false, depth });
-            } else if parent == *v && stands[*v] && !held[*v] {
-                body[*v] = self.all.len();
-                self.all.push(Body { pivot: None, slides: true, depth: 0 });
+                self.all.push(Body { pivot: Some(walk.door[*v]), slides: Slides::Not, depth });
+            } else if parent == *v {
+                let slides = match slides[*v] {
+                    Slides::Anywhere if held[*v] || !stands[*v] => Slides::Not,
+                    slides => slides,
+                };
+                if slides != Slides::Not {
+                    body[*v] = self.all.len();
+                    self.all.push(Body { pivot: None, slides, depth: 0 });
+                }
             }
         }
         self.of_joint = node.iter().map(|node| body[*node]).collect();
@@ -189,7 +239,7 @@ impl Bodies {
                     self.of_joint[joint] = new;
                 }
             }
-            self.all.push(Body { pivot: Some(pivot), slides: false, depth: 0 });
+            self.all.push(Body { pivot: Some(pivot), slides: Slides::Not, depth: 0 });
         }
         self.count_depths();
     }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use model::Vector;
 use model::system::{Member, Support, System, SystemEquilibrium};
 
-use super::bodies::{Bodies, Body};
+use super::bodies::{Bodies, Body, Slides};
 use super::free::is_slack;
 use super::spans::span_forces;
 use super::statics::judge;
@@ -101,7 +101,7 @@ fn moving(bodies: &Bodies, system: &System, answer: &SystemEquilibrium) -> [usiz
         }
     }
     let count = |is: &dyn Fn(usize) -> bool| (0..beside.len()).filter(|k| is(*k)).count();
-    [count(&|body| beside[body]), count(&|body| bodies.all[body].slides)]
+    [count(&|body| beside[body]), count(&|body| bodies.all[body].slides != Slides::Not)]
 }
 
 /// Places that are nearer to each other than this are one, m.
@@ -190,8 +190,16 @@ fn turns(
                 let at_m = second.joints_m[pivot];
                 (at_m, turns[bodies.of_joint[pivot]].place(at_m))
             }
-            Body { slides: true, .. } => {
+            Body { slides: Slides::Anywhere, .. } => {
                 (middle_m(&joints[body], second), middle_m(&joints[body], first))
+            }
+            Body { slides: Slides::Along([u, v]), .. } => {
+                let from_m = middle_m(&joints[body], second);
+                let [x, y, _] = minus(middle_m(&joints[body], first), from_m);
+                let (along_m, [from_x, from_y, _]) = (x * u + y * v, from_m);
+                let to_m = [from_x + along_m * u, from_y + along_m * v];
+                turns[body] = Turn { from_m: [from_x, from_y], to_m, ..Turn::NONE };
+                continue;
             }
             Body { .. } => continue,
         };

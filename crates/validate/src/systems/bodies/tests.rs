@@ -59,7 +59,7 @@ fn supports_feel_a_turn() {
 /// Body 1 hangs on body 2, which hangs on body 3, and 4 on 1.
 #[test]
 fn depths_are_counted_in_any_order() {
-    let body = |pivot: Option<usize>| Body { pivot, slides: false, depth: 9 };
+    let body = |pivot: Option<usize>| Body { pivot, slides: Slides::Not, depth: 9 };
     let mut bodies = Bodies {
         of_joint: vec![0, 1, 2, 3, 4],
         all: vec![body(None), body(Some(2)), body(Some(3)), body(Some(0)), body(Some(1))],
