@@ -1,5 +1,7 @@
 //! Axes: ranges, round ticks, frames.
 
+use model::number::decimals;
+
 use crate::look::{Colour, Look};
 use crate::svg::{Anchor, Svg};
 
@@ -58,8 +60,7 @@ impl Axis {
             let ten = 10_f64.powf(rough.log10().floor());
             [1.0, 2.0, 5.0].into_iter().map(|s| s * ten).find(|s| *s >= rough).unwrap_or(10.0 * ten)
         };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
-        let digits = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
+        let digits = decimals(step, 1, 12);
         let first = (low / step).ceil();
         let count = ((high / step).floor() - first).clamp(0.0, 100.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 100")]

@@ -79,43 +79,22 @@ impl Basins {
         Self::default()
     }
 
-    /// Starts along each side.
-    #[must_use]
-    pub fn size(self, size: u32) -> Self {
-        Self { size, ..self }
-    }
-
-    /// The two bars whose angles are the axes, from 1.
-    #[must_use]
-    pub fn bars(self, bars: [usize; 2]) -> Self {
-        Self { bars, ..self }
-    }
-
-    /// Starting angle of all other bars from the descending vertical, degrees.
-    #[must_use]
-    pub fn others_deg(self, others_deg: f64) -> Self {
-        Self { others_deg, ..self }
-    }
-
-    /// The joint whose starting place the axes are, of a system that is no chain (its first free
-    /// joint).
-    #[must_use]
-    pub fn joint(self, name: &str) -> Self {
-        Self { joint: Some(name.to_owned()), ..self }
-    }
-
-    /// The plane in which it varies, through where the joint hangs: as far as its longest member to
-    /// all sides.
-    #[must_use]
-    pub fn plane(self, plane: Plane) -> Self {
-        Self { plane, ..self }
-    }
-
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+    setters! {
+        /// Starts along each side.
+        size: u32,
+        /// The two bars whose angles are the axes, from 1.
+        bars: [usize; 2],
+        /// Starting angle of all other bars from the descending vertical, degrees.
+        others_deg: f64,
+        /// The joint whose starting place the axes are, of a system that is no chain (its first free
+        /// joint).
+        joint: &str => Some(joint.to_owned()),
+        /// The plane in which it varies, through where the joint hangs: as far as its longest member to
+        /// all sides.
+        plane: Plane,
+        /// How many threads share the work, 0 (the default) for those of the pool that it is called
+        /// from.
+        threads: usize,
     }
 
     /// Check the settings against a system.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use model::number::decimals;
+
 use crate::text::tables::{fixed, short};
 
 /// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
@@ -27,16 +29,11 @@ impl Numbers {
 
     /// The same for numbers that are apart by no more than this, as coordinates far from their origin: six digits of
     /// that.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "small and not negative"
-    )]
     pub(crate) fn apart(mut self, by: f64) -> Self {
         /// Six digits of a number show three of a difference as large as this part of it.
         const LITTLE: f64 = 1e-3;
         if by > 0.0 && by < LITTLE * self.largest {
-            self.decimals = Some((5.0 - by.log10().floor()).clamp(0.0, 9.0) as usize);
+            self.decimals = Some(decimals(by, 6, 9));
         }
         self
     }

@@ -73,6 +73,9 @@
 //! World frame *OXYZ*, *Z* up, gravity along −*Z*; SI units, named in every field. Joint 0 is the
 //! start anchor, joint *n* the end anchor; bar *i* = 1..n runs from joint *i*−1 to joint *i*.
 
+#[macro_use]
+mod setters;
+
 mod animation;
 #[cfg(feature = "sweep")]
 mod basins;

@@ -63,10 +63,12 @@ impl Modes {
         Self::default()
     }
 
-    /// Take a census of chains of up to so many bars; 0 takes none.
-    #[must_use]
-    pub fn max_bars(self, max_bars: usize) -> Self {
-        Self { max_bars, ..self }
+    setters! {
+        /// Take a census of chains of up to so many bars; 0 takes none.
+        max_bars: usize,
+        /// How many threads share the census, 0 (the default) for those of the pool that it is called
+        /// from. The answer does not depend on it.
+        threads: usize,
     }
 
     /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all
@@ -88,13 +90,6 @@ impl Modes {
     #[must_use]
     pub fn lowest(self, count: usize) -> Self {
         Self { lowest: Some(count), ..self }
-    }
-
-    /// How many threads share the census, 0 (the default) for those of the pool that it is called
-    /// from. The answer does not depend on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
     }
 
     /// Find equilibria and their modes.

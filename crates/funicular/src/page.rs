@@ -115,16 +115,11 @@ impl Page {
         Ok(Self { vary: Some(self.vary.unwrap_or_default().vary(text)?), ..self })
     }
 
-    /// With a motion.
-    #[must_use]
-    pub fn simulate(self, simulate: Simulate) -> Self {
-        Self { simulate: Some(simulate), ..self }
-    }
-
-    /// With these modes, moving from the start, of these equilibria.
-    #[must_use]
-    pub fn modes(self, modes: Modes) -> Self {
-        Self { modes: Some(modes), ..self }
+    setters! {
+        /// With a motion.
+        simulate: Simulate => Some(simulate),
+        /// With these modes, moving from the start, of these equilibria.
+        modes: Modes => Some(modes),
     }
 
     /// Solve the problem and make its page.

@@ -115,47 +115,22 @@ impl Sweep {
         }
     }
 
-    /// The number that all starts come from (1); another one gives others.
-    #[must_use]
-    pub fn number(self, number: u64) -> Self {
-        Self { number, ..self }
-    }
-
-    /// How the starts are spread.
-    #[must_use]
-    pub fn spread(self, spread: Spread) -> Self {
-        Self { spread, ..self }
-    }
-
-    /// Which solvers to ask.
-    #[must_use]
-    pub fn solvers(self, solvers: Solvers) -> Self {
-        Self { solvers, ..self }
-    }
-
-    /// How many threads, 0 (the default) for one per processor. The result does not depend on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
-    }
-
-    /// Only one of several parts, to be joined by [`merge`](sweep::merge); for
-    /// [`PreparedSweep::write`].
-    #[must_use]
-    pub fn shard(self, shard: Shard) -> Self {
-        Self { shard, ..self }
-    }
-
-    /// Write the angles of the starts, too; for [`PreparedSweep::write`].
-    #[must_use]
-    pub fn angles(self, angles: bool) -> Self {
-        Self { angles, ..self }
-    }
-
-    /// The form of the rows; for [`PreparedSweep::write`].
-    #[must_use]
-    pub fn format(self, format: Format) -> Self {
-        Self { format, ..self }
+    setters! {
+        /// The number that all starts come from (1); another one gives others.
+        number: u64,
+        /// How the starts are spread.
+        spread: Spread,
+        /// Which solvers to ask.
+        solvers: Solvers,
+        /// How many threads, 0 (the default) for one per processor. The result does not depend on it.
+        threads: usize,
+        /// Only one of several parts, to be joined by [`merge`](sweep::merge); for
+        /// [`PreparedSweep::write`].
+        shard: Shard,
+        /// Write the angles of the starts, too; for [`PreparedSweep::write`].
+        angles: bool,
+        /// The form of the rows; for [`PreparedSweep::write`].
+        format: Format,
     }
 
     /// Run all starts, and count what becomes of them.

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::mass_range::too_wide;
-use crate::system::{LARGEST_TOTAL, SystemError};
+use crate::system::{SystemError, check_range};
 use crate::{Bar, Vector, sum};
 
 /// Standard acceleration of gravity, m/s² (exact by definition: 3rd CGPM, 1901).
@@ -112,23 +111,14 @@ impl Chain {
         let mass_kg = sum(bars.iter().map(Bar::mass_kg));
         let weight_n = mass_kg * gravity_m_s2;
         let weighs = mass_kg > 0.0;
-        for (quantity, total, may_vanish) in [
+        let totals = [
             // Anchors may be in one place, and a chain without mass is refused as a problem.
             ("span", anchors.span_m(), true),
             ("total length", length_m, false),
             ("total weight", weight_n, !weighs),
             ("total weight times total length", weight_n * length_m, !weighs),
-        ] {
-            if total.is_nan() || total > LARGEST_TOTAL {
-                return Err(SystemError::Overflow { quantity });
-            }
-            if total < SMALLEST_TOTAL && !may_vanish {
-                return Err(SystemError::Underflow { quantity, total });
-            }
-        }
-        if let Some((lightest_kg, heaviest_kg)) = too_wide(bars.iter().map(Bar::mass_kg)) {
-            return Err(SystemError::MassRange { lightest_kg, heaviest_kg });
-        }
+        ];
+        check_range(totals, bars.iter().map(Bar::mass_kg))?;
         let name = name.into();
         let (total_length_m, total_mass_kg) = (length_m, mass_kg);
         let bars = Arc::new(bars);

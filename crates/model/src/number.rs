@@ -203,18 +203,25 @@ fn fixed(x: f64, decimals: usize) -> String {
 
 /// `digits` significant digits without trailing zeros.
 fn significant(x: f64, digits: usize) -> String {
-    let exponent = x.abs().log10().floor();
-    // A double has exponents of three digits at most, and `digits` is small.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "small and not negative"
-    )]
-    let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
-    let text = fixed(x, decimals);
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    trimmed(&fixed(x, decimals(x, digits, usize::MAX))).to_owned()
+}
+
+/// The decimals that show so many significant digits of a number, and no more than `most`.
+///
+/// ```
+/// use model::number::decimals;
+/// assert_eq!([12.5, 0.125, 1e-9, 0.0].map(|x| decimals(x, 4, 6)), [2, 4, 6, 6]);
+/// ```
+#[must_use]
+pub fn decimals(x: f64, digits: usize, most: usize) -> usize {
+    let wanted = digits as f64 - 1.0 - x.abs().log10().floor();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
+    let wanted = wanted as usize;
+    wanted.min(most)
+}
+
+/// A number in decimals without the zeros at its end.
+#[must_use]
+pub fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

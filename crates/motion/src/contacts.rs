@@ -120,20 +120,36 @@ impl Contacts {
         found
     }
 
-    /// The gap of a contact at places by joint.
-    fn gap_at(&self, contact: Contact, joints_m: &[Vector]) -> f64 {
+    /// What the length of a member or the height of a joint says of a contact: a cable closes as it
+    /// gets longer, a strut as it gets shorter.
+    fn opening(
+        &self,
+        contact: Contact,
+        longer: impl Fn(&Member) -> f64,
+        higher: impl Fn(usize) -> f64,
+    ) -> f64 {
         match contact {
             Contact::Member(number) => {
                 let member = &self.system.members()[number];
-                let spans = member.spans().map(|[a, b]| minus(joints_m[b], joints_m[a]));
-                let excess = half_excess(squared(spans), member.body.length_m());
-                if member.kind == Kind::Cable { -excess } else { excess }
+                let longer = longer(member);
+                if member.kind == Kind::Cable { -longer } else { longer }
             }
-            Contact::Floor(joint) => {
-                let above_m = joints_m[joint][2] - self.system.floor_m().unwrap_or_default();
-                above_m / self.system.total_length_m()
-            }
+            Contact::Floor(joint) => higher(joint),
         }
+    }
+
+    /// How high a place is above the floor, in units of all lengths.
+    fn above_floor(&self, z_m: f64) -> f64 {
+        (z_m - self.system.floor_m().unwrap_or_default()) / self.system.total_length_m()
+    }
+
+    /// The gap of a contact at places by joint.
+    fn gap_at(&self, contact: Contact, joints_m: &[Vector]) -> f64 {
+        let longer = |member: &Member| {
+            let spans = member.spans().map(|[a, b]| minus(joints_m[b], joints_m[a]));
+            half_excess(squared(spans), member.body.length_m())
+        };
+        self.opening(contact, longer, |joint| self.above_floor(joints_m[joint][2]))
     }
 
     /// The system with bars and supports for what holds, and nothing else in its place; ropes stay,
@@ -166,36 +182,23 @@ impl Contacts {
     /// The gaps, relative: to first order the part of the length that is missing to its end, or of
     /// all lengths to the floor.
     pub(crate) fn gaps(&self, mechanism: &Mechanism, state: &State) -> Vec<f64> {
-        self.list.iter().map(|contact| self.gap(*contact, mechanism, state)).collect()
-    }
-
-    fn gap(&self, contact: Contact, mechanism: &Mechanism, state: &State) -> f64 {
-        match contact {
-            Contact::Member(number) => {
-                let member = &self.system.members()[number];
-                let spans = slots(member, mechanism).map(|[a, b]| state.between(a, b));
-                let excess = half_excess(squared(spans), member.body.length_m());
-                if member.kind == Kind::Cable { -excess } else { excess }
-            }
-            Contact::Floor(joint) => {
-                let z = state.at[mechanism.slot_of[joint]][2] + mechanism.reference_m[2];
-                (z - self.system.floor_m().unwrap_or_default()) / self.system.total_length_m()
-            }
-        }
+        let longer = |member: &Member| {
+            let spans = slots(member, mechanism).map(|[a, b]| state.between(a, b));
+            half_excess(squared(spans), member.body.length_m())
+        };
+        let higher = |joint: usize| {
+            self.above_floor(state.at[mechanism.slot_of[joint]][2] + mechanism.reference_m[2])
+        };
+        self.list.iter().map(|contact| self.opening(*contact, longer, higher)).collect()
     }
 
     /// How fast the gaps open, m/s.
     pub(crate) fn rates(&self, mechanism: &Mechanism, state: &State) -> Vec<f64> {
-        let rate = |contact: &Contact| match *contact {
-            Contact::Member(number) => {
-                let member = &self.system.members()[number];
-                let spans = changing(member, mechanism, state, &state.velocity);
-                let rate = rate(spans) / member.body.length_m();
-                if member.kind == Kind::Cable { -rate } else { rate }
-            }
-            Contact::Floor(joint) => state.velocity[mechanism.slot_of[joint]][2],
+        let longer = |member: &Member| {
+            rate(changing(member, mechanism, state, &state.velocity)) / member.body.length_m()
         };
-        self.list.iter().map(rate).collect()
+        let higher = |joint: usize| state.velocity[mechanism.slot_of[joint]][2];
+        self.list.iter().map(|contact| self.opening(*contact, longer, higher)).collect()
     }
 
     /// With which accelerations the gaps open, m/s².
@@ -205,17 +208,13 @@ impl Contacts {
         state: &State,
         acceleration: &[Vector],
     ) -> Vec<f64> {
-        let rate = |contact: &Contact| match *contact {
-            Contact::Member(number) => {
-                let member = &self.system.members()[number];
-                let along = rate(changing(member, mechanism, state, acceleration));
-                let turning = curvature(changing(member, mechanism, state, &state.velocity));
-                let rate = (along + turning) / member.body.length_m();
-                if member.kind == Kind::Cable { -rate } else { rate }
-            }
-            Contact::Floor(joint) => acceleration[mechanism.slot_of[joint]][2],
+        let longer = |member: &Member| {
+            let along = rate(changing(member, mechanism, state, acceleration));
+            let turning = curvature(changing(member, mechanism, state, &state.velocity));
+            (along + turning) / member.body.length_m()
         };
-        self.list.iter().map(rate).collect()
+        let higher = |joint: usize| acceleration[mechanism.slot_of[joint]][2];
+        self.list.iter().map(|contact| self.opening(*contact, longer, higher)).collect()
     }
 
     /// The force or impulse of each contact that holds, positive where it is of the right sign: of

@@ -39,35 +39,19 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<problem::Problem>()?;
-    module.add_function(wrap_pyfunction!(work::set_threads, module)?)?;
-    module.add_function(wrap_pyfunction!(work::get_threads, module)?)?;
-    module.add_function(wrap_pyfunction!(work::limit_work, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::solve, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::solve_text, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::losses, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::load_cases, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::page, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::live_page, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::live_answer, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::tolerances, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::export, module)?)?;
-    module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
-    module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
-    module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;
-    module.add_function(wrap_pyfunction!(basins::basins, module)?)?;
-    module.add_function(wrap_pyfunction!(census::census, module)?)?;
-    module.add_function(wrap_pyfunction!(trace::trace, module)?)?;
-    module.add_function(wrap_pyfunction!(study::study, module)?)?;
-    module.add_function(wrap_pyfunction!(study::derivatives, module)?)?;
-    module.add_function(wrap_pyfunction!(study::pullback, module)?)?;
-    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
-    module.add_function(wrap_pyfunction!(store::sweep_write, module)?)?;
-    module.add_function(wrap_pyfunction!(store::sweep_merge, module)?)?;
-    module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
-    module.add_function(wrap_pyfunction!(simulate::save_motion, module)?)?;
-    module.add_function(wrap_pyfunction!(modes::modes, module)?)?;
-    module.add_function(wrap_pyfunction!(judge::judge, module)?)?;
-    module.add_function(wrap_pyfunction!(reproduce::reproduce, module)?)?;
-    module.add_function(wrap_pyfunction!(arrow::arrow_stream, module)?)?;
+    macro_rules! functions {
+        ($($function:path,)*) => {
+            $(module.add_function(wrap_pyfunction!($function, module)?)?;)*
+        };
+    }
+    functions! {
+        work::set_threads, work::get_threads, work::limit_work, solve::solve, solve::solve_text,
+        solve::losses, solve::load_cases, solve::page, solve::live_page, solve::live_answer,
+        solve::tolerances, solve::export, solve::draw, batch::solve_many, nets::solve_nets,
+        basins::basins, census::census, trace::trace, study::study, study::derivatives,
+        study::pullback, sweep::sweep, store::sweep_write, store::sweep_merge, simulate::simulate,
+        simulate::save_motion, modes::modes, judge::judge, reproduce::reproduce,
+        arrow::arrow_stream,
+    }
     Ok(())
 }

@@ -7,6 +7,7 @@
 use std::fmt::Write;
 
 use figures::{Anchor, BLUE, Colour, Look, Svg, VERMILION};
+use model::number::decimals;
 use numerics::Interval;
 
 use crate::run::Census;
@@ -366,9 +367,7 @@ fn short(x: f64) -> String {
     if x.abs() < 1e-3 || x.abs() >= 1e6 {
         return format!("{x:.5e}");
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 8")]
-    let decimals = (5.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize;
-    format!("{x:.decimals$}")
+    format!("{x:.*}", decimals(x, 6, 8))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! on equations written here.
 
 use model::system::{Joint, Kind, Member, System};
-use model::{Bar, NoCensus, Vector};
+use model::{NoCensus, Vector};
 use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
 use rand::{RngExt, SeedableRng};
@@ -12,19 +12,11 @@ use census::Settings;
 use census::boxes::prove;
 use census::net::{Open, SystemCensus};
 
-const G: f64 = 10.0;
-
-fn light(length_m: f64) -> Bar {
-    Bar::homogeneous(length_m, 0.0).unwrap()
-}
+use crate::support::{light, system};
 
 fn rope(path: &[usize], length_m: f64) -> Member {
     let last = path.len() - 1;
     Member::cable(path[0], path[last], light(length_m)).over(path[1..last].to_vec())
-}
-
-fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
-    System::new("test", G, joints, members).unwrap()
 }
 
 /// A complete list whose every equilibrium is proved by the test that knows nothing of the search.

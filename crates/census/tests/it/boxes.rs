@@ -5,15 +5,7 @@ use model::{Bar, NoBox, Vector};
 
 use census::boxes::{MAX_UNKNOWNS, SystemBox, prove};
 
-const G: f64 = 10.0;
-
-fn light(length_m: f64) -> Bar {
-    Bar::homogeneous(length_m, 0.0).unwrap()
-}
-
-fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
-    System::new("test", G, joints, members).unwrap()
-}
+use crate::support::{light, system};
 
 /// The proof at a closed form, which must lie in a box narrower than 1e-12 of lengths and forces of
 /// order one.

@@ -1,7 +1,7 @@
 //! Lists of equilibria of nets against closed forms, topology, and Newton's method.
 
 use model::system::{Joint, Kind, Member, System};
-use model::{Bar, NoCensus, Reason, Status, Vector};
+use model::{NoCensus, Reason, Status, Vector};
 use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
 use rand::{RngExt, SeedableRng};
@@ -12,11 +12,7 @@ use census::Settings;
 use census::boxes::prove;
 use census::net::{Open, SystemCensus};
 
-const G: f64 = 10.0;
-
-fn light(length_m: f64) -> Bar {
-    Bar::homogeneous(length_m, 0.0).unwrap()
-}
+use crate::support::{G, light};
 
 /// A census whose every equilibrium is proved by the test that knows nothing of the search.
 pub(crate) fn taken(system: &System) -> SystemCensus {

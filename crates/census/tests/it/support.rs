@@ -1,7 +1,20 @@
-//! Chains, and censuses that are checked whatever they find.
+//! Chains, systems, and censuses that are checked whatever they find.
 
 use census::{Census, Settings};
+use model::system::{Joint, Member, System};
 use model::{Anchors, Bar, Chain, Problem};
+
+/// Gravity of systems, m/s².
+pub const G: f64 = 10.0;
+
+pub fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
+    System::new("test", G, joints, members).unwrap()
+}
+
+/// A member without mass.
+pub fn light(length_m: f64) -> Bar {
+    Bar::homogeneous(length_m, 0.0).unwrap()
+}
 
 /// Bars as (length, mass, centre).
 pub fn problem(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Problem {

@@ -8,15 +8,7 @@ use census::boxes::prove;
 use census::net::{LoadedRow, SystemCensus};
 use census::{Census, ProvenEquilibrium, Settings};
 
-const G: f64 = 10.0;
-
-fn light(length_m: f64) -> Bar {
-    Bar::homogeneous(length_m, 0.0).unwrap()
-}
-
-fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
-    System::new("test", G, joints, members).unwrap()
-}
+use crate::support::{G, light, system};
 
 fn taken(system: &System) -> SystemCensus {
     let census = SystemCensus::take(system, &Settings::default()).unwrap();

@@ -256,6 +256,9 @@ fn systems_scale_without_rounding() {
                     .map(|(lo, hi)| (whole(lo), whole(hi)));
                 assert_eq!(one, other, "{} {factors:?}", exhibit.name);
             };
+            let all = |a: &[Interval], factor: f64, b: &[Interval]| {
+                a.iter().zip(b).for_each(|(a, b)| same(a, factor, b));
+            };
             for (a, b) in one.equilibria.iter().zip(&there.equilibria) {
                 compared += 1;
                 assert_eq!(
@@ -263,16 +266,9 @@ fn systems_scale_without_rounding() {
                     (b.index_in_space, b.index_in_plane)
                 );
                 same(&a.energy_j, length * mass * gravity, &b.energy_j);
-                for (a, b) in a.joints_m.as_flattened().iter().zip(b.joints_m.as_flattened()) {
-                    same(a, length, b);
-                }
-                for (a, b) in a.axial_n.iter().zip(&b.axial_n) {
-                    same(a, mass * gravity, b);
-                }
-                for (a, b) in a.reactions_n.as_flattened().iter().zip(b.reactions_n.as_flattened())
-                {
-                    same(a, mass * gravity, b);
-                }
+                all(a.joints_m.as_flattened(), length, b.joints_m.as_flattened());
+                all(&a.axial_n, mass * gravity, &b.axial_n);
+                all(a.reactions_n.as_flattened(), mass * gravity, b.reactions_n.as_flattened());
                 let mids = |joints_m: &[[Interval; 3]]| -> Vec<[f64; 3]> {
                     joints_m.iter().map(|at| at.map(Interval::mid)).collect()
                 };
@@ -286,12 +282,8 @@ fn systems_scale_without_rounding() {
                     continue;
                 };
                 assert_eq!((a.turns, &a.slack), (b.turns, &b.slack));
-                for (a, b) in a.joints_m.as_flattened().iter().zip(b.joints_m.as_flattened()) {
-                    same(a, length, b);
-                }
-                for (a, b) in a.axial_n.iter().zip(&b.axial_n) {
-                    same(a, mass * gravity, b);
-                }
+                all(a.joints_m.as_flattened(), length, b.joints_m.as_flattened());
+                all(&a.axial_n, mass * gravity, &b.axial_n);
             }
         }
     }

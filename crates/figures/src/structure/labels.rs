@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use model::number::{decimals, trimmed};
+
 use crate::look::{Colour, Look};
 use crate::svg::{Anchor, Svg};
 
@@ -159,18 +161,7 @@ pub(crate) fn short(x: f64) -> String {
     let text = if x.abs() >= 1e5 || (x != 0.0 && x.abs() < 1e-3) {
         format!("{x:.3e}")
     } else {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 6")]
-        let digits = if x.abs() > 0.0 {
-            (3.0 - x.abs().log10().floor()).clamp(0.0, 6.0) as usize
-        } else {
-            0
-        };
-        let text = format!("{x:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
+        trimmed(&format!("{x:.*}", decimals(x, 4, 6))).to_owned()
     };
     text.replace('-', "\u{2212}")
 }

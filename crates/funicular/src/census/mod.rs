@@ -66,17 +66,12 @@ impl Census {
         self
     }
 
-    /// All settings of the search.
-    #[must_use]
-    pub fn settings(self, settings: Settings) -> Self {
-        Self { settings, ..self }
-    }
-
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from. The answer does not depend on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+    setters! {
+        /// All settings of the search.
+        settings: Settings,
+        /// How many threads share the work, 0 (the default) for those of the pool that it is called
+        /// from. The answer does not depend on it.
+        threads: usize,
     }
 
     /// Take the census, and check it: of a chain, or of joints and members: trees, chains of bars

@@ -75,18 +75,13 @@ impl Judge {
         Self::default()
     }
 
-    /// How well answers are taken to know their numbers: positions in units of the size of the
-    /// system, forces of the largest one. From 1e-13 to 0.1.
-    #[must_use]
-    pub fn tolerance(self, tolerance: f64) -> Self {
-        Self { tolerance, ..self }
-    }
-
-    /// How many threads the solvers may use, 0 (the default) for those of the pool that it is
-    /// called from.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+    setters! {
+        /// How well answers are taken to know their numbers: positions in units of the size of the
+        /// system, forces of the largest one. From 1e-13 to 0.1.
+        tolerance: f64,
+        /// How many threads the solvers may use, 0 (the default) for those of the pool that it is
+        /// called from.
+        threads: usize,
     }
 
     /// Judge an answer.

@@ -77,28 +77,34 @@ impl Simulate {
         Self::default()
     }
 
-    /// Where it begins.
-    #[must_use]
-    pub fn start(self, start: Start) -> Self {
-        Self { start, ..self }
-    }
-
-    /// How long it is followed, s.
-    #[must_use]
-    pub fn time_s(self, time_s: f64) -> Self {
-        Self { time_s, ..self }
-    }
-
-    /// Length of a step, s. Where the elastic members need shorter ones it is taken in parts.
-    #[must_use]
-    pub fn step_s(self, step_s: f64) -> Self {
-        Self { step_s, ..self }
-    }
-
-    /// Time between stored times, s, rounded to whole steps; a thousandth of the time if not said.
-    #[must_use]
-    pub fn store_s(self, store_s: f64) -> Self {
-        Self { store_s: Some(store_s), ..self }
+    setters! {
+        /// Where it begins.
+        start: Start,
+        /// How long it is followed, s.
+        time_s: f64,
+        /// Length of a step, s. Where the elastic members need shorter ones it is taken in parts.
+        step_s: f64,
+        /// Time between stored times, s, rounded to whole steps; a thousandth of the time if not said.
+        store_s: f64 => Some(store_s),
+        /// Let forces act at joints as functions of time.
+        ///
+        /// ```
+        /// use funicular::ForceTable;
+        /// use funicular::prelude::*;
+        /// // A weight of 1 kg that slides on a level line, drawn along it by 3 N for 2 s: 6 m/s.
+        /// let problem = Problem::parse(
+        ///     "joints = { S = { at_m = [0, 0, 0], free = \"x\", mass_kg = 1 }, P = { mass_kg = 1e-6 } }\n\
+        ///      bars = [{ from = \"S\", to = \"P\", length_m = 1, mass_kg = 0 }]",
+        ///     "slider.toml",
+        /// )?;
+        /// let forces = ForceTable::parse("time_s,joint,x_n,y_n,z_n\n0,S,3,0,0\n2,S,3,0,0\n", "f.csv")?;
+        /// let start = Start::Joints(vec![[0.0; 3], [0.0, 0.0, -1.0]]);
+        /// let moved = Simulate::new().start(start).time_s(2.0).forces(forces).run(&problem)?;
+        /// let speed = moved.stored.last().unwrap().velocities_m_s[0][0];
+        /// assert!((speed - 6.0).abs() < 1e-3);
+        /// # Ok::<(), Error>(())
+        /// ```
+        forces: ForceTable,
     }
 
     /// Order in the length of the step.
@@ -128,29 +134,6 @@ impl Simulate {
     pub fn push(mut self, joint: impl Into<String>, impulse_n_s: Vector) -> Self {
         self.pushes.push((joint.into(), impulse_n_s));
         self
-    }
-
-    /// Let forces act at joints as functions of time.
-    ///
-    /// ```
-    /// use funicular::ForceTable;
-    /// use funicular::prelude::*;
-    /// // A weight of 1 kg that slides on a level line, drawn along it by 3 N for 2 s: 6 m/s.
-    /// let problem = Problem::parse(
-    ///     "joints = { S = { at_m = [0, 0, 0], free = \"x\", mass_kg = 1 }, P = { mass_kg = 1e-6 } }\n\
-    ///      bars = [{ from = \"S\", to = \"P\", length_m = 1, mass_kg = 0 }]",
-    ///     "slider.toml",
-    /// )?;
-    /// let forces = ForceTable::parse("time_s,joint,x_n,y_n,z_n\n0,S,3,0,0\n2,S,3,0,0\n", "f.csv")?;
-    /// let start = Start::Joints(vec![[0.0; 3], [0.0, 0.0, -1.0]]);
-    /// let moved = Simulate::new().start(start).time_s(2.0).forces(forces).run(&problem)?;
-    /// let speed = moved.stored.last().unwrap().velocities_m_s[0][0];
-    /// assert!((speed - 6.0).abs() < 1e-3);
-    /// # Ok::<(), Error>(())
-    /// ```
-    #[must_use]
-    pub fn forces(self, forces: ForceTable) -> Self {
-        Self { forces, ..self }
     }
 
     /// Follow the motion, and keep all stored times in memory.

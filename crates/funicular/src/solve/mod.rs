@@ -50,44 +50,27 @@ impl Solve {
         Self::default()
     }
 
-    /// Which solvers to ask; one alone gets no comparison.
-    #[must_use]
-    pub fn solvers(self, solvers: Solvers) -> Self {
-        Self { solvers, ..self }
-    }
-
-    /// Which equations `lagrange` solves for a row of rigid bars between two anchors.
-    #[must_use]
-    pub fn equations(self, equations: Equations) -> Self {
-        Self { equations, ..self }
-    }
-
-    /// Whether to prove the answers in interval arithmetic, and to look them up in a census.
-    #[must_use]
-    pub fn census(self, census: UseCensus) -> Self {
-        Self { census, ..self }
-    }
-
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from. No answer depends on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
-    }
-
-    /// The work that each solver may do, numbers in all factors of its matrices, or bars times passes
-    /// over a row between two anchors: iterations times size, the same on every machine. What needs
-    /// more has no answer, and says so. Without it 10^10, up to an hour or so.
-    ///
-    /// ```
-    /// use funicular::prelude::*;
-    /// let answer = Solve::new().max_work(std::num::NonZeroU64::MIN).run(&Problem::case("bridle")?);
-    /// assert!(answer.unwrap_err().to_string().contains("max_work is 1"));
-    /// # Ok::<(), Error>(())
-    /// ```
-    #[must_use]
-    pub fn max_work(self, max_work: NonZeroU64) -> Self {
-        Self { max_work: Some(max_work), ..self }
+    setters! {
+        /// Which solvers to ask; one alone gets no comparison.
+        solvers: Solvers,
+        /// Which equations `lagrange` solves for a row of rigid bars between two anchors.
+        equations: Equations,
+        /// Whether to prove the answers in interval arithmetic, and to look them up in a census.
+        census: UseCensus,
+        /// How many threads share the work, 0 (the default) for those of the pool that it is called
+        /// from. No answer depends on it.
+        threads: usize,
+        /// The work that each solver may do, numbers in all factors of its matrices, or bars times passes
+        /// over a row between two anchors: iterations times size, the same on every machine. What needs
+        /// more has no answer, and says so. Without it 10^10, up to an hour or so.
+        ///
+        /// ```
+        /// use funicular::prelude::*;
+        /// let answer = Solve::new().max_work(std::num::NonZeroU64::MIN).run(&Problem::case("bridle")?);
+        /// assert!(answer.unwrap_err().to_string().contains("max_work is 1"));
+        /// # Ok::<(), Error>(())
+        /// ```
+        max_work: NonZeroU64 => Some(max_work),
     }
 
     /// Solve.

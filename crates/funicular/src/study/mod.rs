@@ -108,17 +108,12 @@ impl Study {
         Self { parameters, ..self }
     }
 
-    /// Which solvers to ask; one alone gets no comparison.
-    #[must_use]
-    pub fn solvers(self, solvers: Solvers) -> Self {
-        Self { solvers, ..self }
-    }
-
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from. No answer depends on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+    setters! {
+        /// Which solvers to ask; one alone gets no comparison.
+        solvers: Solvers,
+        /// How many threads share the work, 0 (the default) for those of the pool that it is called
+        /// from. No answer depends on it.
+        threads: usize,
     }
 
     /// Keep places and forces of each shape.

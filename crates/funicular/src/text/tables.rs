@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, presets};
+use model::number::{decimals, trimmed};
 use model::{Evidence, Vector};
 
 use super::printed::{self, Format, head, scaled};
@@ -209,24 +210,13 @@ pub fn significant(x: f64, digits: usize) -> String {
         return format!("{x:.*e}", digits - 1);
     }
     // Between 0 and digits + 3, by the test above.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "small and not negative"
-    )]
-    let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
-    fixed(x, decimals)
+    fixed(x, decimals(x, digits, usize::MAX))
 }
 
 /// So many decimals, but no zeros at their end.
 #[must_use]
 pub fn fixed(x: f64, decimals: usize) -> String {
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    trimmed(&format!("{x:.decimals$}")).to_owned()
 }
 
 pub fn vector(v: Vector) -> String {

@@ -451,7 +451,6 @@ pub(super) fn check_floor(floor_m: f64, joints: &[Joint]) -> Result<(), SystemEr
     Ok(())
 }
 
-/// Totals must be numbers with digits to spare, as those of a [`Chain`](crate::Chain).
 fn check_totals(
     gravity_m_s2: f64,
     joints: &[Joint],
@@ -471,13 +470,23 @@ fn check_totals(
         .filter_map(|joint| joint.support.at_m())
         .fold(0.0, |a: f64, at| at.into_iter().fold(a, |a, x| a.max(x.abs())));
     let loaded = load_n > 0.0;
-    for (quantity, total, may_vanish) in [
+    let totals = [
         ("extent of the supports", 2.0 * reach_m, true),
         ("total length", length_m, false),
         ("total load", load_n, !loaded),
         ("total load times total length", load_n * length_m, !loaded),
         ("total stiffness", stiffness_n, true),
-    ] {
+    ];
+    check_range(totals, masses)
+}
+
+/// Totals, and whether they may vanish, must be numbers with digits to spare, and masses, kg, none too
+/// light beside another.
+pub(crate) fn check_range<const N: usize>(
+    totals: [(&'static str, f64, bool); N],
+    masses: impl Iterator<Item = f64>,
+) -> Result<(), SystemError> {
+    for (quantity, total, may_vanish) in totals {
         if total.is_nan() || total > LARGEST_TOTAL {
             return Err(SystemError::Overflow { quantity });
         }

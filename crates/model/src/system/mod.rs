@@ -35,9 +35,9 @@ mod tolerance;
 
 pub use answer::{SystemEquilibrium, SystemStability};
 pub use builder::SystemBuilder;
-pub(crate) use error::LARGEST_TOTAL;
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
+pub(crate) use error::check_range;
 pub use jam::Joined;
 pub use joint::{Joint, JointProperties, Support};
 pub use load_case::{LoadCase, LoadOn, NamedLoad, PERMANENT};

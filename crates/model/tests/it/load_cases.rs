@@ -1,9 +1,9 @@
 //! Loads with names and load cases in system files: read, refused, written back, and put together.
 
 use model::system::{PERMANENT, System};
-use model::system_file::{parse, write_network};
+use model::system_file::write_network;
 
-use crate::support::system;
+use crate::support::{refused_at, system};
 
 /// A net with loads of its own, and what stands in its file besides.
 fn net(rest: &str) -> String {
@@ -181,9 +181,7 @@ fn what_is_no_load_or_case_is_refused_where_it_stands() {
     refused(&twice, "cases[2].name", "two load cases");
 }
 
+#[track_caller]
 fn refused(rest: &str, key: &str, words: &str) {
-    let error = parse(&net(rest), "system.toml").unwrap_err();
-    assert_eq!(error.key(), Some(key), "{error}\n{rest}");
-    let said = format!("{error} {}", error.help().unwrap_or_default());
-    assert!(said.contains(words), "{said}");
+    refused_at(&net(rest), key, words);
 }

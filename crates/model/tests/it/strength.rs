@@ -3,7 +3,7 @@
 use model::system::{Strength, System};
 use model::system_file::{Described, parse, write_network};
 
-use crate::support::{Folder, system};
+use crate::support::{Folder, refused_at, system};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -99,11 +99,7 @@ fn what_is_no_strength_is_refused_where_it_stands() {
             ("", ", strength_n = \"much\"", "bars[1].strength_n", "number"),
             ("", ", strenght_n = 1", "bars[1].strenght_n", "strength_n"),
         ] {
-            let text = file(root, first, "");
-            let error = parse(&text, "system.toml").unwrap_err();
-            assert_eq!(error.key(), Some(key), "{error}\n{text}");
-            let said = format!("{error} {}", error.help().unwrap_or_default());
-            assert!(said.contains(words), "{said}");
+            refused_at(&file(root, first, ""), key, words);
         }
     }
     for (kind, key, words) in [

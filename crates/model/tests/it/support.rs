@@ -64,3 +64,12 @@ pub fn check(text: &str, message: &str, marked: &str) {
     let found = error.span().map_or("", |span| &error.text()[span]);
     assert_eq!((error.to_string().as_str(), found), (message, marked));
 }
+
+/// The text must be refused at this key with these words, in the error or in its help.
+#[track_caller]
+pub fn refused_at(text: &str, key: &str, words: &str) {
+    let error = parse(text, "system.toml").expect_err(text);
+    assert_eq!(error.key(), Some(key), "{error}\n{text}");
+    let said = format!("{error} {}", error.help().unwrap_or_default());
+    assert!(said.contains(words), "{said}");
+}

@@ -1,9 +1,9 @@
 //! Tolerances in system files: read, refused, and written back.
 
 use model::system::{Uncertain, UncertainNumber};
-use model::system_file::{Described, parse, write_network};
+use model::system_file::{Described, write_network};
 
-use crate::support::{Folder, system};
+use crate::support::{Folder, refused_at, system};
 
 fn chain(root: &str, first: &str, second: &str) -> String {
     format!(
@@ -144,10 +144,7 @@ fn what_is_no_tolerance_is_refused_where_it_stands() {
             "positive",
         ),
     ] {
-        let error = parse(&text, "system.toml").unwrap_err();
-        assert_eq!(error.key(), Some(key), "{error}\n{text}");
-        let said = format!("{error} {}", error.help().unwrap_or_default());
-        assert!(said.contains(words), "{said}");
+        refused_at(&text, key, words);
     }
 }
 

@@ -36,11 +36,17 @@ fn folded(n: usize) -> Simulation {
             _ => [x, y, z + length],
         });
     }
+    hung("folded", &at)
+}
+
+/// Bars of equal lengths, 1 kg in all, from joint to joint, the first held.
+fn hung(name: &str, at: &[[f64; 3]]) -> Simulation {
+    let n = at.len() - 1;
     let mut joints = vec![Joint::anchor("O", [0.0; 3])];
     joints.extend((1..=n).map(|k| Joint::free(k.to_string())));
-    let bar = Bar::homogeneous(length, length).unwrap();
+    let bar = Bar::homogeneous(1.0 / n as f64, 1.0 / n as f64).unwrap();
     let members = (0..n).map(|k| Member::bar(k, k + 1, bar)).collect();
-    at_rest(&System::new("folded", G, joints, members).unwrap(), &at, Order::Second)
+    at_rest(&System::new(name, G, joints, members).unwrap(), at, Order::Second)
 }
 
 /// The theory's time to fall by the part `y` of the length, relative to that of a free body: the
@@ -123,12 +129,7 @@ fn the_free_end_falls_faster_than_a_free_body_as_the_theory_says() {
 /// A chain of 1 m in `n` bars, stretched level from the origin.
 fn level(n: usize) -> Simulation {
     let length = 1.0 / n as f64;
-    let at: Vec<[f64; 3]> = (0..=n).map(|k| [k as f64 * length, 0.0, 0.0]).collect();
-    let mut joints = vec![Joint::anchor("O", [0.0; 3])];
-    joints.extend((1..=n).map(|k| Joint::free(k.to_string())));
-    let bar = Bar::homogeneous(length, length).unwrap();
-    let members = (0..n).map(|k| Member::bar(k, k + 1, bar)).collect();
-    at_rest(&System::new("level", G, joints, members).unwrap(), &at, Order::Second)
+    hung("level", &(0..=n).map(|k| [k as f64 * length, 0.0, 0.0]).collect::<Vec<_>>())
 }
 
 /// The end of a chain that is held stretched level and let go falls as a free body: the experiment

@@ -20,42 +20,36 @@ pub(super) const EQUATIONS: &[Equation] = &[
         ),
         says: "The angular velocity, written out. The minus of its first component contradicts (23).",
     },
-    Equation {
-        number: "(25)",
-        printed: r"[\boldsymbol{\omega}_i] = \begin{bmatrix} 0 & -\omega_{z_i} & \omega_{y_i} \\ \omega_{z_i} & 0 & -\omega_{x_i} \\ -\omega_{y_i} & \omega_{x_i} & 0 \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The cross product with the angular velocity, as a skew matrix.",
-    },
-    Equation {
-        number: "(26)",
-        printed: r"[\mathbf{J}_{C_i}] = \begin{bmatrix} J_{x_i} & 0 & 0 \\ 0 & J_{y_i} & 0 \\ 0 & 0 & J_{z_i} \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The moments of inertia about the principal axes through the centre of weight.",
-    },
-    Equation {
-        number: "(27)",
-        printed: r"x_{C_i} = y_{C_i} = z_{C_i} = 0, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The bar's axes start at its centre of weight.",
-    },
-    Equation {
-        number: "(28)",
-        printed: r"[\mathbf{S}_i] = \begin{bmatrix} 0 & -m z_{C_i} & m y_{C_i} \\ m z_{C_i} & 0 & -m x_{C_i} \\ -m y_{C_i} & m x_{C_i} & 0 \end{bmatrix} = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The static moment of a bar about its own centre is zero (m stands for the bar's own mass).",
-    },
-    Equation {
-        number: "(29)",
-        printed: r"[\mathbf{A}_i] [\mathbf{S}_i]^T [\mathbf{Q}_i] = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "Turning a bar about its centre carries no momentum.",
-    },
-    Equation {
-        number: "(30)",
-        printed: r"[\mathbf{Q}_i]^T [\mathbf{S}_i] [\mathbf{A}_i]^T = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "Moving the centre has no moment of momentum about it: the transpose of (29).",
-    },
+    Equation::as_printed(
+        "(25)",
+        r"[\boldsymbol{\omega}_i] = \begin{bmatrix} 0 & -\omega_{z_i} & \omega_{y_i} \\ \omega_{z_i} & 0 & -\omega_{x_i} \\ -\omega_{y_i} & \omega_{x_i} & 0 \end{bmatrix}, \quad i = \range{1,3}",
+        "The cross product with the angular velocity, as a skew matrix.",
+    ),
+    Equation::as_printed(
+        "(26)",
+        r"[\mathbf{J}_{C_i}] = \begin{bmatrix} J_{x_i} & 0 & 0 \\ 0 & J_{y_i} & 0 \\ 0 & 0 & J_{z_i} \end{bmatrix}, \quad i = \range{1,3}",
+        "The moments of inertia about the principal axes through the centre of weight.",
+    ),
+    Equation::as_printed(
+        "(27)",
+        r"x_{C_i} = y_{C_i} = z_{C_i} = 0, \quad i = \range{1,3}",
+        "The bar's axes start at its centre of weight.",
+    ),
+    Equation::as_printed(
+        "(28)",
+        r"[\mathbf{S}_i] = \begin{bmatrix} 0 & -m z_{C_i} & m y_{C_i} \\ m z_{C_i} & 0 & -m x_{C_i} \\ -m y_{C_i} & m x_{C_i} & 0 \end{bmatrix} = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
+        "The static moment of a bar about its own centre is zero (m stands for the bar's own mass).",
+    ),
+    Equation::as_printed(
+        "(29)",
+        r"[\mathbf{A}_i] [\mathbf{S}_i]^T [\mathbf{Q}_i] = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
+        "Turning a bar about its centre carries no momentum.",
+    ),
+    Equation::as_printed(
+        "(30)",
+        r"[\mathbf{Q}_i]^T [\mathbf{S}_i] [\mathbf{A}_i]^T = \begin{bmatrix} 0 & 0 & 0 \\ 0 & 0 & 0 \\ 0 & 0 & 0 \end{bmatrix}, \quad i = \range{1,3}",
+        "Moving the centre has no moment of momentum about it: the transpose of (29).",
+    ),
     Equation {
         number: "(31)",
         printed: r"[\mathbf{Q}_i]^T [\mathbf{J}_{C_i}] [\mathbf{Q}_i] = \begin{bmatrix} J_{x_i} c^2\varphi_i\, c^2\theta_i + J_{y_i} s^2\varphi_i\, c^2\theta_i + J_{z_i} s^2\theta_i & J_{x_i} c\varphi_i\, c\theta_i\, s\varphi_i - J_{y_i} c\varphi_i\, c\theta_i\, s\varphi_i & J_{z_i} s\theta_i \\ \wrong{J_{x_i} c\varphi_i\, s\theta_i\, s\varphi_i - J_{x_i} c\varphi_i\, s\theta_i\, s\varphi_i} & \begin{matrix} J_{x_i} s^2\varphi_i + J_{y_i} c^2\varphi_i \\ \wrong{J_{z_i} s\varphi_i} \end{matrix} & 0 \\ \wrong{J_{z_i} s\varphi_i} & 0 & J_{z_i} \end{bmatrix}, \quad i = \range{1,3}",

@@ -4,42 +4,36 @@ use super::Equation;
 
 /// The equations in LaTeX.
 pub(super) const EQUATIONS: &[Equation] = &[
-    Equation {
-        number: "(i)",
-        printed: r"l\cos\theta + l\cos\alpha + l\cos\beta = 2l",
-        corrected: None,
-        says: "Measured downwards, the three bars together reach from O to D. (The text says OD = l; this line, and all results, need OD = 2l.)",
-    },
-    Equation {
-        number: "(ii)",
-        printed: r"l\sin\theta + l\sin\alpha + l\sin\beta = 0",
-        corrected: None,
-        says: "Measured sideways, they come back to the vertical through O.",
-    },
-    Equation {
-        number: "(iii)",
-        printed: r"\cos\theta + \cos\alpha + \cos\beta = 2",
-        corrected: None,
-        says: "(i) without the common length.",
-    },
-    Equation {
-        number: "(iv)",
-        printed: r"\sin\theta + \sin\alpha + \sin\beta = 0",
-        corrected: None,
-        says: "(ii) without the common length.",
-    },
-    Equation {
-        number: "(v)",
-        printed: r"V = mgl\,(6 - 2.5\cos\theta - 1.5\cos\alpha - 0.5\cos\beta)",
-        corrected: None,
-        says: "The energy of the three weights: each bar carries the centres of those below it down. Heights count from D.",
-    },
-    Equation {
-        number: "(vi)",
-        printed: r"V = mgl\,(5 - 2\cos\theta - \cos\alpha)",
-        corrected: None,
-        says: "The same on closed chains, β eliminated by (iii).",
-    },
+    Equation::as_printed(
+        "(i)",
+        r"l\cos\theta + l\cos\alpha + l\cos\beta = 2l",
+        "Measured downwards, the three bars together reach from O to D. (The text says OD = l; this line, and all results, need OD = 2l.)",
+    ),
+    Equation::as_printed(
+        "(ii)",
+        r"l\sin\theta + l\sin\alpha + l\sin\beta = 0",
+        "Measured sideways, they come back to the vertical through O.",
+    ),
+    Equation::as_printed(
+        "(iii)",
+        r"\cos\theta + \cos\alpha + \cos\beta = 2",
+        "(i) without the common length.",
+    ),
+    Equation::as_printed(
+        "(iv)",
+        r"\sin\theta + \sin\alpha + \sin\beta = 0",
+        "(ii) without the common length.",
+    ),
+    Equation::as_printed(
+        "(v)",
+        r"V = mgl\,(6 - 2.5\cos\theta - 1.5\cos\alpha - 0.5\cos\beta)",
+        "The energy of the three weights: each bar carries the centres of those below it down. Heights count from D.",
+    ),
+    Equation::as_printed(
+        "(vi)",
+        r"V = mgl\,(5 - 2\cos\theta - \cos\alpha)",
+        "The same on closed chains, β eliminated by (iii).",
+    ),
     Equation {
         number: "(vii)",
         printed: r"\cos\beta = 2 - \cos\theta - \cos\alpha, \quad \sin\beta = -\sin\theta - \sin\alpha \qquad \wrong{\text{(viii)}}",
@@ -48,12 +42,11 @@ pub(super) const EQUATIONS: &[Equation] = &[
         ),
         says: "(iii) and (iv) solved for β. It carries the number (viii), which the next one has too; the one missing is (vii).",
     },
-    Equation {
-        number: "(viii)",
-        printed: r"(20 - 16\cos\theta){\cos}^2\,\alpha + 2(26\cos\theta - 20 - 8{\cos}^2\,\theta)\cos\alpha + 16{\cos}^2\,\theta + 25 - 40\cos\theta - 4{\sin}^2\,\theta = 0",
-        corrected: None,
-        says: "For a given θ a quadratic in cos α: (vii) squared and summed, and squared once more to be rid of sin α. So it has four solutions α, of which two close the chain.",
-    },
+    Equation::as_printed(
+        "(viii)",
+        r"(20 - 16\cos\theta){\cos}^2\,\alpha + 2(26\cos\theta - 20 - 8{\cos}^2\,\theta)\cos\alpha + 16{\cos}^2\,\theta + 25 - 40\cos\theta - 4{\sin}^2\,\theta = 0",
+        "For a given θ a quadratic in cos α: (vii) squared and summed, and squared once more to be rid of sin α. So it has four solutions α, of which two close the chain.",
+    ),
     Equation {
         number: "(ix)",
         printed: r"\wrong{\theta = 19.70975^\circ, \quad \alpha = 38.58306^\circ, \quad \beta = 286.07420^\circ,} \quad V = 2.33547\,mgl",

@@ -38,6 +38,13 @@ pub struct Equation {
     pub says: &'static str,
 }
 
+impl Equation {
+    /// One that holds as printed, or defines something.
+    const fn as_printed(number: &'static str, printed: &'static str, says: &'static str) -> Self {
+        Self { number, printed, corrected: None, says }
+    }
+}
+
 /// All numbered equations, in the order of the paper: (1)-(41), (i)-(xxvi).
 pub fn all() -> impl Iterator<Item = &'static Equation> {
     [

@@ -12,30 +12,26 @@ pub(super) const EQUATIONS: &[Equation] = &[
         ),
         says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the bracket that joins its matrix, without the lower rows of that, and with [B]{q}, which without its two dots is no derivative of the constraints.",
     },
-    Equation {
-        number: "(34)",
-        printed: r"\{\mathbf{F}_{q_i}\} = \begin{bmatrix} \{\mathbf{F}_{s_i}\} \\ \{\mathbf{F}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The generalised force on a bar: a force at its centre, then the moments that go with its angles.",
-    },
-    Equation {
-        number: "(35)",
-        printed: r"\{\mathbf{F}_{s_i}\} = [0 \;\; 0 \;\; -m_i g]^T, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The only force is the bar's weight, straight down.",
-    },
-    Equation {
-        number: "(36)",
-        printed: r"\{\mathbf{F}_{\beta_i}\} = [0 \;\; 0 \;\; 0]^T, \quad i = \range{1,3}",
-        corrected: None,
-        says: "A weight at the centre has no moment about it.",
-    },
-    Equation {
-        number: "(37)",
-        printed: r"\{\tilde{\mathbf{F}}_{q_i}\} = \begin{bmatrix} \{\tilde{\mathbf{F}}_{s_i}\} \\ \{\tilde{\mathbf{F}}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
-        corrected: None,
-        says: "The inertial forces that go with the squares of the rates, in the same order.",
-    },
+    Equation::as_printed(
+        "(34)",
+        r"\{\mathbf{F}_{q_i}\} = \begin{bmatrix} \{\mathbf{F}_{s_i}\} \\ \{\mathbf{F}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
+        "The generalised force on a bar: a force at its centre, then the moments that go with its angles.",
+    ),
+    Equation::as_printed(
+        "(35)",
+        r"\{\mathbf{F}_{s_i}\} = [0 \;\; 0 \;\; -m_i g]^T, \quad i = \range{1,3}",
+        "The only force is the bar's weight, straight down.",
+    ),
+    Equation::as_printed(
+        "(36)",
+        r"\{\mathbf{F}_{\beta_i}\} = [0 \;\; 0 \;\; 0]^T, \quad i = \range{1,3}",
+        "A weight at the centre has no moment about it.",
+    ),
+    Equation::as_printed(
+        "(37)",
+        r"\{\tilde{\mathbf{F}}_{q_i}\} = \begin{bmatrix} \{\tilde{\mathbf{F}}_{s_i}\} \\ \{\tilde{\mathbf{F}}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
+        "The inertial forces that go with the squares of the rates, in the same order.",
+    ),
     Equation {
         number: "(38)",
         printed: r"\{\tilde{\mathbf{F}}_{s_i}\} = \wrong{-[\mathbf{A}_i][\mathbf{S}_i]^T[\dot{\mathbf{Q}}_i] + [\dot{\mathbf{A}}_i][\mathbf{S}_i]^T[\mathbf{Q}_i]} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix} = \begin{bmatrix} 0 \\ 0 \\ 0 \end{bmatrix}, \quad i = \range{1,3}",
@@ -52,16 +48,14 @@ pub(super) const EQUATIONS: &[Equation] = &[
         ),
         says: "The part of them about the centre (gyroscopic). Besides the bracket, a dot too many: with it the second term has a rate more than the first.",
     },
-    Equation {
-        number: "(40)",
-        printed: r"-[\mathbf{B}]^T \{\boldsymbol{\lambda}\} = [\mathbf{T}]",
-        corrected: None,
-        says: "At rest the multipliers alone carry the load. This is the equation that the second solution solves.",
-    },
-    Equation {
-        number: "(41)",
-        printed: r"[\mathbf{T}] = [0 \;\; 0 \;\; -m_1 g \;\; 0 \;\; \dots \;\; 0 \;\; -m_3 g \;\; 0 \;\; 0 \;\; 0]^T",
-        corrected: None,
-        says: "The load: three weights. The dots pass over bar 2, as those of (21) do; written out in (xxiii), no weight is missing.",
-    },
+    Equation::as_printed(
+        "(40)",
+        r"-[\mathbf{B}]^T \{\boldsymbol{\lambda}\} = [\mathbf{T}]",
+        "At rest the multipliers alone carry the load. This is the equation that the second solution solves.",
+    ),
+    Equation::as_printed(
+        "(41)",
+        r"[\mathbf{T}] = [0 \;\; 0 \;\; -m_1 g \;\; 0 \;\; \dots \;\; 0 \;\; -m_3 g \;\; 0 \;\; 0 \;\; 0]^T",
+        "The load: three weights. The dots pass over bar 2, as those of (21) do; written out in (xxiii), no weight is missing.",
+    ),
 ];

@@ -4,78 +4,66 @@ use super::Equation;
 
 /// The equations in LaTeX.
 pub(super) const EQUATIONS: &[Equation] = &[
-    Equation {
-        number: "(xi)",
-        printed: r"b_{1,1} = 1, \quad b_{1,5} = \frac{l}{2}\cos\varphi_1",
-        corrected: None,
-        says: "The row of [B] of the joint O, along X, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xii)",
-        printed: r"b_{2,2} = 1, \quad b_{2,4} = -\frac{l}{2}\cos\varphi_1, \quad b_{2,6} = -\frac{l}{2}\cos\varphi_1",
-        corrected: None,
-        says: "The row of [B] of the joint O, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xiii)",
-        printed: r"b_{3,3} = 1, \quad b_{3,4} = -\frac{l}{2}\sin\varphi_1, \quad b_{3,6} = -\frac{l}{2}\sin\varphi_1",
-        corrected: None,
-        says: "The row of [B] of the joint O, in height, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xiv)",
-        printed: r"b_{4,1} = 1, \quad b_{4,5} = -\frac{l}{2}\cos\varphi_1, \quad b_{4,7} = -1, \quad b_{4,11} = -\frac{l}{2}\cos\varphi_2",
-        corrected: None,
-        says: "The row of [B] of the joint A, along X, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xv)",
-        printed: r"b_{5,2} = 1, \quad b_{5,4} = \frac{l}{2}\cos\varphi_1, \quad b_{5,6} = \frac{l}{2}\cos\varphi_1, \quad b_{5,8} = -1, \quad b_{5,10} = \frac{l}{2}\cos\varphi_2, \quad b_{5,12} = \frac{l}{2}\cos\varphi_2",
-        corrected: None,
-        says: "The row of [B] of the joint A, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xvi)",
-        printed: r"b_{6,3} = 1, \quad b_{6,4} = \frac{l}{2}\sin\varphi_1, \quad b_{6,6} = \frac{l}{2}\sin\varphi_1, \quad b_{6,9} = -1, \quad b_{6,10} = \frac{l}{2}\sin\varphi_2, \quad b_{6,12} = \frac{l}{2}\sin\varphi_2",
-        corrected: None,
-        says: "The row of [B] of the joint A, in height, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xvii)",
-        printed: r"b_{7,7} = 1, \quad b_{7,11} = -\frac{l}{2}\cos\varphi_2, \quad b_{7,13} = -1, \quad b_{7,17} = -\frac{l}{2}\cos\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint B, along X, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xviii)",
-        printed: r"b_{8,8} = 1, \quad b_{8,10} = \frac{l}{2}\cos\varphi_2, \quad b_{8,12} = \frac{l}{2}\cos\varphi_2, \quad b_{8,14} = -1, \quad b_{8,16} = \frac{l}{2}\cos\varphi_3, \quad b_{8,18} = \frac{l}{2}\cos\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint B, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xix)",
-        printed: r"b_{9,9} = 1, \quad b_{9,10} = \frac{l}{2}\sin\varphi_2, \quad b_{9,12} = \frac{l}{2}\sin\varphi_2, \quad b_{9,15} = -1, \quad b_{9,16} = \frac{l}{2}\sin\varphi_3, \quad b_{9,18} = \frac{l}{2}\sin\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint B, in height, at ψ = 0, θ = π/2; all other entries are zero.",
-    },
-    Equation {
-        number: "(xx)",
-        printed: r"b_{10,13} = 1, \quad b_{10,17} = -\frac{l}{2}\cos\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint D, along X, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
-    },
-    Equation {
-        number: "(xxi)",
-        printed: r"b_{11,14} = 1, \quad b_{11,16} = \frac{l}{2}\cos\varphi_3, \quad b_{11,18} = \frac{l}{2}\cos\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint D, along Y, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
-    },
-    Equation {
-        number: "(xxii)",
-        printed: r"b_{12,15} = 1, \quad b_{12,16} = \frac{l}{2}\sin\varphi_3, \quad b_{12,18} = \frac{l}{2}\sin\varphi_3",
-        corrected: None,
-        says: "The row of [B] of the joint D, in height, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
-    },
+    Equation::as_printed(
+        "(xi)",
+        r"b_{1,1} = 1, \quad b_{1,5} = \frac{l}{2}\cos\varphi_1",
+        "The row of [B] of the joint O, along X, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xii)",
+        r"b_{2,2} = 1, \quad b_{2,4} = -\frac{l}{2}\cos\varphi_1, \quad b_{2,6} = -\frac{l}{2}\cos\varphi_1",
+        "The row of [B] of the joint O, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xiii)",
+        r"b_{3,3} = 1, \quad b_{3,4} = -\frac{l}{2}\sin\varphi_1, \quad b_{3,6} = -\frac{l}{2}\sin\varphi_1",
+        "The row of [B] of the joint O, in height, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xiv)",
+        r"b_{4,1} = 1, \quad b_{4,5} = -\frac{l}{2}\cos\varphi_1, \quad b_{4,7} = -1, \quad b_{4,11} = -\frac{l}{2}\cos\varphi_2",
+        "The row of [B] of the joint A, along X, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xv)",
+        r"b_{5,2} = 1, \quad b_{5,4} = \frac{l}{2}\cos\varphi_1, \quad b_{5,6} = \frac{l}{2}\cos\varphi_1, \quad b_{5,8} = -1, \quad b_{5,10} = \frac{l}{2}\cos\varphi_2, \quad b_{5,12} = \frac{l}{2}\cos\varphi_2",
+        "The row of [B] of the joint A, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xvi)",
+        r"b_{6,3} = 1, \quad b_{6,4} = \frac{l}{2}\sin\varphi_1, \quad b_{6,6} = \frac{l}{2}\sin\varphi_1, \quad b_{6,9} = -1, \quad b_{6,10} = \frac{l}{2}\sin\varphi_2, \quad b_{6,12} = \frac{l}{2}\sin\varphi_2",
+        "The row of [B] of the joint A, in height, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xvii)",
+        r"b_{7,7} = 1, \quad b_{7,11} = -\frac{l}{2}\cos\varphi_2, \quad b_{7,13} = -1, \quad b_{7,17} = -\frac{l}{2}\cos\varphi_3",
+        "The row of [B] of the joint B, along X, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xviii)",
+        r"b_{8,8} = 1, \quad b_{8,10} = \frac{l}{2}\cos\varphi_2, \quad b_{8,12} = \frac{l}{2}\cos\varphi_2, \quad b_{8,14} = -1, \quad b_{8,16} = \frac{l}{2}\cos\varphi_3, \quad b_{8,18} = \frac{l}{2}\cos\varphi_3",
+        "The row of [B] of the joint B, along Y, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xix)",
+        r"b_{9,9} = 1, \quad b_{9,10} = \frac{l}{2}\sin\varphi_2, \quad b_{9,12} = \frac{l}{2}\sin\varphi_2, \quad b_{9,15} = -1, \quad b_{9,16} = \frac{l}{2}\sin\varphi_3, \quad b_{9,18} = \frac{l}{2}\sin\varphi_3",
+        "The row of [B] of the joint B, in height, at ψ = 0, θ = π/2; all other entries are zero.",
+    ),
+    Equation::as_printed(
+        "(xx)",
+        r"b_{10,13} = 1, \quad b_{10,17} = -\frac{l}{2}\cos\varphi_3",
+        "The row of [B] of the joint D, along X, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
+    ),
+    Equation::as_printed(
+        "(xxi)",
+        r"b_{11,14} = 1, \quad b_{11,16} = \frac{l}{2}\cos\varphi_3, \quad b_{11,18} = \frac{l}{2}\cos\varphi_3",
+        "The row of [B] of the joint D, along Y, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
+    ),
+    Equation::as_printed(
+        "(xxii)",
+        r"b_{12,15} = 1, \quad b_{12,16} = \frac{l}{2}\sin\varphi_3, \quad b_{12,18} = \frac{l}{2}\sin\varphi_3",
+        "The row of [B] of the joint D, in height, at ψ = 0, θ = π/2; all other entries are zero. They are those of bar 3, as the corrected (18)-(20) give them.",
+    ),
     Equation {
         number: "(xxiii)",
         printed: r"\begin{aligned} -\lambda_1 - \lambda_4 &= 0, & -\lambda_2 - \lambda_5 &= 0, & -\lambda_3 - \lambda_6 &= -mg, \\ -b_{2,4}\lambda_2 - b_{3,4}\lambda_3 - b_{5,4}\lambda_5 - b_{6,4}\lambda_6 &= 0, & \wrong{-b_{4,5}\lambda_4} &= 0, & -b_{2,6}\lambda_2 - b_{3,6}\lambda_3 - b_{5,6}\lambda_5 - b_{6,6}\lambda_6 &= 0, \\ \lambda_4 - \lambda_7 &= 0, & \lambda_5 - \lambda_8 &= 0, & \lambda_6 - \lambda_9 &= -mg, \\ -b_{5,10}\lambda_5 - b_{6,10}\lambda_6 - b_{8,10}\lambda_8 - b_{9,10}\lambda_9 &= 0, & -b_{4,11}\lambda_4 - b_{7,11}\lambda_7 &= 0, & -b_{5,12}\lambda_5 - b_{6,12}\lambda_6 - b_{8,12}\lambda_8 - b_{9,12}\lambda_9 &= 0, \\ \lambda_7 - \lambda_{10} &= 0, & \lambda_8 - \lambda_{11} &= 0, & \lambda_9 - \lambda_{12} &= -mg, \\ -b_{8,16}\lambda_8 - b_{9,16}\lambda_9 - b_{11,16}\lambda_{11} - b_{12,16}\lambda_{12} &= 0, & -b_{7,17}\lambda_7 - b_{10,17}\lambda_{10} &= 0, & -b_{8,18}\lambda_8 - b_{9,18}\lambda_9 - b_{11,18}\lambda_{11} - b_{12,18}\lambda_{12} &= 0 \end{aligned}",
@@ -92,16 +80,14 @@ pub(super) const EQUATIONS: &[Equation] = &[
         ),
         says: "What is left of (xxiii) in the plane. A sign in the row of φ₂ is wrong, and the row of φ₃ is torn into two equations, each false at the equilibrium by the same amount with opposite signs.",
     },
-    Equation {
-        number: "(xxv)",
-        printed: r"\cos\varphi_1 + \cos\varphi_2 + \cos\varphi_3 - 2 = 0",
-        corrected: None,
-        says: "(iii) in the notation of the second solution.",
-    },
-    Equation {
-        number: "(xxvi)",
-        printed: r"\sin\varphi_1 + \sin\varphi_2 + \sin\varphi_3 = 0",
-        corrected: None,
-        says: "(iv) in the notation of the second solution.",
-    },
+    Equation::as_printed(
+        "(xxv)",
+        r"\cos\varphi_1 + \cos\varphi_2 + \cos\varphi_3 - 2 = 0",
+        "(iii) in the notation of the second solution.",
+    ),
+    Equation::as_printed(
+        "(xxvi)",
+        r"\sin\varphi_1 + \sin\varphi_2 + \sin\varphi_3 = 0",
+        "(iv) in the notation of the second solution.",
+    ),
 ];

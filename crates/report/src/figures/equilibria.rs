@@ -95,23 +95,9 @@ fn equilibrium(p: &Position, id: &str, heading: &str) -> String {
         }
     }
     names(&mut svg, &at);
-    let bottom = SIZE[1] - 34.0;
-    svg.indexed(
-        "label small",
-        [SIZE[0] / 2.0, bottom],
-        Anchor::Middle,
-        &format!("θ = {theta}°, α = {alpha}°, β = {beta}°"),
-    );
-    svg.indexed(
-        "label small",
-        [SIZE[0] / 2.0, bottom + 20.0],
-        Anchor::Middle,
-        &format!(
-            "V = {} mgl, axial {} mg",
-            fixed(p.lagrange_mgl, 5),
-            p.axial_mg.map(|f| fixed(f, 2)).join(", ")
-        ),
-    );
+    let axial = p.axial_mg.map(|f| fixed(f, 2)).join(", ");
+    let forces = format!("V = {} mgl, axial {axial} mg", fixed(p.lagrange_mgl, 5));
+    caption(&mut svg, [&format!("θ = {theta}°, α = {alpha}°, β = {beta}°"), &forces]);
     svg.finish()
 }
 
@@ -137,38 +123,24 @@ fn printed(r: &Reproduction) -> String {
     weights(&mut svg, &at);
     // V falls towards smaller theta: A moves to the left.
     svg.arrow("force falls", moved(at[1], 1.0, [-10.0, 0.0]), moved(at[1], 1.0, [-46.0, 0.0]));
-    svg.indexed(
-        "label small",
-        moved(at[1], 1.0, [16.0, 14.0]),
-        Anchor::Start,
-        "V falls to the left:",
-    );
-    svg.indexed(
-        "label small",
-        moved(at[1], 1.0, [16.0, 31.0]),
-        Anchor::Start,
-        &format!("dV/dθ = {} mgl/rad", fixed(r.figures.slope_at_x, 3)),
-    );
+    let slope = format!("dV/dθ = {} mgl/rad", fixed(r.figures.slope_at_x, 3));
+    for (text, below) in [("V falls to the left:", 14.0), (&*slope, 31.0)] {
+        svg.indexed("label small", moved(at[1], 1.0, [16.0, below]), Anchor::Start, text);
+    }
     names(&mut svg, &at);
-    let bottom = SIZE[1] - 34.0;
-    svg.indexed(
-        "label small",
-        [SIZE[0] / 2.0, bottom],
-        Anchor::Middle,
-        &format!(
-            "θ = {}°, α = {}°, β = {}°",
-            fixed(theta, 2),
-            fixed(alpha - 360.0 * f64::from(alpha > 180.0), 2),
-            fixed(beta, 2)
-        ),
-    );
-    svg.indexed(
-        "label small",
-        [SIZE[0] / 2.0, bottom + 20.0],
-        Anchor::Middle,
-        &format!("V = {} mgl", fixed(energy, 5)),
-    );
+    let alpha = alpha - 360.0 * f64::from(alpha > 180.0);
+    let [theta, alpha, beta] = [theta, alpha, beta].map(|angle| fixed(angle, 2));
+    let angles = format!("θ = {theta}°, α = {alpha}°, β = {beta}°");
+    caption(&mut svg, [&angles, &format!("V = {} mgl", fixed(energy, 5))]);
     svg.finish()
+}
+
+/// Two lines under a panel.
+fn caption(svg: &mut Svg, lines: [&str; 2]) {
+    for (line, below) in lines.into_iter().zip([0.0, 20.0]) {
+        let at = [SIZE[0] / 2.0, SIZE[1] - 34.0 + below];
+        svg.indexed("label small", at, Anchor::Middle, line);
+    }
 }
 
 /// The three weights at the middles of the bars; beside the bar where it hangs straight down and

@@ -25,23 +25,23 @@ pub enum Members {
 }
 
 /// A system while it is drawn.
-struct Draft {
-    random: ChaCha8Rng,
+pub struct Draft {
+    pub random: ChaCha8Rng,
     kinds: Members,
-    joints: Vec<Joint>,
-    members: Vec<Member>,
+    pub joints: Vec<Joint>,
+    pub members: Vec<Member>,
 }
 
 impl Draft {
-    fn new(kinds: Members, seed: u64) -> Self {
+    pub fn new(kinds: Members, seed: u64) -> Self {
         Self { random: ChaCha8Rng::seed_from_u64(seed), kinds, joints: vec![], members: vec![] }
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         self.random.random_range(low..high)
     }
 
-    fn anchor(&mut self, at_m: [f64; 3]) -> usize {
+    pub fn anchor(&mut self, at_m: [f64; 3]) -> usize {
         self.joints.push(Joint::anchor(format!("anchor {}", self.joints.len()), at_m));
         self.joints.len() - 1
     }
@@ -89,7 +89,7 @@ impl Draft {
         }
     }
 
-    fn finish(self) -> System {
+    pub fn finish(self) -> System {
         System::new("drawn", 9.80665, self.joints, self.members).unwrap()
     }
 }

@@ -15,29 +15,16 @@ use rand_chacha::ChaCha8Rng;
 use validate::systems::{ask, ask_with, certify_by_census};
 use validate::{Question, Solvers, UseCensus};
 
-struct Draft {
-    random: ChaCha8Rng,
-    joints: Vec<Joint>,
-    members: Vec<Member>,
-}
+use crate::networks::{Draft, Members};
 
 impl Draft {
-    fn new(seed: u64) -> Self {
-        Self { random: ChaCha8Rng::seed_from_u64(seed), joints: vec![], members: vec![] }
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.random.random_range(low..high)
-    }
-
-    fn anchor(&mut self) -> usize {
+    fn any_anchor(&mut self) -> usize {
         let at_m = [(); 3].map(|()| self.between(-1.0, 1.0));
-        self.joints.push(Joint::anchor(format!("anchor {}", self.joints.len()), at_m));
-        self.joints.len() - 1
+        self.anchor(at_m)
     }
 
     /// A joint with a mass or a force downwards, or neither.
-    fn free(&mut self) -> usize {
+    fn loaded(&mut self) -> usize {
         let mut joint = Joint::free(format!("joint {}", self.joints.len()));
         match self.random.random_range(0..3) {
             0 => joint = joint.with_mass(self.between(0.1, 5.0)),
@@ -61,39 +48,35 @@ impl Draft {
     fn chain(&mut self, from: usize, to: usize, bars: usize) {
         let mut here = from;
         for k in 1..=bars {
-            let there = if k == bars { to } else { self.free() };
+            let there = if k == bars { to } else { self.loaded() };
             self.bar(here, there);
             here = there;
         }
-    }
-
-    fn finish(self) -> System {
-        System::new("drawn", 9.80665, self.joints, self.members).unwrap()
     }
 }
 
 /// A chain of two to four bars between anchors, with a branch on one of its joints.
 fn branched_chain(seed: u64) -> System {
-    let mut draft = Draft::new(seed);
-    let (start, end) = (draft.anchor(), draft.anchor());
+    let mut draft = Draft::new(Members::Bars, seed);
+    let (start, end) = (draft.any_anchor(), draft.any_anchor());
     let bars = draft.random.random_range(2..=4);
     draft.chain(start, end, bars);
-    let tip = draft.free();
+    let tip = draft.loaded();
     draft.bar(2, tip);
     draft.finish()
 }
 
 /// A tripod, with a hanger from its top to a fourth anchor and a pendulum on that.
 fn tripod(seed: u64) -> System {
-    let mut draft = Draft::new(seed);
-    let top = draft.free();
+    let mut draft = Draft::new(Members::Bars, seed);
+    let top = draft.loaded();
     for _ in 0..3 {
-        let foot = draft.anchor();
+        let foot = draft.any_anchor();
         draft.bar(foot, top);
     }
-    let fourth = draft.anchor();
+    let fourth = draft.any_anchor();
     draft.chain(top, fourth, 2);
-    let tip = draft.free();
+    let tip = draft.loaded();
     draft.bar(5, tip);
     draft.finish()
 }

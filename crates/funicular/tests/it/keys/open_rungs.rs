@@ -47,25 +47,15 @@ fn reasons_of_a_chain() {
             (Reason::CountUnchecked { sides: 8 }, &["a polygon of 8 sides"]),
         ],
     );
-    let kinds = [
-        "refuted_by_census",
-        "slack_family",
-        "not_among_decided",
-        "elsewhere",
-        "at_straight",
-        "nothing_listed",
-        "census_undecided",
-        "singular_families",
-        "singular_families",
-        "straight_position",
-        "count_unchecked",
-    ];
-    output.is("kind", kinds.as_slice());
-    output.is("distance", json!([0.125, 0.375, 0.875]));
-    output.is("cells", json!([3, 4]));
-    output.is("listed", json!([1, 9]));
-    output.is("sides[]", json!([6, 7]));
-    output.is("sides", 8);
+    output.are(json!({
+        "kind": [
+            "refuted_by_census", "slack_family", "not_among_decided", "elsewhere", "at_straight",
+            "nothing_listed", "census_undecided", "singular_families", "singular_families",
+            "straight_position", "count_unchecked",
+        ],
+        "distance": [0.125, 0.375, 0.875], "cells": [3, 4], "listed": [1, 9], "sides[]": [6, 7],
+        "sides": 8,
+    }));
     output.done();
 }
 
@@ -98,32 +88,16 @@ fn reasons_without_a_census() {
             (reason(NoCensus::Loose { joint: 16 }), &["nothing holds the 16th joint"]),
         ],
     );
-    let because = [
-        "settings",
-        "refused",
-        "motions",
-        "undecided",
-        "plane_only",
-        "turns",
-        "closures",
-        "loads_not_down",
-        "elastic",
-        "limp",
-        "flat",
-        "floor",
-        "too_many_positions",
-        "cables",
-        "slack_sets",
-        "loose",
-    ];
     output.each("kind", "no_census");
-    output.is("because", because.as_slice());
-    output.is("closures", json!([3, 8]));
-    output.is("motions", 4);
-    output.is("limit", json!([5, 14, 15]));
-    output.is("boxes", 6);
-    output.is("joint", json!([7, 9, 13, 16]));
-    output.is("member", json!([10, 12]));
+    output.are(json!({
+        "because": [
+            "settings", "refused", "motions", "undecided", "plane_only", "turns", "closures",
+            "loads_not_down", "elastic", "limp", "flat", "floor", "too_many_positions", "cables",
+            "slack_sets", "loose",
+        ],
+        "closures": [3, 8], "motions": 4, "limit": [5, 14, 15], "boxes": 6, "joint": [7, 9, 13, 16],
+        "member": [10, 12],
+    }));
     output.done();
 }
 
@@ -164,31 +138,16 @@ fn reasons_without_a_box() {
             (reason(NoBox::Rope { member: 12 }), &["the rope that is member 12 has no length"]),
         ],
     );
-    let because = [
-        "too_large",
-        "self_stresses",
-        "free_motions",
-        "degenerate",
-        "wrong_sign",
-        "not_slack",
-        "between_anchors",
-        "floor",
-        "not_converged",
-        "singular",
-        "not_contracting",
-        "elsewhere",
-        "not_finite",
-        "rope",
-    ];
     output.each("kind", "no_box");
-    output.is("because", because.as_slice());
-    output.is("unknowns", 3);
-    output.is("limit", 4);
-    output.is("dimension", json!([5, 6]));
-    output.is("member", json!([7, 8, 9, 10, 12]));
-    output.is("joint", 11);
-    output.is("distance_m", 0.125);
-    output.is("distance_n", 0.375);
+    output.are(json!({
+        "because": [
+            "too_large", "self_stresses", "free_motions", "degenerate", "wrong_sign", "not_slack",
+            "between_anchors", "floor", "not_converged", "singular", "not_contracting", "elsewhere",
+            "not_finite", "rope",
+        ],
+        "unknowns": 3, "limit": 4, "dimension": [5, 6], "member": [7, 8, 9, 10, 12], "joint": 11,
+        "distance_m": 0.125, "distance_n": 0.375,
+    }));
     output.done();
 }
 
@@ -212,28 +171,15 @@ fn reasons_without_a_certificate() {
             (reason(NoCertificate::Unusable), &["incomplete or not finite"]),
         ],
     );
-    let because = [
-        "several_compressed",
-        "indefinite",
-        "gap",
-        "not_closed",
-        "energy_falls",
-        "pivots_undecided",
-        "not_definite",
-        "not_convex",
-        "unusable",
-    ];
     output.each("kind", "no_certificate");
-    output.is("because", because.as_slice());
-    output.is("bars", 3);
-    output.is("bar", 4);
-    output.is("excess", 0.125);
-    output.is("gap", 0.375);
-    output.is("gap_m", 0.5);
-    output.is("slack_m", 0.25);
-    output.is("directions", 5);
-    output.is("compressed", 6);
-    output.is("members", 7);
+    output.are(json!({
+        "because": [
+            "several_compressed", "indefinite", "gap", "not_closed", "energy_falls",
+            "pivots_undecided", "not_definite", "not_convex", "unusable",
+        ],
+        "bars": 3, "bar": 4, "excess": 0.125, "gap": 0.375, "gap_m": 0.5, "slack_m": 0.25,
+        "directions": 5, "compressed": 6, "members": 7,
+    }));
     output.done();
 }
 
@@ -265,19 +211,13 @@ fn reasons_of_solvers_that_disagree() {
     ];
     let disagreement = Reason::SolversDisagree(Disagreement { excesses });
     let mut output = reasons("reasons_of_solvers_that_disagree", [(disagreement, &words)]);
-    let what = [
-        "joints",
-        "forces",
-        "energy",
-        "statics",
-        "morse_index",
-        "self_stresses",
-        "named_forces",
-        "equally_stiff",
-        "large_force",
-    ];
-    output.is("kind", "solvers_disagree");
-    output.is("excesses[].what", what.as_slice());
+    output.are(json!({
+        "kind": "solvers_disagree",
+        "excesses[].what": [
+            "joints", "forces", "energy", "statics", "morse_index", "self_stresses", "named_forces",
+            "equally_stiff", "large_force",
+        ],
+    }));
     output.each("excesses[].between[]", json!(["lagrange", "energy"]));
     output.each("excesses[].solver", "energy");
     output.is("excesses[].place.member", 15);
@@ -313,13 +253,11 @@ fn findings_of_forces() {
         of(&proved, &["the lengths are independent, and the energy rises"]),
     ];
     let mut output = output("a finding of forces", "findings_of_forces", &findings);
-    output.is("large.member", 3);
-    output.is("large.force_n", -5e7);
-    output.is("large.ratio", 2.5e6);
-    output.is("choices.between[]", json!(["lagrange", "energy"]));
-    output.is("choices.choices[]", json!(["equally_stiff", "unknown"]));
-    output.is("choices.member", 4);
-    output.is("choices.forces_n[]", json!([0.25, 12.5]));
-    output.is("proved", json!(["rank", "stability", "rank_and_stability"]));
+    output.are(json!({
+        "large.member": 3, "large.force_n": -5e7, "large.ratio": 2.5e6,
+        "choices.between[]": ["lagrange", "energy"],
+        "choices.choices[]": ["equally_stiff", "unknown"], "choices.member": 4,
+        "choices.forces_n[]": [0.25, 12.5], "proved": ["rank", "stability", "rank_and_stability"],
+    }));
     output.done();
 }

@@ -108,6 +108,12 @@ impl Output {
         self.near(path, CLOSE, wanted);
     }
 
+    /// Assert the values at several paths, an object of these.
+    pub fn are(&mut self, wanted: Value) {
+        let Value::Object(wanted) = wanted else { panic!("{wanted} for paths") };
+        wanted.into_iter().for_each(|(path, wanted)| self.is(&path, wanted));
+    }
+
     /// What a system is: its name, how many joints and bars, total length, total mass and gravity.
     pub fn system(&mut self, name: &str, counts: [u32; 2], totals: [f64; 3]) {
         self.is("system.name", name);

@@ -59,26 +59,15 @@ fn refusals_of_energy_for_chains() {
     ];
     let test = "refusals_of_energy_for_chains";
     let mut output = output("a refusal of energy", test, &refusals);
-    let kinds = [
-        "seed_size",
-        "seed_direction",
-        "seed_angle",
-        "seed_not_closed",
-        "not_converged",
-        "no_descent",
-        "nearly_folded",
-    ];
-    output.is("kind", kinds.as_slice());
-    output.is("bars", 3);
-    output.is("given", 4);
-    output.is("bar", 5);
-    output.is("direction[]", json!([0.25, 0.75, -1.5]));
-    output.is("angle_rad", 6.5);
-    output.is("gap", json!([0.125, 0.0625]));
-    output.is("iterations", json!([7, 8, 9]));
-    output.is("gradient", json!([0.375, 0.625]));
-    output.is("directions", 2);
-    output.is("across", 3e-8);
+    output.are(json!({
+        "kind": [
+            "seed_size", "seed_direction", "seed_angle", "seed_not_closed", "not_converged",
+            "no_descent", "nearly_folded",
+        ],
+        "bars": 3, "given": 4, "bar": 5, "direction[]": [0.25, 0.75, -1.5], "angle_rad": 6.5,
+        "gap": [0.125, 0.0625], "iterations": [7, 8, 9], "gradient": [0.375, 0.625],
+        "directions": 2, "across": 3e-8,
+    }));
     output.done();
 }
 
@@ -136,47 +125,19 @@ fn refusals_of_energy_for_systems() {
     ];
     let test = "refusals_of_energy_for_systems";
     let mut output = output("a refusal of energy for a system", test, &refusals);
-    let kinds = [
-        "setting",
-        "no_member",
-        "no_load",
-        "direction",
-        "falls",
-        "seed",
-        "not_closed",
-        "iteration_limit",
-        "work",
-        "stalled",
-        "no_minimum",
-        "no_minimum_near",
-        "wrong_sign",
-        "floor_pulls",
-        "not_finite",
-        "memory",
-        "ended",
-    ];
-    output.is("kind", kinds.as_slice());
-    output.is("field", "tolerance");
-    output.is("value", 2.5);
-    output.is("low", 1e-14);
-    output.is("high", 0.5);
-    output.is("joint", json!(["S", "F", "P", "L"]));
-    output.is("moved_m", 14.5);
-    output.is("direction[]", json!([0.25, 0.75, -1.5]));
-    output.is("force_n", json!([5.5, -6.5, 7.5]));
-    output.is("joints", 6);
-    output.is("given", 7);
-    output.is("member", json!([8, 11]));
-    output.is("misfit_m", 0.875);
-    output.is("iterations", 9);
-    output.is("unbalance", json!([0.125, 0.375]));
-    output.is("misfit", json!([0.25, 0.5]));
-    output.is("spent", 16);
-    output.is("max_work", 15);
-    output.is("index", 10);
-    output.is("quantity", "energy");
-    output.is("coordinates", 13);
-    output.is("reason", "in its words");
+    output.are(json!({
+        "kind": [
+            "setting", "no_member", "no_load", "direction", "falls", "seed", "not_closed",
+            "iteration_limit", "work", "stalled", "no_minimum", "no_minimum_near", "wrong_sign",
+            "floor_pulls", "not_finite", "memory", "ended",
+        ],
+        "field": "tolerance", "value": 2.5, "low": 1e-14, "high": 0.5,
+        "joint": ["S", "F", "P", "L"], "moved_m": 14.5, "direction[]": [0.25, 0.75, -1.5],
+        "force_n": [5.5, -6.5, 7.5], "joints": 6, "given": 7, "member": [8, 11], "misfit_m": 0.875,
+        "iterations": 9, "unbalance": [0.125, 0.375], "misfit": [0.25, 0.5], "spent": 16,
+        "max_work": 15, "index": 10, "quantity": "energy", "coordinates": 13,
+        "reason": "in its words",
+    }));
     output.done();
 }
 
@@ -199,15 +160,10 @@ fn refusals_of_lagrange_for_chains() {
     let test = "refusals_of_lagrange_for_chains";
     let mut output = output("a refusal of lagrange", test, &refusals);
     let kinds = ["stagnated", "false_root", "spectrum", "not_closed", "overflow"];
-    output.is("kind", kinds.as_slice());
-    output.is("bar", 9);
-    output.is("residual", 0.125);
-    output.is("iterations", 7);
-    output.is("relaxations", 8);
-    output.is("moment", 0.25);
-    output.is("size", 12);
-    output.is("closure", 0.375);
-    output.is("passes", 13);
+    output.are(json!({
+        "kind": kinds, "bar": 9, "residual": 0.125, "iterations": 7, "relaxations": 8,
+        "moment": 0.25, "size": 12, "closure": 0.375, "passes": 13,
+    }));
     output.done();
 }
 
@@ -258,47 +214,18 @@ fn refusals_of_lagrange_for_systems() {
     ];
     let test = "refusals_of_lagrange_for_systems";
     let mut output = output("a refusal of lagrange for a system", test, &refusals);
-    let kinds = [
-        "settings",
-        "seed_length",
-        "seed_not_finite",
-        "falls",
-        "escapes",
-        "too_short",
-        "held_misfit",
-        "unloaded",
-        "not_converged",
-        "floor",
-        "unstable",
-        "work",
-        "memory",
-    ];
-    output.is("kind", kinds.as_slice());
-    output.is("spent", 17);
-    output.is("max_work", 16);
-    output.is("name", "tolerance");
-    output.is("value", 2.5);
-    output.is("low", 1e-14);
-    output.is("high", 0.5);
-    output.is("of", json!(["joints", "joint"]));
-    output.is("expected", 3);
-    output.is("got", 4);
-    output.is("number", 5);
+    output.are(json!({
+        "kind": [
+            "settings", "seed_length", "seed_not_finite", "falls", "escapes", "too_short",
+            "held_misfit", "unloaded", "not_converged", "floor", "unstable", "work", "memory",
+        ],
+        "spent": 17, "max_work": 16, "name": "tolerance", "value": 2.5, "low": 1e-14, "high": 0.5,
+        "of": ["joints", "joint"], "expected": 3, "got": 4, "number": 5,
+        "joints": 6, "load_n": 7.5, "distance_m": [8.5, 9.5, 2.25], "from": "A", "to": "B",
+        "reach_m": 4.5, "member": [10, 12], "length_m": 3.5, "iterations": 11, "unbalance": 0.125,
+        "misfit_m": 0.25, "rounds": 13, "index": 14, "unknowns": 15,
+    }));
     output.each("joint", "P");
-    output.is("joints", 6);
-    output.is("load_n", 7.5);
-    output.is("distance_m", json!([8.5, 9.5, 2.25]));
-    output.is("from", "A");
-    output.is("to", "B");
-    output.is("reach_m", 4.5);
-    output.is("member", json!([10, 12]));
-    output.is("length_m", 3.5);
-    output.is("iterations", 11);
-    output.is("unbalance", 0.125);
-    output.is("misfit_m", 0.25);
-    output.is("rounds", 13);
-    output.is("index", 14);
-    output.is("unknowns", 15);
     output.done();
 }
 
@@ -320,18 +247,13 @@ fn refusals_of_lagrange_for_derivatives() {
     ];
     let test = "refusals_of_lagrange_for_derivatives";
     let mut output = output("a refusal of lagrange for a system", test, &refusals);
-    let kinds = [
-        "free_motion",
-        "open_forces",
-        "just_taut",
-        "just_touches",
-        "no_derivative",
-        "not_an_anchor",
-    ];
-    output.is("kind", kinds.as_slice());
-    output.is("motions", 16);
-    output.is("dimension", 17);
-    output.is("member", 18);
+    output.are(json!({
+        "kind": [
+            "free_motion", "open_forces", "just_taut", "just_touches", "no_derivative",
+            "not_an_anchor",
+        ],
+        "motions": 16, "dimension": 17, "member": 18,
+    }));
     output.each("joint", "P");
     output.is("left", 0.375);
     output.done();
@@ -359,15 +281,11 @@ fn refusals_of_lagrange_for_frames() {
     ];
     let test = "refusals_of_lagrange_for_frames";
     let mut output = output("a refusal of lagrange for a system", test, &refusals);
-    output.is("kind", json!(["misfit", "absurd", "jammed"]));
-    output.is("misfits[].member", 1);
-    output.is("misfits[].misfit_m", 0.25);
-    output.is("misfits[].within_m", 0.125);
-    output.is("member", json!([2, 3]));
-    output.is("force_n", 3.5);
-    output.is("ratio", 4.5);
-    output.is("from", "P");
-    output.is("to", "D");
+    output.are(json!({
+        "kind": ["misfit", "absurd", "jammed"], "misfits[].member": 1, "misfits[].misfit_m": 0.25,
+        "misfits[].within_m": 0.125, "member": [2, 3], "force_n": 3.5, "ratio": 4.5, "from": "P",
+        "to": "D",
+    }));
     output.done();
 }
 
@@ -387,14 +305,10 @@ fn refusals_of_energy_for_frames() {
     ];
     let test = "refusals_of_energy_for_frames";
     let mut output = output("a refusal of energy for a system", test, &refusals);
-    output.is("kind", json!(["misfit", "absurd", "unbalanced", "jammed"]));
-    output.is("misfits[].member", 1);
-    output.is("misfits[].misfit_m", 0.25);
-    output.is("misfits[].within_m", 0.125);
-    output.is("member", json!([2, 6]));
-    output.is("span", 7);
-    output.is("ratio", 4.5);
-    output.is("joint", "U");
-    output.is("unbalance", 0.5);
+    output.are(json!({
+        "kind": ["misfit", "absurd", "unbalanced", "jammed"], "misfits[].member": 1,
+        "misfits[].misfit_m": 0.25, "misfits[].within_m": 0.125, "member": [2, 6], "span": 7,
+        "ratio": 4.5, "joint": "U", "unbalance": 0.5,
+    }));
     output.done();
 }

@@ -24,12 +24,7 @@ pub const AXIAL: f64 = 5.773_502_691_896_258;
 
 /// What is said of the system.
 pub fn system_of_level_v(output: &mut Output) {
-    output.is("system.joints", 3);
-    output.is("system.name", "level V");
-    output.is("system.bars", 2);
-    output.is("system.total_length_m", 2.0);
-    output.is("system.total_mass_kg", 2.0);
-    output.is("system.gravity_m_s2", 10.0);
+    output.system("level V", [3, 2], [2.0, 2.0, 10.0]);
 }
 
 /// A chain is a system with joints named by their numbers, found by the solvers of a row.

@@ -118,15 +118,11 @@ fn equilibria(output: &mut Output, angles: bool) {
 
 /// What a run over so many seeds says of itself.
 fn about(output: &mut Output, folder: &str, count: usize, parts: usize) {
-    output.is("schema_version", 2);
-    output.is("folder", folder);
-    output.is("parts", parts);
-    output.is("seeds.count", count);
-    output.is("seeds.of", count);
-    output.is("seeds.range.start", 0);
-    output.is("seeds.range.end", count);
-    output.is("disagreements[]", json!([]));
-    output.is("equilibria_below_j", json!(null));
+    output.are(json!({
+        "schema_version": 2, "folder": folder, "parts": parts, "seeds.count": count,
+        "seeds.of": count, "seeds.range.start": 0, "seeds.range.end": count, "disagreements[]": [],
+        "equilibria_below_j": null,
+    }));
 }
 
 /// How often both solvers came to the same equilibrium, and how often to different minima.
@@ -211,16 +207,14 @@ fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
     let pairs = [both(0.0, 0.0), both(0.0, 1.0), both(1.0, 0.0), both(1.0, 1.0)];
     output.is("outcomes.tally.both.*.*", pairs.as_slice());
     let [same, other] = comparisons(lagrange, energy);
-    output.is("outcomes.comparisons[]", json!([same, 0, other, 0, 0, 0, 0, 0]));
-    output.is("outcomes.disagreements[]", json!([]));
-    output.is("outcomes.index[]", json!([0, 0]));
-    // The bits of 40 J: weight times length.
-    output.is("outcomes.scale", 40.0_f64.to_bits());
-    output.is("parts[].file", "part-000000.csv");
-    output.is("parts[].seeds.start", 0);
-    output.is("parts[].seeds.end", SEEDS);
-    output.is("parts[].bytes", std::fs::metadata(&part).unwrap().len());
-    output.is("parts[].sha256", sha256(&part));
+    output.are(json!({
+        "outcomes.comparisons[]": [same, 0, other, 0, 0, 0, 0, 0], "outcomes.disagreements[]": [],
+        "outcomes.index[]": [0, 0],
+        // The bits of 40 J: weight times length.
+        "outcomes.scale": 40.0_f64.to_bits(), "parts[].file": "part-000000.csv",
+        "parts[].seeds.start": 0, "parts[].seeds.end": SEEDS,
+        "parts[].bytes": std::fs::metadata(&part).unwrap().len(), "parts[].sha256": sha256(&part),
+    }));
     output.done();
 }
 
@@ -244,17 +238,12 @@ fn manifest(output: &mut Output, folder: &Path, text: &str, seeds: usize) {
     let parsed: Value = serde_json::from_str(text).unwrap();
     let copy = folder.join("copy.toml");
     std::fs::write(&copy, parsed["system"]["text"].as_str().unwrap()).unwrap();
-    output.is("system.sha256", sha256(&copy));
-    output.is("system.unit_j", 40.0);
-    output.is("seeds", seeds);
-    output.is("seed_number", 1);
-    output.is("format", "csv");
-    // README: parts of 1024 seeds.
-    output.is("part_seeds", 1024);
-    output.is("shard.number", 1);
-    output.is("shard.of", 1);
-    output.is("range.start", 0);
-    output.is("range.end", seeds);
+    output.are(json!({
+        "system.sha256": sha256(&copy), "system.unit_j": 40.0, "seeds": seeds, "seed_number": 1,
+        "format": "csv",
+        // README: parts of 1024 seeds.
+        "part_seeds": 1024, "shard.number": 1, "shard.of": 1, "range.start": 0, "range.end": seeds,
+    }));
 }
 
 /// Bars of one mass over equal distances hang on a parabola: where the tangents of their angles grow
@@ -379,30 +368,24 @@ fn releases() {
     for none in ["lagrange", "energy", "both"] {
         output.is(&format!("outcomes.tally.{none}"), json!(null));
     }
-    output.is("outcomes.comparisons[]", json!([0, 0, 0, 0, 0, 0, 0, 0]));
-    output.is("outcomes.disagreements[]", json!([]));
-    output.is("outcomes.index[]", json!([0, 1]));
-    output.is("outcomes.scale", 40.0_f64.to_bits());
-    output.is("parts[].file", "part-000000.csv");
-    output.is("parts[].seeds.start", 0);
-    output.is("parts[].seeds.end", 20);
-    output.is("parts[].bytes", rows.len());
-    output.is("parts[].sha256", sha256(&folder.path().join("out/part-000000.csv")));
+    output.are(json!({
+        "outcomes.comparisons[]": [0, 0, 0, 0, 0, 0, 0, 0], "outcomes.disagreements[]": [],
+        "outcomes.index[]": [0, 1], "outcomes.scale": 40.0_f64.to_bits(),
+        "parts[].file": "part-000000.csv", "parts[].seeds.start": 0, "parts[].seeds.end": 20,
+        "parts[].bytes": rows.len(),
+        "parts[].sha256": sha256(&folder.path().join("out/part-000000.csv")),
+    }));
     output.done();
     let text = std::fs::read_to_string(folder.path().join("out/manifest.json")).unwrap();
     let mut output = Output::json("manifest.json of releases", "releases", &text);
     manifest(&mut output, folder.path(), &text, 20);
     equilibria(&mut output, false);
-    output.is("solvers[]", "motion");
-    output.is("angles[]", json!([]));
-    output.is("source", "released");
-    output.is("release.time_s", 20.0);
-    output.is("release.step_s", 0.02);
-    // Four steps.
-    output.is("release.span_s", 0.08);
-    output.is("release.damping_1_s", 3.0);
-    output.is("release.friction_n_m_s", 0.0);
-    output.is("release.order", 2);
-    output.is("release.rest", 1e-7);
+    output.are(json!({
+        "solvers[]": "motion", "angles[]": [], "source": "released", "release.time_s": 20.0,
+        "release.step_s": 0.02,
+        // Four steps.
+        "release.span_s": 0.08, "release.damping_1_s": 3.0, "release.friction_n_m_s": 0.0,
+        "release.order": 2, "release.rest": 1e-7,
+    }));
     output.done();
 }

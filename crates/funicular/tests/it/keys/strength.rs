@@ -45,22 +45,18 @@ fn losses_of_two_ropes_and_a_hanger() {
             .of("losses");
     output.is("schema_version", 3);
     output.system("ropes", [4, 3], [11.0, 30.0, 10.0]);
-    output.is("losses[].bar", json!([1, 2, 3]));
-    output.is("losses[].lowest_m[]", json!([3.0, 0.0, -6.0, -3.0, 0.0, -6.0]));
-    output.is("losses[].lowest_joint", json!(["Q", "Q"]));
-    // Below the anchor that is left.
-    output.is("losses[].sag_m", json!([6.0, 6.0]));
-    // From 4 m below the middle to 5 m below an anchor.
-    output.is("losses[].moves", json!(["P", "P"]));
-    output.is("losses[].moves_m", json!([10.0_f64.sqrt(), 10.0_f64.sqrt()]));
-    output.is("losses[].tension_n[]", json!([2, 300.0, 1, 300.0]));
-    output.is("losses[].compression_n", json!([null, null]));
-    output.is("losses[].weakest.bar", json!([2, 1]));
-    output.is("losses[].weakest.utilisation", json!([0.25, 0.5]));
-    output.is("losses[].weakest.safety", json!([4.0, 2.0]));
-    output.is("losses[].weakest.safety_wanted", json!([1.0, 1.0]));
-    output.is("losses[].rung", json!(["optimal", "optimal"]));
-    output.is("losses[].agrees", json!([true, true]));
+    output.are(json!({
+        "losses[].bar": [1, 2, 3], "losses[].lowest_m[]": [3.0, 0.0, -6.0, -3.0, 0.0, -6.0],
+        "losses[].lowest_joint": ["Q", "Q"],
+        // Below the anchor that is left.
+        "losses[].sag_m": [6.0, 6.0],
+        // From 4 m below the middle to 5 m below an anchor.
+        "losses[].moves": ["P", "P"], "losses[].moves_m": [10.0_f64.sqrt(), 10.0_f64.sqrt()],
+        "losses[].tension_n[]": [2, 300.0, 1, 300.0], "losses[].compression_n": [null, null],
+        "losses[].weakest.bar": [2, 1], "losses[].weakest.utilisation": [0.25, 0.5],
+        "losses[].weakest.safety": [4.0, 2.0], "losses[].weakest.safety_wanted": [1.0, 1.0],
+        "losses[].rung": ["optimal", "optimal"], "losses[].agrees": [true, true],
+    }));
     output.says("losses[].outcome", &["falls"]);
     output.says("losses[].reason", &["no member meets joint \"Q\""]);
     output.done();
@@ -86,33 +82,27 @@ fn load_cases_of_two_ropes() {
             .of("load cases");
     output.is("schema_version", 3);
     output.system("ropes", [3, 2], [10.0, 10.0, 10.0]);
-    output.is("cases[].name", json!(["east", "west", "nothing"]));
-    output.is("cases[].lowest_m[]", json!([0.0, 0.0, -4.0, 0.0, 2.4, -3.2]));
-    output.is("cases[].lowest_joint", json!(["P", "P"]));
-    output.is("cases[].sag_m", json!([4.0, 3.2]));
-    output.is("cases[].moves_m", json!([0.0, 2.4_f64.hypot(0.8)]));
-    output.is("cases[].moves", json!(["A", "P"]));
-    output.is("cases[].tension_n[]", json!([1, 87.5, 2, 103.125]));
-    output.is("cases[].compression_n", json!([null, null]));
-    output.is("cases[].weakest.bar", json!([1, 1]));
-    output.is("cases[].weakest.utilisation", json!([0.5, 53.125 / 175.0]));
-    output.is("cases[].weakest.safety", json!([2.0, 175.0 / 53.125]));
-    output.is("cases[].weakest.safety_wanted", json!([1.0, 1.0]));
-    output.is("cases[].rung", json!(["optimal", "optimal"]));
-    output.is("cases[].agrees", json!([true, true]));
+    output.are(json!({
+        "cases[].name": ["east", "west", "nothing"],
+        "cases[].lowest_m[]": [0.0, 0.0, -4.0, 0.0, 2.4, -3.2], "cases[].lowest_joint": ["P", "P"],
+        "cases[].sag_m": [4.0, 3.2], "cases[].moves_m": [0.0, 2.4_f64.hypot(0.8)],
+        "cases[].moves": ["A", "P"], "cases[].tension_n[]": [1, 87.5, 2, 103.125],
+        "cases[].compression_n": [null, null], "cases[].weakest.bar": [1, 1],
+        "cases[].weakest.utilisation": [0.5, 53.125 / 175.0],
+        "cases[].weakest.safety": [2.0, 175.0 / 53.125],
+        "cases[].weakest.safety_wanted": [1.0, 1.0], "cases[].rung": ["optimal", "optimal"],
+        "cases[].agrees": [true, true],
+    }));
     output.says("cases[].outcome", &["no-load"]);
     output.says("cases[].reason", &["no mass and no force"]);
-    output.is("bars[].bar", json!([1, 2]));
-    output.is("bars[].ends[]", json!(["A", "P", "B", "P"]));
-    output.is("bars[].least_n.value", json!([53.125, 37.5]));
-    output.is("bars[].least_n.case", json!(["west", "east"]));
-    output.is("bars[].most_n.value", json!([87.5, 103.125]));
-    output.is("bars[].most_n.case", json!(["east", "west"]));
-    output.is("bars[].utilisation.value", json!([0.5, 103.125 / 350.0]));
-    output.is("bars[].utilisation.case", json!(["east", "west"]));
-    output.is("supports[].joint", json!(["A", "B"]));
-    output.is("supports[].most_n.value", json!([87.5, 103.125]));
-    output.is("supports[].most_n.case", json!(["east", "west"]));
+    output.are(json!({
+        "bars[].bar": [1, 2], "bars[].ends[]": ["A", "P", "B", "P"],
+        "bars[].least_n.value": [53.125, 37.5], "bars[].least_n.case": ["west", "east"],
+        "bars[].most_n.value": [87.5, 103.125], "bars[].most_n.case": ["east", "west"],
+        "bars[].utilisation.value": [0.5, 103.125 / 350.0],
+        "bars[].utilisation.case": ["east", "west"], "supports[].joint": ["A", "B"],
+        "supports[].most_n.value": [87.5, 103.125], "supports[].most_n.case": ["east", "west"],
+    }));
     output.done();
 }
 

@@ -72,14 +72,12 @@ fn tolerances_of_a_plumb_bob() {
     for end in ["least", "most", "least_reached", "most_reached"] {
         output.near(&format!("tolerances.sag.depth_m.{end}"), rounding, 3.0);
     }
-    output.is("tolerances.sag.depth_m.is_hull", true);
-    output.is("tolerances.sag.depth_m.most_by", none.clone());
-    output.is("tolerances.sag.depth_m.most_change", none.clone());
-    output.is("tolerances.draws.count", 400);
-    output.is("tolerances.draws.solved", 400);
-    output.is("tolerances.draws.outside", 0);
-    output.is("tolerances.draws.seed", 7);
-    output.is("tolerances.draws.distribution", "uniform");
+    output.are(json!({
+        "tolerances.sag.depth_m.is_hull": true, "tolerances.sag.depth_m.most_by": none.clone(),
+        "tolerances.sag.depth_m.most_change": none.clone(), "tolerances.draws.count": 400,
+        "tolerances.draws.solved": 400, "tolerances.draws.outside": 0, "tolerances.draws.seed": 7,
+        "tolerances.draws.distribution": "uniform",
+    }));
     // Of 400 draws the mean is known to 1/20 of the deviation, and that to 1/40 of itself: four times that.
     let third = 3.0_f64.sqrt().recip();
     output.near("tolerances.bars[].drawn_n.mean", 0.03, 20.0);
