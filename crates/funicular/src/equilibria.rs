@@ -70,11 +70,13 @@ pub(crate) fn as_solved(system: &System) -> (Result<net::Solution, net::Error>, 
 /// drawing.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
     problem.fits(BYTES_PER_MEMBER)?;
+    let settings = Settings { max_bars, ..Settings::default() };
+    settings.validate()?;
     let system = problem.system();
     let known = match system.as_row() {
         _ if system.drawing().is_some() => None,
         Some(row) if row.problem().chain().bars().len() > max_bars => None,
-        Some(_) => SystemCensus::take(&system, &Settings { max_bars, ..Settings::default() }).ok(),
+        Some(_) => SystemCensus::take(&system, &settings).ok(),
         None => quick_census(&system).ok(),
     };
     // Sets with slack bars have no modes: their forces vanish where bars are free to move.

@@ -101,11 +101,12 @@ fn text(answer: &ModesAnswer) -> String {
         let _ = writeln!(out, "{}", rows(found));
         let _ = writeln!(out, "{}", wrapped(&proved(&found.enclosed), 2));
         if found.index_in_space != found.index_by_modes {
-            let _ = writeln!(
-                out,
-                "the solver has {} directions in which the energy falls",
-                found.index_in_space
+            let falls = counted(found.index_in_space, "direction");
+            let note = format!(
+                "The solver counts {falls} in which the energy falls. Modes are those of members that resist \
+                 both ways; what is just taut, or bears nothing, resists on one side alone."
             );
+            let _ = writeln!(out, "{}", wrapped(&note, 2));
         }
     }
     let all = if answer.complete {

@@ -144,9 +144,13 @@ pub fn head(text: &str) -> (String, Option<f64>) {
 /// The numbers of a cell in a unit of this size, with as many digits as they have.
 #[must_use]
 pub fn scaled(cell: &str, size: f64) -> String {
-    let word = |word: &str| match word.parse::<f64>() {
-        Ok(x) => significant(x / size, digits(word).max(6)),
-        Err(_) => word.to_owned(),
+    let word = |word: &str| {
+        // Also of a vector in brackets.
+        let number = word.trim_matches(['(', ')', ',']);
+        match number.parse::<f64>() {
+            Ok(x) => word.replace(number, &significant(x / size, digits(number).max(6))),
+            Err(_) => word.to_owned(),
+        }
     };
     cell.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
@@ -185,6 +189,7 @@ mod tests {
         assert_eq!(scaled("-47.0719212345678", 1e3), "-0.0470719212345678");
         assert_eq!(scaled("5 to 7.5", 1e-3), "5000 to 7500");
         assert_eq!(scaled("only this", 1e3), "only this");
+        assert_eq!(scaled("(0.122489, 0, -0.380784)", 1e-3), "(122.489, 0, -380.784)");
         assert_eq!(unit("kN").map(|unit| (unit.of, unit.size)), Ok(("N", 1e3)));
         assert!(unit("stone").is_err());
     }

@@ -84,6 +84,9 @@ impl SystemFailure {
     fn is_astray(&self, system: &System) -> bool {
         use energy::Error as Energy;
         use lagrange::Error as Lagrange;
+        // Then other lengths may be kept elsewhere.
+        let may_be_slack = system.floor_m().is_some()
+            || system.members().iter().any(|member| member.kind != Kind::Bar);
         match self {
             Self::Lagrange(error) => {
                 matches!(
@@ -93,7 +96,7 @@ impl SystemFailure {
                         | Lagrange::Escapes { .. }
                         | Lagrange::Jammed(_)
                         | Lagrange::Floor { .. }
-                ) || system.floor_m().is_some()
+                ) || may_be_slack
                     && matches!(error, Lagrange::Misfit { .. } | Lagrange::HeldMisfit { .. })
             }
             Self::Energy(error) => matches!(
