@@ -1,6 +1,6 @@
-//! Where do bars that hang from their anchors come to rest, and how sure can we be?
+//! Where does a system of bars, cables and springs come to rest, and how sure can we be?
 //!
-//! Every equilibrium is found twice, by two solvers that share no mechanics; a third judge checks
+//! Where a system comes to rest is found twice, by two solvers that share no mechanics; a third judge checks
 //! both from Newton's laws; and every answer says how far it is proved.
 //!
 //! ```

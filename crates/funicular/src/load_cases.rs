@@ -209,14 +209,15 @@ impl Answered<'_> {
         })
     }
 
+    /// What a support bears, or the floor under a joint.
     fn support(&self, joint: usize) -> Option<SupportEnvelope> {
-        let held = &self.system.joints()[joint];
-        held.support.at_m()?;
+        let (held, has_floor) = (&self.system.joints()[joint], self.system.floor_m().is_some());
         let most_n = self.largest(|_, found| {
             let [x, y, z] = found.reactions_n[joint];
             Some(x.hypot(y).hypot(z))
         })?;
-        Some(SupportEnvelope { joint: held.name.to_string(), most_n })
+        let is_support = held.support.at_m().is_some() || has_floor && most_n.value > 0.0;
+        is_support.then(|| SupportEnvelope { joint: held.name.to_string(), most_n })
     }
 }
 
@@ -255,7 +256,7 @@ impl LoadCasesAnswer {
         &self.bars
     }
 
-    /// The supports over all cases that have an answer.
+    /// The supports, and the joints that stand on the floor, over all cases that have an answer.
     #[must_use]
     pub fn supports(&self) -> &[SupportEnvelope] {
         &self.supports

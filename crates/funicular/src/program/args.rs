@@ -64,7 +64,7 @@ Examples:
 
 /// Where does a system of bars, cables and springs come to rest, and how sure can we be?
 ///
-/// Every equilibrium is found twice, by two solvers that share no mechanics (Lagrange multipliers;
+/// Where a system comes to rest is found twice, by two solvers that share no mechanics (Lagrange multipliers;
 /// potential energy), and judged by a third party that knows only Newton's laws.
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in

@@ -1,6 +1,5 @@
 //! `funicular cases`: the registry of named cases, and the gallery as pages.
 
-use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -61,19 +60,16 @@ fn gallery(folder: &Path) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     output::make_folder(folder)?;
     let index = folder.join("index.html");
-    let all: Vec<_> = cases::named().collect();
-    // A gallery that was interrupted has its cases, and no index yet.
-    let is_case =
-        |file: &Path| all.iter().any(|(name, _)| file.file_stem() == Some(OsStr::new(*name)));
-    let others = std::fs::read_dir(folder).is_ok_and(|mut entries| {
-        entries.any(|entry| entry.is_ok_and(|entry| !is_case(&entry.path())))
-    });
-    if others && !std::fs::read_to_string(&index).is_ok_and(|text| text.starts_with(HEAD)) {
+    let holds = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    if holds && !std::fs::read_to_string(&index).is_ok_and(|text| text.starts_with(HEAD)) {
         let report = format!("the folder {} is not empty: name a new one", folder.display());
         return Err(Failure::bad_input(report));
     }
+    // One that is interrupted is known as a gallery.
+    output::write_whole(&index, HEAD)?;
     let progress = Progress::start();
     progress.say("all cases of the gallery");
+    let all: Vec<_> = cases::named().collect();
     let shown = all.par_iter().map(|(name, about)| one(folder, name, about));
     let shown = shown.collect::<Result<Vec<_>, Failure>>()?;
     drop(progress);

@@ -214,8 +214,12 @@ fn question(solution: &SolveAnswer) -> String {
         _ => String::new(),
     };
     // As past a limit load.
-    let way =
-        if near.moved > FAR { " The way there: funicular trace --vary loads=0.01..1" } else { "" };
+    let has_way = shown(solution).is_some_and(|e| e.stability.neutral == 0);
+    let way = if near.moved > FAR && has_way {
+        " The way there: funicular trace --vary loads=0.01..1"
+    } else {
+        ""
+    };
     wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
 

@@ -350,3 +350,76 @@ fn a_slack_tie_without_span_explains_no_force_elsewhere() {
         assert_eq!(found, Some(code), "{out}{said}");
     }
 }
+
+/// A rigid load on three slings that are drawn taut, of which one is too long: by sequential quadratic programming (SciPy's
+/// SLSQP, slings no longer than their length) a comes to rest at (-0.99946, -1.62763) with -5055.318 J.
+#[test]
+fn of_slings_that_are_drawn_taut_one_may_be_slack() {
+    let point = |name: &str, x: f64, z: f64, mass: f64| {
+        format!("{name} = {{ mass_kg = {mass}, near_m = [{x}, 0, {z}] }}")
+    };
+    let bar = |from: &str, to: &str| format!("{{ from = '{from}', to = '{to}', mass_kg = 0 }}");
+    let sling = |to: &str, length: f64| {
+        format!(
+            "{{ from = 'hook', to = '{to}', kind = 'cable', length_m = {length}, mass_kg = 0 }}"
+        )
+    };
+    let text = format!(
+        "plane = 'xz'\njoints = {{ hook = {{ at_m = [0, 0, 0] }}, {}, {}, {}, {} }}\nbars = [{}, {}, {}, {}, {}, {}, {}, {}]",
+        point("a", -1.0, -1.6, 100.0),
+        point("b", 1.0, -1.6, 100.0),
+        point("m", 0.0, -1.6, 100.0),
+        point("K", 0.0, -2.0, 10.0),
+        bar("a", "K"),
+        bar("b", "K"),
+        bar("m", "K"),
+        bar("a", "m"),
+        bar("b", "m"),
+        sling("a", 1.91),
+        sling("b", 1.98),
+        sling("m", 1.65)
+    );
+    let answer = Solve::new().run(&problem(&text)).unwrap();
+    assert!(answer.agrees(), "{:?}", answer.failures());
+    for found in answer.equilibria() {
+        assert!((found.energy_j + 5055.318).abs() < 1e-3, "{}", found.energy_j);
+        let [x, _, z] = found.joints_m[1];
+        assert!((x + 0.99946).abs() < 1e-5 && (z + 1.62763).abs() < 1e-5, "{x} {z}");
+    }
+}
+
+/// A table of which one foot is held: all four bear a quarter of 80 kg, twice that in a case; what stands on the floor is
+/// listed as the support is.
+#[test]
+fn what_the_floor_bears_is_listed_over_all_cases() {
+    let corner = |x: f64, y: f64| format!("[{x}, {y}, 0]");
+    let mut joints = vec![
+        "F0 = { at_m = [0, 0, 0] }".to_owned(),
+        "K = { near_m = [0.5, 0.5, 1], mass_kg = 80 }".to_owned(),
+    ];
+    let mut bars = Vec::new();
+    for (k, (x, y)) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].into_iter().enumerate() {
+        if k > 0 {
+            joints.push(format!("F{k} = {{ near_m = {} }}", corner(x, y)));
+        }
+        bars.push(format!("{{ from = 'F{k}', to = 'K', mass_kg = 0, stiffness_n = 1e6 }}"));
+        bars.push(format!(
+            "{{ from = 'F{k}', to = 'F{}', mass_kg = 0, stiffness_n = 1e6 }}",
+            (k + 1) % 4
+        ));
+    }
+    let text = format!(
+        "floor_m = 0\njoints = {{ {} }}\nbars = [{}]\nloads = [{{ name = 'more', joint = 'K', force_n = [0, 0, -784.532] }}]\n\
+         cases = [{{ name = 'one', factors = {{ more = 0 }} }}, {{ name = 'two', factors = {{ more = 1 }} }}]",
+        joints.join(", "),
+        bars.join(", ")
+    );
+    let folder = holding([("table.toml", text.as_str())]);
+    let (code, out, said) = run(&folder, &["solve", "table.toml", "--load-case", "each", "--json"]);
+    assert_eq!(code, Some(0), "{said}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    let supports = found["supports"].as_array().unwrap();
+    assert_eq!(supports.len(), 4, "{supports:?}");
+    let total: f64 = supports.iter().map(|one| one["most_n"]["value"].as_f64().unwrap()).sum();
+    assert!(near(total, 160.0 * 9.80665), "{total}");
+}

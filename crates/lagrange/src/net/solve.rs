@@ -480,8 +480,11 @@ impl<'a> Solver<'a> {
         let members = self.framework.links.len();
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
         let directions = state.directions(&self.framework);
-        let slack_length = if seed.at_rest { FOUND } else { MISDRAWN };
         for (k, link) in self.framework.links.iter().enumerate() {
+            // What is said to bear nothing is slack where it is shorter.
+            let said = seed.axial_n.as_ref().map(|axial| axial[self.framework.member_of(k)]);
+            let known = seed.at_rest || said.is_some_and(|axial| axial.abs() <= 0.0);
+            let slack_length = if known { FOUND } else { MISDRAWN };
             let length = self.framework.whole(k, |span| directions[span].1);
             let short = 1.0 - length / link.length;
             state.taut[k] = match link.kind {

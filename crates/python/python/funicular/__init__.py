@@ -5,7 +5,7 @@
 >>> a.rung, round(a.energy_j, 6), a.reactions_n[0].round(6).tolist()
 ('optimal', -35.936776, [0.0, -6.363975, 22.682235])
 
-Every equilibrium is found twice, by two solvers that share no mechanics; a third judge checks both from Newton's laws;
+Where a system comes to rest is found twice, by two solvers that share no mechanics; a third judge checks both from Newton's laws;
 and every answer says how far it is proved. World frame, Z up, gravity along -Z, SI units in every name.
 
 | to do | with |
