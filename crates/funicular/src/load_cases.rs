@@ -274,7 +274,7 @@ impl LoadCasesAnswer {
         self.settled().filter(|settled| settled.is_decided).count() == self.cases.len()
     }
 
-    /// Whether the system hangs in each case as strong as is wanted; no value where no member has a strength.
+    /// Whether the system hangs in each case as strong as is required; no value where no member has a strength.
     #[must_use]
     pub fn is_strong(&self) -> Option<bool> {
         let strong = self.settled().filter(|settled| settled.is_strong() == Some(true));

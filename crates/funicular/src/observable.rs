@@ -41,7 +41,7 @@ impl Observable {
             what,
             help,
         };
-        let unknown = || wrong(format!("`{text}` is no number of an answer"), HELP.to_owned());
+        let unknown = || wrong(format!("an answer has no number `{text}`"), HELP.to_owned());
         let joint = |name: &str| {
             let quoted = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
             let name = quoted.unwrap_or(name);

@@ -32,7 +32,7 @@ pub struct Weakest {
     pub utilisation: f64,
     /// Strength over force; infinite (in JSON `null`) where the member bears nothing.
     pub safety: f64,
-    /// What it is wanted to be at least.
+    /// What it is required to be at least.
     pub safety_wanted: f64,
 }
 

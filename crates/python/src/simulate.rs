@@ -54,7 +54,7 @@ fn order(order: usize) -> PyResult<Order> {
         4 => Ok(Order::Fourth),
         8 => Ok(Order::Eighth),
         _ => {
-            let message = format!("order: 2, 4 or 8 is wanted, got {order}");
+            let message = format!("order: 2, 4 or 8 is required, got {order}");
             let fields =
                 vec![("setting", Field::from("order")), ("value", Field::from(order.to_string()))];
             Err(exception(Told::new("SettingError", message, fields)))

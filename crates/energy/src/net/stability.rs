@@ -239,26 +239,19 @@ pub(super) struct Dense {
 impl Dense {
     /// As a shape that is overdetermined is read, if it is one.
     pub(super) fn read(frame: &Frame, shape: &Shape, limit: Option<&Limit>) -> Self {
-        match limit {
-            Some(limit) => {
-                let shape = stressed(shape, &limit.stiffening);
-                Self::with(frame, &shape, |e| limit.taut[e], limit.rank)
-            }
-            None => {
-                let one_sided = Self::one_sided(frame, shape);
-                Self { one_sided, ..Self::resisting(frame, shape) }
-            }
-        }
-    }
-
-    /// With the members that resist by the sign of their force.
-    fn resisting(frame: &Frame, shape: &Shape) -> Self {
-        Self::with(frame, shape, |e| resists(frame, shape, e), ZERO)
+        let (shape, taut, zero) = if let Some(limit) = limit {
+            (stressed(shape, &limit.stiffening), limit.taut.clone(), limit.rank)
+        } else {
+            let taut = (0..frame.rods.len()).map(|e| resists(frame, shape, e));
+            (shape.clone(), taut.collect(), ZERO)
+        };
+        let one_sided = Self::one_sided(frame, &shape, &taut, zero);
+        Self { one_sided, ..Self::with(frame, &shape, |e| taut[e], zero) }
     }
 
     /// The index where cables, struts or the floor are just taut, if some are: the sign of their force is rounding. Where
     /// the energy falls with all of them it falls; else it may where some go slack.
-    fn one_sided(frame: &Frame, shape: &Shape) -> Option<usize> {
+    fn one_sided(frame: &Frame, shape: &Shape, taut: &[bool], zero: f64) -> Option<usize> {
         let excess = frame.excesses(&shape.x);
         let none = ZERO * frame.largest_force(&shape.force);
         let open = frame.rods.iter().enumerate().filter(|(e, rod)| {
@@ -271,13 +264,14 @@ impl Dense {
             return None;
         }
         let with = |force: f64| {
-            let mut shape = shape.clone();
+            let (mut shape, mut taut) = (shape.clone(), taut.to_vec());
             for e in &open {
                 let pulls = frame.rods[*e].kind == Kind::Cable;
                 shape.force[*e] = if pulls { force } else { -force };
+                taut[*e] = force > 0.0;
             }
             frame.spread(&mut shape.force);
-            Self::resisting(frame, &shape)
+            Self::with(frame, &shape, |e| taut[e], zero)
         };
         let index = with(f64::MIN_POSITIVE).count().index;
         if index > 0 {

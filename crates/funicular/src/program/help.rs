@@ -62,8 +62,8 @@ const VALUES: &str =
 
 /// Words of Rust's own parsers, and plain ones.
 const RUST: [(&str, &str); 3] = [
-    ("invalid float literal", "a number is wanted"),
-    ("invalid digit found in string", "a whole number is wanted"),
+    ("invalid float literal", "a number is required"),
+    ("invalid digit found in string", "a whole number is required"),
     ("number too large to fit in target type", "the number is too large"),
 ];
 

@@ -44,7 +44,7 @@ pub struct Drawn {
     shape: Shape,
 }
 
-/// A shape next to which the equilibrium is wanted.
+/// A shape next to which the equilibrium is required.
 #[derive(Debug, Args)]
 pub struct Shape {
     /// Find the equilibrium next to this shape, not the lowest: CSV (joint,x_m,y_m,z_m), JSON of

@@ -17,7 +17,7 @@ pub fn parse(text: &str) -> Result<u64, String> {
     let number = number.trim_end().parse::<u64>().ok().filter(|_| plain);
     number
         .and_then(|number| number.checked_mul(unit))
-        .ok_or_else(|| "a whole number of GB, MB or kB is wanted, as 4GB".to_owned())
+        .ok_or_else(|| "a whole number of GB, MB or kB is required, as 4GB".to_owned())
 }
 
 /// What `--max-work` takes: a whole number, with or without an exponent.

@@ -56,7 +56,7 @@ pub struct Modes {
 
 /// A number of modes.
 fn count(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|&k| k > 0).ok_or_else(|| "a number from 1 on is wanted".to_owned())
+    text.parse().ok().filter(|&k| k > 0).ok_or_else(|| "a number from 1 on is required".to_owned())
 }
 
 /// Run the command.

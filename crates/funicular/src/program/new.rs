@@ -63,7 +63,7 @@ fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     let name = path.display();
     // A link that leads nowhere is there too.
     if path.symlink_metadata().is_ok() {
-        let report = format!("{name} is there already: it is not written over");
+        let report = format!("{name} exists already and is not overwritten");
         return Err(Failure::bad_input(report));
     }
     output::write_whole(path, text)?;

@@ -101,13 +101,13 @@ fn order(text: &str) -> Result<Order, String> {
         "2" => Ok(Order::Second),
         "4" => Ok(Order::Fourth),
         "8" => Ok(Order::Eighth),
-        _ => Err("2, 4 or 8 is wanted".to_owned()),
+        _ => Err("2, 4 or 8 is required".to_owned()),
     }
 }
 
 /// `JOINT=X,Y,Z`.
 fn push(text: &str) -> Result<(String, Vector), String> {
-    let form = "JOINT=X,Y,Z is wanted, such as 1=0,0.5,0";
+    let form = "JOINT=X,Y,Z is required, such as 1=0,0.5,0";
     let (joint, impulse) = text.rsplit_once('=').ok_or(form)?;
     let parts: Vec<f64> = impulse
         .split(',')

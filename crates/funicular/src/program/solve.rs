@@ -148,7 +148,7 @@ impl Solve {
         }
     }
 
-    /// The shape next to which the equilibrium is wanted, if one was given.
+    /// The shape next to which the equilibrium is required, if one was given.
     fn shape(&self) -> Result<Option<Answer>, Failure> {
         input::read_once(self.files.iter().chain(&self.batch).chain(&self.shape.near))?;
         self.shape.read()

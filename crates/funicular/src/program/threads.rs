@@ -29,7 +29,7 @@ impl Threads {
 pub fn parse(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(threads) if threads <= MOST_THREADS => Ok(threads),
-        _ => Err(format!("a whole number up to {MOST_THREADS} is wanted")),
+        _ => Err(format!("a whole number up to {MOST_THREADS} is required")),
     }
 }
 

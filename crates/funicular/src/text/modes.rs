@@ -85,7 +85,7 @@ fn text(answer: &ModesAnswer) -> String {
         let (listed, all) = (found.modes.len(), found.modes_in_all);
         let _ = writeln!(
             out,
-            "\nequilibrium {}, {} J, by {}: {}, {} leave it",
+            "\nequilibrium {}, {} J, by {}: {}, {} unstable",
             found.label,
             short(found.energy_j),
             found.solver,

@@ -252,7 +252,7 @@ impl Shape<'_> {
 pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
     let Weakest { utilisation, safety, safety_wanted, .. } = *weakest;
     let wanted = if weakest.suffices() {
-        format!("{} wanted", short(safety_wanted))
+        format!("{} required", short(safety_wanted))
     } else {
         format!("below {}", short(safety_wanted))
     };

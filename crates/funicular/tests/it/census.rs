@@ -260,7 +260,7 @@ fn bad_input_is_refused_with_its_reason() {
         (&["--case", "two-bars", "--max-bars", "0"], "max_bars must be from 1 to 24"),
         (&["--case", "two-bars", "--max-bars", "25"], "max_bars must be from 1 to 24"),
         (&["--case", "two-bars", "--max-bars", "many"], "invalid value"),
-        (&["--case", "two-bars", "--threads", "1025"], "up to 1024 is wanted"),
+        (&["--case", "two-bars", "--threads", "1025"], "up to 1024 is required"),
         (&["--case", "two-bars", "--svg", nowhere.to_str().unwrap()], "there is no folder"),
         (&["--case", "two-bars", "--csv", directory.to_str().unwrap()], "it is a folder"),
     ];

@@ -93,8 +93,8 @@ fn pages_fit_a_terminal() {
 #[test]
 fn numbers_that_are_none_are_explained_in_plain_words() {
     for (arguments, wanted) in [
-        (["basins", "--size", "1e9"], "a whole number is wanted"),
-        (["basins", "--others", "abc"], "a number is wanted"),
+        (["basins", "--size", "1e9"], "a whole number is required"),
+        (["basins", "--others", "abc"], "a number is required"),
     ] {
         let output = funicular(&arguments);
         assert_eq!(output.status.code(), Some(2));
@@ -119,7 +119,7 @@ fn threads_are_capped_wherever_they_are_asked_for() {
     let said = stderr(&output);
     assert!(said.contains("RAYON_NUM_THREADS") && said.contains("1024"), "{said}");
     for command in ["census", "sweep", "merge"] {
-        refused(".", &[command], &[(&["--threads", "1025"], "up to 1024 is wanted")]);
+        refused(".", &[command], &[(&["--threads", "1025"], "up to 1024 is required")]);
     }
     good(".", &["census", "--case", "two-bars", "--threads", "0"]);
 }

@@ -94,7 +94,7 @@ fn ropes_that_share_their_joints_are_read_again() {
         let text = good(&folder, &judge);
         // 160 N between two spans that lean by 3-4-5: 100 N.
         let line =
-            "Weakest: member from A to P, at 22.9 % of its strength: safety 4.37, 3 wanted.\n";
+            "Weakest: member from A to P, at 22.9 % of its strength: safety 4.37, 3 required.\n";
         assert!(
             text.contains("The forces are those of the answer.") && text.contains(line),
             "{text}"

@@ -97,7 +97,7 @@ fn a_new_file_is_written_once_and_solved() {
         std::fs::write(folder.join(name), "mine").unwrap();
         let again = ran(&folder, arguments);
         assert_eq!(again.status.code(), Some(2));
-        assert!(said(&again).contains("is there already"), "{}", said(&again));
+        assert!(said(&again).contains("exists already"), "{}", said(&again));
         assert_eq!(std::fs::read_to_string(folder.join(name)).unwrap(), "mine");
     }
     // Inside 3 x 2 joints; each of the 5 x 4 but the corners is there.

@@ -112,7 +112,7 @@ fn a_case_without_an_answer_leaves_the_others() {
     assert!(!found.is_decided() && found.is_strong() == Some(false));
 }
 
-/// What is wanted over a parameter.
+/// What is required over a parameter.
 type Wanted<'a> = &'a dyn Fn(f64) -> f64;
 
 /// A number is what it is in the file: it acts by the factor of the case, and beside the loads.

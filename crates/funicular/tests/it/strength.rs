@@ -29,7 +29,7 @@ fn weakest(text: &str) -> Weakest {
     all[0]
 }
 
-/// The safety that is wanted decides which bar is weakest, not the part of the strength alone.
+/// The safety that is required decides which bar is weakest, not the part of the strength alone.
 #[test]
 fn the_weakest_bar_is_the_one_that_is_nearest_to_the_safety_wanted() {
     for (root, first, second, wanted) in [
@@ -241,7 +241,7 @@ fn the_program_says_which_bar_is_weakest() {
         assert_eq!(labels, [name != "bare", marked], "{name}");
     }
     let text = good(&folder, &["solve", "strong.toml", "--check"]);
-    assert!(text.contains("at 41.7 % of its strength: safety 2.4, 2 wanted.\n"), "{text}");
+    assert!(text.contains("at 41.7 % of its strength: safety 2.4, 2 required.\n"), "{text}");
     assert_eq!(run(&folder, &["solve", "strong.toml", "weak.toml", "--check"]).0, Some(1));
     for files in [&["bare.toml"][..], &["strong.toml", "bare.toml"]] {
         let (code, _, said) = run(&folder, &[&["solve", "--check"], files].concat());

@@ -276,7 +276,7 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
         ("joints.ridr.z", "did you mean `rider`"),
         ("sag.A-C", "there is no joint `C`"),
         ("bars.3.axial_n", "there is no bar `3`"),
-        ("depth", "is no number of an answer"),
+        ("depth", "an answer has no number `depth`"),
     ] {
         let output = study(&folder, &["rider.json", "--vary", "gravity_m_s2=1,2", "--of", of]);
         assert_eq!(output.status.code(), Some(2));

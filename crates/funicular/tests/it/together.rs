@@ -286,7 +286,7 @@ fn a_bar_that_rests_on_the_floor_turns_and_does_not_leave() {
         let folder = holding([("bar.toml", &text)]);
         let (code, out, said) = run(&folder, &["modes", "bar.toml"]);
         assert_eq!(code, Some(0), "{said}");
-        assert!(out.contains("1 mode, 0 leave it"), "{out}");
+        assert!(out.contains("1 mode, 0 unstable"), "{out}");
     }
 }
 

@@ -107,7 +107,7 @@ struct Reading<'a> {
     /// Whether a place is drawn for any joint.
     drawn: bool,
     members: Vec<Member>,
-    /// The safety that is wanted of all bars that say nothing else.
+    /// The safety that is required of all bars that say nothing else.
     safety: f64,
     /// How far numbers of bars and joints may be off that say nothing else.
     tolerances: Tolerances,

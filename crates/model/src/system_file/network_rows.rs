@@ -206,7 +206,7 @@ fn body(row: &Row<'_>, length_m: f64, mass_kg: f64) -> Result<Bar, Wrong> {
 type Drawn<'a> = dyn Fn(&[usize]) -> Result<Option<f64>, Kind> + 'a;
 
 /// The member of a row, between joints whose numbers `number` knows, and the length of its path where
-/// they are drawn `drawn`; `safety` is wanted where the row says nothing else.
+/// they are drawn `drawn`; `safety` is required where the row says nothing else.
 pub(super) fn member(
     row: &Row<'_>,
     number: &dyn Fn(&str) -> Result<usize, Kind>,

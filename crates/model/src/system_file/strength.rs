@@ -1,4 +1,4 @@
-//! What bars bear: `strength_n`, `compression_n` or `bending_n_m2`, and the `safety` that is wanted.
+//! What bars bear: `strength_n`, `compression_n` or `bending_n_m2`, and the `safety` that is required.
 
 use toml::de::DeTable;
 
@@ -22,7 +22,7 @@ fn wrong(error: StrengthError) -> (&'static str, Kind) {
     (error.what, Kind::OutOfRange { found: error.found.to_string(), wanted: POSITIVE })
 }
 
-/// The safety that is wanted of all bars that say nothing else; 1 where the file has none.
+/// The safety that is required of all bars that say nothing else; 1 where the file has none.
 pub(super) fn safety(root: &Table<'_>) -> Result<f64, SystemFileError> {
     let safety = root.number("safety")?.unwrap_or(1.0);
     let checked = Strength::new(None, None, safety).map_err(|error| {

@@ -183,7 +183,7 @@ def _rows(name: str, value: Any) -> int:
     try:
         return len(value)
     except TypeError as error:
-        raise ShapeError(f"{name}: an array is wanted", argument=name) from error
+        raise ShapeError(f"{name}: an array is required", argument=name) from error
 
 
 def slices(count: int, parts: int) -> Iterator[slice]:

@@ -648,7 +648,7 @@ Described = System | str | PathLike[str] | Mapping[str, Any]
 def described(system: Described) -> System:
     """The system itself, or that of the file or dictionary."""
     if isinstance(system, str) and "\n" in system:
-        message = "a system, or the path of a system file, is wanted, not its text"
+        message = "a system, or the path of a system file, is required, not its text"
         raise InputError(message, argument="system", help="System.from_toml(text) reads a text")
     if isinstance(system, (str, PathLike)):
         return System.read(system)
@@ -656,5 +656,5 @@ def described(system: Described) -> System:
         return System.from_dict(system)
     if isinstance(system, System):
         return system
-    message = f"a system, or the path of a system file, is wanted, not {type(system).__name__}"
+    message = f"a system, or the path of a system file, is required, not {type(system).__name__}"
     raise InputError(message, argument="system")

@@ -83,7 +83,7 @@ impl Request {
             return Some(Answer::refusal(403, "another origin"));
         }
         let is_open = self.method == "GET" || self.is_json;
-        (!is_open).then(|| Answer::refusal(415, "application/json is wanted"))
+        (!is_open).then(|| Answer::refusal(415, "application/json is required"))
     }
 }
 
@@ -106,7 +106,7 @@ fn head(bytes: &[u8]) -> Result<Option<Head>, Answer> {
         }
     };
     if of("transfer-encoding")?.is_some() {
-        return Err(Answer::refusal(411, "a length is wanted"));
+        return Err(Answer::refusal(411, "a length is required"));
     }
     let length = match of("content-length")? {
         Some(text) => {

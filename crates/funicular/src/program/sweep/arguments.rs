@@ -103,7 +103,7 @@ impl Rows {
 
 /// A count as people write it: digits, with underscores between them, or with a power of ten.
 pub(crate) fn count(text: &str) -> Result<u64, String> {
-    let wanted = || format!("a whole number from 1 to {MOST_SEEDS} is wanted, as 1000000 or 1e6");
+    let wanted = || format!("a whole number from 1 to {MOST_SEEDS} is required, as 1000000 or 1e6");
     let digits = |text: &str| {
         let plain = text.starts_with(|c: char| c.is_ascii_digit())
             && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');

@@ -208,7 +208,7 @@ fn right() {
     output.done();
 }
 
-/// 16 N of 20 N, and 12 N of 40 N where four times as much is wanted: the second is the weaker one.
+/// 16 N of 20 N, and 12 N of 40 N where four times as much is required: the second is the weaker one.
 #[test]
 fn two_strengths() {
     let strong = LAMP.replace("length_m = 3", "length_m = 3\nstrength_n = 20");
