@@ -17,7 +17,7 @@ use crate::question::{Equations, Question, Solvers, UseCensus};
 use crate::tolerances::Tolerances;
 
 /// Starts at random of a system of up to so many members that may push, of which no answer is proved the lowest.
-const STARTS: usize = 8;
+const STARTS: usize = 24;
 const STARTED: usize = 60;
 
 /// Both answers for a system with what is known of them.
@@ -99,16 +99,18 @@ impl SystemFailure {
                 ) || may_be_slack
                     && matches!(error, Lagrange::Misfit { .. } | Lagrange::HeldMisfit { .. })
             }
-            Self::Energy(error) => matches!(
-                error,
-                Energy::NotClosed { .. }
-                    | Energy::Unbalanced { .. }
-                    | Energy::IterationLimit { .. }
-                    | Energy::Stalled { .. }
-                    | Energy::NoMinimum { .. }
-                    | Energy::NoMinimumNear { .. }
-                    | Energy::Jammed { .. }
-            ),
+            Self::Energy(error) => {
+                matches!(
+                    error,
+                    Energy::NotClosed { .. }
+                        | Energy::Unbalanced { .. }
+                        | Energy::IterationLimit { .. }
+                        | Energy::Stalled { .. }
+                        | Energy::NoMinimum { .. }
+                        | Energy::NoMinimumNear { .. }
+                        | Energy::Jammed { .. }
+                ) || may_be_slack && matches!(error, Energy::Misfit { .. })
+            }
         }
     }
 
