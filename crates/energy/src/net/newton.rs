@@ -25,7 +25,7 @@ use model::system::Kind;
 
 use crate::error::Error;
 use crate::net::factor::Factor;
-use crate::net::frame::Frame;
+use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::limit::{Limit, Reading};
 use crate::net::polish::NEUTRAL;
@@ -80,6 +80,9 @@ const OFF_SADDLE: f64 = 0.3;
 /// Steps after which Newton's method for places and forces is tried again, however near it was.
 const AGAIN: u64 = 20;
 
+/// How often lengths may seem to fit no shape where members may be slack.
+const MISFITS: usize = 4;
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ended {
@@ -103,6 +106,8 @@ pub(super) struct Newton {
     near: f64,
     /// Steps since it was tried.
     since: u64,
+    /// How often lengths seemed to fit no shape.
+    misfits: usize,
     /// The solution where lengths overdetermine it.
     pub(super) limit: Option<Limit>,
     /// Largest relative displacement of the ends of a member in one step, over its length.
@@ -162,6 +167,7 @@ impl Newton {
             definite: false,
             near: pace.near,
             since: 0,
+            misfits: 0,
             limit: None,
             step: pace.step,
             own: pace.own,
@@ -357,6 +363,12 @@ impl Newton {
                 Ok(Some(limit.shape))
             }
             Reading::Found(limit) if exact.is_none() => {
+                // What was taken for taut may be slack.
+                let may_go = |rod: &Rod| rod.kind != Kind::Bar && !rod.ground;
+                self.misfits += 1;
+                if self.misfits <= MISFITS && self.frame.rods.iter().any(may_go) {
+                    return Ok(None);
+                }
                 Err(Error::Misfit { misfits: limit.misfits })
             }
             Reading::Released(shape) => Ok(self.polish(&shape)),

@@ -333,7 +333,8 @@ impl Dense {
 
     /// What the eigenvalues say.
     pub(super) fn count(&self) -> Count {
-        let none = Count { index: 0, neutral: 0, condition: 1.0, nearest_to_zero: None };
+        let index = self.one_sided.unwrap_or(0);
+        let none = Count { index, neutral: 0, condition: 1.0, nearest_to_zero: None };
         if self.hessian.nrows() == 0 {
             return none;
         }
