@@ -16,7 +16,7 @@
 //! | hard in several ways at once | [`extreme_chain`] |
 //! | all but folded on one line | [`folded_chain`] |
 //! | of so many equal bars | [`equal_bars`] |
-//! | of bars written down as numbers | [`chain`] |
+//! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
 //! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need.
@@ -43,7 +43,10 @@ pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
-pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs, parsed};
+pub use named::{
+    assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, legs, of_bars,
+    parsed,
+};
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, ropes};
 pub use scaled::{scaled, scaled_chain};

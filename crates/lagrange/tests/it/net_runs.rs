@@ -1,8 +1,8 @@
 //! Runs of members as one element each, against the equations of all members and chains.
 
 use lagrange::net::{Settings, solve};
+use model::Bar;
 use model::system::{Joint, Kind, Member, System};
-use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -78,9 +78,7 @@ fn a_long_chain_is_one_element() {
     const BARS: usize = 3000;
     let bar = Bar::homogeneous(1.0 / BARS as f64, 1.0 / BARS as f64).unwrap();
     let end = [0.6, 0.1, 0.2];
-    let chain =
-        Chain::new("chain", 9.80665, Anchors { start_m: [0.0; 3], end_m: end }, vec![bar; BARS]);
-    let problem = Problem::new(chain.unwrap()).unwrap();
+    let problem = samples::of_bars(9.80665, vec![bar; BARS], end);
     let expected = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default());
     let expected = expected.unwrap().equilibrium;
     let mut joints = vec![Joint::anchor("0", [0.0; 3])];
