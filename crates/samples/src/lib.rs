@@ -19,7 +19,7 @@
 //! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need.
+//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -31,7 +31,9 @@ mod extreme;
 mod folded;
 mod frozen;
 mod general;
+mod large;
 mod named;
+pub mod process;
 mod root;
 mod ropes;
 mod scaled;
@@ -43,6 +45,7 @@ pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
+pub use large::{bridle, cable_net};
 pub use named::{
     assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, legs, of_bars,
     parsed,

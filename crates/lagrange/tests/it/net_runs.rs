@@ -98,23 +98,7 @@ fn a_long_chain_is_one_element() {
 #[test]
 fn long_strands_keep_their_digits() {
     const BARS: usize = 30_000;
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    let mut joints = vec![Joint::free("middle").with_mass(BARS as f64)];
-    let mut members = Vec::new();
-    for strand in 0..3 {
-        let angle = std::f64::consts::TAU * f64::from(strand) / 3.0;
-        let radius = 0.8 * BARS as f64;
-        let at_m = [radius * angle.cos(), radius * angle.sin(), 0.0];
-        joints.push(Joint::anchor(format!("{strand}"), at_m));
-        for k in 1..=BARS {
-            let to = if k == BARS { 0 } else { joints.len() };
-            members.push(Member::bar(joints.len() - 1, to, bar));
-            if k < BARS {
-                joints.push(Joint::free(format!("{strand} {k}")));
-            }
-        }
-    }
-    let system = System::new("bridle", 9.80665, joints, members).unwrap();
+    let system = samples::bridle(BARS);
     let answer = solve(&system, &Settings::default()).unwrap();
     // Of the loads: forces are a thousand times these.
     assert!(answer.residual <= 1e-13, "{:e}", answer.residual);
