@@ -19,7 +19,7 @@
 //! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
+//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -51,7 +51,7 @@ pub use named::{
     parsed,
 };
 pub use root::root;
-pub use ropes::{RopeSample, jammed_ropes, ropes};
+pub use ropes::{RopeSample, jammed_ropes, rope, ropes};
 pub use scaled::{scaled, scaled_chain};
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

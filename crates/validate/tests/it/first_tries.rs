@@ -4,6 +4,7 @@
 use census::{Census, Settings};
 use model::{Equilibrium, ForceChoice, Place, Problem, Reason, Vector, cases};
 use nalgebra::DMatrix;
+use numerics::vector::norm;
 use validate::Tolerances;
 use validate::completeness::certify_by_census;
 use validate::systems::judge_chain;
@@ -29,10 +30,6 @@ fn by_lagrange(problem: &Problem) -> Equilibrium {
 
 fn by_energy(problem: &Problem) -> Equilibrium {
     energy::minimise(problem, &energy::Settings::default()).unwrap().equilibrium
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 /// Largest distance of any joint, whatever a comparison leaves out, in units of the total length.
