@@ -15,6 +15,7 @@ use census::{CompactCensus, Settings};
 use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::process::{peak_kb, processor_s};
 
 fn problem(lengths: &[(f64, f64)], end_m: [f64; 3]) -> Option<Problem> {
     let bars: Result<Vec<Bar>, _> = lengths.iter().map(|(l, m)| Bar::homogeneous(*l, *m)).collect();
@@ -44,21 +45,6 @@ fn chains(bars: usize, random: usize) -> Vec<(String, Problem)> {
         chains.push((format!("random {seed}"), problem(&bars, [span * cos, 0.0, span * sin])));
     }
     chains.into_iter().filter_map(|(name, problem)| Some((name, problem?))).collect()
-}
-
-/// The most memory this program has used, MB, where the system tells.
-fn most_memory_mb() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? / 1000)
-}
-
-/// Processor time of all threads so far, s, where the system tells: in hundredths.
-fn processor_s() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The name in brackets is the second field; user and system time are the 14th and the 15th.
-    let fields = status.rsplit_once(')')?.1.split_whitespace().skip(11);
-    Some(fields.take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0)
 }
 
 fn main() -> ExitCode {
@@ -91,7 +77,7 @@ fn main() -> ExitCode {
             census.besides().statistics.cells,
             start.elapsed().as_secs_f64() - taken_s,
             processor_s().zip(before).map_or(f64::NAN, |(after, before)| after - before),
-            most_memory_mb().map_or_else(String::new, |mb| mb.to_string()),
+            peak_kb().map_or_else(String::new, |kb| (kb / 1000).to_string()),
             verdict.err().map_or_else(String::new, |error| format!(" {error}")),
         );
     }

@@ -14,6 +14,7 @@ use std::time::Instant;
 use lagrange::net::{Settings, solve};
 use model::Bar;
 use model::system::{Joint, Kind, Member, System};
+use samples::process::processor_s;
 
 /// Span of the corners over the length of a side.
 const SPAN: f64 = 0.8;
@@ -33,8 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             "net" => net(size, Kind::Bar, SPAN)?,
             "cables" => net(size, Kind::Cable, SPAN)?,
             "crumpled" => crumpled(size)?,
-            "ring" => ring(size)?,
-            "bridle" => bridle(size)?,
+            "ring" => samples::cable_net(size),
+            "bridle" => samples::bridle(size),
             "tree" => tree(size)?,
             other => {
                 return Err(format!(
@@ -43,10 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 .into());
             }
         };
-        let (began, used) = (Instant::now(), processor_s());
+        let (began, used) = (Instant::now(), processor_s().unwrap_or(f64::NAN));
         let solution = solve(&system, &Settings::default());
         let seconds = began.elapsed().as_secs_f64();
-        let used = processor_s() - used;
+        let used = processor_s().unwrap_or(f64::NAN) - used;
         let solution = match solution {
             Ok(solution) => solution,
             Err(error) => {
@@ -66,18 +67,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Time that the processors have given to this process; NaN where the system does not say.
-fn processor_s() -> f64 {
-    /// Ticks of the clock in `/proc`.
-    const PER_SECOND: f64 = 100.0;
-    let status = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // The name of the program, in brackets, may contain spaces; user and system time are the 12th
-    // and 13th field after it.
-    let after = status.rsplit(')').next().unwrap_or_default();
-    let ticks = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
-    ticks.map(|ticks| ticks.unwrap_or(f64::NAN)).sum::<f64>() / PER_SECOND
-}
-
 /// A tree of `n` bars below one anchor: each joint carries two more.
 fn tree(n: usize) -> Result<System, Box<dyn Error>> {
     let bar = Bar::homogeneous(1.0, 1.0)?;
@@ -90,29 +79,6 @@ fn tree(n: usize) -> Result<System, Box<dyn Error>> {
         members.push(Member::bar((k - 1) / 2, k, bar));
     }
     Ok(System::new("tree", 9.806_65, joints, members)?)
-}
-
-/// Three chains of `n` bars of 1 m and 1 kg from anchors on a circle to one joint.
-fn bridle(n: usize) -> Result<System, Box<dyn Error>> {
-    let bar = Bar::homogeneous(1.0, 1.0)?;
-    let mut joints = vec![Joint::free("middle").with_mass(n as f64)];
-    let mut members = Vec::new();
-    for strand in 0..3 {
-        let angle = std::f64::consts::TAU * f64::from(strand) / 3.0;
-        let radius = SPAN * n as f64;
-        joints.push(Joint::anchor(
-            format!("{strand}"),
-            [radius * angle.cos(), radius * angle.sin(), 0.0],
-        ));
-        for k in 1..=n {
-            let to = if k == n { 0 } else { joints.len() };
-            members.push(Member::bar(joints.len() - 1, to, bar));
-            if k < n {
-                joints.push(Joint::free(format!("{strand} {k}")));
-            }
-        }
-    }
-    Ok(System::new("bridle", 9.806_65, joints, members)?)
 }
 
 /// A net of `n` by `n` joints with all joints of the edges held 1 m apart, and cables of 1 m to
@@ -140,30 +106,6 @@ fn crumpled(n: usize) -> Result<System, Box<dyn Error>> {
         }
     }
     Ok(System::new("crumpled", 9.806_65, joints, members)?)
-}
-
-/// A net of `n` by `n` joints with all joints of the edges held 1 m apart, massless cables of
-/// 1.05 m between them, and 1 kg at each.
-fn ring(n: usize) -> Result<System, Box<dyn Error>> {
-    let edge = |k: usize| k == 0 || k + 1 == n;
-    let cable = Bar::homogeneous(1.05, 0.0)?;
-    let (mut joints, mut members) = (Vec::new(), Vec::new());
-    for k in 0..n * n {
-        let (x, y) = (k % n, k / n);
-        let name = k.to_string();
-        joints.push(if edge(x) || edge(y) {
-            Joint::anchor(name, [x as f64, y as f64, 0.0])
-        } else {
-            Joint::free(name).with_mass(1.0)
-        });
-        if x + 1 < n && !edge(y) {
-            members.push(Member::cable(k, k + 1, cable));
-        }
-        if y + 1 < n && !edge(x) {
-            members.push(Member::cable(k, k + n, cable));
-        }
-    }
-    Ok(System::new("ring", 9.81, joints, members)?)
 }
 
 /// A net of `n` by `n` joints, members of 1 m and 1 kg between neighbours.

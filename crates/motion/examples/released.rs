@@ -12,6 +12,7 @@ use std::time::Instant;
 use model::Bar;
 use model::system::{Joint, Member, System};
 use motion::{Order, Settings, Simulation};
+use samples::process::thread_s;
 
 type Failed = Box<dyn std::error::Error>;
 
@@ -35,9 +36,7 @@ const MEASURED_S: f64 = 0.2;
 
 /// Seconds that this process has been on a processor; by the clock where the system does not say.
 fn clock_s(begin: Instant) -> f64 {
-    let told = std::fs::read_to_string("/proc/self/schedstat").ok();
-    let nanoseconds: Option<f64> = told.and_then(|told| told.split(' ').next()?.parse().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
+    thread_s().unwrap_or_else(|| begin.elapsed().as_secs_f64())
 }
 
 fn main() -> Result<(), Failed> {

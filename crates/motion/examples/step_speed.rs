@@ -10,6 +10,7 @@ use std::time::Instant;
 use model::Bar;
 use model::system::{Joint, Member, System};
 use motion::{CONSTRAINT_TOLERANCE, Settings, Simulation};
+use samples::process::thread_s;
 
 /// Time to measure for each chain, s.
 const MEASURED_S: f64 = 0.5;
@@ -36,13 +37,6 @@ fn chain(n: usize, closed: bool) -> Result<Placed, Box<dyn std::error::Error>> {
     Ok((System::new("chain", 9.81, joints, members)?, at))
 }
 
-/// Seconds that this process has been on a processor; nothing where the system does not say.
-fn on_processor_s() -> Option<f64> {
-    let told = std::fs::read_to_string("/proc/self/schedstat").ok()?;
-    let nanoseconds: f64 = told.split(' ').next()?.parse().ok()?;
-    Some(1e-9 * nanoseconds)
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let largest: usize = std::env::args().nth(1).map_or(Ok(100_000), |n| n.parse())?;
     println!("bars,closed,us_a_bar_and_step,corrections,worst_length,worst_rate");
@@ -60,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let (mut steps, mut worst) = (0_u64, [0.0_f64; 2]);
             let mut corrections = 0;
             let begin = Instant::now();
-            let clock_s = || on_processor_s().unwrap_or_else(|| begin.elapsed().as_secs_f64());
+            let clock_s = || thread_s().unwrap_or_else(|| begin.elapsed().as_secs_f64());
             let begin_s = clock_s();
             while clock_s() - begin_s < MEASURED_S {
                 // The clock is asked once in many steps of a short chain.

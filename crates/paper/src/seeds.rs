@@ -80,6 +80,22 @@ impl Survey {
     pub fn distinct(&self) -> usize {
         self.reached.iter().filter(|reached| reached.seeds > 0).count()
     }
+
+    /// Where the seeds led; the mirror images have this mark.
+    #[must_use]
+    pub fn led_to(&self, prime: &str) -> String {
+        let reached = self.reached.iter().filter(|reached| reached.seeds > 0);
+        let mut parts: Vec<_> = reached
+            .map(|reached| {
+                format!("{} {}", reached.seeds, reached.equilibrium.replace('\'', prime))
+            })
+            .collect();
+        if self.elsewhere > 0 {
+            parts.push(format!("{} elsewhere", self.elsewhere));
+        }
+        parts.extend(self.lost.iter().map(|lost| format!("{} lost: {}", lost.seeds, lost.why)));
+        parts.join(", ")
+    }
 }
 
 /// How many seeds led to one equilibrium (or circle of equilibria).

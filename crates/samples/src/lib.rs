@@ -16,10 +16,10 @@
 //! | hard in several ways at once | [`extreme_chain`] |
 //! | all but folded on one line | [`folded_chain`] |
 //! | of so many equal bars | [`equal_bars`] |
-//! | of bars written down as numbers | [`chain`] |
+//! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need.
+//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -31,7 +31,9 @@ mod extreme;
 mod folded;
 mod frozen;
 mod general;
+mod large;
 mod named;
+pub mod process;
 mod root;
 mod ropes;
 mod scaled;
@@ -43,9 +45,13 @@ pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
-pub use named::{assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, legs, parsed};
+pub use large::{bridle, cable_net};
+pub use named::{
+    assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, legs, of_bars,
+    parsed,
+};
 pub use root::root;
-pub use ropes::{RopeSample, jammed_ropes, ropes};
+pub use ropes::{RopeSample, jammed_ropes, rope, ropes};
 pub use scaled::{scaled, scaled_chain};
 pub use shape::{Shape, random_chain};
 pub use stream::stream;

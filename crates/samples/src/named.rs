@@ -18,7 +18,41 @@ use model::{Anchors, Bar, Chain, Problem, Vector};
 #[must_use]
 pub fn chain(bars: &[(f64, f64, f64)], end_m: Vector) -> Problem {
     let bars = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).expect("a valid bar"));
-    problem(9.81, end_m, bars.collect())
+    of_bars(9.81, bars, end_m)
+}
+
+/// A chain of homogeneous bars (length m, mass kg) from the origin to `end_m`.
+///
+/// # Panics
+///
+/// When a number is out of range, or the chain has no answer.
+///
+/// ```
+/// let problem = samples::homogeneous(10.0, &[(2.0, 1.0), (1.0, 3.0)], [1.5, 0.0, 0.0]);
+/// assert_eq!(problem.chain().bars()[0].centre_m(), 1.0);
+/// ```
+#[must_use]
+pub fn homogeneous(gravity_m_s2: f64, bars: &[(f64, f64)], end_m: Vector) -> Problem {
+    let bars = bars.iter().map(|(l, m)| Bar::homogeneous(*l, *m).expect("a valid bar"));
+    of_bars(gravity_m_s2, bars, end_m)
+}
+
+/// A chain of these bars from the origin to `end_m`.
+///
+/// # Panics
+///
+/// When a number is out of range, or the chain has no answer.
+///
+/// ```
+/// let bar = model::Bar::homogeneous(1.0, 2.0).unwrap();
+/// assert_eq!(samples::of_bars(10.0, [bar; 3], [1.0, 0.0, 0.0]).chain().bars(), [bar; 3]);
+/// ```
+#[must_use]
+pub fn of_bars(gravity_m_s2: f64, bars: impl IntoIterator<Item = Bar>, end_m: Vector) -> Problem {
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    let bars = bars.into_iter().collect();
+    let chain = Chain::new("of a test", gravity_m_s2, anchors, bars).expect("a valid chain");
+    Problem::new(chain).expect("a chain with an answer")
 }
 
 /// A chain of `n` equal homogeneous bars from the origin to `end_m`, `length_m` long and `mass_kg`
@@ -35,7 +69,7 @@ pub fn chain(bars: &[(f64, f64, f64)], end_m: Vector) -> Problem {
 #[must_use]
 pub fn equal_bars(n: usize, length_m: f64, mass_kg: f64, end_m: Vector) -> Problem {
     let bar = Bar::homogeneous(length_m / n as f64, mass_kg / n as f64).expect("a valid bar");
-    problem(model::STANDARD_GRAVITY_M_S2, end_m, vec![bar; n])
+    of_bars(model::STANDARD_GRAVITY_M_S2, vec![bar; n], end_m)
 }
 
 /// The chain that the text of a system file describes.
@@ -55,12 +89,6 @@ pub fn parsed(text: &str) -> Problem {
         Ok(Described::Chain(problem)) => problem,
         other => panic!("no chain: {other:?}"),
     }
-}
-
-fn problem(gravity_m_s2: f64, end_m: Vector, bars: Vec<Bar>) -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = Chain::new("of a test", gravity_m_s2, anchors, bars).expect("a valid chain");
-    Problem::new(chain).expect("a chain with an answer")
 }
 
 /// Four bars from a square of anchors, 3 m aside and 4 m above the joint 0 with its 3 kg: 5 m long and 0.5 kg heavy,

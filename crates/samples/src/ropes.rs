@@ -246,7 +246,13 @@ fn cable(from: usize, to: usize, length_m: f64) -> Member {
     Member::cable(from, to, Bar::homogeneous(length_m, 0.0).expect("a valid length"))
 }
 
-fn rope(path: &[usize], length_m: f64) -> Member {
+/// A massless rope over these joints, from the first to the last.
+///
+/// # Panics
+///
+/// When the length is out of range, or there is no joint.
+#[must_use]
+pub fn rope(path: &[usize], length_m: f64) -> Member {
     let last = path.len() - 1;
     cable(path[0], path[last], length_m).over(path[1..last].to_vec())
 }

@@ -20,52 +20,23 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use model::system::{Joint, Member, System};
-use model::{Anchors, Bar, Chain, Problem, STANDARD_GRAVITY_M_S2};
+use model::Problem;
+use samples::process::thread_s;
 
 type Failure = Box<dyn std::error::Error>;
-
-/// Span of a chain over its length, and distance of the anchors of the bridle from the middle over
-/// the length of a strand.
-const SPAN: f64 = 0.8;
 
 /// The condensed solver is run so often for one time: the system counts in milliseconds.
 const CHAINS: u32 = 20;
 
-/// A chain of `n` bars of 1 m and 1 kg between level anchors.
-fn chain(n: usize) -> Result<Problem, Failure> {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [SPAN * n as f64, 0.0, 0.0] };
-    let bars = vec![Bar::homogeneous(1.0, 1.0)?; n];
-    Ok(Problem::new(Chain::new("chain", STANDARD_GRAVITY_M_S2, anchors, bars)?)?)
-}
-
-/// Three strands of `n` bars of 1 m and 1 kg from anchors on a circle to one joint.
-fn bridle(n: usize) -> Result<System, Failure> {
-    let bar = Bar::homogeneous(1.0, 1.0)?;
-    let mut joints = vec![Joint::free("knot").with_mass(n as f64)];
-    let mut members = Vec::with_capacity(3 * n);
-    for strand in 0..3 {
-        let (sine, cosine) = (std::f64::consts::TAU * f64::from(strand) / 3.0).sin_cos();
-        let radius_m = SPAN * n as f64;
-        let at_m = [radius_m * cosine, radius_m * sine, 0.0];
-        joints.push(Joint::anchor(format!("anchor {strand}"), at_m));
-        for k in 1..=n {
-            let to = if k == n { 0 } else { joints.len() };
-            members.push(Member::bar(joints.len() - 1, to, bar));
-            if k < n {
-                joints.push(Joint::free(format!("{strand} {k}")));
-            }
-        }
-    }
-    Ok(System::new("bridle", STANDARD_GRAVITY_M_S2, joints, members)?)
+/// A chain of `n` bars of 1 m and 1 kg between level anchors, 0.8 of its length apart as those of the bridle.
+fn chain(n: usize) -> Problem {
+    let end_m = [0.8 * n as f64, 0.0, 0.0];
+    samples::homogeneous(model::STANDARD_GRAVITY_M_S2, &vec![(1.0, 1.0); n], end_m)
 }
 
 /// Time that the processor has given to this thread, s; of the clock where the system does not say.
 fn processor_s(clock: Instant) -> f64 {
-    let nanoseconds = std::fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| clock.elapsed().as_secs_f64(), |nanoseconds| 1e-9 * nanoseconds)
+    thread_s().unwrap_or_else(|| clock.elapsed().as_secs_f64())
 }
 
 /// Time of a solve, s, as the mean of so many.
@@ -91,7 +62,7 @@ fn main() -> Result<(), Failure> {
         std::env::args().skip(1).map(|n| n.parse()).collect::<Result<_, _>>()?;
     let strand = asked.first().copied().unwrap_or(100_000);
     let rounds = asked.get(1).copied().unwrap_or(9).max(1);
-    let (short, long, net) = (chain(strand)?, chain(3 * strand)?, bridle(strand)?);
+    let (short, long, net) = (chain(strand), chain(3 * strand), samples::bridle(strand));
     let mut times: [Vec<f64>; 6] = Default::default();
     for _ in 0..rounds {
         let condensed = |problem: &Problem| {

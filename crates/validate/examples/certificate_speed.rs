@@ -30,6 +30,7 @@ use std::time::Instant;
 use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
 use model::{Bar, Evidence, InSpace, SolverName, Vector, sum};
+use samples::process;
 use validate::systems::certify;
 
 const GRAVITY_M_S2: f64 = 9.806_65;
@@ -171,24 +172,14 @@ fn system(plan: &Plan) -> Result<(System, SystemEquilibrium), Box<dyn Error>> {
     Ok((system, answer))
 }
 
-/// A field of `/proc/self/status`, MB; NaN where the system does not say.
+/// The most memory, MB; NaN where the system does not say.
 fn peak_mb() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = peak.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-    kilobytes.map_or(f64::NAN, |kilobytes| kilobytes / 1024.0)
+    process::peak_kb().map_or(f64::NAN, |kilobytes| kilobytes as f64 / 1024.0)
 }
 
 /// Time that the processors have given to this process; NaN where the system does not say.
 fn processor_s() -> f64 {
-    /// Ticks of the clock in `/proc`.
-    const PER_SECOND: f64 = 100.0;
-    let status = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // The name of the program, in brackets, may contain spaces; user and system time are the 12th
-    // and 13th field after it.
-    let after = status.rsplit(')').next().unwrap_or_default();
-    let ticks = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
-    ticks.map(|ticks| ticks.unwrap_or(f64::NAN)).sum::<f64>() / PER_SECOND
+    process::processor_s().unwrap_or(f64::NAN)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

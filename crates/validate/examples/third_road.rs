@@ -11,47 +11,20 @@
 
 use std::time::Instant;
 
-use model::Bar;
-use model::system::{Joint, Member, System};
+use model::system::System;
+use samples::process::processor_s;
 use validate::systems::hang_as_cables;
 
-/// A square net of massless cables of 1.05 m with 1 kg at each joint, hung from all joints of its
-/// edge, which are 1 m apart.
-fn net(members: usize) -> Result<System, Box<dyn std::error::Error>> {
+/// A square net of about so many cables.
+fn net(members: usize) -> System {
     // Rows and columns of n joints have 2 n (n - 1) cables; those along the edge are left out.
-    let side = (2..=members.max(2)).find(|n| 2 * n * (n - 1) >= members).unwrap_or(2);
-    let edge = |k: usize| k == 0 || k + 1 == side;
-    let (mut joints, mut cables) = (vec![], vec![]);
-    for k in 0..side * side {
-        let (x, y) = (k % side, k / side);
-        joints.push(if edge(x) || edge(y) {
-            Joint::anchor(k.to_string(), [x as f64, y as f64, 0.0])
-        } else {
-            Joint::free(k.to_string()).with_mass(1.0)
-        });
-        let body = Bar::homogeneous(1.05, 0.0)?;
-        if x + 1 < side && !edge(y) {
-            cables.push(Member::cable(k, k + 1, body));
-        }
-        if y + 1 < side && !edge(x) {
-            cables.push(Member::cable(k, k + side, body));
-        }
-    }
-    Ok(System::new(format!("{} cables", cables.len()), 9.81, joints, cables)?)
+    let side = (3..=members.max(3)).find(|n| 2 * n * (n - 1) >= members).unwrap_or(3);
+    samples::cable_net(side)
 }
 
 /// Time that the processors have given to this process; of the clock where the system does not say.
 fn seconds(clock: &Instant) -> f64 {
-    /// Ticks of the clock in `/proc`.
-    const PER_SECOND: f64 = 100.0;
-    let Ok(status) = std::fs::read_to_string("/proc/self/stat") else {
-        return clock.elapsed().as_secs_f64();
-    };
-    // The name of the program, in brackets, may contain spaces; user and system time are the 12th
-    // and 13th field after it.
-    let after = status.rsplit(')').next().unwrap_or_default();
-    let ticks = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
-    ticks.map(|ticks| ticks.unwrap_or(f64::NAN)).sum::<f64>() / PER_SECOND
+    processor_s().unwrap_or_else(|| clock.elapsed().as_secs_f64())
 }
 
 /// What something returns, and its time.
@@ -68,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = Instant::now();
     println!("members  lagrange/s  energy/s  clarabel/s  ratios        energies apart");
     for members in sizes {
-        let system = net(members)?;
+        let system = net(members);
         let (forces, lagrange_s) =
             timed(&clock, || lagrange::net::solve(&system, &lagrange::net::Settings::default()))?;
         let (places, energy_s) =

@@ -144,9 +144,8 @@ mod tests {
     #[test]
     fn cells_grow_on_as_from_the_one_sample_to_the_other() {
         let lengths = [0.9, 0.4, 0.7, 0.5, 1.0, 0.6, 0.8, 0.3, 0.55, 0.95, 0.45, 0.75];
-        let bars = lengths.map(|length| Bar::homogeneous(length, 2.0 - length).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.5, 0.0, 0.7] };
-        let chain = Chain::new("twelve", 10.0, anchors, bars.to_vec()).unwrap();
+        let bars = lengths.map(|length| (length, 2.0 - length));
+        let chain = samples::homogeneous(10.0, &bars, [2.5, 0.0, 0.7]).into_chain();
         let system = System::new(&chain, JointLoads::NONE);
         let [few, many] = [256, 1_024].map(|number| sampled(&system, number).cells as f64);
         assert!(few < many && many < 4.0 * few, "{few} {many}");

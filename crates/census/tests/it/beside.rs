@@ -5,19 +5,16 @@ use model::system::{Joint, Kind, Member, System};
 use model::{NoCensus, Vector};
 use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
+use numerics::vector::{add_times, dot, minus, norm};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::rope;
 
 use census::Settings;
 use census::boxes::prove;
 use census::net::{Open, SystemCensus};
 
 use crate::support::{light, system};
-
-fn rope(path: &[usize], length_m: f64) -> Member {
-    let last = path.len() - 1;
-    Member::cable(path[0], path[last], light(length_m)).over(path[1..last].to_vec())
-}
 
 /// A complete list whose every equilibrium is proved by the test that knows nothing of the search.
 #[track_caller]
@@ -35,22 +32,6 @@ fn whole(system: &System) -> SystemCensus {
 #[track_caller]
 fn refusal(system: &System) -> NoCensus {
     SystemCensus::take(system, &Settings::default()).unwrap_err()
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn plus(a: Vector, c: f64, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] + c * b[k])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(a: Vector) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// A boom of 4 m from the origin with 30 N and a side wind at its end P, hung from D by a tackle of so many strands.
@@ -83,18 +64,18 @@ fn a_boom_on_a_tackle_has_its_closed_form() {
         let mut expected: Vec<(Vector, f64)> = vec![];
         let (axis, reach) = (minus(d_m, a_m), length_m / n);
         let along = 0.5 * (1.0 + (16.0 - reach * reach) / dot(axis, axis));
-        let foot = plus(a_m, along, axis);
+        let foot = add_times(a_m, along, axis);
         let radius = (16.0 - along * along * dot(axis, axis)).sqrt();
-        let off = plus(load, -dot(load, axis) / dot(axis, axis), axis);
+        let off = add_times(load, -dot(load, axis) / dot(axis, axis), axis);
         for sign in [1.0, -1.0] {
-            let at = plus(foot, sign * radius / norm(off), off);
+            let at = add_times(foot, sign * radius / norm(off), off);
             // Across the boom, in the plane of load and tackle: load + n T u has no part.
-            let across = plus(load, -dot(load, at) / 16.0, at);
+            let across = add_times(load, -dot(load, at) / 16.0, at);
             let pull = -dot(load, across) / dot(minus(d_m, at), across) * reach / n;
             if pull > 0.0 {
                 expected.push((at, pull));
             }
-            let plumb = plus(a_m, sign * 4.0 / norm(load), load);
+            let plumb = add_times(a_m, sign * 4.0 / norm(load), load);
             if n * norm(minus(d_m, plumb)) < length_m {
                 expected.push((plumb, 0.0));
             }
@@ -374,8 +355,8 @@ impl<'a> Acting<'a> {
         for (member, force) in self.members.iter().zip(&unknowns[3 * self.free.len()..]) {
             for [a, b] in self.system.members()[*member].spans() {
                 let span = minus(self.at(unknowns, b), self.at(unknowns, a));
-                forces[a] = plus(forces[a], force / norm(span), span);
-                forces[b] = plus(forces[b], -force / norm(span), span);
+                forces[a] = add_times(forces[a], force / norm(span), span);
+                forces[b] = add_times(forces[b], -force / norm(span), span);
             }
         }
         let forces_n = self.members.iter().zip(&unknowns[3 * self.free.len()..]);

@@ -1,7 +1,7 @@
 //! A census that was tampered with is caught.
 
 use census::{Census, CheckError, Interval, MorseError, Settings};
-use model::{Anchors, Bar, Chain, Problem};
+use model::Problem;
 
 /// Chains of so many bars are tampered with.
 const CHAINS: [usize; 2] = [4, 5];
@@ -14,18 +14,7 @@ fn problem(bars: usize, second_mass_kg: f64) -> Problem {
         (0.6, 0.9, 0.3),
         (0.45, 0.7, 0.15),
     ];
-    let bars = all[..bars].iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]));
-    let bars: Result<Vec<Bar>, _> = bars.collect();
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.9, 0.5, -0.3] };
-    let Ok(Ok(problem)) =
-        bars.map(|bars| Chain::new("tampered", 9.81, anchors, bars).map(Problem::new))
-    else {
-        panic!("the chain of this test is no chain")
-    };
-    match problem {
-        Ok(problem) => problem,
-        Err(refusal) => panic!("{refusal}"),
-    }
+    samples::chain(&all[..bars], [0.9, 0.5, -0.3])
 }
 
 fn census(bars: usize) -> Census {
@@ -131,13 +120,10 @@ fn of_missing_pairs_that_topology_does_not_need_only_extremes_are_seen() {
 /// Families stand for the lowest and the highest position where all other bars hang, or all stand.
 #[test]
 fn a_slack_family_may_be_the_lowest_or_the_highest() {
-    let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.45, 0.0, 0.2), (0.5, 1.5, 0.2)]
-        .map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
-    let anchors = |up: f64| Anchors { start_m: [0.0; 3], end_m: [0.3, 0.0, up] };
+    let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.45, 0.0, 0.2), (0.5, 1.5, 0.2)];
     let mut extremes = [0, 0];
     for up in [-0.4, -0.2, 0.0, 0.2, 0.4] {
-        let chain = Chain::new("slack", 9.81, anchors(up), bars.to_vec()).unwrap();
-        let problem = Problem::new(chain).unwrap();
+        let problem = samples::chain(&bars, [0.3, 0.0, up]);
         let census = Census::take(&problem, &Settings::default()).unwrap();
         assert!(census.complete && census.check(&problem) == Ok(()));
         for (count, sign) in extremes.iter_mut().zip([1, -1]) {

@@ -2,7 +2,8 @@
 
 use census::{Census, Settings};
 use model::system::{Joint, Member, System};
-use model::{Anchors, Bar, Chain, Problem};
+use model::{Bar, Problem};
+pub use samples::chain as problem;
 
 /// Gravity of systems, m/s².
 pub const G: f64 = 10.0;
@@ -14,18 +15,6 @@ pub fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
 /// A member without mass.
 pub fn light(length_m: f64) -> Bar {
     Bar::homogeneous(length_m, 0.0).unwrap()
-}
-
-/// Bars as (length, mass, centre).
-pub fn problem(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Problem {
-    let bars: Result<Vec<Bar>, _> =
-        bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3])).collect();
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = bars.map(|bars| Chain::new("degenerate", 9.81, anchors, bars).map(Problem::new));
-    match chain {
-        Ok(Ok(Ok(problem))) => problem,
-        other => panic!("{other:?}"),
-    }
 }
 
 pub fn equal(bars: usize, end_m: [f64; 3]) -> Problem {

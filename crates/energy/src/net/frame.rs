@@ -141,6 +141,41 @@ pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
     })
 }
 
+#[cfg(test)]
+impl Rod {
+    /// A straight member that does not stretch.
+    pub(super) fn straight(from: usize, to: usize, length: f64, kind: Kind) -> Self {
+        let [flexibility, within] = [0.0; 2];
+        Self { from, to, length, kind, flexibility, ground: false, within, linear: false, rope: 0 }
+    }
+}
+
+#[cfg(test)]
+impl Frame {
+    /// Without loads, in units of 1 m and 1 N: so many joints are held, first of all, the others free.
+    pub(super) fn of_rods(held: usize, supports: Vec<Vector>, rods: Vec<Rod>) -> Self {
+        let joints = supports.len();
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let free = |k: usize| Spot { first: 3 * (k - held), freedom: 3, axes };
+        let mut spots = vec![Spot { first: 0, freedom: 0, axes: [[0.0; 3]; 3] }; held];
+        spots.extend((held..joints).map(free));
+        Self {
+            origin_m: [0.0; 3],
+            length_m: 1.0,
+            force_n: 1.0,
+            joints,
+            members: rods.len(),
+            ropes: Vec::new(),
+            spots,
+            supports,
+            rods,
+            loads: vec![[0.0; 3]; joints],
+            freedom: 3 * (joints - held),
+            meter: Meter::default(),
+        }
+    }
+}
+
 impl Frame {
     /// Whether a member, or a strand of a rope, has no end that can move.
     pub(super) fn is_held(&self, rod: &Rod) -> bool {

@@ -35,14 +35,10 @@ fn cases() -> impl Strategy<Value = Case> {
 
 impl Case {
     fn problem(&self) -> Problem {
-        let bars = self
-            .bars
-            .iter()
-            .map(|&(l, m, r)| Bar::new(l, m, (r * l).min(l), [0.0; 3]).expect("a valid bar"))
-            .collect();
-        let anchors = Anchors { start_m: [0.0; 3], end_m: self.end };
-        let chain = Chain::new("case", self.gravity, anchors, bars).expect("a valid chain");
-        Problem::new(chain).expect("a problem with an answer")
+        let bar = |&(l, m, r): &(f64, f64, f64)| {
+            Bar::new(l, m, (r * l).min(l), [0.0; 3]).expect("a valid bar")
+        };
+        samples::of_bars(self.gravity, self.bars.iter().map(bar), self.end)
     }
 
     fn solve(&self) -> Solution {

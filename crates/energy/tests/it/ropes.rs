@@ -21,22 +21,25 @@ fn holds(sample: &RopeSample, found: &Solution) {
     }
 }
 
+/// What is found, and places next to it.
+fn found(sample: &RopeSample) -> (Solution, Vec<[f64; 3]>) {
+    let found = minimise(&sample.system, &Settings::default());
+    let found = found.unwrap_or_else(|error| panic!("{}: {error}", sample.system.name()));
+    let joints_m = found.equilibrium.joints_m.iter();
+    let moved = joints_m.map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]).collect();
+    (found, moved)
+}
+
 #[test]
 fn ropes_have_one_tension() {
     for sample in samples::ropes() {
         let name = sample.system.name();
-        let settings = Settings::default();
-        let found = minimise(&sample.system, &settings);
-        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (found, moved) = found(&sample);
         assert!(matches!(found.forces, Forces::Unique(_)), "{name}: {:?}", found.forces);
         assert_eq!(found.equilibrium.stability.neutral, 0, "{name}");
         holds(&sample, &found);
-        let joints_m = &found.equilibrium.joints_m;
-        let moved: Vec<_> = joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]).collect();
-        for again in [
-            minimise_from(&sample.system, &moved, &settings),
-            minimise_near(&sample.system, &moved, &settings),
-        ] {
+        for again in [minimise_from, minimise_near] {
+            let again = again(&sample.system, &moved, &Settings::default());
             holds(&sample, &again.unwrap_or_else(|error| panic!("{name}: {error}")));
         }
     }
@@ -58,12 +61,8 @@ fn shapes_of_ropes_are_judged_by_their_energy() {
 fn minima_at_corners_of_the_energy_are_found() {
     for sample in samples::jammed_ropes() {
         let name = sample.system.name();
-        let settings = Settings::default();
-        let found = minimise(&sample.system, &settings);
-        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
-        let joints_m = &found.equilibrium.joints_m;
-        let moved: Vec<_> = joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]).collect();
-        let again = minimise_from(&sample.system, &moved, &settings);
+        let (found, moved) = found(&sample);
+        let again = minimise_from(&sample.system, &moved, &Settings::default());
         for found in [&found, &again.unwrap_or_else(|error| panic!("{name}: {error}"))] {
             holds(&sample, found);
             let jams = &found.equilibrium.evidence.jams;

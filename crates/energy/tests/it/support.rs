@@ -1,7 +1,7 @@
 //! Chains and checks that several tests use.
 
 use energy::{Seed, Solution};
-use model::{Anchors, Bar, Chain, Problem, Vector};
+use model::{Bar, Problem, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -11,13 +11,8 @@ pub fn rng(stream: u64) -> ChaCha8Rng {
 
 /// Bars as (length, mass, part of the length at which the centre lies).
 pub fn problem(bars: &[(f64, f64, f64)], end_m: Vector, gravity: f64) -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let bars = bars
-        .iter()
-        .map(|&(l, m, r)| Bar::new(l, m, r * l, [0.0; 3]).expect("a valid bar"))
-        .collect();
-    let chain = Chain::new("test", gravity, anchors, bars).expect("a valid chain");
-    Problem::new(chain).expect("a problem with an answer")
+    let bars = bars.iter().map(|&(l, m, r)| Bar::new(l, m, r * l, [0.0; 3]).expect("a valid bar"));
+    samples::of_bars(gravity, bars, end_m)
 }
 
 /// A direction evenly distributed over the sphere.

@@ -52,11 +52,7 @@ impl Scene {
         let floor = structure.floor_m.map_or_else(Vec::new, |height| corners(&points, height));
         let seen: Vec<[f64; 2]> =
             points.iter().chain(&floor).map(|point| view.seen(*point)).collect();
-        let bound = |start: f64, best: fn(f64, f64) -> f64, k: usize| {
-            seen.iter().fold(start, |bound, point| best(bound, point[k]))
-        };
-        let low = [0, 1].map(|k| bound(f64::INFINITY, f64::min, k));
-        let high = [0, 1].map(|k| bound(f64::NEG_INFINITY, f64::max, k));
+        let [low, high] = bounds(&seen);
         let [width, height] = [high[0] - low[0], high[1] - low[1]];
         let fits = (WIDTH / width).min(HEIGHT / height);
         // Joints all in one place have no scale.
@@ -103,13 +99,17 @@ impl Scene {
     }
 }
 
-/// The corners of a level rectangle under all points, m.
-fn corners(points: &[[f64; 3]], height: f64) -> Vec<[f64; 3]> {
+/// The least and the largest of each coordinate; 0 without points.
+pub(super) fn bounds<const N: usize>(points: &[[f64; N]]) -> [[f64; N]; 2] {
     let bound = |k: usize, best: fn(f64, f64) -> f64| {
         points.iter().map(|point| point[k]).reduce(best).unwrap_or_default()
     };
-    let [west, south] = [0, 1].map(|k| bound(k, f64::min));
-    let [east, north] = [0, 1].map(|k| bound(k, f64::max));
+    [f64::min, f64::max].map(|best| std::array::from_fn(|k| bound(k, best)))
+}
+
+/// The corners of a level rectangle under all points, m.
+fn corners(points: &[[f64; 3]], height: f64) -> Vec<[f64; 3]> {
+    let [[west, south, _], [east, north, _]] = bounds(points);
     let at = |[x, y]: [f64; 2]| [x, y, height];
     [[west, south], [east, south], [east, north], [west, north]].map(at).to_vec()
 }

@@ -6,6 +6,7 @@ use model::system::System;
 use crate::look::{Colour, Look};
 use crate::palette::{BLUE, SKY_BLUE, VERMILION};
 use crate::structure::StructureError;
+use crate::structure::scene::bounds;
 use crate::structure::view::{Seen, View};
 use crate::svg::{Anchor, Svg};
 
@@ -104,10 +105,7 @@ impl ModeShapes<'_> {
         let all: Vec<Vector> = positions.iter().flatten().copied().collect();
         let view = View::from(self.seen, &all, &[]);
         let seen: Vec<[f64; 2]> = all.iter().map(|point| view.seen(*point)).collect();
-        let bound = |k: usize, best: fn(f64, f64) -> f64| {
-            seen.iter().map(|point| point[k]).reduce(best).unwrap_or_default()
-        };
-        let [low, high] = [f64::min, f64::max].map(|best| [bound(0, best), bound(1, best)]);
+        let [low, high] = bounds(&seen);
         let fits = [0, 1].map(|k| PICTURE[k] / (high[k] - low[k]));
         let scale = fits[0].min(fits[1]);
         let scale = if scale.is_finite() { scale } else { 0.0 };
@@ -145,9 +143,7 @@ impl ModeShapes<'_> {
 
 /// The largest distance from the middle of the box around points, doubled, m.
 fn extent(points: &[Vector]) -> f64 {
-    let bound = |k: usize, best: fn(f64, f64) -> f64| {
-        points.iter().map(|point| point[k]).reduce(best).unwrap_or_default()
-    };
-    let [x, y, z] = [0, 1, 2].map(|k| bound(k, f64::max) - bound(k, f64::min));
+    let [low, high] = bounds(points);
+    let [x, y, z] = [0, 1, 2].map(|k| high[k] - low[k]);
     x.hypot(y).hypot(z)
 }

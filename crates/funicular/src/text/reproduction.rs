@@ -5,7 +5,6 @@ use std::fmt;
 use paper::Reproduction;
 use paper::claims::Claim;
 use paper::printed::{Assessment, Printed};
-use paper::seeds::Survey;
 
 use super::tables::{fitted, numbers_from, short, significant, table, word};
 use crate::reproduce::ReproduceAnswer;
@@ -123,7 +122,7 @@ fn seeds(r: &Reproduction) -> String {
             s.solver.to_string(),
             format!("{} {}", s.seeds, word(&s.kind)),
             format!("{:.2} %", 100.0 * s.rate()),
-            seeds_reached(s),
+            s.led_to("'"),
             format!(
                 "{}, {}, {}",
                 s.median_iterations, s.most_iterations_of_95_percent, s.most_iterations
@@ -195,19 +194,4 @@ fn claim_printed(printed: &Printed) -> String {
         Some(unit) if printed.digits.is_some() => format!("{} {unit}", printed.printed),
         _ => printed.printed.clone(),
     }
-}
-
-/// Where the seeds of a survey led.
-fn seeds_reached(s: &Survey) -> String {
-    let mut parts: Vec<_> = s
-        .reached
-        .iter()
-        .filter(|r| r.seeds > 0)
-        .map(|r| format!("{} {}", r.seeds, r.equilibrium))
-        .collect();
-    if s.elsewhere > 0 {
-        parts.push(format!("{} elsewhere", s.elsewhere));
-    }
-    parts.extend(s.lost.iter().map(|l| format!("{} lost: {}", l.seeds, l.why)));
-    parts.join(", ")
 }

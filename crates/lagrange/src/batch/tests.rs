@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use model::{Anchors, Bar, Chain, Ends, Finish, Problem};
+use model::{Bar, Ends, Finish, Problem};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -188,11 +188,8 @@ fn seeds_of_long_chains_lead_to_equilibria() {
         (60, [0.0, 0.5, -0.3], 90),
         (200, [0.0, 0.7, 0.1], 90),
     ] {
-        let bar = Bar::homogeneous(1.0 / f64::from(bars), 1.0).unwrap();
         let n = usize::try_from(bars).unwrap();
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let chain = Chain::new("long", 9.81, anchors, vec![bar; n]).unwrap();
-        let problem = Problem::new(chain).unwrap();
+        let problem = samples::homogeneous(9.81, &vec![(1.0 / f64::from(bars), 1.0); n], end_m);
         let batch = Batch::new(&problem, BatchSettings::default()).unwrap();
         let angles: Vec<f64> = (0..SEEDS * n).map(|_| rng.random_range(0.0..TAU)).collect();
         let mut ends = Ends::default();
@@ -237,10 +234,8 @@ fn parallel_bars_are_no_obstacle() {
 fn nothing_depends_on_the_units() {
     let angles = [0.3, 0.7, -1.3, 2.8, 2.4, 4.0];
     let solve = |length: f64, mass: f64, g: f64| {
-        let bar = Bar::homogeneous(length, mass).unwrap();
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0 * length] };
-        let chain = Chain::new("scaled", g, anchors, vec![bar; 3]).unwrap();
-        let batch = Batch::new(&Problem::new(chain).unwrap(), BatchSettings::default()).unwrap();
+        let problem = samples::homogeneous(g, &[(length, mass); 3], [0.0, 0.0, -2.0 * length]);
+        let batch = Batch::new(&problem, BatchSettings::default()).unwrap();
         let mut ends = Ends::default();
         batch.solve(&angles, &mut ends);
         ends.energy_j.iter().map(|v| v / (length * mass * g)).collect::<Vec<_>>()

@@ -25,8 +25,7 @@ fn solved(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Solution {
 }
 
 fn problem(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    Problem::new(Chain::new("test", gravity, anchors, bars).unwrap()).unwrap()
+    samples::of_bars(gravity, bars, end_m)
 }
 
 fn near(got: Vector, expected: Vector, tolerance: f64) {
@@ -83,10 +82,8 @@ fn the_papers_chain_hangs_in_e1() {
 #[test]
 fn the_closure_is_held_to_a_hundred_roundings() {
     for end_m in [[0.0, 0.0, -2.0], [1.0, 0.5, -1.0]] {
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
-        let chain = Chain::new("closed", 9.81, anchors, bars).unwrap();
-        let found = solve(&Problem::new(chain).unwrap(), &Settings::default()).unwrap();
+        let problem = samples::homogeneous(9.81, &[(1.0, 1.0); 3], end_m);
+        let found = solve(&problem, &Settings::default()).unwrap();
         let evidence = &found.equilibrium.evidence;
         let Status::Reached(convergence) = &evidence.ladder.converged else {
             panic!("{:?}", evidence.ladder)
@@ -431,10 +428,8 @@ fn strands_that_hang_side_by_side_share_the_weight() {
     ] {
         let n = masses.len();
         for gap in gaps {
-            let anchors = Anchors { start_m: [0.0; 3], end_m: [gap, 0.0, 0.0] };
-            let bars = masses.iter().map(|m| Bar::homogeneous(1.0, *m).unwrap()).collect();
-            let chain = Chain::new("strands", g, anchors, bars).unwrap();
-            let problem = Problem::new(chain).unwrap();
+            let bars: Vec<_> = masses.iter().map(|m| (1.0, *m)).collect();
+            let problem = samples::homogeneous(g, &bars, [gap, 0.0, 0.0]);
             let found = solve(&problem, &Settings::default()).unwrap();
             let axial = &found.equilibrium.axial_n;
             assert!(axial.iter().all(|force| *force > 0.0), "{n} {gap}");

@@ -2,7 +2,6 @@
 //! answer is an equilibrium by Newton's laws and the lowest by the stress matrix.
 
 use lagrange::condensed::{Settings, solve};
-use model::{Anchors, Bar, Chain, Problem};
 use samples::extreme_chain;
 
 use crate::judge::judge;
@@ -37,9 +36,7 @@ fn a_thousand_random_chains_hang_at_their_lowest() {
 #[test]
 fn deep_chains_are_not_closed_on_the_word_of_a_coarser_chain() {
     for (n, end_m) in [(100_000, [2.0, 0.0, -1.0]), (99_999, [2.0, 0.0, 0.0])] {
-        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); n];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let problem = Problem::new(Chain::new("deep", 9.806_65, anchors, bars).unwrap()).unwrap();
+        let problem = samples::homogeneous(9.806_65, &vec![(1.0, 1.0); n], end_m);
         let answer = solve(&problem, &Settings::default()).unwrap().equilibrium;
         let judged = judge(&problem, &answer);
         assert!(judged.within(BALANCE) && judged.lowest, "{n}: {judged:?}");

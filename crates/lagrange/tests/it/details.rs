@@ -5,17 +5,15 @@ use lagrange::condensed::{self, Solver};
 use lagrange::net::{Derivatives, Parameter, solve};
 use lagrange::{Error, Seed, Settings, solve_from};
 use model::system::{Joint, Member, Support, System};
-use model::{Anchors, Bar, Chain, Problem};
+use model::{Bar, Problem};
 use rand::RngExt;
 
 use crate::common::{planar_seed, problem, stream};
 
 /// Three bars between anchors at this azimuth.
 fn turned(azimuth: f64) -> Problem {
-    let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
     let end_m = [0.6 * azimuth.cos(), 0.6 * azimuth.sin(), -0.4];
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    Problem::new(Chain::new("turned", 9.81, anchors, bars).unwrap()).unwrap()
+    samples::homogeneous(9.81, &[(1.0, 1.0); 3], end_m)
 }
 
 /// The memory of a solution that is given back holds the next one.

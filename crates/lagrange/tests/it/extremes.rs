@@ -15,9 +15,7 @@ const BALANCE: f64 = 1e-13;
 
 /// The stable equilibrium between the origin and `end_m`, judged by Newton's laws.
 fn solved(end_m: [f64; 3], bars: Vec<Bar>) -> Solution {
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = Chain::new("extreme", 9.81, anchors, bars).unwrap();
-    judged(&Problem::new(chain).unwrap())
+    judged(&samples::of_bars(9.81, bars, end_m))
 }
 
 fn judged(problem: &Problem) -> Solution {
@@ -145,10 +143,7 @@ fn many_bars() {
 
 #[test]
 fn a_hundred_bars() {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 2.0] };
-    let bars = vec![bar(0.04, 0.04); 100];
-    let chain = Chain::new("catenary", 1.0, anchors, bars).unwrap();
-    let found = judged(&Problem::new(chain).unwrap());
+    let found = judged(&samples::homogeneous(1.0, &[(0.04, 0.04); 100], [1.0, 0.0, 2.0]));
     assert_eq!(found.nullity, 100);
     // The continuous catenary from height 0 to 2 over a span of 1 with length 4 pulls with
     // 0.1636975295 (closed form); n bars differ from it by a part in n².

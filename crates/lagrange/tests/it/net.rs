@@ -2,7 +2,7 @@
 
 use lagrange::net::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
 use model::system::{Joint, Kind, Member, Support, System};
-use model::{Anchors, Bar, Chain, InSpace, Problem, Vector};
+use model::{Bar, InSpace, Vector};
 use nalgebra::Vector3;
 
 /// Twice the tolerance of the solver, relative to the number or to one.
@@ -340,9 +340,7 @@ fn chain_as_network_against_condensed() {
         })
         .collect();
     let end = [20.0, 3.0, 1.0];
-    let chain =
-        Chain::new("chain", 9.806_65, Anchors { start_m: [0.0; 3], end_m: end }, bars.clone());
-    let problem = Problem::new(chain.unwrap()).unwrap();
+    let problem = samples::of_bars(9.806_65, bars.clone(), end);
     let expected = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default());
     let expected = expected.unwrap().equilibrium;
     let mut joints = vec![Joint::anchor("0", [0.0; 3])];

@@ -1,8 +1,8 @@
 //! Runs of members as one element each, against the equations of all members and chains.
 
 use lagrange::net::{Settings, solve};
+use model::Bar;
 use model::system::{Joint, Kind, Member, System};
-use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -78,9 +78,7 @@ fn a_long_chain_is_one_element() {
     const BARS: usize = 3000;
     let bar = Bar::homogeneous(1.0 / BARS as f64, 1.0 / BARS as f64).unwrap();
     let end = [0.6, 0.1, 0.2];
-    let chain =
-        Chain::new("chain", 9.80665, Anchors { start_m: [0.0; 3], end_m: end }, vec![bar; BARS]);
-    let problem = Problem::new(chain.unwrap()).unwrap();
+    let problem = samples::of_bars(9.80665, vec![bar; BARS], end);
     let expected = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default());
     let expected = expected.unwrap().equilibrium;
     let mut joints = vec![Joint::anchor("0", [0.0; 3])];
@@ -100,23 +98,7 @@ fn a_long_chain_is_one_element() {
 #[test]
 fn long_strands_keep_their_digits() {
     const BARS: usize = 30_000;
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    let mut joints = vec![Joint::free("middle").with_mass(BARS as f64)];
-    let mut members = Vec::new();
-    for strand in 0..3 {
-        let angle = std::f64::consts::TAU * f64::from(strand) / 3.0;
-        let radius = 0.8 * BARS as f64;
-        let at_m = [radius * angle.cos(), radius * angle.sin(), 0.0];
-        joints.push(Joint::anchor(format!("{strand}"), at_m));
-        for k in 1..=BARS {
-            let to = if k == BARS { 0 } else { joints.len() };
-            members.push(Member::bar(joints.len() - 1, to, bar));
-            if k < BARS {
-                joints.push(Joint::free(format!("{strand} {k}")));
-            }
-        }
-    }
-    let system = System::new("bridle", 9.80665, joints, members).unwrap();
+    let system = samples::bridle(BARS);
     let answer = solve(&system, &Settings::default()).unwrap();
     // Of the loads: forces are a thousand times these.
     assert!(answer.residual <= 1e-13, "{:e}", answer.residual);

@@ -141,10 +141,8 @@ fn nullity_is_four_at_gimbal_lock_and_away_from_it() {
 /// Away from one vertical the turn is gone and the spins remain.
 #[test]
 fn nullity_is_three_when_the_anchors_are_not_on_one_vertical() {
-    let bars = vec![model::Bar::homogeneous(1.0, 1.0).unwrap(); 3];
-    let anchors = model::Anchors { start_m: [0.0; 3], end_m: [0.5, 0.3, -1.5] };
-    let chain = model::Chain::new("askew", MG, anchors, bars).unwrap();
-    let found = solve(&model::Problem::new(chain).unwrap(), &Settings::default()).unwrap();
+    let problem = samples::homogeneous(MG, &[(1.0, 1.0); 3], [0.5, 0.3, -1.5]);
+    let found = solve(&problem, &Settings::default()).unwrap();
     assert_eq!(found.nullity, 3);
 }
 

@@ -5,7 +5,7 @@ use lagrange::net::{
 };
 use model::Bar;
 use model::system::{Joint, Member, RunTogether, System};
-use samples::RopeSample;
+use samples::{RopeSample, rope};
 
 use crate::net::{close, near};
 
@@ -20,21 +20,30 @@ fn holds(sample: &RopeSample, found: &Solution) {
     }
 }
 
+/// What is found, and again from places next to it.
+fn found_again(sample: &RopeSample) -> Solution {
+    let (system, settings) = (&sample.system, Settings::default());
+    let failed = |error| panic!("{}: {error}", system.name());
+    let found = solve(system, &settings).unwrap_or_else(failed);
+    holds(sample, &found);
+    let drawn = found.equilibrium.joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]);
+    holds(
+        sample,
+        &solve_from(system, &Seed::at(drawn.collect()), &settings).unwrap_or_else(failed),
+    );
+    found
+}
+
 #[test]
 fn ropes_have_one_tension() {
     for sample in samples::ropes() {
         let name = sample.system.name();
-        let found = solve(&sample.system, &Settings::default());
-        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
-        holds(&sample, &found);
+        let found = found_again(&sample);
         assert_eq!(
             (found.forces, found.equilibrium.stability.neutral),
             (Forces::Unique, 0),
             "{name}"
         );
-        let drawn = found.equilibrium.joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]);
-        let near = solve_from(&sample.system, &Seed::at(drawn.collect()), &Settings::default());
-        holds(&sample, &near.unwrap_or_else(|error| panic!("{name}: {error}")));
     }
 }
 
@@ -51,19 +60,12 @@ fn the_ends_of_a_rope_have_directions_of_their_own() {
     close(found.energy_j, -tension);
 }
 
-fn rope(path: [usize; 4], length_m: f64) -> Member {
-    Member::cable(path[0], path[3], Bar::homogeneous(length_m, 0.0).unwrap())
-        .over(path[1..3].to_vec())
-}
-
 /// Rings that have run to a pulley, to an end of the rope or to another ring, and what holds them there.
 #[test]
 fn joints_that_run_together_are_held_by_less_than_the_tension() {
     for sample in samples::jammed_ropes() {
         let name = sample.system.name();
-        let found = solve(&sample.system, &Settings::default());
-        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
-        holds(&sample, &found);
+        let found = found_again(&sample);
         let jams = &found.equilibrium.evidence.jams;
         assert_eq!(jams.len(), sample.jams.len(), "{name}");
         for (jam, (span, pull_n)) in jams.iter().zip(&sample.jams) {
@@ -72,9 +74,6 @@ fn joints_that_run_together_are_held_by_less_than_the_tension() {
         }
         let derivatives = Derivatives::new(&sample.system, &found).map(|_| ());
         assert!(matches!(derivatives, Err(Error::Jammed(RunTogether { member: 1, .. }))), "{name}");
-        let drawn = found.equilibrium.joints_m.iter().map(|[x, y, z]| [x + 0.1, y - 0.05, z + 0.1]);
-        let near = solve_from(&sample.system, &Seed::at(drawn.collect()), &Settings::default());
-        holds(&sample, &near.unwrap_or_else(|error| panic!("{name}: {error}")));
     }
 }
 
@@ -128,7 +127,7 @@ fn ropes_side_by_side_are_a_family() {
         Joint::free("P").with_mass(10.0),
         Joint::anchor("B", [7.0, 0.0, 4.0]),
     ];
-    let ropes = vec![rope([0, 1, 2, 3], 10.0), rope([3, 2, 1, 0], 10.0)];
+    let ropes = vec![rope(&[0, 1, 2, 3], 10.0), rope(&[3, 2, 1, 0], 10.0)];
     let system = System::new("two ropes", 9.6, joints, ropes).unwrap();
     let found = solve(&system, &Settings::default()).unwrap();
     // 96 N on four spans with the slope of 4 and 3 m.

@@ -177,10 +177,7 @@ fn equilibria_near_a_fold_are_not_degenerate() {
     /// √(3 − 2 d²): how far the roots are apart.
     const APART: f64 = 1e-5;
     let span = (0.5 * (3.0 - APART * APART)).sqrt();
-    let bars = vec![model::Bar::homogeneous(1.0, 1.0).unwrap(); 3];
-    let anchors = model::Anchors { start_m: [0.0; 3], end_m: [0.0, span, 0.0] };
-    let chain = model::Chain::new("near the fold", 9.81, anchors, bars).unwrap();
-    let problem = Problem::new(chain).unwrap();
+    let problem = samples::homogeneous(9.81, &[(1.0, 1.0); 3], [0.0, span, 0.0]);
     for side in [1.0, -1.0] {
         let mut indices = [1.0, -1.0].map(|root: f64| {
             let q = 0.25 * (1.0 + root * APART);

@@ -8,13 +8,9 @@ use motion::{
 };
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use numerics::Interval;
+use samples::rope;
 
 use crate::common::G;
-
-fn rope(path: &[usize], length_m: f64) -> Member {
-    let [first, via @ .., last] = path else { panic!("two ends") };
-    Member::cable(*first, *last, Bar::homogeneous(length_m, 0.0).unwrap()).over(via.to_vec())
-}
 
 fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
     System::new("ropes", G, joints, members).unwrap()

@@ -46,21 +46,11 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
 }
 
 fn survey(s: &Survey) -> Vec<Cell> {
-    let mut reached: Vec<_> = s
-        .reached
-        .iter()
-        .filter(|e| e.seeds > 0)
-        .map(|e| format!("{} {}", e.seeds, e.equilibrium.replace('\'', "′")))
-        .collect();
-    if s.elsewhere > 0 {
-        reached.push(format!("{} elsewhere", s.elsewhere));
-    }
-    reached.extend(s.lost.iter().map(|l| format!("{} lost: {}", l.seeds, l.why)));
     let steps = [s.median_iterations, s.most_iterations_of_95_percent, s.most_iterations];
     vec![
         s.solver.to_string().into(),
         format!("{} {}", s.seeds, word(&s.kind)).into(),
-        reached.join(", ").into(),
+        s.led_to("′").into(),
         s.direct.map(|count| Number::count(count as f64)).into(),
         Cell::Numbers(steps.map(|count| Number::count(count as f64)).to_vec()),
     ]

@@ -6,9 +6,7 @@ use super::*;
 
 /// The paper's chain in units of l, m, g.
 fn paper() -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    Problem::new(Chain::new("paper", 1.0, anchors, vec![bar; 3]).unwrap()).unwrap()
+    samples::homogeneous(1.0, &[(1.0, 1.0); 3], [0.0, 0.0, -2.0])
 }
 
 /// An answer with the numbers the certificate reads; reference digits, external.
@@ -47,9 +45,7 @@ fn e1_of_the_paper_is_proved_to_be_the_global_minimum() {
 /// the anchor by a rounding, and have so much less energy that every bound is far above.
 #[test]
 fn an_answer_that_is_no_configuration_gets_no_certificate() {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1e-14] };
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    let problem = Problem::new(Chain::new("two", 1.0, anchors, vec![bar; 2]).unwrap()).unwrap();
+    let problem = samples::homogeneous(1.0, &[(1.0, 1.0); 2], [0.0, 0.0, -1e-14]);
     let hanging = Equilibrium {
         joints_m: vec![[0.0; 3]],
         axial_n: vec![0.5, 0.5],
@@ -63,14 +59,13 @@ fn an_answer_that_is_no_configuration_gets_no_certificate() {
 #[test]
 fn weight_on_the_last_anchor_changes_no_certificate() {
     let heavy = 1e6;
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.3] };
     let gaps = [0.0, heavy].map(|resting| {
-        let bars = vec![
+        let bars = [
             Bar::homogeneous(1.0, 1.0).unwrap(),
             Bar::homogeneous(0.8, 1.0).unwrap(),
             Bar::new(0.9, resting, 0.9, [0.0; 3]).unwrap(),
         ];
-        let problem = Problem::new(Chain::new("resting", 1.0, anchors, bars).unwrap()).unwrap();
+        let problem = samples::of_bars(1.0, bars, [1.0, 0.0, 0.3]);
         let settings = lagrange::condensed::Settings::default();
         let found = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
         let off = Equilibrium { energy_j: found.energy_j + 1e-8, ..found.clone() };
@@ -89,14 +84,13 @@ fn weight_on_the_last_anchor_changes_no_certificate() {
 fn the_gap_of_a_singular_turn_is_what_the_prop_is_reduced_by() {
     let short = 2.0_f64.powi(-10);
     let bars =
-        vec![Bar::new(short, 1.0, short, [0.0; 3]).unwrap(), Bar::homogeneous(1.0, 0.0).unwrap()];
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1.0] };
-    let problem = Problem::new(Chain::new("propped", 1.0, anchors, bars).unwrap()).unwrap();
+        [Bar::new(short, 1.0, short, [0.0; 3]).unwrap(), Bar::homogeneous(1.0, 0.0).unwrap()];
+    let problem = samples::of_bars(1.0, bars, [0.0, 0.0, -1.0]);
     // The triangle of 1, 1 and a has the height a²/2 over its foot.
     let down = 0.5 * short * short;
     let end = [short * (1.0 - 0.25 * short * short).sqrt(), 0.0, 1.0 - down];
     let found = Equilibrium {
-        joints_m: vec![anchors.end_m],
+        joints_m: vec![[0.0, 0.0, -1.0]],
         axial_n: vec![short, -1.0],
         ..answer(end, E1_SIGNS, -down)
     };

@@ -1,7 +1,6 @@
 //! Families of equilibria with slack bars.
 
 use census::Settings;
-use model::{Anchors, Bar};
 
 use super::*;
 
@@ -9,10 +8,8 @@ use super::*;
 /// and without mass, bridge what is left of the way in many ways, all of one energy.
 #[test]
 fn an_energy_is_that_of_a_family_to_rounding() {
-    let bar = |length, mass| Bar::homogeneous(length, mass).unwrap();
-    let bars = vec![bar(0.5, 0.0), bar(1.0, 0.0), bar(2.0, 0.0), bar(0.75, 1.0)];
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 3.0] };
-    let problem = Problem::new(Chain::new("slack", 9.81, anchors, bars).unwrap()).unwrap();
+    let bars = [(0.5, 0.0), (1.0, 0.0), (2.0, 0.0), (0.75, 1.0)];
+    let problem = samples::homogeneous(9.81, &bars, [0.0, 0.0, 3.0]);
     let census = Census::take(&problem, &Settings::default()).unwrap();
     assert_eq!(census.families.len(), 1);
     let energy_j = 9.81 * 2.625;
@@ -26,10 +23,7 @@ fn an_energy_is_that_of_a_family_to_rounding() {
 /// What a census says of an answer with these joints, of homogeneous bars of 1 m and 1 kg. Neither its
 /// forces nor its energy are asked.
 fn said(bars: usize, end_m: [f64; 3], heights_m: &[f64]) -> Reason {
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = Chain::new("upright", 10.0, anchors, vec![bar; bars]).unwrap();
-    let problem = Problem::new(chain).unwrap();
+    let problem = samples::homogeneous(10.0, &vec![(1.0, 1.0); bars], end_m);
     let census = Census::take(&problem, &Settings::default()).unwrap();
     let found = lagrange::solve(&problem, &lagrange::Settings::default()).unwrap().equilibrium;
     let joints_m = heights_m.iter().map(|z| [0.0, 0.0, *z]).collect();

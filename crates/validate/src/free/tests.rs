@@ -32,10 +32,9 @@ fn what_hangs_loose_is_free_wherever_it_is() {
 fn runs_are_as_long_as_no_joint_between_them_bears_anything() {
     let at_far_end = |mass| Bar::new(1.0, mass, 1.0, [0.0; 3]).unwrap();
     let masses = [0.0, 0.0, 3.0, 0.0, 5.0, 0.0, 0.0, 0.0, 7.0];
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
     let chain = |masses: &[f64]| {
-        let bars = masses.iter().map(|mass| at_far_end(*mass)).collect();
-        Chain::new("runs", 10.0, anchors, bars).unwrap()
+        let bars = masses.iter().map(|mass| at_far_end(*mass));
+        samples::of_bars(10.0, bars, [1.0, 0.0, 0.0]).into_chain()
     };
     assert_eq!(unloaded_runs(&chain(&masses)), [0..3, 3..5, 5..9]);
     assert_eq!(unloaded_runs(&chain(&[1.0, 1e-15, 0.0])), []);
@@ -110,9 +109,8 @@ fn what_closes_on_a_point_turns_about_it() {
 /// What is level counts as upwards, wherever it is asked: 2 m up from the start.
 #[test]
 fn level_bars_count_as_one_way() {
-    let bars = [2.0, 5.0, 7.0].map(|length| Bar::homogeneous(length, 1.0).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 10.0] };
-    let chain = Chain::new("level", 10.0, anchors, bars.to_vec()).unwrap();
+    let bars = [2.0, 5.0, 7.0].map(|length| (length, 1.0));
+    let chain = samples::homogeneous(10.0, &bars, [0.0, 0.0, 10.0]).into_chain();
     let joints_m = [[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3], [0.0, 0.0, 10.0]];
     assert_eq!(plumb(&chain, &joints_m, &(1..3)), [[0.0, 0.0, 2.0], [0.0, 0.0, 10.0]]);
     let [gap, ..] = squares(&chain, &joints_m, &(1..3)).map(|x| x.interval().mid());

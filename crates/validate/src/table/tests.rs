@@ -110,10 +110,7 @@ fn a_case_is_told_in_the_units_of_its_budgets() {
 #[test]
 fn long_chains_are_told_by_their_ends() {
     let count = |bars: usize| {
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.25] };
-        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-        let chain = Chain::new("long", 9.81, anchors, vec![bar; bars]).unwrap();
-        let problem = Problem::new(chain).unwrap();
+        let problem = samples::homogeneous(9.81, &vec![(1.0, 1.0); bars], [1.0, 0.0, 0.25]);
         let settings = lagrange::condensed::Settings::default();
         let first = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
         let rows = listed(&problem, [first.clone(), first]);

@@ -1,6 +1,6 @@
 //! Both solvers on every case of the registry, against the budgets; and the comparison can fail.
 
-use model::{Anchors, Bar, Chain, Equilibrium, Problem, Rung, cases};
+use model::{Equilibrium, Problem, Rung, cases};
 use validate::Tolerances;
 use validate::built_in::{key, number, parsed};
 use validate::table::{csv, table};
@@ -78,11 +78,8 @@ fn a_changed_answer_is_not_agreed_with() {
 
 /// Kilometres and grams, so that a unit forgotten or added is no small matter.
 fn long_and_light() -> (Problem, [Equilibrium; 2]) {
-    let bars = [(900.0, 1e-3), (700.0, 3e-3), (1100.0, 2e-3)]
-        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1000.0, 300.0, -400.0] };
-    let chain = Chain::new("long and light", 9.81, anchors, bars.to_vec()).unwrap();
-    let problem = Problem::new(chain).unwrap();
+    let bars = [(900.0, 1e-3), (700.0, 3e-3), (1100.0, 2e-3)];
+    let problem = samples::homogeneous(9.81, &bars, [1000.0, 300.0, -400.0]);
     let (answers, agreement) = both(&problem);
     assert!(agreement.agrees());
     (problem, answers)
@@ -117,11 +114,8 @@ fn errors_that_matter_are_not_within_the_budgets() {
 /// A joint without load between bars under tension is not free: the two bars are parallel.
 #[test]
 fn a_joint_without_load_is_held_by_bars_that_carry_force() {
-    let bars = [(1.0, 2.0), (0.5, 0.0), (0.7, 0.0), (1.0, 1.0)]
-        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
-    let chain = Chain::new("string in the middle", 9.81, anchors, bars.to_vec()).unwrap();
-    let problem = Problem::new(chain).unwrap();
+    let bars = [(1.0, 2.0), (0.5, 0.0), (0.7, 0.0), (1.0, 1.0)];
+    let problem = samples::homogeneous(9.81, &bars, [2.0, 0.0, 0.0]);
     let (mut answers, agreement) = both(&problem);
     assert!(agreement.agrees() && agreement.free_joints == 0, "{:?}", agreement.disagreement);
     answers[0].joints_m[2][2] += 1e-3;

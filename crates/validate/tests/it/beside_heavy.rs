@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use model::Bar;
 use model::system::{Joint, Member, System};
-use model::{Anchors, Bar, Chain};
 use rand::{Rng, RngExt};
 use validate::systems::{SystemAnswer, ask_with};
 use validate::{Question, UseCensus};
@@ -40,9 +40,7 @@ fn chains_with_one_heavy_bar_are_found_by_both() {
         let span_m = least_m + random.random_range(0.05..0.95) * (total_m - least_m);
         let rise: f64 = random.random_range(-1.4..1.4);
         let end_m = [span_m * rise.cos(), 0.0, span_m * rise.sin()];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let chain = Chain::new("", 9.81, anchors, bars).unwrap();
-        let answer = asked(&(&chain).into());
+        let answer = asked(&samples::of_bars(9.81, bars, end_m).chain().into());
         let reasons = answer.agreement.map(|found| found.disagreement.sentences());
         assert_eq!(reasons, Some(vec![]), "{stream}: {:?}", answer.failures);
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use census::sextic::{SEXTIC, count_roots};
 use census::{Census, Settings};
 use model::system::System;
-use model::{Anchors, Bar, Chain, Problem, Reason, Rung, Vector};
+use model::{Problem, Reason, Rung, Vector};
 use paper::example::Example;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -275,9 +275,7 @@ fn the_ladder_is_honest() {
 #[test]
 fn an_answer_of_a_gap_just_bridged_is_told_as_one() {
     let bars = [(1.0, 3.0, 1.0), (5.0, 2.0, 0.0), (1.0, 0.0, 0.25)];
-    let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap()).to_vec();
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, -1.0] };
-    let problem = Problem::new(Chain::new("bridged", 9.81, anchors, bars).unwrap()).unwrap();
+    let problem = samples::chain(&bars, [6.0, 0.0, -1.0]);
     let census = Census::take(&problem, &Settings::default()).unwrap();
     assert!(census.decided() && census.families.len() == 1);
     let system = System::from(problem.chain());
@@ -300,11 +298,9 @@ fn an_answer_of_a_gap_just_bridged_is_told_as_one() {
 /// and the ladder says why.
 #[test]
 fn an_answer_of_a_slack_family_is_told_as_one() {
-    let bar = |length, mass| Bar::homogeneous(length, mass).unwrap();
     // The last bar hangs from its anchor, the first three fill what is left of the way.
-    let bars = vec![bar(0.5, 0.0), bar(1.0, 0.0), bar(2.0, 0.0), bar(0.75, 1.0)];
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 3.0] };
-    let problem = Problem::new(Chain::new("slack", 9.81, anchors, bars).unwrap()).unwrap();
+    let bars = [(0.5, 0.0), (1.0, 0.0), (2.0, 0.0), (0.75, 1.0)];
+    let problem = samples::homogeneous(9.81, &bars, [0.0, 0.0, 3.0]);
     let census = Census::take(&problem, &Settings::default()).unwrap();
     assert_eq!(census.families.len(), 1);
     let mut answer = energy::minimise(&problem, &energy::Settings::default()).unwrap().equilibrium;

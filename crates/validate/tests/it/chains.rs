@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use lagrange::condensed;
-use model::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Rung};
+use model::{Equilibrium, InPlane, Problem, Rung};
 use rayon::prelude::*;
 use samples::{Shape, folded_chain, random_chain};
 use validate::Tolerances;
@@ -168,27 +168,17 @@ fn chains_all_but_folded_are_right_or_say_how_uncertain() {
     assert!(2 * agreed as u64 > count, "{agreed} of {count} agree");
 }
 
-fn problem(bars: Vec<Bar>, end_m: [f64; 3]) -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    Problem::new(Chain::new("shape", 1.0, anchors, bars).unwrap()).unwrap()
-}
-
 /// Heavy bars hang straight down from both anchors, massless ones between them: an equilibrium says
 /// nothing about the joints between the massless ones, and everything about the others.
 #[test]
 fn loose_bars_are_compared_by_what_is_determined() {
     let tolerances = Tolerances::project();
     for (massless, free) in [(1, 0), (2, 1), (3, 2), (7, 6)] {
-        let bar = |mass| Bar::homogeneous(1.0, mass).unwrap();
-        let bars: Vec<Bar> = [1.0, 1.0]
-            .iter()
-            .chain(&vec![0.0; massless])
-            .chain(&[1.0, 1.0])
-            .map(|m| bar(*m))
-            .collect();
+        let heavy = [(1.0, 1.0); 2];
+        let bars = [&heavy[..], &vec![(1.0, 0.0); massless], &heavy].concat();
         // One bar alone has to fill the gap.
         let span = if massless == 1 { 1.0 } else { 0.75 };
-        let problem = problem(bars, [span, 0.0, 0.0]);
+        let problem = samples::homogeneous(1.0, &bars, [span, 0.0, 0.0]);
         let mut answers = solved(&problem).unwrap();
         let agreement = compare(&problem, &mut answers, &tolerances);
         assert!(agreement.agrees(), "{massless}: {:?}", agreement.disagreement);
@@ -214,11 +204,8 @@ fn loose_bars_are_compared_by_what_is_determined() {
 /// forces are worth anything, and both say so.
 #[test]
 fn upright_chains_with_a_prop_say_that_their_forces_are_uncertain() {
-    let bars = [(1.0, 1.0), (3.0, 1.0), (1.0, 1.0), (1.0, 5.0), (1.0, 1.0)]
-        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 1.0] };
-    let chain = Chain::new("prop", 9.81, anchors, bars.to_vec()).unwrap();
-    let mut answers = solved(&Problem::new(chain).unwrap()).unwrap();
+    let bars = [(1.0, 1.0), (3.0, 1.0), (1.0, 1.0), (1.0, 5.0), (1.0, 1.0)];
+    let mut answers = solved(&samples::homogeneous(9.81, &bars, [0.0, 0.0, 1.0])).unwrap();
     for answer in &mut answers {
         let heights = answer.joints_m.iter().map(|joint| joint[2]);
         assert!(

@@ -2,7 +2,7 @@
 //! shape, with order two, up to tens of thousands of bars, by both solvers.
 
 use lagrange::condensed;
-use model::{Anchors, Bar, Chain, Equilibrium, Problem};
+use model::Equilibrium;
 
 /// Numbers of bars, each four times the one before it.
 const SIZES: [usize; 5] = [64, 256, 1024, 4096, 16_384];
@@ -74,10 +74,8 @@ fn energy_forces_and_shape_converge_with_order_two() {
     for (length, across, rise) in [(1.5, 1.0, -0.2), (3.0, 1.0, 0.5), (1.05, 1.0, 0.1)] {
         let catenary = Catenary::new(length, across, rise);
         let runs = SIZES.map(|n| {
-            let bar = Bar::homogeneous(length / n as f64, length / n as f64).unwrap();
-            let anchors = Anchors { start_m: [0.0; 3], end_m: [across, 0.0, rise] };
-            let chain = Chain::new("catenary", 1.0, anchors, vec![bar; n]).unwrap();
-            let problem = Problem::new(chain).unwrap();
+            let bars = vec![(length / n as f64, length / n as f64); n];
+            let problem = samples::homogeneous(1.0, &bars, [across, 0.0, rise]);
             let lagrange = condensed::solve(&problem, &condensed::Settings::default()).unwrap();
             let energy = energy::minimise(&problem, &energy::Settings::default()).unwrap();
             let errors =

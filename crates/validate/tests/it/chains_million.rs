@@ -3,6 +3,7 @@
 
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
+use numerics::vector::norm;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::Tolerances;
@@ -36,10 +37,6 @@ fn random_bars(n: usize) -> Problem {
         .collect();
     let anchors = Anchors { start_m: [0.3, -0.2, 0.1], end_m: [0.9, 0.2, 0.4] };
     Problem::new(Chain::new("random", 9.806_65, anchors, bars).unwrap()).unwrap()
-}
-
-fn norm([x, y, z]: [f64; 3]) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 /// Closure and force balance of the whole, and every law on every bar, within the accuracy.

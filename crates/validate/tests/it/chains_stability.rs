@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use lagrange::{Seed, Settings, condensed, solve_from};
-use model::{Anchors, Bar, Chain, Equilibrium, InPlane, InSpace, NoCertificate, Problem, Vector};
+use model::{Bar, Equilibrium, InPlane, InSpace, NoCertificate, Problem, Vector};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -181,10 +181,8 @@ fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
                 Bar::homogeneous(length, rng.random_range(0.1..2.0)).unwrap()
             })
             .collect();
-        let [problem, mirrored] = [0.2, -0.2].map(|rise| {
-            let anchors = Anchors { start_m: [0.0; 3], end_m: [0.5, 0.3, rise] };
-            Problem::new(Chain::new("arch", 9.81, anchors, bars.clone()).unwrap()).unwrap()
-        });
+        let [problem, mirrored] =
+            [0.2, -0.2].map(|rise| samples::of_bars(9.81, bars.clone(), [0.5, 0.3, rise]));
         let settings = condensed::Settings::default();
         let hanging = condensed::solve(&mirrored, &settings).unwrap().equilibrium;
         // Upside down each bar is pressed as hard as it was pulled: the push of the ground is

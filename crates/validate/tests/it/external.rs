@@ -2,7 +2,7 @@
 //!
 //! Both solvers must meet each of them.
 
-use model::{Anchors, Bar, Chain, Equilibrium, Problem};
+use model::{Bar, Equilibrium, Problem};
 use toml::{Table, Value};
 use validate::built_in::{count, key, numbers, optional, parsed, tables};
 
@@ -17,8 +17,7 @@ fn equal_bars(
     end_m: [f64; 3],
 ) -> Problem {
     let bar = Bar::homogeneous(total_length_m / n as f64, total_mass_kg / n as f64).unwrap();
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    Problem::new(Chain::new("equal bars", gravity, anchors, vec![bar; n]).unwrap()).unwrap()
+    samples::of_bars(gravity, vec![bar; n], end_m)
 }
 
 /// The hanging equilibrium by both solvers.

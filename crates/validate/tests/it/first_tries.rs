@@ -2,8 +2,9 @@
 //! masses over many orders of magnitude, forces that equilibrium does not determine.
 
 use census::{Census, Settings};
-use model::{Anchors, Bar, Chain, Equilibrium, ForceChoice, Place, Problem, Reason, Vector, cases};
+use model::{Equilibrium, ForceChoice, Place, Problem, Reason, Vector, cases};
 use nalgebra::DMatrix;
+use numerics::vector::norm;
 use validate::Tolerances;
 use validate::completeness::certify_by_census;
 use validate::systems::judge_chain;
@@ -29,10 +30,6 @@ fn by_lagrange(problem: &Problem) -> Equilibrium {
 
 fn by_energy(problem: &Problem) -> Equilibrium {
     energy::minimise(problem, &energy::Settings::default()).unwrap().equilibrium
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 /// Largest distance of any joint, whatever a comparison leaves out, in units of the total length.
@@ -111,11 +108,8 @@ fn a_complete_census_refutes_an_answer() {
 /// balance by that.
 #[test]
 fn a_light_bar_is_judged_by_its_own_forces() {
-    let bars = [(1.0, 1e6), (1.0, 1.0), (1.0, 1.0), (1.0, 1e6)]
-        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
-    let chain = Chain::new("light between heavy", 9.81, anchors, bars.to_vec()).unwrap();
-    let problem = Problem::new(chain).unwrap();
+    let bars = [(1.0, 1e6), (1.0, 1.0), (1.0, 1.0), (1.0, 1e6)];
+    let problem = samples::homogeneous(9.81, &bars, [1.0, 0.0, 0.0]);
     let mut answer = by_lagrange(&problem);
     assert!(judge_chain(&problem, &answer).passes(1e-11));
     // Only the joint between the two light bars moves, across the way and hardly changing lengths.
@@ -127,9 +121,7 @@ fn a_light_bar_is_judged_by_its_own_forces() {
 
 /// n equal bars between anchors on one vertical.
 fn equal(bars: usize, down_m: f64) -> Problem {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -down_m] };
-    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
-    Problem::new(Chain::new("equal", 1.0, anchors, vec![bar; bars]).unwrap()).unwrap()
+    samples::homogeneous(1.0, &vec![(1.0, 1.0); bars], [0.0, 0.0, -down_m])
 }
 
 /// Self-stresses by the rank of the rigidity matrix: a column for each free coordinate, a row for
@@ -230,15 +222,8 @@ fn joints_are_free_only_where_there_is_room() {
     ];
     for (lengths, span, free) in rows {
         // A heavy bar hangs from each anchor, the two without mass are between them.
-        let masses = [1.0, 0.0, 0.0, 1.0];
-        let lengths = [1.0, lengths[0], lengths[1], 1.0];
-        let bars: Vec<Bar> = lengths
-            .iter()
-            .zip(masses)
-            .map(|(length, mass)| Bar::homogeneous(*length, mass).unwrap())
-            .collect();
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [span, 0.0, 0.0] };
-        let problem = Problem::new(Chain::new("room", 1.0, anchors, bars).unwrap()).unwrap();
+        let bars = [(1.0, 1.0), (lengths[0], 0.0), (lengths[1], 0.0), (1.0, 1.0)];
+        let problem = samples::homogeneous(1.0, &bars, [span, 0.0, 0.0]);
         let mut answers = [by_lagrange(&problem), by_lagrange(&problem)];
         let agreement = compare(&problem, &mut answers, &tolerances);
         assert_eq!(agreement.free_joints, usize::from(free), "{span}");

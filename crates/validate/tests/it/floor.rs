@@ -3,15 +3,16 @@
 
 use std::f64::consts::TAU;
 
-use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
+use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, ForceChoice, Rung, STANDARD_GRAVITY_M_S2, Vector};
 use nalgebra::Vector3;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use validate::Solvers;
 use validate::foreign::{Finding, ForeignAnswer, Law, bounds, judge_foreign};
-use validate::systems::{SystemAgreement, ask, certify, compare, judge};
+use validate::systems::{SystemAgreement, certify, compare, judge};
 use validate::tolerances::Tolerances;
+
+use crate::common::{agreed, asked};
 
 /// Relative to the number itself.
 const DIGITS: f64 = 1e-10;
@@ -19,14 +20,6 @@ const DIGITS: f64 = 1e-10;
 #[track_caller]
 fn close(found: f64, wanted: f64) {
     assert!((found - wanted).abs() <= DIGITS * wanted.abs(), "{found} is not {wanted}");
-}
-
-/// Both answers, which agree.
-#[track_caller]
-fn answers(system: &System) -> Vec<SystemEquilibrium> {
-    let answer = ask(system, Solvers::Both, &|_| {});
-    assert!(answer.agrees(), "{:?}, {:?}", answer.agreement, answer.failures);
-    answer.equilibria
 }
 
 /// A weight on a rod of 5 m above a floor 4 m below its anchor, drawn aside.
@@ -44,7 +37,7 @@ fn drawn_aside(force_n: f64) -> System {
 /// bears what it does not lift; drawn harder the weight leaves the floor.
 #[test]
 fn a_weight_lies_on_the_floor_until_it_is_lifted() {
-    for e in answers(&drawn_aside(3.0)) {
+    for e in agreed(&drawn_aside(3.0)) {
         close(e.axial_n[0], 5.0);
         close(e.joints_m[1][0], 3.0);
         close(e.joints_m[1][2], -4.0);
@@ -54,11 +47,11 @@ fn a_weight_lies_on_the_floor_until_it_is_lifted() {
         assert!(e.evidence.ladder.verified.is_reached(), "{:#?}", e.evidence.ladder);
     }
     // At the force at which the floor would bear nothing neither is proved.
-    let edge = ask(&drawn_aside(7.5), Solvers::Both, &|_| {});
+    let edge = asked(&drawn_aside(7.5));
     for e in &edge.equilibria {
         assert!(!e.evidence.ladder.verified.is_reached(), "{:#?}", e.evidence.ladder);
     }
-    for e in answers(&drawn_aside(9.0)) {
+    for e in agreed(&drawn_aside(9.0)) {
         assert!(e.evidence.ladder.verified.is_reached(), "{:#?}", e.evidence.ladder);
         close(e.axial_n[0], 181.0_f64.sqrt());
         assert!(e.reactions_n[1].iter().all(|n| n.abs() <= 0.0), "{:?}", e.reactions_n);
@@ -89,7 +82,7 @@ fn a_line_on_the_floor_tends_to_the_catenary() {
     let mut errors = vec![];
     for n in [10, 20, 40, 80, 160, 320] {
         let system = mooring(n, line, None);
-        let both = answers(&system);
+        let both = agreed(&system);
         for e in &both {
             assert!(certify(&system, e).is_ok(), "{n}, {}", e.solver);
             assert!(n > 80 || e.evidence.ladder.verified.is_reached(), "{:#?}", e.evidence.ladder);
@@ -109,10 +102,10 @@ fn a_line_on_the_floor_tends_to_the_catenary() {
 
 #[test]
 fn elastic_lines_on_the_floor_tend_to_rigid_ones() {
-    let rigid = answers(&mooring(24, [20.0, 15.0, 50.0], None))[0].reactions_n[24][0];
+    let rigid = agreed(&mooring(24, [20.0, 15.0, 50.0], None))[0].reactions_n[24][0];
     let mut last = f64::INFINITY;
     for stiffness_n in [1e4, 1e5, 1e6] {
-        let soft = answers(&mooring(24, [20.0, 15.0, 50.0], Some(stiffness_n)));
+        let soft = agreed(&mooring(24, [20.0, 15.0, 50.0], Some(stiffness_n)));
         let off = (soft[0].reactions_n[24][0] - rigid).abs();
         assert!(off < 0.11 * last, "{off} after {last}");
         last = off;
@@ -169,7 +162,7 @@ fn both_solvers_lay_nets_on_the_floor_alike() {
     for seed in 1..=20_u64 {
         for (elastic, bars) in [(false, false), (true, false), (false, true), (true, true)] {
             let system = net(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15), elastic, bars);
-            let answer = ask(&system, Solvers::Both, &|_| {});
+            let answer = asked(&system);
             let agreement = answer.agreement.as_ref().unwrap();
             if bars && !answer.agrees() {
                 assert!(agreement.statics.iter().all(|found| found.passes(1e-8)));
@@ -231,7 +224,7 @@ fn answers_of_others_are_judged_above_the_floor() {
 #[test]
 fn long_lines_settle_on_the_floor() {
     let system = mooring(2000, [20.0, 15.0, 50.0], None);
-    let both = answers(&system);
+    let both = agreed(&system);
     for e in &both {
         assert!((e.reactions_n[2000][0] - 20.0).abs() < 1e-4, "{}", e.reactions_n[2000][0]);
     }
@@ -253,7 +246,7 @@ fn of_a_long_line_that_just_touches_the_floor_the_shape_is_agreed_on() {
     let bar = Bar::homogeneous(0.5, 10.0).unwrap();
     let members = (0..N).map(|k| Member::cable(k, k + 1, bar)).collect();
     let system = System::new("slack", 10.0, (0..=N).map(joint).collect(), members).unwrap();
-    let both = answers(&system.with_floor(-30.0).unwrap());
+    let both = agreed(&system.with_floor(-30.0).unwrap());
     for e in &both {
         assert!((e.reactions_n[N][2] - 6000.0).abs() <= 50.0 + 1e-6, "{:?}", e.reactions_n[N]);
         assert!(e.joints_m[N - 60][2] + 30.0 < 1e-9, "{:?}", e.joints_m[N - 60]);
@@ -274,7 +267,7 @@ fn a_chain_much_too_long_lies_in_folds() {
     let bar = Bar::homogeneous(0.25, 1.0).unwrap();
     let members = (0..N).map(|k| Member::bar(k, k + 1, bar)).collect();
     let system = System::new("folds", 10.0, (0..=N).map(joint).collect(), members).unwrap();
-    for e in answers(&system.with_floor(-1.0).unwrap()) {
+    for e in agreed(&system.with_floor(-1.0).unwrap()) {
         close(e.energy_j, -10.0 * (2.0 * 2.0 + 292.0));
     }
 }
@@ -283,7 +276,7 @@ fn a_chain_much_too_long_lies_in_folds() {
 #[test]
 fn the_judge_knows_the_floor() {
     let system = drawn_aside(3.0);
-    let good = answers(&system).remove(0);
+    let good = agreed(&system).remove(0);
     assert!(judge(&system, &good).passes(1e-12));
     let with = |place: Vector, push_n: f64| {
         let mut wrong = good.clone();
@@ -320,7 +313,7 @@ fn above(kind: Kind, height_m: f64) -> System {
 fn a_weight_that_just_touches_the_floor_is_agreed_on_but_for_its_share() {
     for kind in [Kind::Bar, Kind::Cable] {
         let system = above(kind, 1.0);
-        let answer = ask(&system, Solvers::Both, &|_| {});
+        let answer = asked(&system);
         let agreement = answer.agreement.as_ref().unwrap();
         assert!(agreement.agrees() && agreement.self_stresses == Some(1), "{agreement:?}");
         for e in &answer.equilibria {
@@ -360,7 +353,7 @@ fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
                 // what rounding leaves level.
                 let near_n = 10.0 * Tolerances::project().forces;
                 let deeper = sign * 10.0_f64.powi(-exponent);
-                let answer = ask(&above(kind, 1.0 - deeper), Solvers::Both, &|_| {});
+                let answer = asked(&above(kind, 1.0 - deeper));
                 let found: &Option<SystemAgreement> = &answer.agreement;
                 assert!(found.as_ref().is_none_or(SystemAgreement::agrees), "{deeper}: {found:?}");
                 if exponent > 7 && (found.is_none() || sign > 0.0 && exponent > 11) {
@@ -412,7 +405,7 @@ fn systems_that_just_touch_the_floor_have_one_self_stress() {
         for (joints, members) in [row, v, lying] {
             let system = System::new("touching", 10.0, joints, members).unwrap();
             let system = system.with_floor(0.0).unwrap();
-            let answer = ask(&system, Solvers::Both, &|_| {});
+            let answer = asked(&system);
             let agreement = answer.agreement.as_ref().unwrap();
             assert!(agreement.agrees() && agreement.self_stresses == Some(1), "{agreement:?}");
             for e in &answer.equilibria {
@@ -449,7 +442,7 @@ fn both_solvers_leave_a_weight_wholly_to_the_floor() {
     for (joints, members, floor_m, wanted_n) in cases {
         let count = joints.len();
         let system = System::new("wholly", 10.0, joints, members).unwrap();
-        for e in answers(&system.with_floor(floor_m).unwrap()) {
+        for e in agreed(&system.with_floor(floor_m).unwrap()) {
             assert!(e.axial_n.iter().all(|n| n.abs() < 1e-9), "{} {:?}", e.solver, e.axial_n);
             for (force, wanted) in e.reactions_n.iter().zip(wanted_n).take(count) {
                 assert!((force[2] - wanted).abs() < 1e-9, "{} {:?}", e.solver, e.reactions_n);
@@ -504,7 +497,7 @@ fn drawn_masts_stand_on_a_floor_between_cables_that_just_reach() {
     let (mut standing, mut leaning) = (0, 0);
     for seed in 0..60 {
         let system = mast(seed);
-        let answer = ask(&system, Solvers::Both, &|_| {});
+        let answer = asked(&system);
         assert!(answer.agrees(), "{seed}: {:?} {:?}", answer.agreement, answer.failures);
         if !answer.near.unwrap().is_neighbour {
             leaning += 1;

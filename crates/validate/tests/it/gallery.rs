@@ -4,34 +4,19 @@
 use model::cases::exhibit;
 use model::system::{System, SystemEquilibrium};
 use model::{Rung, STANDARD_GRAVITY_M_S2 as G};
-use validate::Solvers;
-use validate::systems::ask;
 
-/// Relative to the number itself: both solvers reach 2e-13 on the linkage, the worst of all.
-const DIGITS: f64 = 1e-11;
+use crate::common::{agreed, close};
+use crate::drawn::axial;
 
 /// The system and both answers, which agree and have the least energy.
 fn answers(name: &str) -> (System, Vec<SystemEquilibrium>) {
     let system = exhibit(name).expect("it is in the gallery").system();
-    let answer = ask(&system, Solvers::Both, &|_| {});
-    assert!(answer.agrees(), "{name}: {:?}", answer.agreement);
-    for e in &answer.equilibria {
+    let answers = agreed(&system);
+    for e in &answers {
         assert_eq!(e.evidence.rung(), Some(Rung::Optimal), "{name}, {}", e.solver);
     }
-    assert_eq!(answer.equilibria.len(), 2);
-    (system, answer.equilibria)
-}
-
-#[track_caller]
-fn close(found: f64, wanted: f64) {
-    assert!((found - wanted).abs() <= DIGITS * wanted.abs(), "{found} is not {wanted}");
-}
-
-/// Axial force of the member between two joints.
-fn axial(system: &System, e: &SystemEquilibrium, from: &str, to: &str) -> f64 {
-    let [a, b] = [from, to].map(|name| system.joint(name).expect("a joint"));
-    let member = system.members().iter().position(|m| [m.from, m.to] == [a, b]);
-    e.axial_n[member.expect("a member")]
+    assert_eq!(answers.len(), 2);
+    (system, answers)
 }
 
 fn place(system: &System, e: &SystemEquilibrium, joint: &str) -> [f64; 3] {

@@ -10,6 +10,7 @@ mod chains_as_networks;
 mod chains_catenary;
 mod chains_million;
 mod chains_stability;
+mod common;
 mod drawn;
 mod external;
 mod far;

@@ -2,7 +2,7 @@
 //! leave by parts from 0.1 down to one rounding, and by nothing.
 
 use lagrange::condensed::Settings;
-use model::{Anchors, Bar, Chain, Problem, Rung};
+use model::{Bar, Problem, Rung};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::Tolerances;
@@ -39,9 +39,7 @@ fn drawn(random: &mut ChaCha8Rng, part: f64) -> Problem {
     };
     let masses: Vec<f64> = (0..lengths.len()).map(mass).collect();
     let bars = lengths.iter().zip(masses).map(|(l, m)| Bar::homogeneous(*l, m).unwrap());
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = Chain::new("near slack", 9.81, anchors, bars.collect()).unwrap();
-    Problem::new(chain).unwrap()
+    samples::of_bars(9.81, bars, end_m)
 }
 
 /// A part to spare or missing.

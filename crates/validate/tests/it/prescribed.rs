@@ -2,8 +2,8 @@
 
 use model::Bar;
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
-use validate::Solvers;
-use validate::systems::ask;
+
+use crate::common::{agreed, close};
 
 /// Length, m, and weight, N, of a member, and how many there are.
 const LENGTH_M: f64 = 0.5;
@@ -18,15 +18,7 @@ fn answers(end: Joint) -> Vec<SystemEquilibrium> {
     joints.push(end);
     let body = Bar::homogeneous(LENGTH_M, WEIGHT_N / 10.0).unwrap();
     let members = (0..n).map(|k| Member::cable(k, k + 1, body)).collect();
-    let system = System::new("cable", 10.0, joints, members).unwrap();
-    let answer = ask(&system, Solvers::Both, &|_| {});
-    assert!(answer.agrees(), "{:?}, {:?}", answer.agreement, answer.failures);
-    answer.equilibria
-}
-
-#[track_caller]
-fn close(found: f64, wanted: f64) {
-    assert!((found - wanted).abs() <= 1e-11 * wanted.abs(), "{found} is not {wanted}");
+    agreed(&System::new("cable", 10.0, joints, members).unwrap())
 }
 
 /// Where the end is when member k pulls up with `vertical_n(k)`: each points along its force.

@@ -5,15 +5,12 @@ use model::system::{Joint, Member, Support, System, SystemEquilibrium};
 use model::{Bar, NoCertificate, Place, Proved, STANDARD_GRAVITY_M_S2, Status, Vector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use validate::Solvers;
 use validate::foreign::{
     Finding, ForeignAnswer, GivenError, Judgement, Law, Violation, judge_foreign,
 };
-use validate::systems::{SystemAnswer, ask, certify, judge};
+use validate::systems::{certify, judge};
 
-fn asked(system: &System) -> SystemAnswer {
-    ask(system, Solvers::Both, &|_| {})
-}
+use crate::common::asked;
 
 #[test]
 fn known_ropes_are_agreed_upon_and_proved_optimal() {

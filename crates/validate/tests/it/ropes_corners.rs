@@ -3,21 +3,14 @@
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
 use model::{Bar, Vector};
 use rand::RngExt;
-use validate::systems::{SystemAnswer, ask, compare, judge};
-use validate::{Solvers, Tolerances};
+use samples::rope;
+use validate::Tolerances;
+use validate::systems::{compare, judge};
 
-fn asked(system: &System) -> SystemAnswer {
-    ask(system, Solvers::Both, &|_| {})
-}
+use crate::common::asked;
 
 fn free(name: &str, mass_kg: f64) -> Joint {
     Joint::free(name).with_mass(mass_kg)
-}
-
-fn rope(path: &[usize], length_m: f64) -> Member {
-    let body = Bar::homogeneous(length_m, 0.0).unwrap();
-    let last = path.len() - 1;
-    Member::cable(path[0], path[last], body).over(path[1..last].to_vec())
 }
 
 fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {

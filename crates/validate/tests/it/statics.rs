@@ -1,6 +1,6 @@
 //! The statics judge passes what is right and catches what is not.
 
-use model::{Anchors, Bar, Chain, Equilibrium, Place, Problem, Reactions, SolverName, Vector};
+use model::{Bar, Equilibrium, Place, Problem, Reactions, SolverName, Vector};
 use validate::Tolerances;
 use validate::systems::{SystemStatics, judge_chain};
 
@@ -181,9 +181,7 @@ fn long(lean: f64) -> (Problem, Vec<Vector>, Vec<Vector>) {
         joints.push(place);
         forces.push([0.4, 0.0, weight * (i as f64 + 1.0) - 0.55]);
     }
-    let anchors = Anchors { start_m: [0.0; 3], end_m: place };
-    let chain = Chain::new("long", 1.0, anchors, bars).unwrap();
-    (Problem::new(chain).unwrap(), joints, forces)
+    (samples::of_bars(1.0, bars, place), joints, forces)
 }
 
 /// The budget of the project.

@@ -9,6 +9,8 @@ use model::{Bar, Rung, Vector};
 use validate::Solvers;
 use validate::systems::{Held, Standing, Stress, SystemFailure, ask, prestress_stability};
 
+use crate::common::{agreed, close};
+
 /// Relative to the largest number of its kind: both solvers reach 3e-14.
 const DIGITS: f64 = 1e-11;
 
@@ -16,16 +18,15 @@ const DIGITS: f64 = 1e-11;
 fn answers(name: &str) -> (System, Vec<SystemEquilibrium>) {
     let system = exhibit(name).unwrap().system();
     assert!(system.is_unloaded() && system.refusal().is_ok());
-    let answer = ask(&system, Solvers::Both, &|_| {});
-    assert!(answer.agrees(), "{name}: {:?}, {:?}", answer.agreement, answer.failures);
-    for e in &answer.equilibria {
+    let answers = agreed(&system);
+    for e in &answers {
         assert!(e.evidence.rung() >= Some(Rung::Verified), "{name}: {:#?}", e.evidence.ladder);
         let most = e.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
         // It stands by itself: no support bears a force.
         let borne = e.reactions_n.iter().flatten().fold(0.0, |most: f64, n| most.max(n.abs()));
         assert!(borne <= DIGITS * most, "{name}: {borne} N on a support");
     }
-    (system, answer.equilibria)
+    (system, answers)
 }
 
 /// Force densities, N/m, each with the names of the ends of its member.
@@ -39,11 +40,6 @@ fn densities(system: &System, e: &SystemEquilibrium) -> Vec<(Kind, String, f64)>
             (member.kind, name, axial_n / d[0].hypot(d[1]).hypot(d[2]))
         })
         .collect()
-}
-
-#[track_caller]
-fn close(found: f64, wanted: f64) {
-    assert!((found - wanted).abs() <= DIGITS * wanted.abs(), "{found} is not {wanted}");
 }
 
 /// What the answer's stress holds, and what some stress does.

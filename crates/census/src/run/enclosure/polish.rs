@@ -116,17 +116,13 @@ fn refined(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) 
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar};
-
     use super::*;
 
     /// Two bars of 5 m between level anchors 6 m apart: slopes of 4/3, so the pull is 3/4 of what
     /// either bar bears. What was proved elsewhere says nothing of that zero.
     #[test]
     fn only_the_zero_that_was_proved_is_narrowed() {
-        let bars = vec![Bar::homogeneous(5.0, 1.0).unwrap(); 2];
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, 0.0] };
-        let chain = Chain::new("two", 10.0, anchors, bars).unwrap();
+        let chain = samples::homogeneous(10.0, &[(5.0, 1.0); 2], [6.0, 0.0, 0.0]).into_chain();
         let system = System::new(&chain, JointLoads::NONE);
         let precise = PreciseSystem::new(&chain, JointLoads::NONE, &system);
         let pull = 0.75 * system.weight[1].mid();

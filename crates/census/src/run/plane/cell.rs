@@ -230,18 +230,14 @@ fn towards(face: Face, [h, v, w]: [Interval; 3]) -> Interval {
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain};
-
     use super::*;
     use crate::run::plane::loads::JointLoads;
 
     /// Bars of 2, 4 and 2 kg, their centres in the middle: the weights before them are −3 kg, 0 and
     /// 3 kg about the middle of the chain, in the unit of 4 kg.
     fn system() -> System {
-        let bars = [2.0, 4.0, 2.0].map(|mass| Bar::homogeneous(1.0, mass).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.5] };
-        let chain = Chain::new("three", 10.0, anchors, bars.to_vec()).unwrap();
-        System::new(&chain, JointLoads::NONE)
+        let bars = [2.0, 4.0, 2.0].map(|mass| (1.0, mass));
+        System::new(samples::homogeneous(10.0, &bars, [2.0, 0.0, 0.5]).chain(), JointLoads::NONE)
     }
 
     /// The pull (H, V) = (1/8, 1/2) in all charts: V is counted from −c of the bar of the chart.

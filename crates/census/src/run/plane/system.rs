@@ -266,7 +266,6 @@ pub(crate) fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use model::Anchors;
     use numerics::DoubleDouble;
 
     use super::*;
@@ -275,11 +274,10 @@ mod tests {
     /// the anchors bear besides is in no `c_i`; the energy of the last one counts.
     #[test]
     fn what_hangs_at_the_anchors_moves_no_bar() {
-        let bars = [2.0, 4.0, 2.0].map(|mass| Bar::homogeneous(1.0, mass).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.5] };
-        let chain = Chain::new("three", 10.0, anchors, bars.to_vec()).unwrap();
+        let bars = [2.0, 4.0, 2.0].map(|mass| (1.0, mass));
         let loads = JointLoads::new(vec![Some(DoubleDouble::point(1.0)); 4]);
-        let system = System::new(&chain, &loads);
+        let system =
+            System::new(samples::homogeneous(10.0, &bars, [2.0, 0.0, 0.5]).chain(), &loads);
         // 0, 1 + 3 and 4 + 1 + 3 kg hang before the bars: ±4 kg about their middle.
         let is = |found: &[Interval], kg: [f64; 3]| {
             found.iter().zip(kg).all(|(found, kg)| found.contains(kg / system.mass_unit_kg))
@@ -294,7 +292,6 @@ mod tests {
     /// Along an axis of the world nothing is rounded, whichever way the chain runs.
     #[test]
     fn vectors_along_the_axes_are_exact() {
-        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
         let (along, up) = (Interval::point(0.1), Interval::point(0.7));
         let cases = [
             ([2.0, 0.0], [along, Interval::ZERO]),
@@ -302,9 +299,8 @@ mod tests {
             ([0.0, -2.0], [Interval::ZERO, -along]),
         ];
         for ([x, y], expected) in cases {
-            let anchors = Anchors { start_m: [0.0; 3], end_m: [x, y, 0.5] };
-            let chain = Chain::new("three", 10.0, anchors, bars.clone()).unwrap();
-            let found = System::new(&chain, JointLoads::NONE).world([along, up]);
+            let three = samples::homogeneous(10.0, &[(1.0, 1.0); 3], [x, y, 0.5]);
+            let found = System::new(three.chain(), JointLoads::NONE).world([along, up]);
             assert_eq!(found, [expected[0], expected[1], up]);
         }
     }

@@ -224,7 +224,6 @@ fn dot(a: [Interval; 2], b: [Interval; 2]) -> Interval {
 #[cfg(test)]
 mod tests {
     use crate::run::plane::loads::JointLoads;
-    use model::{Anchors, Bar, Chain};
     use proptest::prelude::*;
 
     use super::*;
@@ -251,10 +250,7 @@ mod tests {
 
     fn system() -> System {
         let bars = [(0.9, 1.0, 0.5), (1.1, 2.0, 0.75), (0.4, 1.0, 0.25), (0.7, 1.5, 0.3)];
-        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
-        let chain = Chain::new("four", 9.81, anchors, bars.to_vec()).unwrap();
-        System::new(&chain, JointLoads::NONE)
+        System::new(samples::chain(&bars, [1.0, 0.0, -0.5]).chain(), JointLoads::NONE)
     }
 
     fn axis() -> impl Strategy<Value = [f64; 2]> {
@@ -274,10 +270,7 @@ mod tests {
         /// 2⁻²¹
         const RADIUS: f64 = f64::from_bits((1023 - 21) << 52);
         let bars = [(0.9, 1.0, 0.5), (1.0, 2.0, 0.75), (0.4, 1.0, 0.25)];
-        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
-        let chain = Chain::new("unloaded", 9.81, anchors, bars.to_vec()).unwrap();
-        let system = System::new(&chain, JointLoads::NONE);
+        let system = System::new(samples::chain(&bars, [1.0, 0.0, -0.5]).chain(), JointLoads::NONE);
         let axis = [Interval::ONE, Interval::ZERO];
         let closure = AxialClosure {
             system: &system,

@@ -133,21 +133,20 @@ mod tests {
     use super::*;
     use model::{Anchors, Bar};
 
-    fn fits(lengths: &[f64], end_m: [f64; 3]) -> Option<Vec<u32>> {
+    fn sides(lengths: &[f64], end_m: [f64; 3]) -> Option<ExactSides> {
         let bars = lengths.iter().map(|l| Bar::homogeneous(*l, 1.0).unwrap()).collect();
         let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let chain = Chain::new("exact", 9.81, anchors, bars).unwrap();
-        ExactSides::new(&chain).map(|sides| sides.fits().into_iter().map(|p| p.0).collect())
+        ExactSides::new(&Chain::new("exact", 9.81, anchors, bars).unwrap())
+    }
+
+    fn fits(lengths: &[f64], end_m: [f64; 3]) -> Option<Vec<u32>> {
+        sides(lengths, end_m).map(|sides| sides.fits().into_iter().map(|p| p.0).collect())
     }
 
     /// Bar 1 of 1 m hangs; 5 and 1 m, or 7 less 1, reach 6 m over, or 3, 4, 5 at a slant.
     #[test]
     fn gaps_are_bridged_exactly() {
-        let sides = |lengths: &[f64], end_m: [f64; 3]| {
-            let bars = lengths.iter().map(|l| Bar::homogeneous(*l, 1.0).unwrap()).collect();
-            let anchors = Anchors { start_m: [0.0; 3], end_m };
-            ExactSides::new(&Chain::new("gap", 9.81, anchors, bars).unwrap()).unwrap()
-        };
+        let sides = |lengths: &[f64], end_m: [f64; 3]| sides(lengths, end_m).unwrap();
         let level = sides(&[1.0, 5.0, 1.0], [6.0, 0.0, -1.0]);
         assert!(level.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
         assert!(!level.just_bridges(&[1, 0, 0], 1..3, &[1, 1]));

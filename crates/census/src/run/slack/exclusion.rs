@@ -144,8 +144,6 @@ fn reach(links: impl Iterator<Item = Interval>) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain};
-
     use super::*;
     use crate::run::closure::Closure;
     use crate::run::plane::face::Face;
@@ -154,9 +152,7 @@ mod tests {
     /// Where no bar is free the bars have to close the gap themselves, and where they do it is zero.
     #[test]
     fn bars_with_a_direction_close_the_gap_alone() {
-        let bars = vec![Bar::homogeneous(5.0, 1.0).unwrap(); 2];
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, 0.0] };
-        let chain = Chain::new("two", 10.0, anchors, bars).unwrap();
+        let chain = samples::homogeneous(10.0, &[(5.0, 1.0); 2], [6.0, 0.0, 0.0]).into_chain();
         let mut system = System::new(&chain, JointLoads::NONE);
         let at = Cell::point(Face::Near, [0.75, 0.25]);
         system.span = [Interval::ZERO; 2];

@@ -256,7 +256,7 @@ fn counted(
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain, Problem};
+    use model::{Bar, Problem};
     use numerics::Interval;
 
     use crate::run::Census;
@@ -264,10 +264,13 @@ mod tests {
     use crate::settings::Settings;
 
     /// Bars as (length, mass, centre).
+    fn problem(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Problem {
+        let bars = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap());
+        samples::of_bars(10.0, bars, end_m)
+    }
+
     fn census(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Census {
-        let bars = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap()).collect();
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let problem = Problem::new(Chain::new("slack", 10.0, anchors, bars).unwrap()).unwrap();
+        let problem = problem(bars, end_m);
         let census = Census::take(&problem, &Settings::default()).unwrap();
         assert_eq!(census.check(&problem), Ok(()));
         census
@@ -295,9 +298,7 @@ mod tests {
         let stand = census.families.iter().find(|family| family.signs == [-1, 0, 0, -1]).unwrap();
         assert_eq!((stand.index_in_plane, stand.index_in_space()), (2, 4));
         // From the first joint of each bar to its second: down from the start and up to the end, and the other way.
-        let parts = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap()).collect();
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.3, 0.0, -0.1] };
-        let problem = Problem::new(Chain::new("slack", 10.0, anchors, parts).unwrap()).unwrap();
+        let problem = problem(&bars, [0.3, 0.0, -0.1]);
         let half_turn = std::f64::consts::PI;
         for (family, ends) in [(hanging, [0.0, half_turn]), (stand, [half_turn, 0.0])] {
             let [first, last] = ends.map(Some);

@@ -121,17 +121,14 @@ impl ExactMoments {
 
 #[cfg(test)]
 mod tests {
-    use model::Anchors;
-
     use super::*;
 
     /// Bars of 1, 2, 1 and 2 m without mass but for 1 kg at each joint: weights 0, 1, 2, 3.
     fn moments() -> ExactMoments {
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
         // Each hangs its 1 kg at its second joint.
         let bars =
             [1.0, 2.0, 1.0, 2.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
-        let chain = Chain::new("moments", 10.0, anchors, bars.to_vec()).unwrap();
+        let chain = samples::of_bars(10.0, bars, [2.0, 0.0, 0.0]).into_chain();
         let sides = ExactSides::new(&chain).unwrap();
         ExactMoments::new(&chain, JointLoads::NONE, &sides).unwrap()
     }

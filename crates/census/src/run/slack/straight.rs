@@ -300,16 +300,15 @@ fn derivative(
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain};
+    use model::Bar;
 
     use super::*;
     use crate::run::plane::loads::JointLoads;
 
     /// Equal bars, to this anchor.
     fn system(bars: usize, end_m: [f64; 3]) -> System {
-        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); bars];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
+        let chain = samples::homogeneous(10.0, &vec![(1.0, 1.0); bars], end_m).into_chain();
+        System::new(&chain, JointLoads::NONE)
     }
 
     #[test]
@@ -341,9 +340,7 @@ mod tests {
     /// Three bars over 1 m, each with its weight at its end.
     fn with_weights_at_ends(lengths: [f64; 3]) -> System {
         let bars = lengths.map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
-        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
-        System::new(&chain, JointLoads::NONE)
+        System::new(samples::of_bars(10.0, bars, [1.0, 0.0, 0.0]).chain(), JointLoads::NONE)
     }
 
     /// Weights −1, 0, 1 and lengths 1, 3, 3 with the signs + − +: the moments are 1, 2 and 4, the
@@ -372,9 +369,8 @@ mod tests {
     fn the_mean_is_of_lengths_that_differ() {
         let system = |mass_kg: f64| {
             let bar = |length: f64, mass_kg| Bar::new(length, mass_kg, length, [0.0; 3]).unwrap();
-            let bars = vec![bar(1.0, 1.0), bar(2.0, mass_kg), bar(1.0, 1.0)];
-            let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
-            System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
+            let bars = [bar(1.0, 1.0), bar(2.0, mass_kg), bar(1.0, 1.0)];
+            System::new(samples::of_bars(10.0, bars, [2.0, 0.0, 0.0]).chain(), JointLoads::NONE)
         };
         for (way, pattern) in [(1, 0b100), (-1, 0b011)] {
             assert!(isolated(&system(3.0), Pattern(pattern), way, false).is_none());

@@ -289,8 +289,6 @@ fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain};
-
     use super::*;
     use crate::run::plane::loads::JointLoads;
 
@@ -304,10 +302,7 @@ mod tests {
     /// A bar of 1 m is level between one that hangs 0.9 m and one that rises 0.4 m, without force.
     fn level() -> System {
         let bars = [(0.9, 1.0, 0.5), (1.0, 2.0, 0.75), (0.4, 1.0, 0.25)];
-        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
-        let chain = Chain::new("unloaded", 9.81, anchors, bars.to_vec()).unwrap();
-        System::new(&chain, JointLoads::NONE)
+        System::new(samples::chain(&bars, [1.0, 0.0, -0.5]).chain(), JointLoads::NONE)
     }
 
     /// About an axis aside it is no longer next to the origin of the chart: a square about that

@@ -3,40 +3,15 @@
 use model::Vector;
 
 use super::*;
-use crate::net::frame::{Rod, Spot};
+use crate::net::frame::Rod;
 
 const ZERO3: Vector = [0.0; 3];
 
 /// Members side by side between two supports, of these lengths and kinds.
 fn interior(rods: &[(f64, Kind)], force: &[f64], slack: &[f64]) -> (Interior, Shape) {
-    let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let x = vec![ZERO3, [1.0, 0.0, 0.0]];
-    let rod = |&(length, kind): &(f64, Kind)| Rod {
-        from: 0,
-        to: 1,
-        length,
-        kind,
-        flexibility: 0.0,
-        ground: false,
-        within: 0.0,
-        linear: false,
-        rope: 0,
-    };
-    let frame = Frame {
-        origin_m: ZERO3,
-        length_m: 1.0,
-        force_n: 1.0,
-        joints: 2,
-        members: rods.len(),
-        ropes: Vec::new(),
-        spots: vec![held, Spot { freedom: 3, axes, ..held }],
-        supports: x.clone(),
-        rods: rods.iter().map(rod).collect(),
-        loads: vec![ZERO3; 2],
-        freedom: 3,
-        meter: crate::net::work::Meter::default(),
-    };
+    let rods = rods.iter().map(|&(length, kind)| Rod::straight(0, 1, length, kind)).collect();
+    let frame = Frame::of_rods(1, x.clone(), rods);
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
     let shape = Shape { x, force: force.to_vec() };
     let interior = Interior::new(Arc::new(frame), factor, &shape);

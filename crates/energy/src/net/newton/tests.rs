@@ -3,39 +3,14 @@
 use model::Vector;
 
 use super::*;
-use crate::net::frame::{Rod, Spot};
+use crate::net::frame::Rod;
 
 const ZERO3: Vector = [0.0; 3];
 
 /// Bars of 1 and 1/2 in a row from a support, with two free joints; the unit of length is 4 m.
 fn newton() -> Newton {
-    let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let rod = |from, to, length, kind| Rod {
-        from,
-        to,
-        length,
-        kind,
-        flexibility: 0.0,
-        ground: false,
-        within: 0.0,
-        linear: false,
-        rope: 0,
-    };
-    let frame = Frame {
-        origin_m: ZERO3,
-        length_m: 4.0,
-        force_n: 1.0,
-        joints: 3,
-        members: 2,
-        ropes: Vec::new(),
-        spots: vec![held, Spot { freedom: 3, axes, ..held }, Spot { first: 3, freedom: 3, axes }],
-        supports: vec![ZERO3; 3],
-        rods: vec![rod(0, 1, 1.0, Kind::Bar), rod(1, 2, 0.5, Kind::Strut)],
-        loads: vec![ZERO3; 3],
-        freedom: 6,
-        meter: crate::net::work::Meter::default(),
-    };
+    let rods = vec![Rod::straight(0, 1, 1.0, Kind::Bar), Rod::straight(1, 2, 0.5, Kind::Strut)];
+    let frame = Frame { length_m: 4.0, ..Frame::of_rods(1, vec![ZERO3; 3], rods) };
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
     let settings = Settings::default();
     let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };

@@ -11,43 +11,15 @@ const ZERO3: Vector = [0.0; 3];
 /// tenth of their length, each pushed by a unit force, and a slack cable upwards.
 fn truss(flexibility: f64) -> (Frame, Shape) {
     let (sine, cosine) = (0.1_f64, (1.0 - 0.01_f64).sqrt());
-    let rod = |from, kind, flexibility| Rod {
-        from,
-        to: 3,
-        length: 2.0,
-        kind,
-        flexibility,
-        ground: false,
-        within: 0.0,
-        linear: false,
-        rope: 0,
-    };
-    let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let bar = |from| Rod { flexibility, ..Rod::straight(from, 3, 2.0, Kind::Bar) };
     let x = vec![
         [-2.0 * cosine, 0.0, 0.0],
         [2.0 * cosine, 0.0, 0.0],
         [0.0, 0.0, 1.5],
         [0.0, 0.0, 2.0 * sine],
     ];
-    let frame = Frame {
-        origin_m: ZERO3,
-        length_m: 1.0,
-        force_n: 1.0,
-        joints: 4,
-        members: 3,
-        ropes: Vec::new(),
-        spots: vec![held, held, held, Spot { freedom: 3, axes, ..held }],
-        supports: x.clone(),
-        rods: vec![
-            rod(0, Kind::Bar, flexibility),
-            rod(1, Kind::Bar, flexibility),
-            rod(2, Kind::Cable, 0.0),
-        ],
-        loads: vec![ZERO3; 4],
-        freedom: 3,
-        meter: crate::net::work::Meter::default(),
-    };
+    let rods = vec![bar(0), bar(1), Rod::straight(2, 3, 2.0, Kind::Cable)];
+    let frame = Frame::of_rods(3, x.clone(), rods);
     (frame, Shape { x, force: vec![-1.0, -1.0, 0.0] })
 }
 
