@@ -557,13 +557,34 @@ fn posts_stand_where_they_have_guys_on_all_sides() {
             let answer = neighbour(&post(azimuths, stiffness_n));
             close(&answer.equilibria[0].joints_m[1], &[0.0, 0.0, 4.0], 1e-9);
         }
-        for azimuths in [&[0.0, 45.0][..], &[0.0, 15.0, 45.0, 75.0], &[0.0, 1.0, 3.0, 165.0]] {
+        for azimuths in [
+            &[0.0, 45.0][..],
+            &[0.0, 90.0, 170.0],
+            &[0.0, 15.0, 45.0, 75.0],
+            &[0.0, 1.0, 3.0, 165.0],
+        ] {
             let answer = ask(&post(azimuths, stiffness_n), Solvers::Both, &|_| {});
             let stands = |e: &SystemEquilibrium| (e.joints_m[1][2] - 4.0).abs() < 1e-6;
             let stable = |e: &&SystemEquilibrium| stands(e) && e.stability.index_in_space == 0;
             assert_eq!(answer.equilibria.iter().find(stable), None, "{azimuths:?} {stiffness_n:?}");
         }
     }
+}
+
+/// In the plane one inextensible guy leaves a post no motion that keeps all lengths, and it falls to the other side.
+#[test]
+fn a_post_with_one_guy_falls() {
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let joints = vec![
+        Joint::anchor("foot", [0.0; 3]),
+        Joint::anchor("G", [-3.0, 0.0, 0.0]),
+        Joint::free("top").held_by(plane).with_mass(20.0).near([0.0, 0.0, 4.0]),
+    ];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members =
+        vec![Member::bar(0, 2, bar(4.0)), Member::bar(1, 2, bar(5.0)).of_kind(Kind::Cable)];
+    let answer = ask(&System::new("post", G, joints, members).unwrap(), Solvers::Both, &|_| {});
+    assert!(answer.equilibria.iter().all(|e| e.stability.index_in_space > 0));
 }
 
 /// A bay with two diagonal cables sways to neither side, rigid or elastic, with its feet held or on one rail, where it slides:
