@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{NO_STRAIN, SETTLED, STEP_ROUNDING};
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -155,7 +155,7 @@ impl Newton {
 
     fn polished(&self, mut shape: Shape, residual: f64) -> Polished {
         // What is just taut bears nothing.
-        let none = NO_STRAIN * self.frame.largest_force(&shape.force);
+        let none = SETTLED * self.frame.largest_force(&shape.force);
         for (force, rod) in shape.force.iter_mut().zip(&self.frame.rods) {
             if force.abs() <= none && !rod.resists(*force) {
                 *force = 0.0;
