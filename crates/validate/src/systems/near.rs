@@ -1,5 +1,7 @@
 //! The question of a drawing: the equilibrium next to a shape, and whether what was found is it.
 
+use std::borrow::Cow;
+
 use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
 use model::system::{Kind, Member, System, SystemEquilibrium};
 use model::{SolverName, Vector, sum};
@@ -7,6 +9,7 @@ use serde::Serialize;
 
 use super::ask::SystemFailure;
 use super::spans::length_m;
+use super::turn::turned_onto;
 use crate::question::{Question, Solvers};
 use numerics::vector::{dot, minus, norm, plus, times, worse};
 
@@ -42,7 +45,8 @@ pub(super) const LOWER: f64 = 1e-9;
 /// How the equilibrium that was found lies to the shape that was given.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Near {
-    /// Largest move of a joint from its place in the drawing, in units of the shortest member at it.
+    /// Largest move of a joint from its place in the drawing, in units of the shortest member at it; what turns freely is
+    /// turned towards the drawing first.
     pub moved: f64,
     /// The same, m.
     pub moved_m: f64,
@@ -60,9 +64,15 @@ pub struct Near {
 }
 
 impl Near {
-    /// Hold an answer against the drawing.
+    /// Hold an answer against the drawing; what turns freely is turned towards it first.
     #[must_use]
     pub fn of(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> Self {
+        let answer = if answer.stability.neutral > 0 {
+            let drawn = SystemEquilibrium { joints_m: drawing_m.to_vec(), ..answer.clone() };
+            turned_onto(system, &drawn, answer, &vec![false; drawing_m.len()]).0
+        } else {
+            Cow::Borrowed(answer)
+        };
         let mut shortest = vec![f64::INFINITY; drawing_m.len()];
         for member in system.members() {
             for joint in member.path() {

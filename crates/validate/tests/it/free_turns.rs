@@ -8,7 +8,7 @@ use numerics::vector::{minus, norm};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::Solvers;
-use validate::systems::{SystemAgreement, ask, compare};
+use validate::systems::{Near, SystemAgreement, ask, compare};
 use validate::tolerances::Tolerances;
 
 /// Mobiles of each test, and on how many at least both solvers agree: `energy` comes to no end of
@@ -314,4 +314,26 @@ fn both_solvers_agree_on_stiff_bodies_that_hang_from_one_hook() {
         }
     }
     assert!(agreed >= 98, "{agreed}");
+}
+
+/// A load of three bars on one hook, drawn 40 degrees turned from where a solver leaves it, is where it is drawn.
+#[test]
+fn what_turns_freely_is_held_against_a_drawing_as_it_is_turned() {
+    let bar = |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 1.0).unwrap());
+    let joints = vec![
+        Joint::anchor("H", [0.0; 3]),
+        Joint::free("P").with_mass(3.0),
+        Joint::free("Q").with_mass(5.0),
+    ];
+    let members = vec![bar(0, 1, 2.0), bar(0, 2, 1.8), bar(1, 2, 1.5)];
+    let system = System::new("a load", 9.81, joints, members).unwrap();
+    let found = &ask(&system, Solvers::Both, &|_| {}).equilibria[0];
+    let (sin, cos) = 40.0_f64.to_radians().sin_cos();
+    let turned = found.joints_m.iter().map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, *z]);
+    let drawing_m: Vec<Vector> = turned.collect();
+    let near = Near::of(&system, &drawing_m, found);
+    assert!(near.is_neighbour && near.moved_m < 1e-12, "{near:?}");
+    // Upside down it is elsewhere.
+    let above: Vec<Vector> = drawing_m.iter().map(|[x, y, z]| [*x, *y, -z]).collect();
+    assert!(!Near::of(&system, &above, found).is_neighbour);
 }
