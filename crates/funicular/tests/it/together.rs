@@ -423,3 +423,15 @@ fn what_the_floor_bears_is_listed_over_all_cases() {
     let total: f64 = supports.iter().map(|one| one["most_n"]["value"].as_f64().unwrap()).sum();
     assert!(near(total, 160.0 * 9.80665), "{total}");
 }
+
+/// Modes of all equilibria by the census, of one without it; what the census does not take is refused, not left out.
+#[test]
+fn the_census_of_modes_is_taken_or_refused() {
+    let folder = holding([("empty", "")]);
+    for (most, wanted) in [("2", Some(0)), ("0", Some(0)), ("25", Some(2))] {
+        let (code, out, said) = run(&folder, &["modes", "--case", "two-bars", "--max-bars", most]);
+        assert_eq!(code, wanted, "{most}: {said}");
+        assert_eq!(out.contains("These are all equilibria"), most == "2", "{out}");
+        assert_eq!(said.contains("from 1 to 24"), most == "25", "{said}");
+    }
+}
