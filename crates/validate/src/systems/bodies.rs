@@ -30,10 +30,10 @@ pub(super) enum Slides {
 }
 
 impl Slides {
-    /// What a support leaves.
-    fn on(support: &Support) -> Self {
-        match support {
-            Support::Free => Self::Anywhere,
+    /// What a support leaves, if there is one.
+    fn on(support: &Support) -> Option<Self> {
+        Some(match support {
+            Support::Free => return None,
             Support::Line { direction: [x, y, z], .. } if z.abs() <= ONE_VERTICAL * x.hypot(*y) => {
                 Self::Along([x / x.hypot(*y), y / x.hypot(*y)])
             }
@@ -44,17 +44,21 @@ impl Slides {
                 Self::Along([-y / x.hypot(*y), x / x.hypot(*y)])
             }
             Support::Fixed { .. } | Support::Line { .. } => Self::Not,
-        }
+        })
     }
 
-    /// What two leave together.
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Anywhere, slides) | (slides, Self::Anywhere) => slides,
-            (Self::Along([x, y]), Self::Along([u, v])) if (x * v - y * u).abs() <= ONE_VERTICAL => {
-                self
+    /// What two leave together, each of which may be none.
+    fn both(one: Option<Self>, other: Option<Self>) -> Option<Self> {
+        match (one, other) {
+            (None | Some(Self::Anywhere), Some(slides))
+            | (Some(slides), None | Some(Self::Anywhere)) => Some(slides),
+            (Some(Self::Along([x, y])), Some(Self::Along([u, v])))
+                if (x * v - y * u).abs() <= ONE_VERTICAL =>
+            {
+                one
             }
-            _ => Self::Not,
+            (None, None) => None,
+            _ => Some(Self::Not),
         }
     }
 }
@@ -151,14 +155,13 @@ impl Bodies {
     /// guides of one direction alone.
     fn divide(&mut self, node: &[usize], walk: &Walk, all: &[Joint]) {
         let joints = node.len();
-        let mut stands: Vec<bool> =
-            all.iter().map(|joint| matches!(joint.support, Support::Plane { .. })).collect();
-        let mut slides = vec![Slides::Anywhere; joints];
+        let mut slides = vec![None; joints];
         let mut low = walk.rank.clone();
         let mut held = vec![false; joints];
         for joint in 0..joints {
             held[node[joint]] |= self.fixed[joint];
-            slides[node[joint]] = slides[node[joint]].and(Slides::on(&all[joint].support));
+            slides[node[joint]] =
+                Slides::both(slides[node[joint]], Slides::on(&all[joint].support));
             for other in &self.neighbours[joint] {
                 low[node[joint]] = low[node[joint]].min(walk.rank[node[*other]]);
             }
@@ -168,8 +171,7 @@ impl Bodies {
             low[parent] = low[parent].min(low[*v]);
             // Where a walk begins, nothing turns by itself.
             held[parent] |= held[*v];
-            stands[parent] |= stands[*v];
-            slides[parent] = slides[parent].and(slides[*v]);
+            slides[parent] = Slides::both(slides[parent], slides[*v]);
         }
         self.all.push(Body { pivot: None, slides: Slides::Not, depth: 0 });
         let mut body = vec![0; joints];
@@ -181,15 +183,11 @@ impl Bodies {
                 let depth = self.all[body[parent]].depth + 1;
                 body[*v] = self.all.len();
                 self.all.push(Body { pivot: Some(walk.door[*v]), slides: Slides::Not, depth });
-            } else if parent == *v {
-                let slides = match slides[*v] {
-                    Slides::Anywhere if held[*v] || !stands[*v] => Slides::Not,
-                    slides => slides,
-                };
-                if slides != Slides::Not {
-                    body[*v] = self.all.len();
-                    self.all.push(Body { pivot: None, slides, depth: 0 });
-                }
+            } else if let Some(slides) = slides[*v].filter(|slides| {
+                parent == *v && *slides != Slides::Not && (*slides != Slides::Anywhere || !held[*v])
+            }) {
+                body[*v] = self.all.len();
+                self.all.push(Body { pivot: None, slides, depth: 0 });
             }
         }
         self.of_joint = node.iter().map(|node| body[*node]).collect();

@@ -23,6 +23,7 @@ mod gallery;
 mod independence;
 mod integer_chains;
 mod judged;
+mod just_taut;
 mod moving;
 mod near_slack;
 mod network_properties;

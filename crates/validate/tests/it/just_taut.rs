@@ -1,0 +1,102 @@
+//! Cables that are just taut, with their length and no force, as in a drawing without prestress: they resist on one side alone.
+
+use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
+use model::{Bar, STANDARD_GRAVITY_M_S2 as G};
+use validate::Solvers;
+use validate::systems::ask;
+
+use crate::drawn::{close, neighbour};
+
+/// Posts with guys that are just taut: a lean by x costs EA/l cos² x²/2 of each guy that it stretches, 7200 N/m and more against
+/// the 60 N/m by which the post falls, and nothing of the others. Where all guys are on one side nothing holds it.
+#[test]
+fn posts_stand_where_they_have_guys_on_all_sides() {
+    let post = |azimuths: &[f64], stiffness_n: Option<f64>| {
+        let mut joints = vec![
+            Joint::anchor("foot", [0.0; 3]),
+            Joint::free("top").with_mass(20.0).near([0.0, 0.0, 4.0]),
+        ];
+        let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let mut members = vec![Member::bar(0, 1, bar(4.0))];
+        for (k, azimuth) in azimuths.iter().enumerate() {
+            let (sin, cos) = azimuth.to_radians().sin_cos();
+            joints.push(Joint::anchor(format!("G{k}"), [3.0 * cos, 3.0 * sin, 0.0]));
+            let guy = Member::bar(2 + k, 1, bar(5.0)).of_kind(Kind::Cable);
+            members.push(guy.stretching(stiffness_n));
+        }
+        System::new("post", G, joints, members).unwrap()
+    };
+    for stiffness_n in [None, Some(1e5), Some(1e6)] {
+        for azimuths in
+            [&[0.0, 120.0, 240.0][..], &[0.0, 90.0, 180.0, 270.0], &[0.0, 100.0, 130.0, 250.0]]
+        {
+            let answer = neighbour(&post(azimuths, stiffness_n));
+            close(&answer.equilibria[0].joints_m[1], &[0.0, 0.0, 4.0], 1e-9);
+        }
+        for azimuths in [
+            &[0.0, 45.0][..],
+            &[0.0, 90.0, 170.0],
+            &[0.0, 15.0, 45.0, 75.0],
+            &[0.0, 1.0, 3.0, 165.0],
+        ] {
+            let answer = ask(&post(azimuths, stiffness_n), Solvers::Both, &|_| {});
+            let stands = |e: &SystemEquilibrium| (e.joints_m[1][2] - 4.0).abs() < 1e-6;
+            let stable = |e: &&SystemEquilibrium| stands(e) && e.stability.index_in_space == 0;
+            assert_eq!(answer.equilibria.iter().find(stable), None, "{azimuths:?} {stiffness_n:?}");
+        }
+    }
+}
+
+/// In the plane one inextensible guy leaves a post no motion that keeps all lengths, and it falls to the other side.
+#[test]
+fn a_post_with_one_guy_falls() {
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let joints = vec![
+        Joint::anchor("foot", [0.0; 3]),
+        Joint::anchor("G", [-3.0, 0.0, 0.0]),
+        Joint::free("top").held_by(plane).with_mass(20.0).near([0.0, 0.0, 4.0]),
+    ];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let members =
+        vec![Member::bar(0, 2, bar(4.0)), Member::bar(1, 2, bar(5.0)).of_kind(Kind::Cable)];
+    let answer = ask(&System::new("post", G, joints, members).unwrap(), Solvers::Both, &|_| {});
+    assert!(answer.equilibria.iter().all(|e| e.stability.index_in_space > 0));
+}
+
+/// A bay with two diagonal cables sways to neither side, rigid or elastic, with its feet held or on one rail, where it slides:
+/// the energy is that of a bay whose posts bear 490 N each, shorter by 490 N · 2 m / EA.
+#[test]
+fn bays_with_two_diagonals_stand_on_a_rail_too() {
+    for (stiffness_n, rails) in
+        [(None, 0), (None, 1), (Some(1e6), 0), (Some(1e6), 1), (Some(1e6), 2)]
+    {
+        let foot = |name: &str, x: f64, rolls: bool| {
+            let foot = Joint::anchor(name, [x, 0.0, 0.0]);
+            let rail = Support::Line { at_m: [x, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
+            if rolls { foot.held_by(rail) } else { foot }
+        };
+        let top = |name: &str, x: f64| {
+            let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+            Joint::free(name).held_by(plane).with_mass(50.0).near([x, 0.0, 2.0])
+        };
+        let joints = vec![
+            foot("A", 0.0, rails > 1),
+            foot("B", 2.0, rails > 0),
+            top("C", 2.0),
+            top("D", 0.0),
+        ];
+        let member = |from, to, kind| {
+            let length_m = if kind == Kind::Cable { 8.0_f64.sqrt() } else { 2.0 };
+            let body = Bar::homogeneous(length_m, 0.0).unwrap();
+            Member::bar(from, to, body).of_kind(kind).stretching(stiffness_n)
+        };
+        let bars = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| member(a, b, Kind::Bar));
+        let cables = [(0, 2), (1, 3)].map(|(a, b)| member(a, b, Kind::Cable));
+        let members = bars.into_iter().chain(cables).collect();
+        let answer = neighbour(&System::new("bay", G, joints, members).unwrap());
+        let sags_m = answer.equilibria[0].joints_m[2..].iter().map(|at| 2.0 - at[2]);
+        let wanted_m = stiffness_n.map_or(0.0, |ea| 50.0 * G * 2.0 / ea);
+        assert!(sags_m.into_iter().all(|sag_m| (sag_m - wanted_m).abs() < 1e-5));
+        assert_eq!(answer.agreement.unwrap().sliding_parts, usize::from(rails == 2));
+    }
+}
