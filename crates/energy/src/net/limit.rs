@@ -117,6 +117,16 @@ impl Frame {
         self.rods.iter().enumerate().map(taut).collect()
     }
 
+    /// The members that keep the shape while their forces are sought: what is just taut would resist.
+    fn holding(&self, shape: &Shape, taut: &[bool]) -> Vec<bool> {
+        let rounding = rounding_floor(self, shape);
+        let holds = |(e, rod): (usize, &Rod)| {
+            let just_taut = || self.excess(&shape.x, e).value.abs() <= rounding * rod.length;
+            taut[e] || (!rod.elastic() && !rod.ground && just_taut())
+        };
+        self.rods.iter().enumerate().map(holds).collect()
+    }
+
     /// Whether no joint is below the floor by more than rounding: the floor has no tolerance that a misfit could be
     /// put into.
     fn above_floor(&self, shape: &Shape) -> bool {
@@ -239,10 +249,11 @@ impl Newton {
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
         for _ in 0..STEPS {
+            let holding = frame.holding(&shape, &taut);
             if !self.factorise_stiff(
                 &stressed(&shape, &stiffening),
                 frame.force_scale(&shape.force) / strain,
-                &taut,
+                &holding,
             ) {
                 if strain > STIFFEST_STRAIN {
                     // Pushed members must not buckle in what strains them little.
@@ -256,12 +267,12 @@ impl Newton {
                 continue;
             }
             let stiffness = frame.force_scale(&shape.force) / strain;
-            shape = self.chord(&shape, stiffness, &taut);
-            if !share.stand(&shape.x, &taut, softness) {
+            shape = self.chord(&shape, stiffness, &holding);
+            // Forces of what goes slack are borne by the others before they move anything.
+            let Some(changes) = settle_taut(&frame, share, &mut shape, &mut taut, softness) else {
                 return Reading::Astray;
-            }
-            let stretch = share_forces(&frame, share, &mut shape.force);
-            if change_taut(&frame, &mut shape, &mut taut, &stretch) {
+            };
+            if changes > 0 {
                 last = None;
                 continue;
             }
@@ -324,8 +335,8 @@ impl Newton {
     fn limit_residual(&self, share: &mut Share, shape: &Shape, taut: &[bool]) -> f64 {
         let frame = &self.frame;
         let excess = frame.excesses(&shape.x);
-        let springs: Vec<f64> =
-            frame.rods.iter().zip(&excess).map(|(rod, c)| c.value / rod.length).collect();
+        let strain = |e: usize| if taut[e] { excess[e].value / frame.rods[e].length } else { 0.0 };
+        let springs: Vec<f64> = (0..frame.rods.len()).map(strain).collect();
         let strain = largest(&share.shared(&springs).force);
         let misfits = frame.rods.iter().enumerate().map(|(e, rod)| {
             let misfit = rod.misfit(excess[e].value, shape.force[e]);
@@ -362,6 +373,27 @@ fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64>
     shared.stretch
 }
 
+/// Change the members that are taut until the shares of forces have the right signs; how often, `None` where that comes to
+/// no end.
+fn settle_taut(
+    frame: &Frame,
+    share: &mut Share,
+    shape: &mut Shape,
+    taut: &mut [bool],
+    softness: f64,
+) -> Option<usize> {
+    for changes in 0..STEPS {
+        if !share.stand(&shape.x, taut, softness) {
+            return None;
+        }
+        let stretch = share_forces(frame, share, &mut shape.force);
+        if !change_taut(frame, shape, taut, &stretch) {
+            return Some(changes);
+        }
+    }
+    None
+}
+
 /// Let go of the floor where it is not reached, by more than rounding; whether there is such a joint.
 fn release_floor(frame: &Frame, shape: &mut Shape, taut: &mut [bool]) -> bool {
     let rounding = rounding_floor(frame, shape);
@@ -396,7 +428,8 @@ fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f
                 (taut[e], changed) = (true, true);
             }
         }
-        if !taut[e] {
+        // What others bear of the force of a rigid one is still to be shared.
+        if !taut[e] && rod.elastic() {
             shape.force[e] = 0.0;
         }
     }

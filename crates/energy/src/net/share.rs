@@ -96,9 +96,7 @@ impl Share {
 
     /// `Rᵀ t`
     fn joint_forces(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
-        let pull =
-            |e: usize| scaled(if self.taut[e] { force(e) } else { 0.0 }, self.excess[e].gradient);
-        self.frame.resisted(pull)
+        self.frame.resisted(|e| scaled(force(e), self.excess[e].gradient))
     }
 
     fn stretch(&self, y: &[f64]) -> Vec<f64> {
@@ -107,7 +105,9 @@ impl Share {
 
     /// The same joint forces, borne by the springs.
     pub(super) fn shared(&mut self, force: &[f64]) -> Shared {
-        let borne = self.joint_forces(|e| force[e]);
+        // What is slack gives its part to the others.
+        let rods = &self.frame.rods;
+        let borne = self.joint_forces(|e| if rods[e].elastic() { 0.0 } else { force[e] });
         let enough = ROUNDING * largest(&borne);
         let mut y = vec![0.0; borne.len()];
         let mut stretch = vec![0.0; force.len()];
@@ -138,7 +138,8 @@ impl Share {
     pub(super) fn self_stressed(&mut self) -> Option<Vec<bool>> {
         // The fractional parts of the multiples of the golden section: spread evenly, alike in
         // every run.
-        let disorder = |e: usize| 0.5 + (GOLDEN * (e + 1) as f64).fract();
+        let disorder =
+            |e: usize| if self.taut[e] { 0.5 + (GOLDEN * (e + 1) as f64).fract() } else { 0.0 };
         let mut force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
         self.frame.spread(&mut force);
         let shared = self.shared(&force).force;

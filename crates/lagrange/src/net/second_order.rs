@@ -76,6 +76,7 @@ impl SecondOrder {
         dense: usize,
     ) -> Self {
         if framework.freedoms() <= dense {
+            let state = &with_open(framework, state, true);
             let space = Dense::new(framework, state);
             let (index, neutral) = (space.index(framework, state), space.count.1);
             let planar = in_plane(framework, state);
@@ -141,6 +142,32 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
 /// Basis of the axial forces of inextensible taut members that balance without loads.
 pub(super) fn self_stresses(framework: &Framework, state: &State) -> Vec<Vec<f64>> {
     Dense::new(framework, state).self_stresses
+}
+
+/// Cables and struts that bear no force at just their length, of which it is open whether they are taut.
+fn open(framework: &Framework, state: &State) -> Vec<usize> {
+    let none = NO_FORCE * state.largest_force(framework);
+    let directions = state.directions(framework);
+    let open = (0..framework.members()).filter(|&k| {
+        let link = &framework.links[k];
+        let length = framework.whole(k, |span| directions[span].1);
+        let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
+        let may_go = link.kind != Kind::Bar && framework.moves(link);
+        may_go && reaches && state.axial[k].abs() <= none
+    });
+    open.collect()
+}
+
+/// The state with these taut or slack.
+fn with_open(framework: &Framework, state: &State, taut: bool) -> State {
+    let mut state = state.clone();
+    for k in open(framework, &state) {
+        (state.taut[k], state.axial[k]) = (taut, 0.0);
+    }
+    let members = framework.members();
+    state.taut = framework.by_link(state.taut[..members].to_vec());
+    state.axial = framework.by_link(state.axial[..members].to_vec());
+    state
 }
 
 /// Dense decompositions of a small system.
@@ -241,38 +268,14 @@ impl Dense {
         Self { count, mechanisms, self_stresses, rank_gap, motions, form, flat }
     }
 
-    /// The number of directions in which the energy falls. Of cables and struts that bear no force at just their length it
-    /// is open whether they are taut: where it rises with all of them it may yet fall where some go slack.
+    /// The number of directions in which the energy falls, of what is taut with all that is open: where it rises it may yet
+    /// fall where some of that goes slack.
     fn index(&self, framework: &Framework, state: &State) -> usize {
-        let none = NO_FORCE * state.largest_force(framework);
-        let directions = state.directions(framework);
-        let open = (0..framework.members()).filter(|&k| {
-            let link = &framework.links[k];
-            let length = framework.whole(k, |span| directions[span].1);
-            let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
-            let may_go = link.kind != Kind::Bar && framework.moves(link);
-            may_go && reaches && state.axial[k].abs() <= none
-        });
-        let open: Vec<usize> = open.collect();
-        if open.is_empty() {
+        let open = open(framework, state);
+        if open.is_empty() || self.count.0 > 0 {
             return self.count.0;
         }
-        let with = |taut: bool| {
-            let mut state = state.clone();
-            state.taut.truncate(framework.members());
-            state.axial.truncate(framework.members());
-            for k in &open {
-                (state.taut[*k], state.axial[*k]) = (taut, 0.0);
-            }
-            state.taut = framework.by_link(state.taut);
-            state.axial = framework.by_link(state.axial);
-            state
-        };
-        let all = Self::new(framework, &with(true)).count.0;
-        if all > 0 {
-            return all;
-        }
-        let slack = Self::new(framework, &with(false));
+        let slack = Self::new(framework, &with_open(framework, state, false));
         let links = links(framework, state);
         let mut rows =
             gradients(framework, &links, &first_unknowns(framework), &open) * &slack.motions;

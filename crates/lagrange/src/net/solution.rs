@@ -242,12 +242,11 @@ fn admissible(
     let directions = state.directions(framework);
     let pushes = |axial: &[f64]| framework.pushes(directions.iter().map(|(u, _)| u), axial);
     let none = pushes(&vec![0.0; least.len()]);
-    let links = || framework.links.iter().zip(&state.taut).enumerate();
-    // Each with the sign that makes it positive; slack members bear nothing.
-    let signed = links().filter_map(|(k, (link, taut))| match link.kind {
-        Kind::Cable if *taut => Some((k, 1.0)),
-        Kind::Strut if *taut => Some((k, -1.0)),
-        _ => None,
+    // Each with the sign that makes it positive; slack members bear nothing, and have no part in the basis.
+    let signed = framework.links.iter().enumerate().filter_map(|(k, link)| match link.kind {
+        Kind::Cable => Some((k, 1.0)),
+        Kind::Strut => Some((k, -1.0)),
+        Kind::Bar => None,
     });
     let signed: Vec<(usize, f64)> = signed.collect();
     let rows = |axial: &[f64], pushes: Vec<f64>| -> Vec<f64> {

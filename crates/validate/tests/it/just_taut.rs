@@ -100,3 +100,56 @@ fn bays_with_two_diagonals_stand_on_a_rail_too() {
         assert_eq!(answer.agreement.unwrap().sliding_parts, usize::from(rails == 2));
     }
 }
+
+/// Five guys without tension, two of them side by side: what balances without them is the post alone.
+#[test]
+fn guys_that_bear_nothing_are_at_zero() {
+    let azimuths = [105.0, 345.0, 255.0, 60.0, 345.0_f64];
+    let mut joints = vec![
+        Joint::anchor("foot", [0.0; 3]),
+        Joint::free("top").with_mass(20.0).near([0.0, 0.0, 4.0]),
+    ];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let mut members = vec![Member::bar(0, 1, bar(4.0))];
+    for (k, azimuth) in azimuths.iter().enumerate() {
+        let (sin, cos) = azimuth.to_radians().sin_cos();
+        joints.push(Joint::anchor(format!("G{k}"), [2.0 * cos, 2.0 * sin, 0.0]));
+        members.push(Member::bar(2 + k, 1, bar(20.0_f64.sqrt())).of_kind(Kind::Cable));
+    }
+    for e in neighbour(&System::new("post", G, joints, members).unwrap()).equilibria {
+        let [post, guys @ ..] = e.axial_n.as_slice() else { panic!() };
+        assert!((post + 20.0 * G).abs() < 1e-9, "{post}");
+        assert!(guys.iter().all(|n| (0.0..1e-8).contains(n)), "{guys:?}");
+    }
+}
+
+/// Four cables hold a leaning post, a fifth a strut beside it. Equally stiff they bear `u v / l` each, with their directions `u`
+/// and one displacement `v` of the top: by least squares with signs (SciPy) 27.1302, 20.1352, 21.3698 and 24.9297 N.
+#[test]
+fn cables_share_a_pull_as_equally_stiff_ones() {
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let top = |name: &str, at: [f64; 2], force: [f64; 2]| {
+        let free = Joint::free(name).held_by(plane).near([at[0], 0.0, at[1]]);
+        free.with_force([force[0], 0.0, force[1]])
+    };
+    let feet =
+        [[0.0, 0.0], [2.8, 0.3], [1.2, 0.0], [1.5, -0.1], [2.4, 0.0], [2.8, 0.0], [6.1, 0.0]];
+    let (t, u) = ([0.6, 2.7], [2.8, 2.7]);
+    let mut joints: Vec<Joint> =
+        feet.iter().map(|[x, z]| Joint::anchor(format!("{x} {z}"), [*x, 0.0, *z])).collect();
+    joints.extend([top("T", t, [-72.3, -73.3]), top("U", u, [-5.0, -338.3])]);
+    let member = |from: usize, to: usize, kind| {
+        let at = |joint: usize| feet.get(joint).copied().unwrap_or(if joint == 7 { t } else { u });
+        let ([x, z], [to_x, to_z]) = (at(from), at(to));
+        let body = Bar::homogeneous((to_x - x).hypot(to_z - z), 0.0).unwrap();
+        Member::bar(from, to, body).of_kind(kind)
+    };
+    let post = member(0, 7, Kind::Bar).with_stiffness(2000.0).with_prestress(-157.8).unwrap();
+    let mut members = vec![post];
+    members.extend((1..5).map(|foot| member(foot, 7, Kind::Cable)));
+    members.extend([member(5, 8, Kind::Bar), member(7, 8, Kind::Bar), member(6, 8, Kind::Cable)]);
+    for e in neighbour(&System::new("tent", G, joints, members).unwrap()).equilibria {
+        let wanted_n = [-157.8, 27.1302, 20.1352, 21.3698, 24.9297, -338.3, -5.0, 0.0];
+        close(&e.axial_n, &wanted_n, 5e-5);
+    }
+}
