@@ -32,7 +32,7 @@ use crate::net::polish::NEUTRAL;
 use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
-use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
+use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, KNOWN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
 /// First strain of the springs under the largest force.
@@ -143,8 +143,9 @@ impl Local {
     /// Mean force of the members.
     fn typical(&self) -> f64 {
         let sum: f64 = self.soft.iter().map(|soft| soft.force.abs()).sum();
-        // Where no member bears anything yet, the loads.
-        if sum > 0.0 { sum / self.soft.len() as f64 } else { 1.0 }
+        // Where no member bears anything yet, the loads; where nothing but rounding, what is left over.
+        let (mean, left) = (sum / self.soft.len() as f64, largest(&self.gradient));
+        if sum <= 0.0 { 1.0 } else if mean > KNOWN * left { mean } else { left }
     }
 }
 
