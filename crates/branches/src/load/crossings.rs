@@ -14,7 +14,7 @@ use nalgebra::DVector;
 
 use super::bordered::Row;
 use super::here::{Here, Metric, correct};
-use super::singular::without_symmetry;
+use super::singular::{ITERATIONS, without_symmetry};
 use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
@@ -33,8 +33,6 @@ const SAME: f64 = 1e-3;
 const ROUND: usize = 8;
 /// Cosine of two directions that are one.
 const ALIKE: f64 = 0.97;
-/// Steps of inverse iteration to the null space.
-const ITERATIONS: usize = 3;
 /// Directions in a null space of two dimensions, and of more between each two of a basis.
 const AROUND: usize = 12;
 /// Most paths together: beyond them no other is begun.

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use super::here::{Here, Metric};
-use super::singular::{beside, mode, settled, singular};
+use super::singular::{beside, mode, nearly_null, settled, singular};
 use super::{Equations, Kind};
 use crate::locate::sign_change;
 
@@ -78,7 +78,7 @@ pub(super) fn smooth<Q: Equations>(
     };
     let [before, after] = beside(equations, metric, &at, [a, b]);
     let at = settled(equations, at, &before);
-    let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
+    let (mode, load_on_mode) = mode(equations, metric, [&at, &before]);
     let index = [before.index, after.index];
     branches(equations, metric, [a, &before], &mut all)?;
     // A limit exchanges stability; on a side path of a pitchfork the parameter turns where it meets
@@ -108,14 +108,15 @@ fn branches<Q: Equations>(
     if a.index == b.index {
         return Some(());
     }
-    let tests = [a, b].map(|end| singular(equations, end).map_or(f64::NAN, |(_, test)| test));
-    within(equations, metric, [(a, tests[0]), (b, tests[1])], HALVINGS, all)
+    let border = nearly_null(equations, b, 1)?;
+    let tests = [a, b].map(|end| singular(equations, end, &border).unwrap_or(f64::NAN));
+    within(equations, (metric, &border), [(a, tests[0]), (b, tests[1])], HALVINGS, all)
 }
 
 /// The same with the tests at both points.
 fn within<Q: Equations>(
     equations: &mut Q,
-    metric: Metric,
+    (metric, border): (Metric, &DVector<f64>),
     [(a, at_a), (b, at_b)]: [(&Here, f64); 2],
     halvings: usize,
     all: &mut Vec<Singular>,
@@ -124,7 +125,8 @@ fn within<Q: Equations>(
         return Some(());
     }
     if at_a * at_b < 0.0
-        && let Some((before, found, after)) = branch(equations, metric, [(a, at_a), (b, at_b)])
+        && let Some((before, found, after)) =
+            branch(equations, (metric, border), [(a, at_a), (b, at_b)])
     {
         branches(equations, metric, [a, &before], all)?;
         all.push(found);
@@ -132,30 +134,30 @@ fn within<Q: Equations>(
     }
     let way = a.towards(b);
     if metric.coarse().norm(&way.y, way.t) <= TOGETHER {
-        let (mode, load_on_mode) = mode(equations, metric, b, [a, b]);
+        let (mode, load_on_mode) = mode(equations, metric, [b, a]);
         let (kind, index) = (Kind::Branch, [a.index, b.index]);
         all.push(Singular { at: b.clone(), kind, index, turns: false, mode, load_on_mode });
         return Some(());
     }
     // On two paths the ends do not come nearer to each other.
     let middle = (halvings > 0).then(|| a.between(equations, metric, b, 0.5)).flatten()?;
-    let test = singular(equations, &middle).map_or(f64::NAN, |(_, test)| test);
-    within(equations, metric, [(a, at_a), (&middle, test)], halvings - 1, all)?;
-    within(equations, metric, [(&middle, test), (b, at_b)], halvings - 1, all)
+    let test = singular(equations, &middle, border).unwrap_or(f64::NAN);
+    within(equations, (metric, border), [(a, at_a), (&middle, test)], halvings - 1, all)?;
+    within(equations, (metric, border), [(&middle, test), (b, at_b)], halvings - 1, all)
 }
 
 /// A branch point where the test changes its sign, with points before and after it.
 fn branch<Q: Equations>(
     equations: &mut Q,
-    metric: Metric,
+    (metric, border): (Metric, &DVector<f64>),
     [(a, at_a), (b, at_b)]: [(&Here, f64); 2],
 ) -> Option<(Here, Singular, Here)> {
     let size = at_a.abs().max(at_b.abs());
     let at = located(equations, metric, [a, b], |equations, here| {
-        singular(equations, here).map(|(_, test)| test).filter(|test| test.abs() <= POLE * size)
+        singular(equations, here, border).filter(|test| test.abs() <= POLE * size)
     })?;
     // At a pole it is large, and at a gap between two paths it does not vanish.
-    if singular(equations, &at)?.1.abs() > VANISHES * size {
+    if singular(equations, &at, border)?.abs() > VANISHES * size {
         return None;
     }
     let [before, after] = beside(equations, metric, &at, [a, b]);
@@ -163,7 +165,7 @@ fn branch<Q: Equations>(
         return None;
     }
     let at = settled(equations, at, &before);
-    let (mode, load_on_mode) = mode(equations, metric, &at, [&before, &after]);
+    let (mode, load_on_mode) = mode(equations, metric, [&at, &before]);
     let (kind, index) = (Kind::Branch, [before.index, after.index]);
     Some((before, Singular { at, kind, index, turns: false, mode, load_on_mode }, after))
 }

@@ -10,6 +10,8 @@ use super::here::{FALLS, Here, Metric};
 const BESIDE: f64 = 1e-2;
 /// Corrections of a mode, each by the part of a step at which the factor is.
 const CORRECTIONS: usize = 6;
+/// Steps of inverse iteration to the null space.
+pub(super) const ITERATIONS: usize = 3;
 
 /// A fixed vector without symmetry.
 pub(super) fn without_symmetry(size: usize) -> Row {
@@ -18,36 +20,47 @@ pub(super) fn without_symmetry(size: usize) -> Row {
     Row { y, t: 0.0 }
 }
 
-/// The test for a singular matrix, 0 where it is, and the null vector there.
+/// A vector near the null space of a matrix that is nearly singular here, by some steps of inverse iteration: a border that
+/// is across that space would leave the matrix singular. After the first step it has parts of all modes still.
+pub(super) fn nearly_null<Q: Equations>(
+    equations: &mut Q,
+    here: &Here,
+    steps: usize,
+) -> Option<DVector<f64>> {
+    equations.factorise(&here.y, here.t).ok()??;
+    let mut vector = without_symmetry(here.y.len()).y;
+    for _ in 0..steps {
+        vector = equations.solve(&vector).normalize();
+    }
+    Some(vector).filter(|vector| vector.sum().is_finite())
+}
+
+/// The test for a singular matrix, 0 where it is, with this border.
 pub(super) fn singular<Q: Equations>(
     equations: &mut Q,
     here: &Here,
-) -> Option<(DVector<f64>, f64)> {
+    border: &DVector<f64>,
+) -> Option<f64> {
     equations.factorise(&here.y, here.t).ok()??;
-    let row = without_symmetry(here.y.len());
+    let row = Row { y: border.clone(), t: 0.0 };
     let zero = DVector::zeros(here.y.len());
-    let bordered = Bordered::new(equations, &row.y, &row);
-    let (y, test) = bordered.solve(equations, (&zero, 1.0))?;
-    Some((y, test))
+    let bordered = Bordered::new(equations, border, &row);
+    Some(bordered.solve(equations, (&zero, 1.0))?.1)
 }
 
 /// The mode with its largest entry among the places 1, and how much of the load acts on it.
 ///
-/// In a singular point no factor is worth much. The mean of the modes before and after it is
-/// corrected by $J \phi = 0$ there with the factor before it.
+/// In a singular point no factor is worth much. The mode before it is corrected by $J \phi = 0$ there with
+/// the factor before it.
 pub(super) fn mode<Q: Equations>(
     equations: &mut Q,
     metric: Metric,
-    at: &Here,
-    beside: [&Here; 2],
+    [at, before]: [&Here; 2],
 ) -> (DVector<f64>, f64) {
     let none = (DVector::zeros(at.y.len()), 1.0);
-    let [Some((before, _)), Some((after, _))] = beside.map(|here| singular(equations, here)) else {
-        return none;
-    };
-    let mut mode = (before + after) * 0.5;
+    let Some(mut mode) = nearly_null(equations, before, ITERATIONS) else { return none };
     for _ in 0..CORRECTIONS {
-        let Some(off) = off(equations, &mode, [at, beside[0]]) else { break };
+        let Some(off) = off(equations, &mode, [at, before]) else { break };
         mode -= off;
     }
     let Ok(column) = equations.by_parameter(&at.y, at.t) else { return none };
@@ -109,7 +122,7 @@ fn off<Q: Equations>(
     equations.factorise(&at.y, at.t).ok()??;
     let left = equations.apply(mode);
     equations.factorise(&beside.y, beside.t).ok()??;
-    let row = without_symmetry(mode.len());
+    let row = Row { y: mode.normalize(), t: 0.0 };
     let off = Bordered::new(equations, &row.y, &row).solve(equations, (&left, 0.0));
     off.map(|(off, _)| off)
 }

@@ -145,7 +145,13 @@ impl Local {
         let sum: f64 = self.soft.iter().map(|soft| soft.force.abs()).sum();
         // Where no member bears anything yet, the loads; where nothing but rounding, what is left over.
         let (mean, left) = (sum / self.soft.len() as f64, largest(&self.gradient));
-        if sum <= 0.0 { 1.0 } else if mean > KNOWN * left { mean } else { left }
+        if sum <= 0.0 {
+            1.0
+        } else if mean > KNOWN * left {
+            mean
+        } else {
+            left
+        }
     }
 }
 

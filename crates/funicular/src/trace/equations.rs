@@ -115,7 +115,7 @@ impl<'a> Family<'a> {
         let range = self.to.last().zip(self.from.last()).map_or(1.0, |(to, from)| to - from);
         let [length_m, _] = self.equations.units();
         let scale = -range / (by_load * length_m);
-        let by_length = self.equations.by_length(&y, &limit.mode);
+        let by_length = self.equations.by_length(&self.system(limit.t)?, &y, &limit.mode);
         let by_place = self.equations.by_place(&y, &limit.mode);
         Ok((
             by_length.into_iter().map(|by| scale * by).collect(),

@@ -24,7 +24,7 @@
 //! open, and where a member or the floor has just no force ([`Error`]).
 
 use model::Vector;
-use model::system::{Kind, System};
+use model::system::{Kind, Member, System};
 use nalgebra::{Matrix3, Vector3};
 
 use super::framework::Framework;
@@ -380,8 +380,14 @@ impl<'a> Derivatives<'a> {
 
     /// What the law of a member gains with its length.
     fn by_length(&self, member: usize) -> f64 {
-        let stretch = self.elastic(member).map_or(1.0, |[k, n, f]| (k + n) / (k + f));
-        stretch / self.framework.units.length_m
+        let units = self.framework.units;
+        let axial_n = self.axial[member] * units.force_n;
+        law_by_length(&self.system.members()[member], axial_n) / units.length_m
+    }
+
+    /// What the forces at the two joints of a member gain with its length.
+    fn loads_by_length(&self, member: usize) -> [Vector3<f64>; 2] {
+        loads_n_by_length(self.system, member).map(|force| force / self.framework.units.force_n)
     }
 
     /// What it gains with the stiffness.
@@ -401,24 +407,6 @@ impl<'a> Derivatives<'a> {
         self.system.members()[member].given_body().length_m() / self.framework.units.length_m
     }
 
-    /// What the forces at the two joints of a member gain with its length: loads at places that are
-    /// given in metres come nearer to the beginning, relative to the length.
-    fn loads_by_length(&self, member: usize) -> [Vector3<f64>; 2] {
-        let member = &self.system.members()[member];
-        let body = member.given_body();
-        let length_m = body.length_m();
-        let weight = -Vector3::z() * (body.mass_kg() * self.system.gravity_m_s2());
-        let centre = body.given_centre_m().map(|centre_m| (centre_m, weight));
-        let loads = member.given_loads().iter();
-        // A load in the middle stays there, whether or not its place was given.
-        let loads = loads.filter(|load| load.at_m.to_bits() != (0.5 * length_m).to_bits());
-        let loads = loads.map(|load| (load.at_m, Vector3::from(load.force_n)));
-        let shift: Vector3<f64> =
-            loads.chain(centre).map(|(at_m, force)| force * (at_m / length_m / length_m)).sum();
-        let shift = shift / self.framework.units.force_n;
-        [shift, -shift]
-    }
-
     /// Vertical forces at its two joints from a unit of mass.
     fn by_mass(&self, member: usize) -> [f64; 2] {
         if self.framework.links[member].rope.is_some() {
@@ -429,4 +417,28 @@ impl<'a> Derivatives<'a> {
         let fraction = body.centre_m() / body.length_m();
         [weight * (1.0 - fraction), weight * fraction]
     }
+}
+
+/// What the law of a member gains with the length that is given of it, m/m: with the prestress $F$ the unstretched length is
+/// $d\\,EA/(EA + F)$.
+pub(super) fn law_by_length(member: &Member, axial_n: f64) -> f64 {
+    let prestress_n = member.prestress_n().unwrap_or(0.0);
+    member.stiffness_n.map_or(1.0, |ea_n| (ea_n + axial_n) / (ea_n + prestress_n))
+}
+
+/// What the forces at the two joints of a member gain with its length, N/m: loads at places that are
+/// given in metres come nearer to the beginning, relative to the length.
+pub(super) fn loads_n_by_length(system: &System, member: usize) -> [Vector3<f64>; 2] {
+    let member = &system.members()[member];
+    let body = member.given_body();
+    let length_m = body.length_m();
+    let weight = -Vector3::z() * (body.mass_kg() * system.gravity_m_s2());
+    let centre = body.given_centre_m().map(|centre_m| (centre_m, weight));
+    let loads = member.given_loads().iter();
+    // A load in the middle stays there, whether or not its place was given.
+    let loads = loads.filter(|load| load.at_m.to_bits() != (0.5 * length_m).to_bits());
+    let loads = loads.map(|load| (load.at_m, Vector3::from(load.force_n)));
+    let shift: Vector3<f64> =
+        loads.chain(centre).map(|(at_m, force)| force * (at_m / length_m / length_m)).sum();
+    [shift, -shift]
 }

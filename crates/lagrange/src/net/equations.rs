@@ -7,9 +7,10 @@
 //! and along held directions $G$ and $J$ are zero, and so is every step.
 
 use model::Vector;
-use model::system::{Kind, System, SystemEquilibrium};
+use model::system::{Kind, Member, System, SystemEquilibrium};
 use nalgebra::Vector3;
 
+use super::derivatives::{law_by_length, loads_n_by_length};
 use super::floor::lift;
 use super::framework::{Framework, Units};
 use super::newton::{Derivative, Step, with_held};
@@ -237,17 +238,20 @@ impl Equations {
         step.places.iter().flat_map(|at| [at.x, at.y, at.z]).chain(axial).collect()
     }
 
-    /// What $G$ changes by when a member becomes longer, along $\phi$: $\phi \cdot \partial G/\partial l$ for
-    /// each member, in units of $\phi$ a unit of length.
+    /// What $G$ changes by when the length given of a member becomes longer, along $\phi$: $\phi \cdot \partial G/\partial l$
+    /// for each member of the system that was last [`set`](Self::set), in units of $\phi$ a unit of length.
     #[must_use]
-    pub fn by_length(&self, y: &[f64], phi: &[f64]) -> Vec<f64> {
-        let state = self.state(y);
-        let along = &phi[3 * self.framework.nodes.len()..];
-        let links = self.framework.links.iter().zip(&state.axial).zip(along);
-        // The compliance is that of a unit of length times the length.
-        links
-            .map(|((link, axial), phi)| phi * (1.0 + link.compliance / link.length * axial))
-            .collect()
+    pub fn by_length(&self, system: &System, y: &[f64], phi: &[f64]) -> Vec<f64> {
+        let (state, Units { length_m, force_n, .. }) = (self.state(y), self.units);
+        let (places, along) = phi.split_at(3 * self.framework.nodes.len());
+        let phi = |joint: usize| Vector3::from_column_slice(&places[3 * joint..3 * joint + 3]);
+        let of = |(k, member): (usize, &Member)| {
+            let [start, end] = loads_n_by_length(system, k);
+            let by_loads = phi(member.from).dot(&start) + phi(member.to).dot(&end);
+            along[k] * law_by_length(member, state.axial[k] * force_n)
+                + by_loads * length_m / force_n
+        };
+        system.members().iter().enumerate().map(of).collect()
     }
 
     /// The same when the place of a support moves: three numbers for each joint, 0 for free ones and

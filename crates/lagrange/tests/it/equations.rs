@@ -2,7 +2,7 @@
 
 use lagrange::net::{Equations, Settings, Side, solve};
 use model::Bar;
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use rand::RngExt;
 
 use crate::common::stream;
@@ -112,7 +112,7 @@ fn changes_of_lengths_and_places_are_those_of_the_system() {
             };
             (at(h) - at(-h)) / (2.0 * h)
         };
-        let by_length = equations.by_length(&y, &phi);
+        let by_length = equations.by_length(&system, &y, &phi);
         for (k, found) in by_length.iter().enumerate() {
             let longer = |by: f64| {
                 rig(|_, members| {
@@ -141,6 +141,38 @@ fn changes_of_lengths_and_places_are_those_of_the_system() {
             }
         }
     }
+}
+
+/// Where a prestress is given the length is that at which it is borne, and a load at a place in metres comes nearer to the
+/// beginning of what is longer.
+#[test]
+fn lengths_are_those_that_are_given() {
+    let strut = |length_m: f64| {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [0.0, 1.0, -3.0]),
+            Joint::free("P").with_force([5.0, -1.0, 2.0]),
+        ];
+        let load = PointLoad { at_m: 0.4, force_n: [1.5, 0.5, -4.0], is_spread: false };
+        let tight = Member::bar(0, 2, Bar::homogeneous(length_m, 0.7).unwrap())
+            .with_stiffness(90.0)
+            .with_loads(vec![load])
+            .with_prestress(25.0)
+            .unwrap();
+        let other = Member::bar(1, 2, Bar::homogeneous(2.0, 0.3).unwrap()).with_stiffness(60.0);
+        System::new("tight", 9.81, joints, vec![tight, other]).unwrap()
+    };
+    let (system, h) = (strut(1.3), 1e-6);
+    let mut equations = Equations::new(&system).unwrap();
+    let [length_m, _] = equations.units();
+    let [y, phi] = somewhere(&system, &equations, 7);
+    let found = equations.by_length(&system, &y, &phi)[0];
+    let at = |by: f64, equations: &mut Equations| {
+        equations.set(&strut(1.3 + by * length_m));
+        dot(&equations.residual(&y).0, &phi)
+    };
+    let wanted = (at(h, &mut equations) - at(-h, &mut equations)) / (2.0 * h);
+    assert!((found - wanted).abs() < 1e-8, "{found}, not {wanted}");
 }
 
 /// A drawing: of what is taut the stretch over the compliance, of what is slack nothing; the conditions are forces
