@@ -32,7 +32,7 @@ use crate::net::polish::NEUTRAL;
 use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
-use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, KNOWN, STEP_ROUNDING};
+use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
 /// First strain of the springs under the largest force.
@@ -147,7 +147,7 @@ impl Local {
         let (mean, left) = (sum / self.soft.len() as f64, largest(&self.gradient));
         if sum <= 0.0 {
             1.0
-        } else if mean > KNOWN * left {
+        } else if mean > STATIONARY * left {
             mean
         } else {
             left
