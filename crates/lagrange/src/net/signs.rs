@@ -11,6 +11,7 @@ use super::solve::Solver;
 use super::state::State;
 use super::weak;
 use crate::error::Error;
+use crate::thresholds::ROUNDED;
 
 /// Changes of the set of taut members before the iteration counts as failed.
 pub(super) const SIGN_CHANGES: usize = 30;
@@ -115,7 +116,11 @@ pub(super) fn signs_mended(
     share: f64,
 ) -> Option<State> {
     let state = &run.state;
-    let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
+    // Of what is elastic the length says whether it bears a force.
+    let least = |link: &Link| {
+        let none = if link.compliance > 0.0 { ROUNDED } else { NO_FORCE };
+        none.max(run.residual.size()) * run.residual.unit
+    };
     let longer = settings.tolerance.max(run.residual.size());
     let wrong = |(k, link): (usize, &Link)| {
         if link.kind == Kind::Bar {
@@ -125,7 +130,7 @@ pub(super) fn signs_mended(
         let length = framework.whole(k, |span| run.residual.directions[span].1);
         let excess = length - link.length;
         let outside = if link.kind == Kind::Cable { excess } else { -excess };
-        let pushes = state.taut[k] && axial.abs() > least && !link.bears(axial);
+        let pushes = state.taut[k] && axial.abs() > least(link) && !link.bears(axial);
         let reaches = !state.taut[k] && outside > longer * link.length;
         (pushes || reaches).then_some(k)
     };
