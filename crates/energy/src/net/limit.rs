@@ -32,7 +32,7 @@ use crate::net::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor}
 use crate::net::shape::{Shape, largest};
 use crate::net::share::Share;
 use crate::net::stability::DENSE;
-use crate::thresholds::{GOLDEN, KNOWN, PROGRESS};
+use crate::thresholds::{GOLDEN, PROGRESS};
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -230,7 +230,7 @@ impl Newton {
             return false;
         }
         let rest = self.frame.self_stress(share, shape);
-        largest(&rest) <= KNOWN * largest(&shape.force)
+        largest(&rest) <= self.settings.tolerance * largest(&shape.force)
     }
 
     /// One reading of the shape.
@@ -298,6 +298,7 @@ impl Newton {
                     if residual > self.tolerance(&shape) {
                         return Reading::Astray;
                     }
+                    let shape = self.balanced(share, shape, &taut);
                     return self.ended(share, shape, stiffening, residual, softness);
                 }
                 _ => last = Some((residual, shape.clone())),
@@ -329,6 +330,24 @@ impl Newton {
         let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
         let rank = softness.sqrt();
         Reading::Found(Limit { shape, taut, stiffening, residual, rank, misfits })
+    }
+
+    /// With what is out of balance borne by these members without soft springs, where that helps: what bends a long truss
+    /// strains its members by little, and a soft spring on every joint bears much of it.
+    fn balanced(&self, share: &mut Share, shape: Shape, taut: &[bool]) -> Shape {
+        let (frame, mut taut) = (&self.frame, taut.to_vec());
+        if !share.stand(&shape.x, &taut, HARDEST) {
+            return shape;
+        }
+        let mut exact = shape.clone();
+        let left = frame.lagrangian_gradient(&frame.excesses(&shape.x), &shape.force);
+        let left: Vec<f64> = left.iter().map(|left| -left).collect();
+        for (force, more) in exact.force.iter_mut().zip(share.bearing(&left).force) {
+            *force += more;
+        }
+        let ended = settle_taut(frame, share, &mut exact, &mut taut, HARDEST).is_some();
+        let better = || frame.slope(&exact).unbalance < frame.slope(&shape).unbalance;
+        if ended && better() { exact } else { shape }
     }
 
     /// The larger of the unbalance and of the strains that a change of the shape would take up.

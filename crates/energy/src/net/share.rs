@@ -108,10 +108,14 @@ impl Share {
         // What is slack gives its part to the others.
         let rods = &self.frame.rods;
         let borne = self.joint_forces(|e| if rods[e].elastic() { 0.0 } else { force[e] });
-        let enough = ROUNDING * largest(&borne);
-        let mut y = vec![0.0; borne.len()];
-        let mut stretch = vec![0.0; force.len()];
-        let mut floor = vec![0.0; force.len()];
+        self.bearing(&borne)
+    }
+
+    /// Forces of the joints, by their coordinates, borne by the springs.
+    pub(super) fn bearing(&mut self, borne: &[f64]) -> Shared {
+        let enough = ROUNDING * largest(borne);
+        let mut stretch = vec![0.0; self.taut.len()];
+        let mut floor = stretch.clone();
         for _ in 0..SOLUTIONS {
             let there = self.joint_forces(|e| floor[e] + self.weight(e) * stretch[e]);
             let mut rest: Vec<f64> = borne.iter().zip(there).map(|(r, t)| r - t).collect();
@@ -119,10 +123,10 @@ impl Share {
                 break;
             }
             self.factor.solve(&mut rest);
-            for (y, step) in y.iter_mut().zip(rest) {
-                *y += step;
+            // Not of the sum of the motions, whose rounding is that of the largest of them.
+            for (stretch, more) in stretch.iter_mut().zip(self.stretch(&rest)) {
+                *stretch += more;
             }
-            stretch = self.stretch(&y);
             for (e, _) in self.frame.rods.iter().enumerate().filter(|(_, rod)| rod.ground) {
                 floor[e] += self.weight(e) * stretch[e];
             }
