@@ -34,9 +34,10 @@ pub struct Critical {
     pub misfit: f64,
     /// Number of directions in which the energy falls.
     pub index: usize,
-    /// The curvature nearest to zero over the stiffness of the stiffest member, along it or by its
-    /// force across it; nothing for large systems.
-    pub curvature: Option<f64>,
+    /// The curvature nearest to zero, N/m; nothing for large systems.
+    pub curvature_n_m: Option<f64>,
+    /// The stiffness of the stiffest member, along it or by its force across it, N/m.
+    pub stiffest_n_m: f64,
 }
 
 impl Critical {
@@ -105,15 +106,17 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     let given = f64::EPSILON * far / shortest;
     let rounding =
         rounding_floor(&frame, &shape).max(given) * stiffest / frame.force_scale(&shape.force);
-    let (index, curvature) = if frame.freedom <= DENSE {
+    let unit_n_m = frame.force_n / frame.length_m;
+    let (index, curvature_n_m) = if frame.freedom <= DENSE {
         let count = Dense::read(&frame, &shape, None).count();
-        (count.index, count.nearest_to_zero.map(|nearest| nearest / stiff))
+        (count.index, count.nearest_to_zero.map(|nearest| nearest * unit_n_m))
     } else {
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
     let (unbalance, misfit) = (slope.unbalance, (slope.misfit - given).max(0.0));
-    Ok(Some(Critical { unbalance, allowed: KNOWN + rounding, misfit, index, curvature }))
+    let (allowed, stiffest_n_m) = (KNOWN + rounding, stiff * unit_n_m);
+    Ok(Some(Critical { unbalance, allowed, misfit, index, curvature_n_m, stiffest_n_m }))
 }
 
 /// Forces of the taut inextensible members that leave least of the gradient; those whose sign would

@@ -34,7 +34,9 @@ fn a_lamp_on_two_bars_hangs_or_stands() {
         let found = at(&system, [4.0, 0.0, z_m]);
         assert!(found.is_equilibrium() && found.misfit < 1e-14, "{found:?}");
         assert_eq!(found.index, index);
-        close(found.curvature.expect("it is small"), curvature);
+        let across_n_m = 50.0 * 5.0 / 6.0 / 5.0;
+        close(found.stiffest_n_m, across_n_m);
+        close(found.curvature_n_m.expect("it is small"), curvature * across_n_m);
     }
     // A shape that keeps the lengths and is not level, and one that does not keep them.
     let (sine, cosine) = 0.3_f64.sin_cos();
@@ -75,7 +77,8 @@ fn springs_bear_what_their_length_says() {
     let found = critical(&system, &at_m).expect("it has an energy").expect("it is small");
     assert!(found.is_equilibrium() && found.index == 0, "{found:?}");
     // Across: 10 N over 2.5 m, and twice 40 N · 5 / 6 over 5 m; the stiffest is the spring, 20 N/m.
-    close(found.curvature.expect("it is small"), (4.0 + 2.0 * 200.0 / 30.0) / 20.0);
+    close(found.curvature_n_m.expect("it is small"), 4.0 + 2.0 * 200.0 / 30.0);
+    close(found.stiffest_n_m, 20.0);
 }
 
 /// What rounding of the places leaves open: eight roundings of the furthest place over the shortest length, times

@@ -52,7 +52,9 @@ pub struct Simulate {
     /// Drag of a medium, 1/s: momentum falls at this rate
     #[arg(long, value_name = "C", default_value_t = 0.0, allow_negative_numbers = true)]
     pub damping: f64,
-    /// Friction in the joints, N m s
+    /// Friction in the joints, N m s: a bar turns on the pin of a joint against K times the rate; the
+    /// pin of an anchor is at rest, another turns with its bars, two of which so turn against each
+    /// other with K/2
     #[arg(long, value_name = "K", default_value_t = 0.0, allow_negative_numbers = true)]
     pub friction: f64,
     /// Push a joint at the beginning: JOINT=X,Y,Z with the impulse in N s; joints of a chain are

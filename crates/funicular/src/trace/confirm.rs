@@ -16,8 +16,8 @@ const MINIMISED: usize = 8;
 const SMALL: usize = 100;
 /// A minimum is the point if no joint is farther from it than this part of the size of the system.
 const SAME: f64 = 1e-7;
-/// A curvature below this part of the largest is none: a singular point is known to the square root
-/// of rounding.
+/// A curvature below this part of the largest stiffness of a member on the path is none: a singular point is known to the square root
+/// of rounding, and in it all forces may vanish.
 const FLAT: f64 = 1e-6;
 
 /// Points that were looked at, and those of them that `energy` and the judge confirm.
@@ -90,6 +90,8 @@ pub(super) fn confirm(
     };
     let seen: Vec<Option<Seen>> = points.par_iter().zip(&minimised).map(look).collect();
     let most_n = seen.iter().flatten().map(|seen| seen.load_n).fold(0.0, f64::max);
+    let critical = seen.iter().flatten().filter_map(|seen| seen.critical);
+    let stiffest_n_m = critical.map(|critical| critical.stiffest_n_m).fold(0.0, f64::max);
     for (number, ((_, _, index, event), seen)) in points.iter().zip(&seen).enumerate() {
         let Some(Seen { load_n, statics, critical, minimum }) = seen else { continue };
         let of_most = load_n / most_n.max(f64::MIN_POSITIVE);
@@ -100,11 +102,11 @@ pub(super) fn confirm(
         found.points += 1;
         found.critical += usize::from(critical.is_equilibrium());
         // Where a curvature is none its sign is rounding.
-        let flat = critical.curvature.is_some_and(|curvature| curvature.abs() <= FLAT);
+        let flat = critical.curvature_n_m.is_some_and(|n_m| n_m.abs() <= FLAT * stiffest_n_m);
         found.same_index += usize::from(*event || flat || critical.index == *index);
         let smooth = |event: &&LoadEvent| event.kind != Kind::Kink;
         let singular = events.iter().filter(smooth).any(|event| event.point == number);
-        if singular && critical.curvature.is_some() {
+        if singular && critical.curvature_n_m.is_some() {
             found.singular += 1;
             found.flat += usize::from(flat);
         }

@@ -2,6 +2,7 @@
 
 use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
 use model::{Bar, STANDARD_GRAVITY_M_S2 as G};
+use numerics::vector::{minus, norm};
 use validate::Solvers;
 use validate::systems::ask;
 
@@ -151,5 +152,99 @@ fn cables_share_a_pull_as_equally_stiff_ones() {
     for e in neighbour(&System::new("tent", G, joints, members).unwrap()).equilibria {
         let wanted_n = [-157.8, 27.1302, 20.1352, 21.3698, 24.9297, -338.3, -5.0, 0.0];
         close(&e.axial_n, &wanted_n, 5e-5);
+    }
+}
+
+/// A tower with crossed cables on four sides, in a wind along a diagonal: two faces bear no shear, and their cables are slack
+/// until one has turned the face a little. By symmetry nothing leaves the plane of the wind by more.
+#[test]
+fn a_tower_stands_in_a_wind_along_its_diagonal() {
+    let levels = 5;
+    let place = |level: usize, k: usize| {
+        let radius = 2.0 - 1.4 * level as f64 / levels as f64;
+        let (sin, cos) = (std::f64::consts::FRAC_PI_4 * (2 * k + 1) as f64).sin_cos();
+        [radius * cos, radius * sin, 2.0 * level as f64]
+    };
+    let mut joints = Vec::new();
+    for (level, k) in (0..=levels).flat_map(|level| (0..4).map(move |k| (level, k))) {
+        let (name, at_m) = (format!("{level} {k}"), place(level, k));
+        joints.push(match level {
+            0 => Joint::anchor(name, at_m),
+            _ => Joint::free(name).with_mass(20.0).with_force([200.0, 0.0, 0.0]).near(at_m),
+        });
+    }
+    let mut members = Vec::new();
+    let mut member = |[a, b]: [(usize, usize); 2], kind, stiffness_n| {
+        let [x, y] = [a, b].map(|(level, k)| place(level, k % 4));
+        let body = Bar::homogeneous(norm(minus(x, y)), 0.0).unwrap();
+        let [a, b] = [a, b].map(|(level, k)| 4 * level + k % 4);
+        members.push(Member::bar(a, b, body).of_kind(kind).with_stiffness(stiffness_n));
+    };
+    for level in 0..levels {
+        for k in 0..4 {
+            member([(level, k), (level + 1, k)], Kind::Bar, 2e8);
+            member([(level + 1, k), (level + 1, k + 1)], Kind::Bar, 1e8);
+            member([(level, k), (level + 1, k + 1)], Kind::Cable, 1e7);
+            member([(level, k + 1), (level + 1, k)], Kind::Cable, 1e7);
+        }
+        for k in 0..2 {
+            member([(level + 1, k), (level + 1, k + 2)], Kind::Bar, 1e7);
+        }
+    }
+    let system = System::new("tower", G, joints, members).unwrap();
+    for e in neighbour(&system).equilibria {
+        assert_eq!(e.stability.index_in_space, 0);
+        // The moment about the feet: 200 N of four joints at each level; two legs bear half of it, and each a quarter of the weight.
+        let moment_n_m = 800.0 * 2.0 * 15.0;
+        let wanted_n = (moment_n_m / place(0, 0)[0] + 5.0 * 80.0 * G) / 4.0;
+        let borne_n = e.reactions_n[0][2];
+        assert!((borne_n / wanted_n - 1.0).abs() < 2e-3, "{borne_n} {wanted_n}");
+    }
+}
+
+/// A long truss of rigid members crossed in each bay, by the moment about the middle of a bay, through which both diagonals go:
+/// the forces of its chords differ by twice that over its depth.
+#[test]
+fn long_trusses_of_rigid_crossed_members_bear_their_moment() {
+    let (bays, [w, h]) = (100, [1.7, 2.5]);
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let rail = Support::Line { at_m: [0.0; 3], direction: [1.0, 0.0, 0.0] };
+    let mass_kg = |joint: usize| if joint % 2 == 0 { 60.0 + (joint % 7) as f64 } else { 20.0 };
+    for kind in [Kind::Bar, Kind::Cable] {
+        let place = |joint: usize| [w * (joint / 2) as f64, 0.0, h * (joint % 2) as f64];
+        let joints = (0..=2 * bays + 1).map(|joint| match joint {
+            0 => Joint::anchor("A", place(joint)),
+            _ => {
+                let held = if joint == 2 * bays { rail } else { plane };
+                let free = Joint::free(format!("{joint}")).held_by(held);
+                free.with_mass(mass_kg(joint)).near(place(joint))
+            }
+        });
+        let member = |a: usize, b: usize, kind| {
+            let body = Bar::homogeneous(norm(minus(place(a), place(b))), 0.0).unwrap();
+            Member::bar(a, b, body).of_kind(kind)
+        };
+        let bay = |n: usize| {
+            let [l, u, next_l, next_u] = [2 * n, 2 * n + 1, 2 * n + 2, 2 * n + 3];
+            let bars = [(l, next_l), (u, next_u), (next_l, next_u)];
+            let bars = bars.map(|(a, b)| member(a, b, Kind::Bar));
+            bars.into_iter().chain([member(l, next_u, kind), member(u, next_l, kind)])
+        };
+        let members = std::iter::once(member(0, 1, Kind::Bar)).chain((0..bays).flat_map(bay));
+        let system = System::new("truss", G, joints.collect(), members.collect()).unwrap();
+        let weights: Vec<[f64; 2]> =
+            (1..=2 * bays + 1).map(|joint| [place(joint)[0], G * mass_kg(joint)]).collect();
+        let span = w * bays as f64;
+        let left_n: f64 = weights.iter().map(|[x, n]| n * (1.0 - x / span)).sum();
+        for e in neighbour(&system).equilibria {
+            for n in 0..bays {
+                let x = w * (n as f64 + 0.5);
+                let before = weights.iter().filter(|[at, _]| *at < x);
+                let moment_n_m = left_n * x - before.map(|[at, n]| n * (x - at)).sum::<f64>();
+                let apart_n = e.axial_n[5 * n + 1] - e.axial_n[5 * n + 2];
+                let wanted_n = 2.0 * moment_n_m / h;
+                assert!((apart_n / wanted_n - 1.0).abs() < 1e-9, "{n}: {apart_n} {wanted_n}");
+            }
+        }
     }
 }

@@ -129,3 +129,37 @@ fn the_star_dome_reaches_its_published_limit() {
                  meets it before";
     assert!(text.contains(claim), "{text}");
 }
+
+/// Along the mode of a limit point the stiffness of a tripod vanishes, `sum EA/L u u' + N/l (1 - u u')` of its legs, in steps of
+/// every size.
+#[test]
+fn the_mode_of_a_limit_has_no_stiffness() {
+    let feet = [[2.0, 0.0, 0.0], [-0.6, 1.9, 0.0], [-1.0, -1.7, 0.0]];
+    let stiffness_n = [7e4, 5e4, 6e3];
+    let mut file = "[joints]\nP = { near_m = [0, 0, 0.6], force_n = [-4, 6, -100] }\n".to_owned();
+    for (k, [x, y, z]) in feet.iter().enumerate() {
+        file += &format!("F{k} = {{ at_m = [{x}, {y}, {z}] }}\n");
+    }
+    for (k, ea) in stiffness_n.iter().enumerate() {
+        file += &format!("[[bars]]\nfrom = \"F{k}\"\nto = \"P\"\nstiffness_n = {ea}\n");
+    }
+    for to in [3.0, 10.0, 30.0, 100.0] {
+        let path = path(&file, &format!("loads=0..{to}"));
+        let limit = path.first_loss().unwrap();
+        let (at, mode) = (&path.points[limit.point], limit.mode[0]);
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let mut left = [0.0; 3];
+        for ((foot, ea), axial) in feet.iter().zip(stiffness_n).zip(&at.axial_n) {
+            let along: [f64; 3] = std::array::from_fn(|k| at.joints_m[0][k] - foot[k]);
+            let length = dot(along, along).sqrt();
+            let u = along.map(|x| x / length);
+            // As drawn the legs bear nothing.
+            let drawn = dot(*foot, *foot) - 1.2 * foot[2] + 0.36;
+            let stretch = (ea / drawn.sqrt() - axial / length) * dot(u, mode);
+            for k in 0..3 {
+                left[k] += stretch * u[k] + axial / length * mode[k];
+            }
+        }
+        assert!(left.iter().all(|left| left.abs() < 1e-5 * stiffness_n[2]), "{to}: {left:?}");
+    }
+}
