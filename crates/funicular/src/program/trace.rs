@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use branches::{Abscissa, ContinuationError};
 use census::CensusError;
 use clap::Args;
+use clap::builder::RangedU64ValueParser;
 use funicular::{Error, Problem, Trace, TraceAnswer};
 
 use crate::cost::tell_time;
@@ -100,7 +101,7 @@ pub struct Arguments {
     /// Follow also the paths that branch off a load path, and those that branch off from them to this
     /// depth, at most 64: --branches, --branches=2
     #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "1",
-        default_value_t = 0, hide_default_value = true)]
+        default_value_t = 0, hide_default_value = true, value_parser = RangedU64ValueParser::<usize>::new().range(0..=64))]
     pub branches: usize,
     /// Estimate beside a load path where it buckles: the stiffness at its start, extrapolated
     #[arg(long)]
@@ -119,7 +120,7 @@ pub struct Arguments {
     pub html: Option<PathBuf>,
     /// Most points: of a load path (1000 if not given), or of all paths of a chain together (100000):
     /// all that is found is held in memory, some 4 kB for each equilibrium at each point
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_points: Option<usize>,
     /// Draw the diagram over the distance of the anchors instead of the parameter
     #[arg(long)]

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use branches::load::MOST_PATHS;
 
 use super::printable::Printable;
-use super::tables::{numbers_from, short, significant, table, wrapped};
+use super::tables::{numbers_from, outwards, short, significant, table, wrapped};
 use crate::csv::Numbers;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
@@ -188,7 +188,7 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
     };
     let enclosed = event.enclosed.filter(|between| !of_path(between));
     let proved = enclosed.map_or_else(String::new, |[low, high]| {
-        let [low, high] = outwards(low, high);
+        let [low, high] = outwards([low, high], DIGITS);
         format!("; it is proved to lie between {low} and {high}")
     });
     format!("first loss of stability along this path at {at}, by {by}{proved}{mode}")
@@ -200,7 +200,8 @@ fn proved(found: &LoadPaths, path: &LoadPath) -> String {
     let last = names.len().saturating_sub(1);
     let PathProved { to, first, between, because, .. } = &path.proved;
     if let (Some(first), Some([low, high])) = (first, between) {
-        let [low, high] = outwards(*low, *high).map(|value| with_unit(value, units[last]));
+        let [low, high] =
+            outwards([*low, *high], DIGITS).map(|value| with_unit(value, units[last]));
         let name = Printable(&names[last]);
         let does = match first {
             Kind::Branch => "comes to its first branch point, where a symmetry breaks,",
@@ -219,14 +220,6 @@ fn proved(found: &LoadPaths, path: &LoadPath) -> String {
         }
         None => format!("the path is not proved: {because}"),
     }
-}
-
-/// Two numbers rounded away from each other, to as many digits as are needed to tell them apart from the
-/// middle, or to nine.
-fn outwards(low: f64, high: f64) -> [String; 2] {
-    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
-    let unit = 10_f64.powf(size.log10().floor() + 1.0 - DIGITS as f64);
-    [(low / unit).floor() * unit, (high / unit).ceil() * unit].map(|x| significant(x, DIGITS))
 }
 
 /// The joints that move most in a mode.

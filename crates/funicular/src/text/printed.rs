@@ -111,7 +111,7 @@ fn other_characters() -> bool {
 }
 
 /// The unit for display of numbers in a unit of SI: its name, and what to multiply them by.
-fn display(of: &str) -> Option<(&'static str, f64)> {
+pub(super) fn display(of: &str) -> Option<(&'static str, f64)> {
     let units = &STYLE.get()?.units;
     units.iter().rev().find(|unit| unit.of == of).map(|unit| (unit.name, unit.size))
 }

@@ -199,6 +199,17 @@ pub fn long(x: f64) -> String {
     significant(x, 15)
 }
 
+/// Two numbers to so many significant digits, rounded away from each other, where they differ by more than rounding.
+pub fn outwards(ends: [f64; 2], digits: usize) -> [String; 2] {
+    let shown = |(x, sign): (f64, f64)| {
+        let nearest = significant(x, digits);
+        let inside = nearest.parse().is_ok_and(|shown: f64| sign * (shown - x) < -1e-14 * x.abs());
+        let unit = 10_f64.powf(x.abs().log10().floor() + 1.0 - digits as f64);
+        if inside { significant(x + sign * unit, digits) } else { nearest }
+    };
+    [(ends[0], -1.0), (ends[1], 1.0)].map(shown)
+}
+
 /// `digits` significant digits, in plain notation where that is readable.
 #[must_use]
 pub fn significant(x: f64, digits: usize) -> String {
@@ -282,7 +293,7 @@ pub fn duration(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{significant, wrapped};
+    use super::{outwards, significant, wrapped};
 
     #[test]
     fn paragraphs_fit_eighty_columns_and_lose_nothing() {
@@ -304,5 +315,12 @@ mod tests {
         assert_eq!(significant(123_456_789.0, 6), "1.23457e8");
         assert_eq!(significant(0.0, 6), "0");
         assert_eq!(significant(1200.0, 3), "1200");
+    }
+    #[test]
+    fn ranges_are_rounded_outwards() {
+        assert_eq!(outwards([241.937_59, 242.729_01], 6), ["241.937", "242.73"]);
+        assert_eq!(outwards([0.3, 0.3], 6), ["0.3", "0.3"]);
+        assert_eq!(outwards([-1.000_000_1e-9, 0.0], 6), ["-1.00001e-9", "0"]);
+        assert_eq!(outwards([-9.999_994, 9.999_996], 6), ["-10", "10"]);
     }
 }

@@ -6,12 +6,15 @@ use census::boxes::{Range, ToleranceRanges};
 
 use super::answer::remarks;
 use super::printable::Printable;
+use super::printed::display;
 use super::shape::{PRINTED, percent};
-use super::tables::{Table, counted, numbers_from, short, significant, table, wrapped};
+use super::tables::{Table, counted, numbers_from, outwards, significant, table, wrapped};
 use crate::csv::Numbers;
 use crate::draws::{Distribution, Draws};
 use crate::tolerances::TolerancesAnswer;
 
+/// Digits of the ends of a range.
+const SHOWN: usize = 6;
 /// Digits of what is an estimate.
 const DIGITS: usize = 3;
 /// The least excess that is told in digits, as a part of a range.
@@ -63,13 +66,14 @@ impl TolerancesAnswer {
         writeln!(f, "\n{}", self.causes(ranges))?;
         if let Some((sag, depth_m)) = self.sag() {
             let name = |joint: usize| Printable(&self.answer().system().joints()[joint].name);
-            let [least, most] = depth_m.guaranteed.map(short);
+            let (unit, size_m) = display("m").unwrap_or(("m", 1.0));
+            let [least, most] = outwards(depth_m.guaranteed.map(|x| x / size_m), SHOWN);
             let (joint, ends) = (name(sag.joint), sag.ends.map(name));
             let below = match sag.ends {
                 [a, b] if a == b => format!("the lowest support, {}", ends[0]),
                 _ => format!("the line from {} to {}", ends[0], ends[1]),
             };
-            let line = format!("Sag: {least} to {most} m, of joint {joint} below {below}.");
+            let line = format!("Sag: {least} to {most} {unit}, of joint {joint} below {below}.");
             writeln!(f, "\n{}", wrapped(&line, 0))?;
         }
         // What is held where it is known to be has the rounding of its place.
@@ -99,7 +103,7 @@ impl TolerancesAnswer {
         for k in widest(&ranges.axial_n.iter().map(width).collect::<Vec<_>>()) {
             let (member, range) = (&system.members()[k], &ranges.axial_n[k]);
             let mut row = vec![(k + 1).to_string(), name(member.from), name(member.to)];
-            row.extend(range.guaranteed.map(short));
+            row.extend(outwards(range.guaranteed, SHOWN));
             row.push(excess(range));
             rows.add_row(row);
         }
@@ -152,7 +156,9 @@ impl TolerancesAnswer {
         for k in widest(&widths) {
             let (joint, of) = all[k];
             let name = Printable(&self.answer().system().joints()[joint].name).to_string();
-            let ends = of.each_ref().map(|range| range.guaranteed.map(|x| rounded.short(x)));
+            let ends = of
+                .each_ref()
+                .map(|range| outwards(range.guaranteed.map(|x| rounded.number(x)), SHOWN));
             for (axis, [least, most]) in names.iter().zip(ends.clone()) {
                 tall.add_row([name.clone(), (*axis).to_owned(), least, most]);
             }

@@ -88,6 +88,13 @@ fn the_program_prints_them_in_eighty_columns() {
             "20 draws (seed 1)",
         ],
     );
+    let [m, mm] =
+        [&said, &good(&folder, &[&arguments[..], &["--units", "kN,mm"]].concat())].map(|said| {
+            let sag = said.lines().find(|line| line.starts_with("Sag: ")).unwrap();
+            let words: Vec<&str> = sag.split_whitespace().collect();
+            (words[1].parse::<f64>().unwrap(), words[4].to_owned())
+        });
+    assert!((mm.0 - 1e3 * m.0).abs() < 1e-2 && m.1 == "m," && mm.1 == "mm,", "{m:?} {mm:?}");
     // Longer names leave no room for three ranges beside each other; of the tackle, whose ranges across its rope are
     // rounding, what is held exactly has no row.
     let longer = mast(ALL).replace("top", "top-of-the-mast");

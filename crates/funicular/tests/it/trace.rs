@@ -94,7 +94,9 @@ fn the_columns_are_in_the_help() {
 #[test]
 fn errors_point_at_what_is_wrong() {
     let vary = ["trace", "--case", "three-equal-bars", "--vary"];
-    let table: [(&[&str], _); 3] = [
+    let table: [(&[&str], _); 5] = [
+        (&["loads=0..1", "--branches=65"], "0..=64"),
+        (&["loads=0..1", "--max-points=0"], "1.."),
         (&["bars.2.mas_kg=1,2"], "did you mean `mass_kg`?"),
         (&["bars.9.mass_kg=1,2"], "there is no bar 9"),
         (&["anchors.end_m.z=-9,-8"], "no value of the parameters describes a chain"),
