@@ -200,6 +200,7 @@ pub fn long(x: f64) -> String {
 }
 
 /// Two numbers to so many significant digits, rounded away from each other, where they differ by more than rounding.
+#[must_use]
 pub fn outwards(ends: [f64; 2], digits: usize) -> [String; 2] {
     let shown = |(x, sign): (f64, f64)| {
         let nearest = significant(x, digits);

@@ -209,16 +209,17 @@ fn long_trusses_of_rigid_crossed_members_bear_their_moment() {
     let (bays, [w, h]) = (100, [1.7, 2.5]);
     let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
     let rail = Support::Line { at_m: [0.0; 3], direction: [1.0, 0.0, 0.0] };
-    let mass_kg = |joint: usize| if joint % 2 == 0 { 60.0 + (joint % 7) as f64 } else { 20.0 };
+    let mass_kg =
+        |joint: usize| if joint.is_multiple_of(2) { 60.0 + (joint % 7) as f64 } else { 20.0 };
     for kind in [Kind::Bar, Kind::Cable] {
         let place = |joint: usize| [w * (joint / 2) as f64, 0.0, h * (joint % 2) as f64];
-        let joints = (0..=2 * bays + 1).map(|joint| match joint {
-            0 => Joint::anchor("A", place(joint)),
-            _ => {
-                let held = if joint == 2 * bays { rail } else { plane };
-                let free = Joint::free(format!("{joint}")).held_by(held);
-                free.with_mass(mass_kg(joint)).near(place(joint))
+        let joints = (0..=2 * bays + 1).map(|joint| {
+            if joint == 0 {
+                return Joint::anchor("A", place(joint));
             }
+            let held = if joint == 2 * bays { rail } else { plane };
+            let free = Joint::free(format!("{joint}")).held_by(held);
+            free.with_mass(mass_kg(joint)).near(place(joint))
         });
         let member = |a: usize, b: usize, kind| {
             let body = Bar::homogeneous(norm(minus(place(a), place(b))), 0.0).unwrap();
