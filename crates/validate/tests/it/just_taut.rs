@@ -8,30 +8,32 @@ use validate::systems::ask;
 
 use crate::drawn::{close, neighbour};
 
+/// A post of 4 m under 20 kg with guys to feet around it.
+fn post(azimuths: &[f64], radius_m: f64, stiffness_n: Option<f64>) -> System {
+    let mut joints = vec![
+        Joint::anchor("foot", [0.0; 3]),
+        Joint::free("top").with_mass(20.0).near([0.0, 0.0, 4.0]),
+    ];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let mut members = vec![Member::bar(0, 1, bar(4.0))];
+    for (k, azimuth) in azimuths.iter().enumerate() {
+        let (sin, cos) = azimuth.to_radians().sin_cos();
+        joints.push(Joint::anchor(format!("G{k}"), [radius_m * cos, radius_m * sin, 0.0]));
+        let guy = Member::bar(2 + k, 1, bar(radius_m.hypot(4.0))).of_kind(Kind::Cable);
+        members.push(guy.stretching(stiffness_n));
+    }
+    System::new("post", G, joints, members).unwrap()
+}
+
 /// Posts with guys that are just taut: a lean by x costs EA/l cos² x²/2 of each guy that it stretches, 7200 N/m and more against
 /// the 60 N/m by which the post falls, and nothing of the others. Where all guys are on one side nothing holds it.
 #[test]
 fn posts_stand_where_they_have_guys_on_all_sides() {
-    let post = |azimuths: &[f64], stiffness_n: Option<f64>| {
-        let mut joints = vec![
-            Joint::anchor("foot", [0.0; 3]),
-            Joint::free("top").with_mass(20.0).near([0.0, 0.0, 4.0]),
-        ];
-        let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-        let mut members = vec![Member::bar(0, 1, bar(4.0))];
-        for (k, azimuth) in azimuths.iter().enumerate() {
-            let (sin, cos) = azimuth.to_radians().sin_cos();
-            joints.push(Joint::anchor(format!("G{k}"), [3.0 * cos, 3.0 * sin, 0.0]));
-            let guy = Member::bar(2 + k, 1, bar(5.0)).of_kind(Kind::Cable);
-            members.push(guy.stretching(stiffness_n));
-        }
-        System::new("post", G, joints, members).unwrap()
-    };
     for stiffness_n in [None, Some(1e5), Some(1e6)] {
         for azimuths in
             [&[0.0, 120.0, 240.0][..], &[0.0, 90.0, 180.0, 270.0], &[0.0, 100.0, 130.0, 250.0]]
         {
-            let answer = neighbour(&post(azimuths, stiffness_n));
+            let answer = neighbour(&post(azimuths, 3.0, stiffness_n));
             close(&answer.equilibria[0].joints_m[1], &[0.0, 0.0, 4.0], 1e-9);
         }
         for azimuths in [
@@ -40,7 +42,7 @@ fn posts_stand_where_they_have_guys_on_all_sides() {
             &[0.0, 15.0, 45.0, 75.0],
             &[0.0, 1.0, 3.0, 165.0],
         ] {
-            let answer = ask(&post(azimuths, stiffness_n), Solvers::Both, &|_| {});
+            let answer = ask(&post(azimuths, 3.0, stiffness_n), Solvers::Both, &|_| {});
             let stands = |e: &SystemEquilibrium| (e.joints_m[1][2] - 4.0).abs() < 1e-6;
             let stable = |e: &&SystemEquilibrium| stands(e) && e.stability.index_in_space == 0;
             assert_eq!(answer.equilibria.iter().find(stable), None, "{azimuths:?} {stiffness_n:?}");
@@ -105,19 +107,7 @@ fn bays_with_two_diagonals_stand_on_a_rail_too() {
 /// Five guys without tension, two of them side by side: what balances without them is the post alone.
 #[test]
 fn guys_that_bear_nothing_are_at_zero() {
-    let azimuths = [105.0, 345.0, 255.0, 60.0, 345.0_f64];
-    let mut joints = vec![
-        Joint::anchor("foot", [0.0; 3]),
-        Joint::free("top").with_mass(20.0).near([0.0, 0.0, 4.0]),
-    ];
-    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-    let mut members = vec![Member::bar(0, 1, bar(4.0))];
-    for (k, azimuth) in azimuths.iter().enumerate() {
-        let (sin, cos) = azimuth.to_radians().sin_cos();
-        joints.push(Joint::anchor(format!("G{k}"), [2.0 * cos, 2.0 * sin, 0.0]));
-        members.push(Member::bar(2 + k, 1, bar(20.0_f64.sqrt())).of_kind(Kind::Cable));
-    }
-    for e in neighbour(&System::new("post", G, joints, members).unwrap()).equilibria {
+    for e in neighbour(&post(&[105.0, 345.0, 255.0, 60.0, 345.0], 2.0, None)).equilibria {
         let [post, guys @ ..] = e.axial_n.as_slice() else { panic!() };
         assert!((post + 20.0 * G).abs() < 1e-9, "{post}");
         assert!(guys.iter().all(|n| (0.0..1e-8).contains(n)), "{guys:?}");
