@@ -14,7 +14,7 @@ use nalgebra::DVector;
 
 use super::bordered::Row;
 use super::here::{Here, Metric, correct};
-use super::singular::{ITERATIONS, without_symmetry};
+use super::singular::{ITERATIONS, null_space};
 use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
@@ -120,7 +120,9 @@ fn starts<Q: Equations>(
     crossing: &Crossing<Q::Side>,
 ) -> Vec<Here> {
     let mut found: Vec<(Here, Row)> = vec![];
-    for direction in directions(&null_space(equations, metric, crossing)) {
+    for direction in
+        directions(&null_space(equations, metric, &crossing.at, (crossing.modes, ITERATIONS)))
+    {
         let Some(first) = first(equations, metric, crossing, &direction) else { continue };
         let way = towards(metric, &crossing.at, &first);
         let again = found.iter().map(|(_, known)| known).chain(&crossing.known);
@@ -159,34 +161,6 @@ fn first<Q: Equations>(
         }
     }
     None
-}
-
-/// A basis of the null space at a branch point, of unit length among the places.
-fn null_space<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    crossing: &Crossing<Q::Side>,
-) -> Vec<DVector<f64>> {
-    let at = &crossing.at;
-    if !matches!(equations.factorise(&at.y, at.t), Ok(Some(_))) {
-        return vec![];
-    }
-    let without = without_symmetry(at.y.len()).y;
-    let turned = |k: usize| DVector::from_fn(at.y.len(), |i, _| without[(i + 7 * k) % at.y.len()]);
-    let mut basis: Vec<_> = (0..crossing.modes).map(turned).collect();
-    for _ in 0..ITERATIONS {
-        for k in 0..basis.len() {
-            let mut next = equations.solve(&basis[k]);
-            for earlier in &basis[..k] {
-                let part = next.rows(0, metric.places).dot(&earlier.rows(0, metric.places));
-                next -= earlier * (part * metric.square);
-            }
-            let norm = metric.norm(&next, 0.0);
-            basis[k] = next / norm.max(f64::MIN_POSITIVE);
-        }
-    }
-    basis.retain(|mode| mode.sum().is_finite());
-    basis
 }
 
 /// Directions to try in a space.

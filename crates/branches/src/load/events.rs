@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use super::here::{Here, Metric};
-use super::singular::{beside, mode, nearly_null, settled, singular};
+use super::singular::{beside, mode, null_space, settled, singular};
 use super::{Equations, Kind};
 use crate::locate::sign_change;
 
@@ -108,7 +108,7 @@ fn branches<Q: Equations>(
     if a.index == b.index {
         return Some(());
     }
-    let border = nearly_null(equations, b, 1)?;
+    let border = null_space(equations, metric, b, (1, 1)).pop()?.normalize();
     let tests = [a, b].map(|end| singular(equations, end, &border).unwrap_or(f64::NAN));
     within(equations, (metric, &border), [(a, tests[0]), (b, tests[1])], HALVINGS, all)
 }

@@ -75,7 +75,7 @@ fn arnoldi<E>(
     size: usize,
 ) -> Result<Option<DMatrix<f64>>, E> {
     // What the operator makes of anything is where its eigenvectors are.
-    let Some(first) = operator(&without_symmetry(size).y)? else { return Ok(None) };
+    let Some(first) = operator(&without_symmetry(size))? else { return Ok(None) };
     let norm = first.norm();
     if norm.is_nan() || norm <= 0.0 {
         return Ok(None);

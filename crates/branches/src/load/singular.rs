@@ -14,28 +14,42 @@ const CORRECTIONS: usize = 6;
 pub(super) const ITERATIONS: usize = 3;
 
 /// A fixed vector without symmetry.
-pub(super) fn without_symmetry(size: usize) -> Row {
-    let y =
-        DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4);
-    Row { y, t: 0.0 }
+pub(super) fn without_symmetry(size: usize) -> DVector<f64> {
+    DVector::from_fn(size, |k, _| ((k as f64 + 1.0) * 0.754_877_666_246_692_7).fract() - 0.4)
 }
 
-/// A vector near the null space of a matrix that is nearly singular here, by some steps of inverse iteration: a border that
-/// is across that space would leave the matrix singular. After the first step it has parts of all modes still.
-pub(super) fn nearly_null<Q: Equations>(
+/// A basis of so many vectors of the null space of a matrix that is nearly singular here, of unit length among the places, by
+/// some steps of inverse iteration. After the first step they have parts of all modes still.
+pub(super) fn null_space<Q: Equations>(
     equations: &mut Q,
-    here: &Here,
-    steps: usize,
-) -> Option<DVector<f64>> {
-    equations.factorise(&here.y, here.t).ok()??;
-    let mut vector = without_symmetry(here.y.len()).y;
-    for _ in 0..steps {
-        vector = equations.solve(&vector).normalize();
+    metric: Metric,
+    at: &Here,
+    (modes, steps): (usize, usize),
+) -> Vec<DVector<f64>> {
+    let size = at.y.len();
+    if !matches!(equations.factorise(&at.y, at.t), Ok(Some(_))) {
+        return vec![];
     }
-    Some(vector).filter(|vector| vector.sum().is_finite())
+    let without = without_symmetry(size);
+    let turned = |k: usize| DVector::from_fn(size, |i, _| without[(i + 7 * k) % size]);
+    let mut basis: Vec<_> = (0..modes).map(turned).collect();
+    for _ in 0..steps {
+        for k in 0..basis.len() {
+            let mut next = equations.solve(&basis[k]);
+            for earlier in &basis[..k] {
+                let part = next.rows(0, metric.places).dot(&earlier.rows(0, metric.places));
+                next -= earlier * (part * metric.square);
+            }
+            let norm = metric.norm(&next, 0.0);
+            basis[k] = next / norm.max(f64::MIN_POSITIVE);
+        }
+    }
+    basis.retain(|mode| mode.sum().is_finite());
+    basis
 }
 
-/// The test for a singular matrix, 0 where it is, with this border.
+/// The test for a singular matrix, 0 where it is, with this border: one across the null space would leave the bordered matrix
+/// singular.
 pub(super) fn singular<Q: Equations>(
     equations: &mut Q,
     here: &Here,
@@ -58,7 +72,8 @@ pub(super) fn mode<Q: Equations>(
     [at, before]: [&Here; 2],
 ) -> (DVector<f64>, f64) {
     let none = (DVector::zeros(at.y.len()), 1.0);
-    let Some(mut mode) = nearly_null(equations, before, ITERATIONS) else { return none };
+    let found = null_space(equations, metric, before, (1, ITERATIONS)).pop();
+    let Some(mut mode) = found else { return none };
     for _ in 0..CORRECTIONS {
         let Some(off) = off(equations, &mode, [at, before]) else { break };
         mode -= off;

@@ -86,7 +86,7 @@ pub(super) fn begin<Q: Equations>(
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
     // Forces alone: a unit of length would be an enormous load.
-    let mut push = without_symmetry(start.len()).y;
+    let mut push = without_symmetry(start.len());
     push.rows_mut(places, start.len() - places).fill(0.0);
     let gives = equations.solve(&push).rows(0, places).amax();
     if change.max(gives) > SINGULAR {

@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{NO_STRAIN, SETTLED, STEP_ROUNDING};
+use crate::thresholds::{NO_STRAIN, STEP_ROUNDING};
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -153,14 +153,7 @@ impl Newton {
         if slope.misfit < SLOW { Polished::Slow(shape) } else { Polished::Astray }
     }
 
-    fn polished(&self, mut shape: Shape, residual: f64) -> Polished {
-        // What is just taut bears nothing.
-        let none = SETTLED * self.frame.largest_force(&shape.force);
-        for (force, rod) in shape.force.iter_mut().zip(&self.frame.rods) {
-            if force.abs() <= none && !rod.resists(*force) {
-                *force = 0.0;
-            }
-        }
+    fn polished(&self, shape: Shape, residual: f64) -> Polished {
         // A nearly taut line has forces of the load over its slope, and an error of a length moves it
         // by as many times that error.
         let turned = self.frame.largest_force(&shape.force).max(1.0);

@@ -24,10 +24,10 @@
 //! open, and where a member or the floor has just no force ([`Error`]).
 
 use model::Vector;
-use model::system::{Kind, Member, System};
+use model::system::{Kind, System};
 use nalgebra::{Matrix3, Vector3};
 
-use super::framework::Framework;
+use super::framework::{Framework, Units};
 use super::newton::{Derivative, Step};
 use super::residual::Residual;
 use super::smooth;
@@ -181,9 +181,10 @@ impl<'a> Derivatives<'a> {
         let mut lengths = vec![0.0; self.framework.members()];
         match parameter {
             Parameter::Length { member } => {
-                lengths[member] = self.by_length(member);
+                let of = (member, self.axial[member]);
+                let (law, [start, end]) = by_length(self.system, self.framework.units, of);
                 let link = &self.framework.links[member];
-                let [start, end] = self.loads_by_length(member);
+                lengths[member] = law;
                 (forces[link.from], forces[link.to]) = (start, end);
             }
             Parameter::Prestress { member } => lengths[member] = self.by_prestress(member),
@@ -285,8 +286,9 @@ impl<'a> Derivatives<'a> {
                 .clone()
                 .map(|k| {
                     let link = &self.framework.links[k];
-                    let [start, end] = self.loads_by_length(k);
-                    adjoint.axial[k] * self.by_length(k)
+                    let of = (k, self.axial[k]);
+                    let (law, [start, end]) = by_length(self.system, units, of);
+                    adjoint.axial[k] * law
                         + adjoint.places[link.from].dot(&start)
                         + adjoint.places[link.to].dot(&end)
                 })
@@ -378,19 +380,7 @@ impl<'a> Derivatives<'a> {
         Some([given.stiffness_n?, axial_n, given.prestress_n().unwrap_or(0.0)])
     }
 
-    /// What the law of a member gains with its length.
-    fn by_length(&self, member: usize) -> f64 {
-        let units = self.framework.units;
-        let axial_n = self.axial[member] * units.force_n;
-        law_by_length(&self.system.members()[member], axial_n) / units.length_m
-    }
-
-    /// What the forces at the two joints of a member gain with its length.
-    fn loads_by_length(&self, member: usize) -> [Vector3<f64>; 2] {
-        loads_n_by_length(self.system, member).map(|force| force / self.framework.units.force_n)
-    }
-
-    /// What it gains with the stiffness.
+    /// What the law of a member gains with the stiffness.
     fn by_stiffness(&self, member: usize) -> f64 {
         self.elastic(member)
             .map_or(0.0, |[k, n, f]| self.given_length(member) * (f - n) / (k + f) / (k + f))
@@ -419,17 +409,17 @@ impl<'a> Derivatives<'a> {
     }
 }
 
-/// What the law of a member gains with the length that is given of it, m/m: with the prestress $F$ the unstretched length is
-/// $d\\,EA/(EA + F)$.
-pub(super) fn law_by_length(member: &Member, axial_n: f64) -> f64 {
-    let prestress_n = member.prestress_n().unwrap_or(0.0);
-    member.stiffness_n.map_or(1.0, |ea_n| (ea_n + axial_n) / (ea_n + prestress_n))
-}
-
-/// What the forces at the two joints of a member gain with its length, N/m: loads at places that are
-/// given in metres come nearer to the beginning, relative to the length.
-pub(super) fn loads_n_by_length(system: &System, member: usize) -> [Vector3<f64>; 2] {
+/// What the law of a member and the forces at its two joints gain with the length that is given of it, in units of the solver
+/// a metre: with the prestress $F$ the unstretched length is $d\\,EA/(EA + F)$, and loads at places that are given in metres
+/// come nearer to the beginning, relative to the length.
+pub(super) fn by_length(
+    system: &System,
+    Units { length_m: unit_m, force_n, .. }: Units,
+    (member, axial): (usize, f64),
+) -> (f64, [Vector3<f64>; 2]) {
     let member = &system.members()[member];
+    let prestress_n = member.prestress_n().unwrap_or(0.0);
+    let law = member.stiffness_n.map_or(1.0, |ea| (ea + axial * force_n) / (ea + prestress_n));
     let body = member.given_body();
     let length_m = body.length_m();
     let weight = -Vector3::z() * (body.mass_kg() * system.gravity_m_s2());
@@ -440,5 +430,6 @@ pub(super) fn loads_n_by_length(system: &System, member: usize) -> [Vector3<f64>
     let loads = loads.map(|load| (load.at_m, Vector3::from(load.force_n)));
     let shift: Vector3<f64> =
         loads.chain(centre).map(|(at_m, force)| force * (at_m / length_m / length_m)).sum();
-    [shift, -shift]
+    let shift = shift / force_n;
+    (law / unit_m, [shift, -shift])
 }

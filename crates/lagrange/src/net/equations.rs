@@ -10,7 +10,7 @@ use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 use nalgebra::Vector3;
 
-use super::derivatives::{law_by_length, loads_n_by_length};
+use super::derivatives::by_length;
 use super::floor::lift;
 use super::framework::{Framework, Units};
 use super::newton::{Derivative, Step, with_held};
@@ -242,14 +242,13 @@ impl Equations {
     /// for each member of the system that was last [`set`](Self::set), in units of $\phi$ a unit of length.
     #[must_use]
     pub fn by_length(&self, system: &System, y: &[f64], phi: &[f64]) -> Vec<f64> {
-        let (state, Units { length_m, force_n, .. }) = (self.state(y), self.units);
+        let state = self.state(y);
         let (places, along) = phi.split_at(3 * self.framework.nodes.len());
         let phi = |joint: usize| Vector3::from_column_slice(&places[3 * joint..3 * joint + 3]);
         let of = |(k, member): (usize, &Member)| {
-            let [start, end] = loads_n_by_length(system, k);
+            let (law, [start, end]) = by_length(system, self.units, (k, state.axial[k]));
             let by_loads = phi(member.from).dot(&start) + phi(member.to).dot(&end);
-            along[k] * law_by_length(member, state.axial[k] * force_n)
-                + by_loads * length_m / force_n
+            (along[k] * law + by_loads) * self.units.length_m
         };
         system.members().iter().enumerate().map(of).collect()
     }

@@ -14,7 +14,7 @@ use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
 use super::possible::translations;
-use super::solution::{NO_FORCE, NO_SLACK};
+use super::solution::{NO_FORCE, limp};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::thresholds::{ROUNDED, ZERO};
@@ -146,16 +146,11 @@ pub(super) fn self_stresses(framework: &Framework, state: &State) -> Vec<Vec<f64
 
 /// Cables and struts that bear no force at just their length, of which it is open whether they are taut.
 fn open(framework: &Framework, state: &State) -> Vec<usize> {
-    let none = NO_FORCE * state.largest_force(framework);
-    let directions = state.directions(framework);
-    let open = (0..framework.members()).filter(|&k| {
-        let link = &framework.links[k];
-        let length = framework.whole(k, |span| directions[span].1);
-        let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
-        let may_go = link.kind != Kind::Bar && framework.moves(link);
-        may_go && reaches && state.axial[k].abs() <= none
-    });
-    open.collect()
+    let may_go = |k: &usize| {
+        let link = &framework.links[*k];
+        link.kind != Kind::Bar && framework.moves(link)
+    };
+    limp(framework, state, &state.directions(framework)).filter(may_go).collect()
 }
 
 /// The state with these taut or slack.

@@ -11,7 +11,7 @@ use model::system::{Kind, RunTogether, System};
 use super::floor::lift;
 use super::framework::Framework;
 use super::residual::Residual;
-use super::solution::{NO_FORCE, NO_SLACK, Solution};
+use super::solution::{NO_FORCE, NO_SLACK, Solution, limp};
 use super::state::State;
 use crate::error::Error;
 
@@ -39,7 +39,8 @@ pub(super) fn check(
         return Err(Error::OpenForces { dimension });
     }
     let largest = state.largest_force(framework);
-    if let Some(member) = just_taut(framework, state, residual, largest) {
+    let mut limp = limp(framework, state, &residual.directions);
+    if let Some(member) = limp.find(|member| framework.links[*member].kind != Kind::Bar) {
         return Err(Error::JustTaut { member: member + 1 });
     }
     let just_touches = touching(framework, state, residual, largest)
@@ -54,23 +55,6 @@ pub(super) fn check(
 fn moves(framework: &Framework, stress: &[f64]) -> bool {
     let borne = framework.links.iter().zip(stress);
     borne.filter(|(_, force)| force.abs() > NO_FORCE).any(|(link, _)| framework.moves(link))
-}
-
-/// The first cable or strut that has just its length and bears no force.
-fn just_taut(
-    framework: &Framework,
-    state: &State,
-    residual: &Residual,
-    largest: f64,
-) -> Option<usize> {
-    let mut links = framework.links[..framework.members()].iter().zip(&state.axial).enumerate();
-    let length = |k: usize| framework.whole(k, |span| residual.directions[span].1);
-    let just = links.find(|(k, (link, axial))| {
-        link.kind != Kind::Bar
-            && axial.abs() <= NO_FORCE * largest
-            && (length(*k) - link.length).abs() <= NO_SLACK * link.length
-    });
-    just.map(|(member, _)| member)
 }
 
 /// The first joint that lies on the floor, which does not push it.

@@ -101,18 +101,12 @@ impl Solution {
         evidence.nullity =
             second_order.neutral + second_order.self_stresses.as_ref().map_or(0, Vec::len);
         evidence.rigidity = rigidity(framework, &second_order);
-        let largest = state.largest_force(framework);
-        let members = 0..framework.members();
-        let slack = members.clone().filter(|&k| !state.taut[k]).collect();
-        let limp = members
-            .filter(|&k| {
-                let link = &framework.links[k];
-                let rigid = link.compliance <= 0.0 && framework.moves(link);
-                let length = framework.whole(k, |span| directions[span].1);
-                let reaches = (length - link.length).abs() <= NO_SLACK * link.length;
-                rigid && reaches && state.axial[k].abs() <= NO_FORCE * largest
-            })
-            .collect::<Vec<_>>();
+        let slack = (0..framework.members()).filter(|&k| !state.taut[k]).collect();
+        let rigid = |k: &usize| {
+            let link = &framework.links[*k];
+            link.compliance <= 0.0 && framework.moves(link)
+        };
+        let limp: Vec<usize> = limp(framework, &state, &directions).filter(rigid).collect();
         let basis = second_order.self_stresses.as_deref();
         let misfit_m = largest_misfit(framework, basis.unwrap_or_default(), &directions);
         evidence.self_stresses =
@@ -135,6 +129,20 @@ impl Solution {
             limp,
         }
     }
+}
+
+/// Members that have just their length and bear no force.
+pub(super) fn limp<'a>(
+    framework: &'a Framework,
+    state: &'a State,
+    directions: &'a [(Vector3<f64>, f64)],
+) -> impl Iterator<Item = usize> + 'a {
+    let none = NO_FORCE * state.largest_force(framework);
+    (0..framework.members()).filter(move |&k| {
+        let length = framework.links[k].length;
+        let off = framework.whole(k, |span| directions[span].1) - length;
+        state.axial[k].abs() <= none && off.abs() <= NO_SLACK * length
+    })
 }
 
 /// What equilibrium leaves open of the forces, and which of them are shown.

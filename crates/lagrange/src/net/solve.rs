@@ -255,8 +255,8 @@ fn reached(
     };
     let run = match found {
         // With bars alone what a search ends in may be far from the seed. Cables and struts may change to and fro between two
-        // sets that are both wrong, where what each holds is not stable; and of lengths that fit no shape some may be slack.
-        Err(error @ (Error::NotConverged { .. } | Error::Misfit { .. }))
+        // sets that are both wrong, where what each holds is not stable.
+        Err(error @ Error::NotConverged { .. })
             if one_sided || !solver.framework.ropes.is_empty() || system.is_unloaded() =>
         {
             // From where it comes to rest, unless that is a corner.
