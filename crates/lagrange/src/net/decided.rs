@@ -173,24 +173,6 @@ impl Decided {
         rows.map(|(((_, w), part), t)| if *w > 0.0 { w * part } else { *t }).collect()
     }
 
-    /// The axial forces with the least complementary energy that balance the loads best beside those
-    /// of elastic members, which stay.
-    pub fn bear(&mut self, framework: &Framework, axial: &[f64]) -> Vec<f64> {
-        let rows = self.rows.iter().zip(axial);
-        let mut forces: Vec<f64> =
-            rows.map(|((_, w), t)| if *w > 0.0 { 0.0 } else { *t }).collect();
-        for _ in 0..SWEEPS {
-            let pulls = self.rows.iter().zip(&forces).map(|((u, _), t)| u * *t);
-            let mut moves = self.stiffness.gather(framework, &framework.unbalance(pulls));
-            self.stiffness.solve(&mut moves);
-            let moves = self.stiffness.scatter(framework, &moves);
-            for (k, ((_, w), t)) in self.rows.iter().zip(&mut forces).enumerate() {
-                *t += w * self.stretch(framework, k, &moves);
-            }
-        }
-        forces
-    }
-
     /// The members that take part in a self-stress: the part of lengths without pattern that is in
     /// no shape shows them.
     pub fn members(&mut self, framework: &Framework) -> Vec<usize> {

@@ -30,18 +30,9 @@ impl Solver<'_> {
     pub(super) fn with_signs(&mut self, start: State, patience: Patience) -> Result<Run, Error> {
         let mut refused = None;
         for cut in self.cuts(&start) {
-            // Misfits may have become forces on the way here: then once more without them.
-            let mut afresh = start.clone();
-            let mut decided = Decided::new(&self.framework, &start, cut)?;
-            afresh.axial = decided.bear(&self.framework, &start.axial);
-            for state in [start.clone(), afresh] {
-                match self.at_cut(state, patience, cut) {
-                    Ok(run) => return Ok(run),
-                    Err(error) => refused = Some(clearer(refused, error)),
-                }
-                if matches!(refused, Some(Error::Misfit { .. })) {
-                    break;
-                }
+            match self.at_cut(start.clone(), patience, cut) {
+                Ok(run) => return Ok(run),
+                Err(error) => refused = Some(clearer(refused, error)),
             }
         }
         let overdetermined = refused.is_some();

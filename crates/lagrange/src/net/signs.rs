@@ -45,7 +45,7 @@ impl Solver<'_> {
             if let Some(decided) = decided.as_deref_mut() {
                 decided.renew(&self.framework, &state);
             }
-            let mut run = polish(
+            let run = polish(
                 &self.framework,
                 &mut self.stiffness,
                 &settings,
@@ -53,13 +53,6 @@ impl Solver<'_> {
                 patience,
                 decided.as_deref_mut(),
             );
-            if decided.is_none()
-                && run.residual.balance.0 <= tolerance
-                && run.residual.length.0 > tolerance
-            {
-                // Stiff members more than needed: their lengths settle with their true stiffness.
-                run = self.settled_weakly(run);
-            }
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);

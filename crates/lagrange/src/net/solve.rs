@@ -30,8 +30,6 @@ use crate::thresholds::{FOUND, GIVEN};
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// All of them so many times above a floor, where a shape is more easily caught.
-const REBOUNDS: usize = 3;
 /// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
 /// by more is slack. Stiff are those that the mean load stretches by no more.
 const MISDRAWN: f64 = 1e-3;
@@ -167,8 +165,7 @@ fn caught(
     }
     let stiffness = Stiffness::new(&framework, false).ok()?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-    (0..REBOUNDS * KICKS.len()).find_map(|kick| {
-        let size = KICKS[kick % KICKS.len()];
+    KICKS.into_iter().enumerate().find_map(|(kick, size)| {
         let state = solver.kicked(&start, kick, size);
         let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
         let rest = settle(framework, stiffness, state, FIRST_PENALTY, Some(floor));
