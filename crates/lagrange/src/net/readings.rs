@@ -29,10 +29,17 @@ impl Solver<'_> {
     /// decide, first as far as tolerances allow.
     pub(super) fn with_signs(&mut self, start: State, patience: Patience) -> Result<Run, Error> {
         let mut refused = None;
+        // Forces that are far too large hide the loads by their rounding: then once more without them.
+        let unborne = State { axial: vec![0.0; start.axial.len()], ..start.clone() };
         for cut in self.cuts(&start) {
-            match self.at_cut(start.clone(), patience, cut) {
-                Ok(run) => return Ok(run),
-                Err(error) => refused = Some(clearer(refused, error)),
+            for state in [&start, &unborne] {
+                match self.at_cut(state.clone(), patience, cut) {
+                    Ok(run) => return Ok(run),
+                    Err(error) => refused = Some(clearer(refused, error)),
+                }
+                if matches!(refused, Some(Error::Misfit { .. })) {
+                    break;
+                }
             }
         }
         let overdetermined = refused.is_some();
