@@ -256,8 +256,10 @@ impl Newton {
                 &holding,
             ) {
                 if strain > STIFFEST_STRAIN {
-                    // Pushed members must not buckle in what strains them little.
+                    // Pushed members must not buckle in what strains them little, nor because soft springs have let go of
+                    // what is just taut: the forces are nearly right now, and the places were.
                     strain *= STIFFER;
+                    shape.x.clone_from(&start.x);
                 } else if stiffening.is_empty() {
                     stiffening = frame.self_stress(share, start);
                     strain = STIFF_STRAIN;
@@ -328,7 +330,7 @@ impl Newton {
             return Reading::Astray;
         }
         let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
-        let rank = softness.sqrt();
+        let rank = (softness / SOFT).sqrt();
         Reading::Found(Limit { shape, taut, stiffening, residual, rank, misfits })
     }
 
