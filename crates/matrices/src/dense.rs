@@ -24,6 +24,12 @@ const ONE_SIDED: usize = 200_000_000;
 const ONE_SIDED_LEAST: usize = 16;
 const ONE_SIDED_MOST: usize = 4096;
 
+/// So many of them in a large system at most, and what counts as negative beside their stiffness; flexibilities below this part
+/// of theirs count as it.
+pub const MOST_OPEN: usize = 600;
+const ONE_SIDED_ZERO: f64 = 1e-9;
+const STIFFEST: f64 = 1e-6;
+
 /// Eigenvalues of a form that falls are moved apart by this part of the lowest.
 const APART: f64 = 1e-6;
 
@@ -393,6 +399,13 @@ pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     Some((values, found.eigenvectors.select_columns(&order)))
 }
 
+/// The same of three rows.
+#[must_use]
+pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let (values, vectors) = eigen(&DMatrix::from_column_slice(3, 3, symmetric.as_slice()))?;
+    Some((Vector3::from_column_slice(&values), Matrix3::from_column_slice(vectors.as_slice())))
+}
+
 /// The least value found on the unit sphere of `v·A v + Σ max(0, r·v)²`, `r` the rows: a quadratic form with springs that
 /// resist on one side alone. Zero where the form never falls.
 ///
@@ -433,15 +446,19 @@ pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
             .collect()
     } else {
         let singles = (0..springs).map(|one| (0..springs).map(|k| k == one).collect());
-        [false, true].map(|all| vec![all; springs]).into_iter().chain(singles).collect()
+        let ends = [false, true].map(|all| vec![all; springs]).into_iter();
+        ends.chain(singles.take(most / 2)).collect()
     };
     let mut seen: HashSet<Vec<bool>> = sets.iter().cloned().collect();
     let (mut least, mut next) = (0.0_f64, 0);
     while next < sets.len().min(most) {
-        let resist = rows.row_iter().zip(&sets[next]).filter(|(_, resists)| **resists);
-        let with = resist.fold(apart.clone(), |with, (row, _)| with + row.tr_mul(&row));
+        let resist: Vec<usize> = (0..springs).filter(|k| sets[next][*k]).collect();
+        let resist = rows.select_rows(&resist);
+        let with = &apart + resist.tr_mul(&resist);
         next += 1;
-        let Some((values, vectors)) = eigen(&with) else { continue };
+        // What holds from everywhere is seen faster than by its eigenvectors.
+        let holds = springs > 0 && next > 1 && with.clone().cholesky().is_some();
+        let Some((values, vectors)) = (!holds).then(|| eigen(&with)).flatten() else { continue };
         let falling = values.iter().take_while(|value| **value < 0.0).count();
         for v in vectors.column_iter().take(falling) {
             let (of_form, stretch) = (v.dot(&(form * v)), rows * v);
@@ -458,11 +475,26 @@ pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
     least
 }
 
-/// The same of three rows.
+/// Whether `v·A v + Σ max(0, r·v)²` is negative somewhere, from the flexibility `F = R (A + RᵀR)⁻¹ Rᵀ`, `R` of the rows `r`,
+/// where the form with all springs is positive definite: of all `v` with the stretches `s = R v` it is least
+/// `s·(F⁻¹ - 1) s + Σ max(0, s)²`.
+///
+/// ```
+/// use matrices::dense::falls_one_sided;
+/// use nalgebra::dmatrix;
+/// // The form -v², and springs of stiffness 2 on one side, and on both.
+/// assert!(falls_one_sided(dmatrix![2.0]));
+/// assert!(!falls_one_sided(dmatrix![2.0, -2.0; -2.0, 2.0] / 3.0));
+/// ```
 #[must_use]
-pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
-    let (values, vectors) = eigen(&DMatrix::from_column_slice(3, 3, symmetric.as_slice()))?;
-    Some((Vector3::from_column_slice(&values), Matrix3::from_column_slice(vectors.as_slice())))
+pub fn falls_one_sided(flexibility: DMatrix<f64>) -> bool {
+    let size = flexibility.nrows();
+    let Some((values, vectors)) = eigen(&((&flexibility + flexibility.transpose()) / 2.0)) else {
+        return true;
+    };
+    let stiffness = values.iter().map(|value| value.max(STIFFEST).recip() - 1.0);
+    let form = &vectors * DMatrix::from_diagonal(&DVector::from_iterator(size, stiffness));
+    least_one_sided(&(form * vectors.transpose()), &DMatrix::identity(size, size)) < -ONE_SIDED_ZERO
 }
 
 /// Real and imaginary parts of the eigenvalues of a square matrix; `None` where an entry is not finite.

@@ -5,7 +5,7 @@
 //! derivative in that basis. Large ones: the signs of the pivots of the sparse matrix with stiff
 //! springs for the lengths.
 
-use matrices::dense::{Kernels, eigenvalues, least_one_sided};
+use matrices::dense::{Kernels, MOST_OPEN, eigenvalues, falls_one_sided, least_one_sided};
 use model::system::Kind;
 use model::{Rigidity, Vector};
 use nalgebra::DMatrix;
@@ -56,11 +56,9 @@ pub(super) fn second_order(
             condition,
         }
     } else {
-        // A run ends with a positive definite matrix alone: no negative eigenvalue is left to
-        // count.
-        let neutral = below(frame, shape, factor, -ZERO, false);
+        let (index, neutral) = sparse(frame, shape, factor);
         SecondOrder {
-            index: 0,
+            index,
             neutral,
             index_in_plane: None,
             rigidity: None,
@@ -68,7 +66,7 @@ pub(super) fn second_order(
             condition: 1.0,
         }
     };
-    second.index_in_plane = index_in_plane(frame, shape, limit, most);
+    second.index_in_plane = index_in_plane(frame, shape, limit, most, second.index);
     second
 }
 
@@ -77,12 +75,13 @@ fn resists(frame: &Frame, shape: &Shape, rod: usize) -> bool {
     frame.rods[rod].resists(shape.force[rod])
 }
 
-/// Index among the motions in the vertical plane of the system, if there is one.
+/// Index among the motions in the vertical plane of the system, if there is one; that among all where there are no others.
 fn index_in_plane(
     frame: &Frame,
     shape: &Shape,
     limit: Option<&Limit>,
     most: usize,
+    index: usize,
 ) -> Option<usize> {
     let spots = plane_spots(frame, shape)?;
     let mut freedom = 0;
@@ -94,12 +93,37 @@ fn index_in_plane(
             Spot { first, ..spot }
         })
         .collect();
+    if freedom == frame.freedom {
+        return Some(index);
+    }
     let flat = Frame { spots, freedom, ..frame.clone() };
     if freedom <= most {
         return Some(Dense::read(&flat, shape, limit).count().index);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
-    Some(below(&flat, shape, &mut factor, ZERO, false))
+    Some(sparse(&flat, shape, &mut factor).0)
+}
+
+/// Index and number of neutral directions by the signs of pivots.
+fn sparse(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
+    let open = open(frame, shape);
+    let shape = &opened(frame, shape, &open, f64::MIN_POSITIVE);
+    let neutral = below(frame, shape, factor, -ZERO, false);
+    let index = below(frame, shape, factor, ZERO, false);
+    let neutral = neutral.saturating_sub(index);
+    if index > 0 || open.is_empty() || open.len() > MOST_OPEN {
+        return (index, neutral);
+    }
+    let mut rows = rows(frame, &frame.excesses(&shape.x), &open);
+    for (mut row, e) in rows.row_iter_mut().zip(&open) {
+        let outwards = if frame.rods[*e].kind == Kind::Strut { -1.0 } else { 1.0 };
+        row *= outwards * soft_stiffness(frame, shape, *e).sqrt();
+    }
+    let mut moves = rows.transpose();
+    for mut column in moves.column_iter_mut() {
+        factor.solve(column.as_mut_slice());
+    }
+    (usize::from(falls_one_sided(rows * moves)), neutral)
 }
 
 /// The joints with their motions in the vertical plane that holds places, loads and supports.
@@ -168,10 +192,9 @@ pub(super) fn below(
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
         let rod = &frame.rods[e];
-        let spring = force / STIFF_STRAIN / rod.length;
         let stiffness = match resists(frame, shape, e) {
             true if exact && rod.elastic() => rod.flexibility.recip(),
-            true => spring / (1.0 + spring * rod.flexibility),
+            true => soft_stiffness(frame, shape, e),
             false => 0.0,
         };
         excess[e].block(shape.force[e], stiffness)
@@ -183,6 +206,34 @@ pub(super) fn below(
         return 0;
     }
     factor.negative_pivots().unwrap_or(0)
+}
+
+/// The stiffness of a member with a spring in series that keeps stiff ones near the others.
+fn soft_stiffness(frame: &Frame, shape: &Shape, rod: usize) -> f64 {
+    let rod = &frame.rods[rod];
+    let spring = frame.largest_force(&shape.force) / STIFF_STRAIN / rod.length;
+    spring / (1.0 + spring * rod.flexibility)
+}
+
+/// Cables, struts and the floor where they are just taut: the sign of their force is rounding.
+fn open(frame: &Frame, shape: &Shape) -> Vec<usize> {
+    let none = ZERO * frame.largest_force(&shape.force);
+    let open = frame.rods.iter().enumerate().filter(|(e, rod)| {
+        let reaches = || frame.excess(&shape.x, *e).value.abs() <= ZERO * rod.length;
+        let may_go = rod.kind != Kind::Bar && !frame.is_held(rod) && !frame.again(*e);
+        may_go && shape.force[*e].abs() <= none && reaches()
+    });
+    open.map(|(e, _)| e).collect()
+}
+
+/// The shape with these pulled or pushed by so much, zero where they are slack.
+fn opened(frame: &Frame, shape: &Shape, open: &[usize], force: f64) -> Shape {
+    let mut shape = shape.clone();
+    for e in open {
+        shape.force[*e] = if frame.rods[*e].kind == Kind::Cable { force } else { -force };
+    }
+    frame.spread(&mut shape.force);
+    shape
 }
 
 /// The derivatives of the lengths of some members by the coordinates, a row each.
@@ -252,33 +303,21 @@ impl Dense {
     /// The index where cables, struts or the floor are just taut, if some are: the sign of their force is rounding. Where
     /// the energy falls with all of them it falls; else it may where some go slack.
     fn one_sided(frame: &Frame, shape: &Shape, taut: &[bool], zero: f64) -> Option<usize> {
-        let excess = frame.excesses(&shape.x);
-        let none = ZERO * frame.largest_force(&shape.force);
-        let open = frame.rods.iter().enumerate().filter(|(e, rod)| {
-            let reaches = excess[*e].value.abs() <= ZERO * rod.length;
-            let may_go = rod.kind != Kind::Bar && !frame.is_held(rod) && !frame.again(*e);
-            may_go && reaches && shape.force[*e].abs() <= none
-        });
-        let open: Vec<usize> = open.map(|(e, _)| e).collect();
+        let open = open(frame, shape);
         if open.is_empty() {
             return None;
         }
         let with = |force: f64| {
-            let (mut shape, mut taut) = (shape.clone(), taut.to_vec());
-            for e in &open {
-                let pulls = frame.rods[*e].kind == Kind::Cable;
-                shape.force[*e] = if pulls { force } else { -force };
-                taut[*e] = force > 0.0;
-            }
-            frame.spread(&mut shape.force);
-            Self::with(frame, &shape, |e| taut[e], zero)
+            let mut taut = taut.to_vec();
+            open.iter().for_each(|e| taut[*e] = force > 0.0);
+            Self::with(frame, &opened(frame, shape, &open, force), |e| taut[e], zero)
         };
         let index = with(f64::MIN_POSITIVE).count().index;
         if index > 0 {
             return Some(index);
         }
         let slack = with(0.0);
-        let mut rows = rows(frame, &excess, &open) * &slack.motions;
+        let mut rows = rows(frame, &frame.excesses(&shape.x), &open) * &slack.motions;
         for (mut row, e) in rows.row_iter_mut().zip(&open) {
             let rod = &frame.rods[*e];
             let own = slack.size / STIFF_STRAIN / rod.length;

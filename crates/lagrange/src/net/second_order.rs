@@ -5,7 +5,9 @@
 //! transpose (self-stresses). The energy's second derivative among such motions is
 //! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
 
-use matrices::dense::{Kernels, eigen, eigenvalues, least_one_sided, product, projected};
+use matrices::dense::{
+    Kernels, MOST_OPEN, eigen, eigenvalues, falls_one_sided, least_one_sided, product, projected,
+};
 use model::system::Kind;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -79,9 +81,9 @@ impl SecondOrder {
             let state = &with_open(framework, state, true);
             let space = Dense::new(framework, state);
             let (index, neutral) = (space.index(framework, state), space.count.1);
-            let planar = in_plane(framework, state);
-            let index_in_plane =
-                planar.map(|planar| Dense::new(&planar, state).index(&planar, state));
+            let index_in_plane = index_in_plane(framework, state, index, |planar| {
+                Some(Dense::new(planar, state).index(planar, state))
+            });
             let (mechanisms, self_stresses) = (Some(space.mechanisms), Some(space.self_stresses));
             let rank_gap = Some(space.rank_gap);
             return Self { index, neutral, mechanisms, self_stresses, rank_gap, index_in_plane };
@@ -90,9 +92,9 @@ impl SecondOrder {
             return known;
         }
         let (index, neutral) = sparse(framework, stiffness, state);
-        let index_in_plane = in_plane(framework, state).and_then(|planar| {
-            let mut stiffness = Stiffness::new(&planar, false).ok()?;
-            Some(sparse(&planar, &mut stiffness, state).0)
+        let index_in_plane = index_in_plane(framework, state, index, |planar| {
+            let mut stiffness = Stiffness::new(planar, false).ok()?;
+            Some(sparse(planar, &mut stiffness, state).0)
         });
         Self { index, neutral, index_in_plane, ..Self::default() }
     }
@@ -120,23 +122,54 @@ fn links(framework: &Framework, state: &State) -> Vec<Link> {
         .collect()
 }
 
-/// Index and number of neutral directions from the pivots of two shifted factors.
+/// Index and number of neutral directions from the pivots of two shifted factors. Where the energy rises with all that is open
+/// it may yet fall where some of that goes slack.
 fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (usize, usize) {
-    let links = links(framework, state);
+    let open = open(framework, state);
+    let links = links(framework, &with_open(framework, state, true));
     let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
+    let along = |link: &Link| link.along.unwrap_or(RIGID * largest);
     let negative = |stiffness: &mut Stiffness, shift: f64| {
         stiffness.assemble_members(framework, |k| {
             let link = &links[k];
-            let along = if link.taut { link.along.unwrap_or(RIGID * largest) } else { 0.0 };
-            (link.u, link.across, along)
+            (link.u, link.across, if link.taut { along(link) } else { 0.0 })
         });
         stiffness.shift(shift);
         stiffness.factorise_indefinite();
         stiffness.negative_pivots()
     };
     let flat = ZERO * largest;
+    let not_rising = negative(stiffness, -flat);
     let index = negative(stiffness, flat);
-    (index, negative(stiffness, -flat).saturating_sub(index))
+    let neutral = not_rising.saturating_sub(index);
+    if index > 0 || open.is_empty() || open.len() > MOST_OPEN {
+        return (index, neutral);
+    }
+    let firsts = (0..framework.nodes.len()).map(|joint| stiffness.first_unknown(joint));
+    let firsts: Vec<usize> = firsts.map(Option::unwrap_or_default).collect();
+    let rows = outwards(framework, &links, &firsts, &open, RIGID * largest);
+    let mut moves = rows.transpose();
+    for mut column in moves.column_iter_mut() {
+        stiffness.solve(column.as_mut_slice());
+    }
+    (usize::from(falls_one_sided(rows * moves)), neutral)
+}
+
+/// The gradients of the lengths of members that are open, positive where they would resist, times the roots of their
+/// stiffnesses, of rigid ones this.
+fn outwards(
+    framework: &Framework,
+    links: &[Link],
+    first_unknown: &[usize],
+    open: &[usize],
+    rigid: f64,
+) -> DMatrix<f64> {
+    let mut rows = gradients(framework, links, first_unknown, open);
+    for (mut row, k) in rows.row_iter_mut().zip(open) {
+        let outwards = if framework.links[*k].kind == Kind::Strut { -1.0 } else { 1.0 };
+        row *= outwards * links[*k].along.unwrap_or(rigid).sqrt();
+    }
+    rows
 }
 
 /// Basis of the axial forces of inextensible taut members that balance without loads.
@@ -272,14 +305,9 @@ impl Dense {
         }
         let slack = Self::new(framework, &with_open(framework, state, false));
         let links = links(framework, state);
-        let mut rows =
-            gradients(framework, &links, &first_unknowns(framework), &open) * &slack.motions;
         let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
-        for (mut row, k) in rows.row_iter_mut().zip(&open) {
-            let stiffness = links[*k].along.unwrap_or(RIGID * largest);
-            let outwards = if framework.links[*k].kind == Kind::Strut { -1.0 } else { 1.0 };
-            row *= outwards * stiffness.sqrt();
-        }
+        let firsts = first_unknowns(framework);
+        let rows = outwards(framework, &links, &firsts, &open, RIGID * largest) * &slack.motions;
         usize::from(least_one_sided(&slack.form, &rows) < -slack.flat)
     }
 }
@@ -368,14 +396,20 @@ fn add(
     }
 }
 
-/// The framework with only the motions in the vertical plane of all joints, loads and supports.
-fn in_plane(framework: &Framework, state: &State) -> Option<Framework> {
+/// The index among the motions in the vertical plane of all joints, loads and supports, that among all where there are no
+/// others.
+fn index_in_plane(
+    framework: &Framework,
+    state: &State,
+    index: usize,
+    of: impl FnOnce(&Framework) -> Option<usize>,
+) -> Option<usize> {
     let normal = plane(framework, state)?;
     let mut planar = framework.clone();
     for node in &mut planar.nodes {
         *node = node_in_plane(node, &normal)?;
     }
-    Some(planar)
+    if planar.freedoms() == framework.freedoms() { Some(index) } else { of(&planar) }
 }
 
 /// Normal of the vertical plane of all joints and loads.

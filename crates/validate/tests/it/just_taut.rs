@@ -239,3 +239,49 @@ fn long_trusses_of_rigid_crossed_members_bear_their_moment() {
         }
     }
 }
+
+/// The columns of a tower bear what is above them, and crossed cables, of which none bears anything, hold it to both sides; of
+/// one cable a storey it falls to the other side, however large it is.
+#[test]
+fn towers_stand_by_two_cables_a_storey_and_fall_with_one() {
+    let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let place = |joint: usize| [4.0 * (joint % 2) as f64, 0.0, 3.0 * (joint / 2) as f64];
+    for (storeys, cables) in [(30, 2), (100, 2), (30, 1), (100, 1)] {
+        let joints = (0..2 * storeys + 2).map(|joint| match joint {
+            0 | 1 => Joint::anchor(format!("{joint}"), place(joint)),
+            _ => {
+                let free = Joint::free(format!("{joint}")).held_by(plane).near(place(joint));
+                free.with_force([0.0, 0.0, -1000.0])
+            }
+        });
+        let member = |a: usize, b: usize, kind| {
+            let body = Bar::homogeneous(norm(minus(place(a), place(b))), 0.0).unwrap();
+            Member::bar(a, b, body).of_kind(kind)
+        };
+        let members = (0..storeys).flat_map(|storey| {
+            let [l, r, above_l, above_r] = [0, 1, 2, 3].map(|k| 2 * storey + k);
+            let bars = [(l, above_l), (r, above_r), (above_l, above_r)];
+            let bars = bars.map(|(a, b)| member(a, b, Kind::Bar));
+            let cables = [(l, above_r), (r, above_l)].into_iter().take(cables);
+            bars.into_iter().chain(cables.map(|(a, b)| member(a, b, Kind::Cable)))
+        });
+        let system = System::new("tower", G, joints.collect(), members.collect()).unwrap();
+        if cables == 1 {
+            let answer = ask(&system, Solvers::Both, &|_| {});
+            let stands = |e: &&SystemEquilibrium| {
+                e.joints_m[2 * storeys][0].abs() < 1e-6 && e.stability.index_in_space == 0
+            };
+            assert_eq!(answer.equilibria.iter().find(stands), None, "{storeys}");
+            continue;
+        }
+        for e in neighbour(&system).equilibria {
+            for (joint, at_m) in e.joints_m.iter().enumerate() {
+                close(at_m, &place(joint), 1e-9);
+            }
+            for (storey, borne_n) in e.axial_n.chunks(5).enumerate() {
+                let column_n = -1000.0 * (storeys - storey) as f64;
+                close(borne_n, &[column_n, column_n, 0.0, 0.0, 0.0], 1e-6);
+            }
+        }
+    }
+}

@@ -38,7 +38,7 @@ fn a_shallow_truss_snaps_through_where_it_is_soft() {
         // Sideways in its plane two rigid bars leave it nothing, and upwards neither.
         let index = if stiffness.is_infinite() { 1 } else { falls };
         assert_eq!(dense.count().index, index, "{stiffness}");
-        assert_eq!(index_in_plane(&frame, &shape, None, DENSE), Some(falls - 1), "{stiffness}");
+        assert_eq!(index_in_plane(&frame, &shape, None, DENSE, 9), Some(falls - 1), "{stiffness}");
     }
 }
 
@@ -183,12 +183,12 @@ fn planes_may_stand_anywhere() {
         let x: Vec<Vector> = shape.x.iter().map(place).collect();
         let frame = Frame { supports: x.clone(), ..frame.clone() };
         let there = Shape { x, force: shape.force.clone() };
-        assert_eq!(index_in_plane(&frame, &there, None, DENSE), Some(1), "{away:?}");
+        assert_eq!(index_in_plane(&frame, &there, None, DENSE, 9), Some(1), "{away:?}");
         // A joint off by a thousandth takes it out of every plane.
         let mut bent = there.clone();
         bent.x[2][0] += 1e-3 * sin;
         bent.x[2][1] -= 1e-3 * cos;
-        assert_eq!(index_in_plane(&frame, &bent, None, DENSE), None, "{away:?}");
+        assert_eq!(index_in_plane(&frame, &bent, None, DENSE, 9), None, "{away:?}");
     }
 }
 
