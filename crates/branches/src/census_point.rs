@@ -95,46 +95,37 @@ impl CensusPoint {
         grid: Option<usize>,
         settings: &census::Settings,
     ) -> Result<Self, census::CensusError> {
-        let values = path.values_at(position);
-        let mut census_point = Self {
-            position,
-            grid,
-            nodes: None,
-            status: PointStatus::Refused { reason: String::new() },
-            span_m: path.plane(position).span_m(),
-            vertical: false,
-        };
-        let refused = |reason: String| PointStatus::Refused { reason };
-        let problem = match path.problem(&values) {
+        let span_m = path.plane(position).span_m();
+        let problem = match path.problem(&path.values_at(position)) {
             Ok(problem) => problem,
-            Err(error) => return Ok(Self { status: refused(error.to_string()), ..census_point }),
+            Err(error) => {
+                let status = PointStatus::Refused { reason: error.to_string() };
+                return Ok(Self { position, grid, nodes: None, status, span_m, vertical: false });
+            }
         };
         let census = Census::take(&problem, settings)?;
-        census_point.vertical = census.circles;
         // At a straight position pulls are without bound: there branches meet, or pass it.
-        if census.complete && census.straight.is_empty() {
-            census_point.nodes = Some(nodes(path, position, &census));
-            census_point.status = PointStatus::Complete {
+        let is_followed = census.complete && census.straight.is_empty();
+        let status = if is_followed {
+            PointStatus::Complete {
                 count: census.count_in_plane(),
                 by_index: census.count_by_index(),
                 alternating_sum: census.alternating_sum(),
                 euler_characteristic: census.topology.as_ref().ok().map(|topology| topology.euler),
                 circles: census.circles,
                 families: census.families.len(),
-            };
+            }
         } else {
-            census_point.status = PointStatus::Undecided {
-                reasons: census
-                    .undecided
-                    .iter()
-                    .map(|undecided| undecided.reason)
-                    .chain(census.straight.iter().map(|_| census::Reason::Degenerate))
-                    .collect(),
+            let undecided = census.undecided.iter().map(|undecided| undecided.reason);
+            let straight = census.straight.iter().map(|_| census::Reason::Degenerate);
+            PointStatus::Undecided {
+                reasons: undecided.chain(straight).collect(),
                 proved: census.count_in_plane(),
                 straight: census.straight.len(),
-            };
-        }
-        Ok(census_point)
+            }
+        };
+        let nodes = is_followed.then(|| nodes(path, position, &census));
+        Ok(Self { position, grid, nodes, status, span_m, vertical: census.circles })
     }
 
     /// Whether the values describe no problem here.

@@ -45,15 +45,9 @@ pub struct Look<'a> {
     edge: Option<Colour>,
 }
 
-impl<'a> From<&'a str> for Look<'a> {
-    fn from(class: &'a str) -> Self {
-        Self { class, ..Self::default() }
-    }
-}
-
-impl<'a> From<&'a String> for Look<'a> {
-    fn from(class: &'a String) -> Self {
-        Self::from(class.as_str())
+impl<'a, T: AsRef<str> + ?Sized> From<&'a T> for Look<'a> {
+    fn from(class: &'a T) -> Self {
+        Self { class: class.as_ref(), ..Self::default() }
     }
 }
 

@@ -483,13 +483,13 @@ pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
 /// use matrices::dense::falls_one_sided;
 /// use nalgebra::dmatrix;
 /// // The form -v², and springs of stiffness 2 on one side, and on both.
-/// assert!(falls_one_sided(dmatrix![2.0]));
-/// assert!(!falls_one_sided(dmatrix![2.0, -2.0; -2.0, 2.0] / 3.0));
+/// assert!(falls_one_sided(&dmatrix![2.0]));
+/// assert!(!falls_one_sided(&(dmatrix![2.0, -2.0; -2.0, 2.0] / 3.0)));
 /// ```
 #[must_use]
-pub fn falls_one_sided(flexibility: DMatrix<f64>) -> bool {
+pub fn falls_one_sided(flexibility: &DMatrix<f64>) -> bool {
     let size = flexibility.nrows();
-    let Some((values, vectors)) = eigen(&((&flexibility + flexibility.transpose()) / 2.0)) else {
+    let Some((values, vectors)) = eigen(&((flexibility + flexibility.transpose()) / 2.0)) else {
         return true;
     };
     let stiffness = values.iter().map(|value| value.max(STIFFEST).recip() - 1.0);

@@ -100,11 +100,8 @@ impl Chain {
         }
         for (joint, at_m) in [(0, anchors.start_m), (bars.len(), anchors.end_m)] {
             if let Some(&coordinate_m) = at_m.iter().find(|x| !x.is_finite()) {
-                return Err(SystemError::Coordinate {
-                    name: joint.to_string(),
-                    joint,
-                    coordinate_m,
-                });
+                let name = joint.to_string();
+                return Err(SystemError::Coordinate { name, joint, coordinate_m });
             }
         }
         let length_m = sum(bars.iter().map(Bar::length_m));

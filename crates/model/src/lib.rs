@@ -34,6 +34,7 @@ pub mod budget;
 pub mod cases;
 mod cell;
 mod chain;
+mod conversions;
 mod ends;
 mod equilibrium;
 pub mod evidence;

@@ -17,7 +17,7 @@ pub enum Order {
 }
 
 /// Settings of an integration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Settings {
     /// Order in the length of the step.
     pub order: Order,
@@ -28,12 +28,6 @@ pub struct Settings {
     /// other joint has no inertia and turns so that the moments on it cancel. A rope over rings and
     /// pulleys bends without any. At least zero; default zero.
     pub friction_n_m_s: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { order: Order::Second, damping_1_s: 0.0, friction_n_m_s: 0.0 }
-    }
 }
 
 impl Settings {

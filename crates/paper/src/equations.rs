@@ -108,23 +108,23 @@ pub struct EquationAudit {
     pub fault: Option<Fault>,
 }
 
-impl EquationAudit {
-    /// A row that says nothing yet.
-    fn new(number: &'static str, section: &'static str, what: &'static str) -> Self {
-        Self {
-            number,
-            section,
-            what,
-            measure: "nothing measured",
-            counts: false,
-            as_printed: 0.0,
-            as_corrected: None,
-            corrected: "",
-            verdict: Validity::Definition,
-            fault: None,
-        }
+/// A row of which nothing is measured yet.
+fn says(number: &'static str, section: &'static str, what: &'static str) -> EquationAudit {
+    EquationAudit {
+        number,
+        section,
+        what,
+        measure: "nothing measured",
+        counts: false,
+        as_printed: 0.0,
+        as_corrected: None,
+        corrected: "",
+        verdict: Validity::Definition,
+        fault: None,
     }
+}
 
+impl EquationAudit {
     /// The residual as printed: it holds within the tolerance (a NaN does not) or is refuted.
     fn measured(mut self, measure: &'static str, as_printed: f64, tolerance: f64) -> Self {
         self.measure = measure;

@@ -1,7 +1,7 @@
 //! What there is to draw: the closure curve with the paper's scan on it, and how each solver
 //! converges.
 
-use energy::example::{Branch, CurvePoint, PAPER_STEP_RAD, ScanMinimum, curve};
+use energy::example::{Branch, PAPER_STEP_RAD, ScanMinimum, curve};
 use model::{Problem, SolverName};
 use serde::Serialize;
 
@@ -79,7 +79,10 @@ impl Figures {
                 .collect()
         };
         Self {
-            closure_curve: curve(CURVE_POINTS).iter().map(on_curve).collect(),
+            closure_curve: curve(CURVE_POINTS)
+                .iter()
+                .map(|p| point(p.theta_rad, p.alpha_rad, p.beta_rad, p.energy_mgl))
+                .collect(),
             scan_points: Branch::BOTH.map(scanned),
             scan_results: [result(&found.first), result(&found.second)],
             near_minimum: near(&found.first),
@@ -98,10 +101,6 @@ impl Figures {
 
 fn point(theta: f64, alpha: f64, beta: f64, energy: f64) -> [f64; 4] {
     [theta.to_degrees(), alpha.to_degrees(), beta.to_degrees(), energy]
-}
-
-fn on_curve(p: &CurvePoint) -> [f64; 4] {
-    point(p.theta_rad, p.alpha_rad, p.beta_rad, p.energy_mgl)
 }
 
 fn result(m: &ScanMinimum) -> [f64; 4] {

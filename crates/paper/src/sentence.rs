@@ -33,6 +33,15 @@ pub struct Sentence {
 }
 
 impl Sentence {
+    /// Words with parts in the place of each `{}`.
+    #[must_use]
+    pub fn filled<const N: usize>(words: &str, parts: [Part; N]) -> Self {
+        let mut words = words.split("{}").map(Part::from);
+        let mut all: Vec<Part> = words.next().into_iter().collect();
+        all.extend(parts.into_iter().zip(words).flat_map(|(part, words)| [part, words]));
+        Self { parts: all }
+    }
+
     /// Its numbers, in order.
     pub fn numbers(&self) -> impl Iterator<Item = Number> + '_ {
         self.parts.iter().filter_map(|part| match part {
@@ -82,29 +91,12 @@ impl Serialize for Sentence {
     }
 }
 
-impl From<&str> for Part {
-    fn from(words: &str) -> Self {
-        Self::Words(words.to_owned())
-    }
-}
-
-impl From<String> for Part {
-    fn from(words: String) -> Self {
-        Self::Words(words)
-    }
-}
-
-impl From<Number> for Part {
-    fn from(number: Number) -> Self {
-        Self::Number(number)
-    }
-}
-
-/// A count.
-impl From<usize> for Part {
-    fn from(count: usize) -> Self {
-        Self::Number(Number::count(count as f64))
-    }
+model::conversions! {
+    Part:
+    &str, words => Self::Words(words.to_owned());
+    String, words => Self::Words(words);
+    Number, number => Self::Number(number);
+    usize, count => Self::Number(Number::count(count as f64));
 }
 
 impl From<&str> for Sentence {

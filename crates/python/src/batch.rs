@@ -13,7 +13,7 @@ use validate::{Question, UseCensus};
 
 use crate::arrays::{column, numbers, vectors};
 use crate::raise::{exception, parts};
-use crate::told::{Field, Told};
+use crate::told::{self, Told};
 use crate::{words, work};
 
 /// Chains that one thread takes at a time: some milliseconds, so that Ctrl-C is felt.
@@ -151,9 +151,7 @@ fn judged(problem: &Problem, found: &Equilibrium) -> f64 {
 
 fn unsolved(failures: &[SystemFailure]) -> Told {
     let message = failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-    let failures: Vec<_> = failures.iter().map(funicular::Failure::of).collect();
-    let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());
-    Told::new("Unsolved", message, vec![("failures", Field::Json(text))])
+    Told::new("Unsolved", message, told::failures(failures))
 }
 
 /// A wrong shape, which the Python half has looked for before.

@@ -260,16 +260,6 @@ impl Problem {
     fn member_kinds(&self) -> Vec<&'static str> {
         self.system().members().iter().map(|member| member.kind.name()).collect()
     }
-
-    /// Lengths of the members, m.
-    fn lengths_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        column(py, self.system().members().iter().map(|member| member.body.length_m()).collect())
-    }
-
-    /// Masses of the members, kg.
-    fn masses_kg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        column(py, self.system().members().iter().map(|member| member.body.mass_kg()).collect())
-    }
 }
 
 impl Problem {

@@ -5,7 +5,10 @@ use funicular::{DerivativesError, Error, PointError, SimulateError};
 use model::system::{Refusal, SystemError};
 use model::system_file::{SystemFileError, SystemFileErrorKind};
 use model::{BarError, NoCensus};
-use validate::foreign::GivenError;
+use validate::foreign::{GivenError, ToleranceError};
+use validate::systems::SystemFailure;
+
+use crate::work::json;
 
 /// What an exception is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,40 +38,14 @@ pub enum Field {
     Nothing,
 }
 
-impl From<f64> for Field {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<usize> for Field {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<u64> for Field {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<&str> for Field {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<String> for Field {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<Vec<String>> for Field {
-    fn from(list: Vec<String>) -> Self {
-        Self::List(list)
-    }
+model::conversions! {
+    Field:
+    f64, number => Self::Number(number);
+    usize, count => Self::Count(count as u64);
+    u64, count => Self::Count(count);
+    &str, text => Self::Text(text.to_owned());
+    String, text => Self::Text(text);
+    Vec<String>, list => Self::List(list);
 }
 
 impl<T> From<Option<T>> for Field
@@ -110,14 +87,9 @@ fn parts(error: &Error) -> Parts {
         Error::Refused(refusal) => refused(refusal),
         Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
         Error::ChainsOnly { what } => ("ChainsOnly", fields!(what)),
-        Error::Unsolved(answer) => {
-            ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of)))
-        }
+        Error::Unsolved(answer) => ("Unsolved", failures(answer.failures())),
         Error::Given(error) => given(error),
-        Error::Tolerance(error) => {
-            let tolerance = error.tolerance;
-            ("SettingError", fields!(tolerance))
-        }
+        Error::Tolerance(ToleranceError { tolerance }) => ("SettingError", fields!(tolerance)),
         Error::Census(error) => no_census(error.reason()),
         Error::SystemCensus(because, _) => no_census(*because),
         Error::Parameter(error) => {
@@ -146,10 +118,10 @@ fn parts(error: &Error) -> Parts {
     }
 }
 
-fn failures(failures: impl Iterator<Item = funicular::Failure>) -> Vec<(&'static str, Field)> {
-    let failures: Vec<_> = failures.collect();
-    let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());
-    vec![("failures", Field::Json(text))]
+/// The attribute of an error that no solver has an answer.
+pub fn failures(failures: &[SystemFailure]) -> Vec<(&'static str, Field)> {
+    let failures: Vec<_> = failures.iter().map(funicular::Failure::of).collect();
+    vec![("failures", Field::Json(json(&failures)))]
 }
 
 /// An error in a file or text: that of what it describes where it is one, with its place.
@@ -219,8 +191,7 @@ fn refused(refusal: &Refusal) -> Parts {
             ("Taut", fields!(span_m, total_length_m, from_joint, to_joint))
         }
         Refusal::TooLong { member, from, to, length_m, rest_m, way } => {
-            let (bar, from_joint, to_joint) = (member, from, to);
-            let bar = *bar;
+            let (bar, from_joint, to_joint) = (*member, from, to);
             ("BarTooLong", fields!(bar, length_m, rest_m, from_joint, to_joint, way))
         }
         Refusal::Folded { member, from, to, length_m, way } => {
@@ -264,6 +235,5 @@ fn simulate(error: &SimulateError) -> Parts {
 
 /// The reason with its numbers is the object of its JSON.
 fn no_census(because: NoCensus) -> Parts {
-    let text = serde_json::to_string(&because).unwrap_or_else(|_| "null".to_owned());
-    ("NoCensus", vec![("reason", Field::Json(text))])
+    ("NoCensus", vec![("reason", Field::Json(json(&because)))])
 }

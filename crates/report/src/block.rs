@@ -51,6 +51,13 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
 }
 
+impl Table {
+    /// A table with these rows; the names of its columns stand between bars.
+    pub(crate) fn new(caption: &str, head: &'static str, rows: Vec<Vec<Cell>>) -> Self {
+        Self { caption: caption.to_owned(), head: head.split('|').collect(), rows }
+    }
+}
+
 /// A heading.
 pub(crate) fn heading<'a>(level: u8, id: &str, text: &str) -> Block<'a> {
     Block::Heading(level, id.to_owned(), text.to_owned())
@@ -95,16 +102,9 @@ pub(crate) fn statements(audit: &[&EquationAudit]) -> Table {
     let row = |row: &&EquationAudit| {
         [Cell::from(row.number)].into_iter().chain(audit_cells(row)).collect()
     };
-    Table {
-        caption: "Statements of the text between the equations.".to_owned(),
-        head: vec![
-            "where",
-            "what it says, or what is wrong",
-            "measured",
-            "as printed",
-            "as corrected",
-            "verdict",
-        ],
-        rows: audit.iter().map(row).collect(),
-    }
+    Table::new(
+        "Statements of the text between the equations.",
+        "where|what it says, or what is wrong|measured|as printed|as corrected|verdict",
+        audit.iter().map(row).collect(),
+    )
 }

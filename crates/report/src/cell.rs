@@ -59,34 +59,13 @@ impl Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<Number> for Cell {
-    fn from(number: Number) -> Self {
-        Self::number(number)
-    }
-}
-
-impl From<Badge> for Cell {
-    fn from(badge: Badge) -> Self {
-        Self::Badge(badge)
-    }
-}
-
-impl From<Sentence> for Cell {
-    fn from(sentence: Sentence) -> Self {
-        Self::Sentence(sentence)
-    }
+model::conversions! {
+    Cell:
+    &str, text => Self::Text(text.to_owned());
+    String, text => Self::Text(text);
+    Number, number => Self::number(number);
+    Badge, badge => Self::Badge(badge);
+    Sentence, sentence => Self::Sentence(sentence);
 }
 
 /// A dash for nothing.

@@ -139,15 +139,13 @@ impl Sweep {
         outcomes.energy_j.extend_from_slice(&ends.energy_j);
         let ends = ends.finish.iter().zip(&ends.energy_j).zip(ends.directions.chunks(self.bars));
         outcomes.outcome.extend(ends.map(|((finish, energy_j), directions)| match finish {
-            Finish::Converged => self.identified(directions, *energy_j),
+            Finish::Converged => {
+                self.members.identify(directions, *energy_j).unwrap_or(Failure::Unlisted as i16)
+            }
             Finish::IterationLimit => Failure::IterationLimit as i16,
             Finish::Stalled => Failure::Stalled as i16,
             Finish::NonFinite => Failure::NonFinite as i16,
         }));
-    }
-
-    fn identified(&self, directions: &[[f64; 2]], energy_j: f64) -> i16 {
-        self.members.identify(directions, energy_j).unwrap_or(Failure::Unlisted as i16)
     }
 
     /// Number what the last block of a chunk reached beside the proven list.

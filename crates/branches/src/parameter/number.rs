@@ -273,16 +273,12 @@ impl fmt::Display for Number {
                 Which::All => write!(f, "bars.*.{field}"),
             },
             Self::Row(row, field) => {
-                let row = if needs_quotes(row) { format!("\"{row}\"") } else { row.clone() };
+                let row = quoted(row);
                 let all = if *field == BarField::Count { "" } else { ".*" };
                 write!(f, "bars.{row}{all}.{field}")
             }
             Self::Joint(joint, field) => {
-                if needs_quotes(joint) {
-                    write!(f, "joints.\"{joint}\".")?;
-                } else {
-                    write!(f, "joints.{joint}.")?;
-                }
+                write!(f, "joints.{}.", quoted(joint))?;
                 match field {
                     JointField::Place(axis) => write!(f, "at_m.{}", AXES[*axis]),
                     JointField::Mass => f.write_str("mass_kg"),
@@ -294,8 +290,9 @@ impl fmt::Display for Number {
     }
 }
 
-fn needs_quotes(name: &str) -> bool {
-    name.contains(['.', '[', ']', '=', ','])
+/// A name, in quotes where it would be taken for a path.
+fn quoted(name: &str) -> String {
+    if name.contains(['.', '[', ']', '=', ',']) { format!("\"{name}\"") } else { name.to_owned() }
 }
 
 /// Where the first `=` outside quotes is; of all where a quote is not closed.
@@ -355,13 +352,9 @@ fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
         let help = "a name with dots stands in quotes, as in `joints.\"A-P.1\".mass_kg`";
         return Err(ParameterError::new(text, at..at + 1, what, help));
     }
-    if let Some(bracket) = open {
-        return Err(ParameterError::new(
-            text,
-            bracket..bracket + 1,
-            "this bracket is not closed",
-            HELP,
-        ));
+    if let Some(at) = open {
+        let what = "this bracket is not closed";
+        return Err(ParameterError::new(text, at..at + 1, what, HELP));
     }
     if !closed {
         words.push(start..end);
@@ -383,6 +376,10 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
+    fn wrong(&self, span: Range<usize>, what: String, allowed: &str) -> ParameterError {
+        ParameterError::new(self.text, span, what, format!("allowed here: {allowed}"))
+    }
+
     fn next(
         &mut self,
         owner: &str,
@@ -391,12 +388,7 @@ impl Parts<'_> {
         if self.rest.is_empty() {
             let span = self.end..self.end;
             let what = format!("{owner} is not a number: a part of it is missing");
-            return Err(ParameterError::new(
-                self.text,
-                span,
-                what,
-                format!("allowed here: {allowed}"),
-            ));
+            return Err(self.wrong(span, what, allowed));
         }
         let span = self.rest.remove(0);
         Ok((self.text[span.clone()].trim().to_owned(), span))
@@ -425,10 +417,7 @@ impl Parts<'_> {
         let axis = AXES.iter().position(|axis| *axis == word).or_else(|| {
             word.parse::<usize>().ok().and_then(|k| k.checked_sub(1)).filter(|k| *k < AXES.len())
         });
-        axis.ok_or_else(|| {
-            let what = format!("unknown component `{word}`");
-            ParameterError::new(self.text, span, what, format!("allowed here: {ALLOWED}"))
-        })
+        axis.ok_or_else(|| self.wrong(span, format!("unknown component `{word}`"), ALLOWED))
     }
 
     fn joint(&mut self) -> Result<String, ParameterError> {
@@ -437,13 +426,7 @@ impl Parts<'_> {
         let quoted = word.strip_prefix('"').and_then(|word| word.strip_suffix('"'));
         let name = quoted.unwrap_or(&word);
         if name.is_empty() {
-            let help = format!("allowed here: {ALLOWED}");
-            return Err(ParameterError::new(
-                self.text,
-                span,
-                "the name of a joint is missing",
-                help,
-            ));
+            return Err(self.wrong(span, "the name of a joint is missing".to_owned(), ALLOWED));
         }
         Ok(name.to_owned())
     }
@@ -469,10 +452,7 @@ impl Parts<'_> {
                 }
                 Ok(Bars::Row(word.trim_matches('"').to_owned()))
             }
-            _ => {
-                let what = format!("`{word}` is no bar");
-                Err(ParameterError::new(self.text, span, what, format!("allowed here: {ALLOWED}")))
-            }
+            _ => Err(self.wrong(span, format!("`{word}` is no bar"), ALLOWED)),
         }
     }
 }

@@ -3,14 +3,12 @@
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use argmin::core::{
-    CostFunction, Executor, Gradient, Hessian, IterState, KV, Problem, Solver, State,
-    TerminationReason, TerminationStatus,
+    CostFunction, Gradient, Hessian, IterState, KV, Problem, Solver, State, TerminationStatus,
 };
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
 use crate::error::Error;
-use crate::run::Settings;
-use crate::run::{unwrapped, verdict};
+use crate::run::{Settings, executed, stops, verdict};
 use crate::thresholds::{ROUNDING, STEP_ROUNDING};
 
 /// A local minimum of (vi) on the closure curve.
@@ -65,13 +63,8 @@ pub fn minimise(
         return Err(Error::SeedAngle { angle_rad });
     }
     let start = onto_curve([theta_rad, alpha_rad].map(wrapped));
-    let result = Executor::new(Example, CurveNewton::new(*settings))
-        .configure(|state: Iterate| state.param(start).max_iters(settings.max_iterations))
-        .ctrlc(false)
-        .timer(false)
-        .run()
-        .map_err(|error| unwrapped(error, |reason| Error::Ended { reason }))?;
-    let state = result.state;
+    let begin = |state: Iterate| state.param(start).max_iters(settings.max_iterations);
+    let state = executed(Example, CurveNewton::new(*settings), begin)?.state;
     let Some(&place) = state.get_param() else {
         return Err(Error::NotFinite { quantity: "last iterate" });
     };
@@ -302,11 +295,7 @@ impl Solver<Example, Iterate> for CurveNewton {
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        if self.converged {
-            TerminationStatus::Terminated(TerminationReason::SolverConverged)
-        } else {
-            TerminationStatus::NotTerminated
-        }
+        stops(self.converged)
     }
 }
 

@@ -193,7 +193,8 @@ impl Frame {
         let loads_n = loads_n(system);
         let mut total: f64 = loads_n.iter().map(|load| norm(*load)).sum();
         if total <= 0.0 {
-            total = stiffest_n(system).ok_or(Error::NoLoad)?;
+            let stiff_n = system.members().iter().filter_map(|member| member.stiffness_n);
+            total = stiff_n.reduce(f64::max).ok_or(Error::NoLoad)?;
         }
         let mut freedom = 0;
         let mut spots = Vec::with_capacity(loads_n.len());
@@ -402,11 +403,6 @@ fn beside_strands(rods: &mut [Rod]) {
     for rod in rods.iter_mut().filter(|rod| rod.kind != Kind::Cable) {
         rod.linear = strands.contains(&ends(rod));
     }
-}
-
-/// The largest stiffness of a member, N.
-fn stiffest_n(system: &System) -> Option<f64> {
-    system.members().iter().filter_map(|member| member.stiffness_n).reduce(f64::max)
 }
 
 #[cfg(test)]

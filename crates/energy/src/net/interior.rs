@@ -17,15 +17,17 @@
 
 use std::sync::Arc;
 
-use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
+use argmin::core::{KV, Problem, Solver, TerminationStatus};
 use model::system::Kind;
 
 use crate::error::Error;
 use crate::net::factor::Factor;
 use crate::net::frame::Frame;
 use crate::net::law::Excess;
+use crate::net::newton::accept;
 use crate::net::potential::{Iterate, Potential};
 use crate::net::shape::Shape;
+use crate::run::stops;
 
 /// First slack of a member that is as long as it may be or longer, over its length.
 const FIRST_SLACK: f64 = 0.05;
@@ -196,8 +198,7 @@ impl Solver<Potential, Iterate> for Interior {
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "start" })?;
-        let slope = problem.gradient(&shape)?;
-        Ok((state.param(shape).gradient(slope), None))
+        accept(problem, state, shape)
     }
 
     fn next_iter(
@@ -218,11 +219,7 @@ impl Solver<Potential, Iterate> for Interior {
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        if self.ended {
-            TerminationStatus::Terminated(TerminationReason::SolverConverged)
-        } else {
-            TerminationStatus::NotTerminated
-        }
+        stops(self.ended)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use argmin::core::{Executor, State};
+use argmin::core::State;
 use model::Vector;
 use model::system::System;
 
@@ -22,7 +22,7 @@ use crate::net::shape::Shape;
 use crate::net::solution::Solution;
 use crate::net::start::hanging;
 use crate::net::work::Meter;
-use crate::run::{unwrapped, verdict};
+use crate::run::{executed, verdict};
 use crate::thresholds::{GOLDEN, KNOWN};
 use crate::vector::{along, dot, scaled};
 
@@ -319,12 +319,9 @@ fn relax(
     effort: &mut Effort,
 ) -> Result<(Shape, Factor), Error> {
     let solver = Interior::new(Arc::clone(frame), factor, &start);
-    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
-        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(ITERATIONS))
-        .ctrlc(false)
-        .timer(false)
-        .run()
-        .map_err(passed_on)?;
+    let mut ended = executed(Potential { frame: Arc::clone(frame) }, solver, |state: Iterate| {
+        state.param(Arc::new(start)).max_iters(ITERATIONS)
+    })?;
     // Ended or not: a relaxation is only a start.
     let shape = ended.state.take_param().ok_or(Error::NotFinite { quantity: "relaxation" })?;
     effort.relaxation = ended.state.get_iter();
@@ -380,12 +377,9 @@ fn descend(
     mut effort: Effort,
 ) -> Result<Minimum, Error> {
     let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
-    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
-        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(settings.max_iterations))
-        .ctrlc(false)
-        .timer(false)
-        .run()
-        .map_err(passed_on)?;
+    let mut ended = executed(Potential { frame: Arc::clone(frame) }, solver, |state: Iterate| {
+        state.param(Arc::new(start)).max_iters(settings.max_iterations)
+    })?;
     let last = ended.state.get_param().map(Arc::clone);
     let named = |error| match (error, last) {
         (Error::IterationLimit { .. }, Some(shape)) if frame.is_relaxed(&shape) => Error::NoLoad,
@@ -402,11 +396,6 @@ fn descend(
         }
         None => Err(Error::NotFinite { quantity: "last iterate" }),
     }
-}
-
-/// An error that argmin passes on.
-fn passed_on(error: argmin::core::Error) -> Error {
-    unwrapped(error, |reason| Error::Ended { reason })
 }
 
 /// What the end of a run says, whatever `Ok` it came in.

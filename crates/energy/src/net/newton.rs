@@ -19,7 +19,7 @@
 
 use std::sync::Arc;
 
-use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
+use argmin::core::{KV, Problem, Solver, TerminationStatus};
 
 use model::system::Kind;
 
@@ -32,6 +32,7 @@ use crate::net::polish::NEUTRAL;
 use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
+use crate::run::stops;
 use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
@@ -83,13 +84,6 @@ const AGAIN: u64 = 20;
 /// How often lengths may seem to fit no shape where members may be slack.
 const MISFITS: usize = 4;
 
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ended {
-    Not,
-    Converged,
-}
-
 /// Newton's method as a solver for argmin.
 pub(super) struct Newton {
     pub(super) frame: Arc<Frame>,
@@ -114,7 +108,7 @@ pub(super) struct Newton {
     step: f64,
     /// Whether elastic members keep their own stiffness.
     own: bool,
-    ended: Ended,
+    ended: bool,
 }
 
 /// How boldly a run goes.
@@ -178,7 +172,7 @@ impl Newton {
             limit: None,
             step: pace.step,
             own: pace.own,
-            ended: Ended::Not,
+            ended: false,
         }
     }
 
@@ -417,7 +411,7 @@ impl Solver<Potential, Iterate> for Newton {
         let again = slope.misfit <= NEAR && self.near < NEAR && self.since >= AGAIN;
         if slope.misfit <= self.near || again {
             if let Some(solution) = self.finish(&shape)? {
-                self.ended = Ended::Converged;
+                self.ended = true;
                 return accept(problem, state, Arc::new(solution));
             }
             self.near = NEAR.min((0.1 * slope.misfit).max(STEP_ROUNDING));
@@ -428,15 +422,12 @@ impl Solver<Potential, Iterate> for Newton {
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        match self.ended {
-            Ended::Converged => TerminationStatus::Terminated(TerminationReason::SolverConverged),
-            Ended::Not => TerminationStatus::NotTerminated,
-        }
+        stops(self.ended)
     }
 }
 
 /// Make a configuration the current iterate.
-fn accept(
+pub(super) fn accept(
     problem: &mut Problem<Potential>,
     state: Iterate,
     shape: Arc<Shape>,

@@ -123,7 +123,7 @@ fn sparse(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
     for mut column in moves.column_iter_mut() {
         factor.solve(column.as_mut_slice());
     }
-    (usize::from(falls_one_sided(rows * moves)), neutral)
+    (usize::from(falls_one_sided(&(rows * moves))), neutral)
 }
 
 /// The joints with their motions in the vertical plane that holds places, loads and supports.
@@ -309,7 +309,9 @@ impl Dense {
         }
         let with = |force: f64| {
             let mut taut = taut.to_vec();
-            open.iter().for_each(|e| taut[*e] = force > 0.0);
+            for e in &open {
+                taut[*e] = force > 0.0;
+            }
             Self::with(frame, &opened(frame, shape, &open, force), |e| taut[e], zero)
         };
         let index = with(f64::MIN_POSITIVE).count().index;

@@ -30,7 +30,7 @@ impl Frame {
         let horizontal = Self::horizontal(chain);
         let normal = cross(WORLD_UP, horizontal);
         match unit(chain.anchors().difference_m()) {
-            Some(first) if reach.along_span() => {
+            Some(first) if reach == Reach::DrawnOut => {
                 Self { axis: [first, normal, cross(first, normal)], drawn_out: true }
             }
             _ => Self { axis: [horizontal, normal, WORLD_UP], drawn_out: false },

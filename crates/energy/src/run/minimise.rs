@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use argmin::core::{Executor, State, TerminationReason, TerminationStatus};
+use argmin::core::{
+    Executor, OptimizationResult, Solver, State, TerminationReason, TerminationStatus,
+};
 use model::{Problem, Vector};
 
 use crate::error::Error;
@@ -199,15 +201,10 @@ fn descend_to_line(
     let closed = links.close(Shape { u: start, moments }, SEED_CORRECTIONS).map_err(
         |(gap, iterations)| Error::SeedNotClosed { gap: gap / links.total(), iterations },
     )?;
-    let state =
-        Executor::new(Objective { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
-            .configure(|state: Run| {
-                state.param(Arc::new(closed)).max_iters(settings.max_iterations)
-            })
-            .ctrlc(false)
-            .timer(false)
-            .run()
-            .map_err(|error| unwrapped(error, |reason| Error::Ended { reason }))?;
+    let objective = Objective { links: Arc::clone(&links) };
+    let state = executed(objective, FeasibleNewton::new(*settings), |state: Run| {
+        state.param(Arc::new(closed)).max_iters(settings.max_iterations)
+    })?;
     let evaluations = state.problem.counts.values().sum();
     let (mut state, unsettled) = (state.state, state.solver.unsettled);
     // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
@@ -246,12 +243,24 @@ fn outcome(state: &Run) -> Result<(), Error> {
     verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
 }
 
-/// The error behind one of argmin's: ours, or `other` from its text.
-pub(crate) fn unwrapped<E: std::error::Error + Send + Sync + 'static>(
-    error: argmin::core::Error,
-    other: impl FnOnce(String) -> E,
-) -> E {
-    error.downcast::<E>().unwrap_or_else(|error| other(error.to_string()))
+/// Let argmin run a solver, from the state that `begin` makes of an empty one.
+pub(crate) fn executed<O, S: Solver<O, I>, I: State>(
+    problem: O,
+    solver: S,
+    begin: impl FnOnce(I) -> I,
+) -> Result<OptimizationResult<O, S, I>, Error> {
+    let executor = Executor::new(problem, solver).configure(begin).ctrlc(false).timer(false);
+    let other = |error: argmin::core::Error| Error::Ended { reason: error.to_string() };
+    executor.run().map_err(|error| error.downcast::<Error>().unwrap_or_else(other))
+}
+
+/// What a solver says of a run that has ended, or goes on.
+pub(crate) fn stops(ended: bool) -> TerminationStatus {
+    if ended {
+        TerminationStatus::Terminated(TerminationReason::SolverConverged)
+    } else {
+        TerminationStatus::NotTerminated
+    }
 }
 
 /// What the end of a run says: converged, the `limit` of iterations, or another end, by its text.

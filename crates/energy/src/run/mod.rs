@@ -29,8 +29,8 @@ mod vertical_plane;
 #[cfg(test)]
 mod derivative_tests;
 
+pub(crate) use minimise::{executed, stops, verdict};
 pub use minimise::{minimise, minimise_from};
-pub(crate) use minimise::{unwrapped, verdict};
 pub use reaction::reaction_by_differences;
 pub use seed::Seed;
 pub use settings::{Motion, Settings};

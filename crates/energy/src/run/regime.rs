@@ -63,11 +63,6 @@ impl Reach {
         }
         if spare < DRAWN_OUT * total && spare < span { Self::DrawnOut } else { Self::Slack }
     }
-
-    /// Whether the frame has an axis along the span.
-    pub(crate) fn along_span(self) -> bool {
-        self == Self::DrawnOut
-    }
 }
 
 impl Turning {

@@ -5,7 +5,7 @@ use model::Vector;
 use crate::run::closure::{Shape, answer};
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::straight_fold::{line, off_the_line, opening_multiplier};
-use crate::vector::{dot, norm, scaled, tangent};
+use crate::vector::{dot, scaled, tangent};
 
 /// Eigenvalues above minus this, in units of the largest force, are zero: the rounding of the axial
 /// forces and of the sums behind the count.
@@ -110,11 +110,6 @@ impl Slope {
     /// lost. With all bars in tension there is nothing to tell: no configuration has less energy.
     pub(crate) fn lost(&self, links: &ScaledChain) -> Option<f64> {
         off_the_line(links, self.line.filter(|_| !self.opened)?)
-    }
-
-    /// Size of the multiplier: what an error of the closure costs.
-    pub(crate) fn multiplier_size(&self) -> f64 {
-        norm(self.multiplier)
     }
 }
 

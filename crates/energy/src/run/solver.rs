@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use argmin::core::{IterState, KV, Problem, Solver, State, TerminationReason, TerminationStatus};
+use argmin::core::{IterState, KV, Problem, Solver, State, TerminationStatus};
 use model::Vector;
 
 use crate::error::Error;
 use crate::run::closure::{LOST_SPREAD, Shape};
 use crate::run::convergence::{Convergence, Iterate};
 use crate::run::curvature::{Curvature, Step};
+use crate::run::minimise::stops;
 use crate::run::objective::{Objective, Place};
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Settings;
@@ -87,8 +88,9 @@ impl FeasibleNewton {
     ) -> Result<Search, argmin::core::Error> {
         let (shape, slope) = (&*curvature.shape, &*curvature.slope);
         let stationary = self.convergence.stationary(shape, slope);
-        // Differences of energies below this say nothing, and the gradient decides alone.
-        let noise = ROUNDING * (slope.pull + slope.multiplier_size());
+        // Differences of energies below this say nothing, and the gradient decides alone; an error of the closure costs the
+        // multiplier.
+        let noise = ROUNDING * (slope.pull + norm(slope.multiplier));
         for _ in 0..TRIALS {
             let Some(step) = curvature.step(self.convergence.shift) else {
                 if slope.mean <= SADDLE_PART * -slope.lowest
@@ -334,11 +336,7 @@ impl Solver<Objective, Run> for FeasibleNewton {
     }
 
     fn terminate(&mut self, _run: &Run) -> TerminationStatus {
-        if self.finished {
-            TerminationStatus::Terminated(TerminationReason::SolverConverged)
-        } else {
-            TerminationStatus::NotTerminated
-        }
+        stops(self.finished)
     }
 }
 

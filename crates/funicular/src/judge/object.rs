@@ -13,21 +13,14 @@ use crate::weakest::Weakest;
 struct Object<'a> {
     #[serde(flatten, serialize_with = "head")]
     system: &'a System,
-    #[serde(flatten)]
-    judgement: Told<'a>,
-    joints: Vec<Joint<'a>>,
-    bars: Vec<Bar<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    weakest: Option<Weakest>,
-}
-
-/// The judgement with the violations by name.
-#[derive(Serialize)]
-struct Told<'a> {
     says: String,
     broken: Vec<Broken<'a>>,
     #[serde(flatten)]
     judgement: &'a Judgement,
+    joints: Vec<Joint<'a>>,
+    bars: Vec<Bar<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    weakest: Option<Weakest>,
 }
 
 #[derive(Serialize)]
@@ -69,11 +62,9 @@ impl Serialize for Judged {
         let places = answer.joints_m.iter().zip(&answer.reactions_n).enumerate();
         Object {
             system,
-            judgement: Told {
-                says: judgement.finding.to_string(),
-                broken: judgement.violations.iter().map(broken).collect(),
-                judgement,
-            },
+            says: judgement.finding.to_string(),
+            broken: judgement.violations.iter().map(broken).collect(),
+            judgement,
             joints: places
                 .map(|(k, (at_m, force))| Joint { name: name(k), at_m: *at_m, reaction_n: *force })
                 .collect(),

@@ -108,9 +108,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     if let Some(path) = &arguments.svg {
         draw(path, &answer, arguments.view)?;
     }
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| answer.write_csv(file))?;
-    }
+    output::write_asked(arguments.csv.as_ref(), |file| answer.write_csv(file))?;
     drop(progress);
     arguments.printed.print(&answer)?;
     Ok(Exit::of(answer.census.check_failed(), answer.census.is_decided()))

@@ -76,9 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let derivatives = funicular::Derivatives::new().run(&problem)?;
     if let Some(of) = &arguments.of {
         let found = derivatives.gradient(of)?;
-        if let Some(path) = &arguments.csv {
-            output::write_stream(path, |file| found.write_csv(file))?;
-        }
+        output::write_asked(arguments.csv.as_ref(), |file| found.write_csv(file))?;
         return print(arguments, &derivatives, &found.to_string(), &found);
     }
     if let Some(by) = &arguments.by {

@@ -8,9 +8,10 @@ use validate::systems::SystemFailure;
 use crate::diagnostics::Diagnostic;
 
 /// A way to end, with its exit code (0 agreed, 1 a check failed, 2 bad input, 3 undecided).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Exit {
     /// Done, and every check agreed.
+    #[default]
     Done,
     /// A check failed: the solvers disagree, a claim came out otherwise than expected.
     CheckFailed,

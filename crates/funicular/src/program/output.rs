@@ -207,6 +207,14 @@ pub fn write_stream(
     }
 }
 
+/// The same into a file that may have been asked for.
+pub fn write_asked(
+    path: Option<&PathBuf>,
+    content: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
+) -> Result<(), Failure> {
+    path.map_or(Ok(()), |path| write_stream(path, content))
+}
+
 /// Make a folder with its parents.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {

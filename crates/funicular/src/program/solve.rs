@@ -154,11 +154,6 @@ impl Solve {
         self.shape.read()
     }
 
-    /// Refuse to check what has no strength.
-    fn checkable(&self, problem: &Problem) -> Result<(), Failure> {
-        checkable(!self.check || problem.has_strengths())
-    }
-
     /// Whether all load cases are asked for.
     fn each_case(&self) -> bool {
         self.load_case.as_deref() == Some("each")
@@ -223,7 +218,7 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let Input { problem, mut files } = input::problem(file, arguments.case.as_deref())?;
     let mut problem = arguments.in_case(problem)?;
     if arguments.without.is_none() {
-        arguments.checkable(&problem)?;
+        checkable(!arguments.check || problem.has_strengths())?;
     }
     if let Some(shape) = shape {
         problem = next_to(&problem, &shape)?;

@@ -133,9 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             "no value of the parameters describes what can hang; the first: {reason}"
         )));
     }
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| found.write_csv(file))?;
-    }
+    output::write_asked(arguments.csv.as_ref(), |file| found.write_csv(file))?;
     for (path, file) in figures.iter().enumerate() {
         output::write_picture(file, &found.figure(path + 1))?;
     }

@@ -169,9 +169,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     drop(progress);
     // Results are replaced by results alone: a refusal comes before any file.
     let exit = verdict(&found)?;
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| found.write_csv(file))?;
-    }
+    output::write_asked(arguments.csv.as_ref(), |file| found.write_csv(file))?;
     let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
     for (path, file) in diagrams.iter().enumerate() {
         if let Some(drawn) = found.diagram(path, abscissa, arguments.bar) {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use model::system::{Name, System, SystemEquilibrium, SystemStability};
 use model::{AxialForce, Evidence, SolverName, Vector};
-use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 use validate::systems::{Near, SystemAgreement, SystemFailure};
@@ -156,11 +155,8 @@ impl Serialize for Joints<'_> {
             at_m: Vector,
         }
         let Self(system, e) = self;
-        let mut list = serializer.serialize_seq(Some(e.joints_m.len()))?;
-        for (joint, at_m) in system.joints().iter().zip(&e.joints_m) {
-            list.serialize_element(&Joint { name: &joint.name, at_m: *at_m })?;
-        }
-        list.end()
+        let places = system.joints().iter().zip(&e.joints_m);
+        serializer.collect_seq(places.map(|(joint, at_m)| Joint { name: &joint.name, at_m: *at_m }))
     }
 }
 
@@ -185,13 +181,13 @@ impl Serialize for Bars<'_> {
             utilisation: Option<f64>,
         }
         let Self(system, e) = self;
-        let mut list = serializer.serialize_seq(Some(e.axial_n.len()))?;
-        for (k, member) in system.members().iter().enumerate() {
+        let name = |joint: usize| &system.joints()[joint].name;
+        serializer.collect_seq(system.members().iter().enumerate().map(|(k, member)| {
             let along = e.axial_force(system, k);
-            list.serialize_element(&Bar {
-                from: &system.joints()[member.from].name,
-                to: &system.joints()[member.to].name,
-                via: member.via().iter().map(|k| &system.joints()[*k].name).collect(),
+            Bar {
+                from: name(member.from),
+                to: name(member.to),
+                via: member.via().iter().map(|k| name(*k)).collect(),
                 axial_n: e.axial_n[k],
                 axial_from_n: along.from_n,
                 axial_to_n: along.to_n,
@@ -199,9 +195,8 @@ impl Serialize for Bars<'_> {
                 force_at_start_n: e.start_forces_n[k],
                 force_at_end_n: e.end_forces_n[k],
                 utilisation: e.utilisation(system, k),
-            })?;
-        }
-        list.end()
+            }
+        }))
     }
 }
 

@@ -151,7 +151,10 @@ impl StudyShape {
         // Of a rope its first span.
         let next = |member: &Member| member.path().nth(1).unwrap_or(member.to);
         let rises = system.members().iter();
-        let rises = rises.map(|member| rise_deg(places[member.from], places[next(member)]));
+        let rises = rises.map(|member| {
+            let (from, to) = (places[member.from], places[next(member)]);
+            (to[2] - from[2]).atan2((to[0] - from[0]).hypot(to[1] - from[1])).to_degrees()
+        });
         let agreement = answer.agreement();
         let extremes = Extremes::of(system, first)?;
         Some(Self {
@@ -174,9 +177,4 @@ impl StudyShape {
             drawn: None,
         })
     }
-}
-
-/// The angle above the level of the way from one joint to another, degrees.
-fn rise_deg(from: Vector, to: Vector) -> f64 {
-    (to[2] - from[2]).atan2((to[0] - from[0]).hypot(to[1] - from[1])).to_degrees()
 }

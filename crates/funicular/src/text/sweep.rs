@@ -134,25 +134,17 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
 /// The words for an outcome; equilibria are counted from 1.
 #[must_use]
 pub fn outcome(manifest: &Manifest, code: i16) -> String {
-    let failures = if manifest.release.is_some() {
-        [
-            (Failure::IterationLimit, "not at rest in time"),
-            (Failure::Stalled, "no step possible"),
-            (Failure::NonFinite, "a number overflowed"),
-            (Failure::Unlisted, "at rest elsewhere"),
-        ]
-    } else {
-        [
-            (Failure::IterationLimit, "iteration limit"),
-            (Failure::Stalled, "stalled"),
-            (Failure::NonFinite, "a number overflowed"),
-            (Failure::Unlisted, "in no list"),
-        ]
-    };
-    let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
+    let failures = [
+        (Failure::IterationLimit, ["iteration limit", "not at rest in time"]),
+        (Failure::Stalled, ["stalled", "no step possible"]),
+        (Failure::NonFinite, ["a number overflowed"; 2]),
+        (Failure::Unlisted, ["in no list", "at rest elsewhere"]),
+    ];
+    let released = usize::from(manifest.release.is_some());
+    let failure = failures.into_iter().find(|(failure, _)| *failure as i16 == code);
     failure.map_or_else(
         || format!("equilibrium {}", i32::from(code) + 1),
-        |(_, words)| (*words).to_owned(),
+        |(_, words)| words[released].to_owned(),
     )
 }
 

@@ -152,7 +152,7 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
     for mut column in moves.column_iter_mut() {
         stiffness.solve(column.as_mut_slice());
     }
-    (usize::from(falls_one_sided(rows * moves)), neutral)
+    (usize::from(falls_one_sided(&(rows * moves))), neutral)
 }
 
 /// The gradients of the lengths of members that are open, positive where they would resist, times the roots of their

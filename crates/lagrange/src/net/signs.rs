@@ -62,7 +62,11 @@ impl Solver<'_> {
             state = match signs_mended(&self.framework, &self.settings, &run, share) {
                 Some(next) => next,
                 None if tight => {
-                    let run = if decided.is_none() { self.settled_weakly(run) } else { run };
+                    let run = if decided.is_none() {
+                        weak::settled(self.system, &self.framework, &mut self.stiffness, run)
+                    } else {
+                        run
+                    };
                     return self.not_absurd(run);
                 }
                 None => {
@@ -73,11 +77,6 @@ impl Solver<'_> {
         }
         let run = Run::at(&self.framework, state);
         Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
-    }
-
-    /// With the forces of elastic members right to rounding.
-    fn settled_weakly(&mut self, run: Run) -> Run {
-        weak::settled(self.system, &self.framework, &mut self.stiffness, run)
     }
 
     /// Refuse forces that only rounding decides.

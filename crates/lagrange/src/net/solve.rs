@@ -36,6 +36,13 @@ const MISDRAWN: f64 = 1e-3;
 /// Cables and struts that miss their lengths by more than this part are loose.
 const LOOSE: f64 = 0.1;
 
+/// How something is solved, and since when.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    settings: &'a Settings,
+    began: Instant,
+}
+
 /// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
 /// the only minimum), and a local minimum of the energy otherwise.
 ///
@@ -44,7 +51,7 @@ const LOOSE: f64 = 0.1;
 /// [`Error`], with numbers: what falls, what does not reach, what did not converge.
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
-    let began = Instant::now();
+    let task = Task { settings, began: Instant::now() };
     let framework = Framework::new(system).within(settings.max_work);
     let (work, floor) = (framework.work.clone(), framework.floor(system));
     check_loaded(&framework)?;
@@ -52,15 +59,15 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     let solution = above(system, framework, None, settings, |framework| {
         joined(system, framework, |system, framework, _| {
             check(system, &framework)?;
-            match by_runs(system, &framework, settings, began) {
+            match by_runs(system, &framework, task) {
                 Some(solution) => Ok(solution),
-                None => hang(system, framework, settings, began),
+                None => hang(system, framework, task),
             }
         })
     });
     let solution = match (solution, on_floor) {
         (Err(error), Some((framework, floor))) if catches(&error) => {
-            caught(system, framework, floor, settings, began).ok_or(error)
+            caught(system, framework, floor, task).ok_or(error)
         }
         (solution, _) => solution,
     };
@@ -68,18 +75,13 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
 }
 
 /// By all members at once.
-fn hang(
-    system: &System,
-    framework: Framework,
-    settings: &Settings,
-    began: Instant,
-) -> Result<Solution, Error> {
+fn hang(system: &System, framework: Framework, task: Task<'_>) -> Result<Solution, Error> {
     if !framework.ropes.is_empty() {
-        return from_densities(system, framework, settings, began);
+        return from_densities(system, framework, task);
     }
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
-    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let mut solver = Solver::new(system, framework, task, stiffness);
     if let Some((run, second_order)) = solver.lying(hanging.places()) {
         return Ok(solver.solution(run, second_order));
     }
@@ -127,12 +129,11 @@ fn hang(
 fn from_densities(
     system: &System,
     framework: Framework,
-    settings: &Settings,
-    began: Instant,
+    task: Task<'_>,
 ) -> Result<Solution, Error> {
     let start = of_densities(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
-    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let mut solver = Solver::new(system, framework, task, stiffness);
     if let Some((run, second_order)) = solver.lying(&start.places) {
         return Ok(solver.solution(run, second_order));
     }
@@ -150,13 +151,7 @@ fn of_densities(framework: &Framework) -> Result<State, Error> {
 }
 
 /// From a rest above a floor that gives way a little, where laying joints down round by round found nothing.
-fn caught(
-    system: &System,
-    framework: Framework,
-    floor: f64,
-    settings: &Settings,
-    began: Instant,
-) -> Option<Solution> {
+fn caught(system: &System, framework: Framework, floor: f64, task: Task<'_>) -> Option<Solution> {
     let mut start = of_densities(&framework).ok()?;
     for (place, node) in start.places.iter_mut().zip(&framework.nodes) {
         if place.z < floor {
@@ -164,7 +159,7 @@ fn caught(
         }
     }
     let stiffness = Stiffness::new(&framework, false).ok()?;
-    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let mut solver = Solver::new(system, framework, task, stiffness);
     KICKS.into_iter().enumerate().find_map(|(kick, size)| {
         let state = solver.kicked(&start, kick, size);
         let (framework, stiffness) = (&solver.framework, &mut solver.stiffness);
@@ -182,7 +177,7 @@ fn caught(
         let axial_n = Some(members.map(|axial| axial * units.force_n).collect());
         let seed = Seed { axial_n, ..Seed::at(joints.collect()) };
         let framework = framework.clone();
-        let found = from_seed(system, framework, rest.lies, &seed, settings, began);
+        let found = from_seed(system, framework, rest.lies, &seed, task);
         found.ok().filter(|found| found.equilibrium.stability.index_in_space == 0)
     })
 }
@@ -195,12 +190,12 @@ fn caught(
 pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     seed.check(system)?;
-    let began = Instant::now();
+    let task = Task { settings, began: Instant::now() };
     let framework = Framework::new(system).within(settings.max_work);
     let work = framework.work.clone();
     check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
-    let solution = from_seed(system, framework, lies, seed, settings, began);
+    let solution = from_seed(system, framework, lies, seed, task);
     decided(system, work.judged(solution)?)
 }
 
@@ -210,16 +205,15 @@ fn from_seed(
     framework: Framework,
     lies: Vec<bool>,
     seed: &Seed,
-    settings: &Settings,
-    began: Instant,
+    task: Task<'_>,
 ) -> Result<Solution, Error> {
-    above(system, framework, Some(lies), settings, |framework| {
+    above(system, framework, Some(lies), task.settings, |framework| {
         joined(system, framework, |system, framework, joined| {
             let seed = joined.map_or_else(
                 || seed.clone(),
                 |joined| Seed { joints_m: joined.places_m(&seed.joints_m), ..seed.clone() },
             );
-            reached(system, framework, &seed, settings, began)
+            reached(system, framework, &seed, task)
         })
     })
 }
@@ -229,12 +223,11 @@ fn reached(
     system: &System,
     framework: Framework,
     seed: &Seed,
-    settings: &Settings,
-    began: Instant,
+    task: Task<'_>,
 ) -> Result<Solution, Error> {
     check(system, &framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
-    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    let mut solver = Solver::new(system, framework, task, stiffness);
     let start = solver.start(seed);
     // Without loads the lengths of the shape are all that says what the members bear, and at rest they are right.
     let to_fit = seed.axial_n.is_none() && !seed.at_rest && !system.is_unloaded();
@@ -299,19 +292,14 @@ fn is_idle(framework: &Framework, state: &State) -> bool {
 
 /// The hanging equilibrium with runs of members as elements, where that pays and every member
 /// pulls. Small systems go without: their self-stresses are counted anyway.
-fn by_runs(
-    system: &System,
-    framework: &Framework,
-    settings: &Settings,
-    began: Instant,
-) -> Option<Solution> {
-    if framework.freedoms() <= settings.dense_freedoms {
+fn by_runs(system: &System, framework: &Framework, task: Task<'_>) -> Option<Solution> {
+    if framework.freedoms() <= task.settings.dense_freedoms {
         return None;
     }
     let run = elements::hang(framework)?;
     if run.residual.size().is_nan()
-        || run.residual.size() > settings.tolerance
-        || signs_mended(framework, settings, &run, 0.0).is_some()
+        || run.residual.size() > task.settings.tolerance
+        || signs_mended(framework, task.settings, &run, 0.0).is_some()
     {
         return None;
     }
@@ -319,12 +307,12 @@ fn by_runs(
     let factorisations = run.steps;
     let found = Found {
         residual: run.residual,
-        tolerance: settings.tolerance,
+        tolerance: task.settings.tolerance,
         state: run.state,
         factorisations,
         second_order,
         least: false,
-        solve_s: began.elapsed().as_secs_f64(),
+        solve_s: task.began.elapsed().as_secs_f64(),
     };
     Some(Solution::new(system, framework, found))
 }
@@ -340,14 +328,9 @@ pub(super) struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    fn new(
-        system: &'a System,
-        framework: Framework,
-        settings: Settings,
-        stiffness: Stiffness,
-        began: Instant,
-    ) -> Self {
-        Self { system, settings, framework, stiffness, factorisations: 0, began }
+    fn new(system: &'a System, framework: Framework, task: Task<'_>, stiffness: Stiffness) -> Self {
+        let Task { settings, began } = task;
+        Self { system, settings: *settings, framework, stiffness, factorisations: 0, began }
     }
 
     /// An equilibrium near some places in which no member need bear anything, where the floor bears every load.

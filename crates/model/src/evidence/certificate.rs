@@ -18,18 +18,25 @@ pub struct Optimal {
 }
 
 /// Why there is no certificate of global minimality.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 #[serde(tag = "because", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoCertificate {
     /// Occurs when two or more bars are in compression: the stress matrix has a negative
     /// eigenvalue, and the equilibrium is unstable in space.
+    #[error(
+        "{bars} bars are in compression: the stress matrix is indefinite, there is less energy elsewhere"
+    )]
     SeveralCompressed {
         /// How many.
         bars: usize,
     },
     /// Occurs when one bar is in compression and its force is too large for the others to hold it
     /// up in space: `Σ 1/τ_i > 0`, proven.
+    #[error(
+        "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, the \
+         stress matrix is indefinite, there is less energy elsewhere"
+    )]
     Indefinite {
         /// The compressed bar, from 1.
         bar: usize,
@@ -38,6 +45,7 @@ pub enum NoCertificate {
         excess: f64,
     },
     /// Occurs when the bound holds but stays too far below the energy.
+    #[error("{}", off(*gap))]
     Gap {
         /// The gap in units of the weight between the anchors × total length.
         #[serde(with = "finite")]
@@ -45,6 +53,9 @@ pub enum NoCertificate {
     },
     /// Occurs when the last joint is so far from its anchor, measured by the slack of the chain,
     /// that no configuration of the chain need be near.
+    #[error(
+        "the last joint is {gap_m:.1e} m from its anchor, and the chain has only {slack_m:.1e} m of slack"
+    )]
     NotClosed {
         /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
         #[serde(with = "finite")]
@@ -54,13 +65,18 @@ pub enum NoCertificate {
         slack_m: f64,
     },
     /// Occurs when the energy is proved to fall in some directions.
+    #[error("the energy falls in {directions} directions")]
     EnergyFalls {
         /// How many independent ones.
         directions: usize,
     },
     /// Occurs when the pivots of the stress matrix are not proved positive, nor otherwise.
+    #[error("the pivots of the stress matrix are not proved positive")]
     PivotsUndecided,
     /// Occurs when the stress matrix of a system is not proved positive definite.
+    #[error(
+        "the stress matrix is not proved positive definite, with {compressed} members compressed"
+    )]
     NotDefinite {
         /// How many members are compressed; without any only a part that nothing loads or that
         /// turns freely leaves it singular.
@@ -68,12 +84,25 @@ pub enum NoCertificate {
     },
     /// Occurs when a rope runs over rings or pulleys, and not every member of the system pulls: only
     /// then a bound is known.
+    #[error(
+        "a bound with ropes over rings or pulleys is known where anchors hold all parts and every member \
+         pulls, and {members} push or may push"
+    )]
     NotConvex {
         /// How many members push, or may; without any a part without anchors slides away.
         members: usize,
     },
     /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
+    #[error("the answer is incomplete or not finite")]
     Unusable,
 }
 
-impl std::error::Error for NoCertificate {}
+fn off(gap: f64) -> String {
+    if gap < 0.0 {
+        let below = -gap;
+        return format!(
+            "the energy is {below:.1e} of weight times length below the least that any configuration has: lengths are off"
+        );
+    }
+    format!("the lower bound stays {gap:.1e} of weight times length below the energy")
+}

@@ -99,8 +99,7 @@ impl Evidence {
         tolerance: f64,
         iterations: usize,
     ) -> Self {
-        let convergence = Convergence::new(residual_of, residual, Some(tolerance), iterations);
-        Self::of(convergence)
+        Self::of(Convergence::new(residual_of, residual, Some(tolerance), iterations))
     }
 
     /// Evidence of a proof by enclosure, which has no tolerance: the enclosures of `residual_of`

@@ -1,6 +1,6 @@
 //! Why a system cannot be built.
 
-use std::hash::RandomState;
+use std::hash::{BuildHasher as _, RandomState};
 
 use super::{Joint, Kind, Member, RopeFault, Support};
 use crate::mass_range::too_wide;
@@ -315,7 +315,7 @@ pub(super) fn check(
         return Err(SystemError::NoMembers);
     }
     let hasher = RandomState::new();
-    let hash = |joint: &Joint| joint.name.hashed(&hasher);
+    let hash = |joint: &Joint| hasher.hash_one(joint.name.text());
     let same = |a: usize, b: usize| joints[a].name == joints[b].name;
     let twice = first_again(joints.iter().map(hash).zip(0..), same);
     for (number, joint) in joints.iter().enumerate() {
@@ -494,12 +494,9 @@ pub(crate) fn check_range<const N: usize>(
             return Err(SystemError::Underflow { quantity, total });
         }
     }
-    match too_wide(masses) {
-        Some((lightest_kg, heaviest_kg)) => {
-            Err(SystemError::MassRange { lightest_kg, heaviest_kg })
-        }
-        None => Ok(()),
-    }
+    too_wide(masses).map_or(Ok(()), |(lightest_kg, heaviest_kg)| {
+        Err(SystemError::MassRange { lightest_kg, heaviest_kg })
+    })
 }
 
 fn first_bad(vector: Vector) -> Option<f64> {

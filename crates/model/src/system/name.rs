@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::hash::BuildHasher;
 use std::num::NonZeroU32;
 use std::sync::{Arc, LazyLock};
 
@@ -47,11 +46,6 @@ impl Name {
     #[must_use]
     pub fn number(number: usize) -> Self {
         Self::numbered(&NOTHING, number)
-    }
-
-    /// A hash of the name in full.
-    pub(super) fn hashed(&self, hasher: &impl BuildHasher) -> u64 {
-        hasher.hash_one(self.text())
     }
 
     /// The name in full.
@@ -104,20 +98,8 @@ impl Serialize for Name {
     }
 }
 
-impl From<&str> for Name {
-    fn from(text: &str) -> Self {
-        Self { stem: text.into(), number: None }
-    }
-}
-
-impl From<String> for Name {
-    fn from(text: String) -> Self {
-        text.as_str().into()
-    }
-}
-
-impl From<&String> for Name {
-    fn from(text: &String) -> Self {
-        text.as_str().into()
+impl<T: AsRef<str>> From<T> for Name {
+    fn from(text: T) -> Self {
+        Self { stem: text.as_ref().into(), number: None }
     }
 }

@@ -127,9 +127,7 @@ impl Member {
         self.set_tolerances(MemberTolerances { length_m, stiffness, mass_kg });
         Ok(self)
     }
-}
 
-impl Member {
     /// The mass is so many times as large, and so is what it may be off.
     pub(super) fn scale_tolerances(&mut self, factor: f64) {
         if self.tolerances.is_some()
@@ -141,6 +139,7 @@ impl Member {
 }
 
 const OF_MASS: &str = "positive and not more than the mass";
+const OF_FORCE: &str = "positive, of a joint that moves";
 
 impl Joint {
     /// Its loads are up to so many times as large, and so is what they may be off.
@@ -181,12 +180,7 @@ impl Joint {
         let tolerances = JointTolerances {
             mass_kg: checked("mass_tolerance_kg", OF_MASS, mass_kg, self.mass_kg)?,
             at_m: checked("at_tolerance_m", "positive, of a joint with at_m", at_m, held)?,
-            force_n: checked(
-                "force_tolerance_n",
-                "positive, of a joint that moves",
-                force_n,
-                moves,
-            )?,
+            force_n: checked("force_tolerance_n", OF_FORCE, force_n, moves)?,
         };
         let given = (tolerances != JointTolerances::default()).then(|| Box::new(tolerances));
         if self.tolerances != given {

@@ -30,16 +30,14 @@ pub(super) fn feed(text: &str, rows: &mut dyn Rows) -> Result<(), (Kind, Range<u
             let found = if line.trim().is_empty() { 0 } else { cells.len() };
             return Err((Kind::WrongCells { wanted, found }, span_of(text, line)));
         }
-        let row: Vec<Cell<'_>> = cells.iter().map(|(cell, _)| cell_of(cell)).collect();
+        let cells = cells.iter();
+        let cells = cells.map(|(c, _)| if c.is_empty() { Cell::Nothing } else { Cell::Text(c) });
+        let row: Vec<Cell<'_>> = cells.collect();
         if !rows.row(&row) {
             break;
         }
     }
     Ok(())
-}
-
-fn cell_of(text: &str) -> Cell<'_> {
-    if text.is_empty() { Cell::Nothing } else { Cell::Text(text) }
 }
 
 /// Where a cell stands: row 0 is the head. The whole line where it has no such column.

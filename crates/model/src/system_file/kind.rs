@@ -371,14 +371,7 @@ impl SystemFileErrorKind {
                 "an object with the keys of the TOML file: {\"joints\": {...}, \"bars\": [...]}; names \
                  and keys in double quotes, no comments, no comma behind the last"
             }
-            Self::WrongType { .. }
-            | Self::Bar(_)
-            | Self::ForeignBars(_)
-            | Self::Mass { .. }
-            | Self::Force { .. }
-            | Self::NoDirection
-            | Self::EmptyCell
-            | Self::NoName { .. } => return None,
+            _ => return None,
         };
         Some(help.to_owned())
     }
@@ -389,50 +382,46 @@ fn place_in_file(row: usize, column: Option<&str>) -> String {
     column.map_or_else(|| format!("{row}: "), |column| format!("{row}, column `{column}`: "))
 }
 
-/// What to do about masses of which the lightest is lost.
-const MASS_RANGE_HELP: &str =
-    "check the units: masses are in kilograms; a mass that does not count may be 0";
-
 fn prestress_help(error: PrestressError) -> Option<&'static str> {
-    match error {
-        PrestressError::Inextensible => Some(
+    Some(match error {
+        PrestressError::Inextensible => {
             "give the member a stiffness_n (EA); the forces of inextensible members follow from the \
-             equilibrium",
-        ),
-        PrestressError::Sign { .. } => Some("tension is positive; a bar takes both"),
-        _ => None,
-    }
+             equilibrium"
+        }
+        PrestressError::Sign { .. } => "tension is positive; a bar takes both",
+        _ => return None,
+    })
 }
 
 fn system_help(error: &SystemError) -> Option<&'static str> {
-    match error {
-        SystemError::Parallel { .. } => {
-            Some("replace them by one bar, or put a joint into one of them")
-        }
+    Some(match error {
+        SystemError::Parallel { .. } => "replace them by one bar, or put a joint into one of them",
         SystemError::Overflow { .. } | SystemError::Underflow { .. } => {
-            Some("check the units: lengths are in metres, masses in kilograms, forces in newtons")
+            "check the units: lengths are in metres, masses in kilograms, forces in newtons"
         }
-        SystemError::MassRange { .. } => Some(MASS_RANGE_HELP),
-        SystemError::NotDrawn { .. } => Some(
-            "give it a place: near_m = [x, y, z]; without any near_m the lowest equilibrium is found",
-        ),
-        SystemError::DrawnTogether { .. } => Some("give one of them another place near_m"),
-        SystemError::Rope { fault, .. } => rope_help(fault),
-        SystemError::NoMembers => Some("describe every bar under a line [[bars]]"),
-        _ => None,
-    }
+        SystemError::MassRange { .. } => {
+            "check the units: masses are in kilograms; a mass that does not count may be 0"
+        }
+        SystemError::NotDrawn { .. } => {
+            "give it a place: near_m = [x, y, z]; without any near_m the lowest equilibrium is found"
+        }
+        SystemError::DrawnTogether { .. } => "give one of them another place near_m",
+        SystemError::Rope { fault, .. } => return rope_help(fault),
+        SystemError::NoMembers => "describe every bar under a line [[bars]]",
+        _ => return None,
+    })
 }
 
 fn rope_help(fault: &RopeFault) -> Option<&'static str> {
-    match fault {
-        RopeFault::Kind => Some("a rope has kind = \"cable\""),
-        RopeFault::Mass => Some(
-            "leave its mass out, or hang it as mass_kg at the joints, or give each span a bar of its own",
-        ),
-        RopeFault::Load => Some("let the force act at a joint"),
-        RopeFault::Prestress => Some("give its unstretched length_m and stiffness_n alone"),
-        RopeFault::Body { .. } | RopeFault::Repeated { .. } => None,
-    }
+    Some(match fault {
+        RopeFault::Kind => "a rope has kind = \"cable\"",
+        RopeFault::Mass => {
+            "leave its mass out, or hang it as mass_kg at the joints, or give each span a bar of its own"
+        }
+        RopeFault::Load => "let the force act at a joint",
+        RopeFault::Prestress => "give its unstretched length_m and stiffness_n alone",
+        RopeFault::Body { .. } | RopeFault::Repeated { .. } => return None,
+    })
 }
 
 fn refusal_help(refusal: &Refusal) -> &'static str {

@@ -386,7 +386,7 @@ impl Reading<'_> {
         };
         let system = System::new(name, gravity_m_s2, joints, members)
             .and_then(above_floor)
-            .map_err(|error| match &error {
+            .map_err(|error| match error {
                 SystemError::Floor { .. } => root.error(Kind::System(error), "floor_m"),
                 SystemError::Gravity { .. } => root.error(Kind::System(error), "gravity_m_s2"),
                 SystemError::DuplicateName { joint, .. }
@@ -397,25 +397,19 @@ impl Reading<'_> {
                 | SystemError::NotDrawn { joint, .. }
                 | SystemError::DrawnTogether { joint, .. }
                 | SystemError::DrawnOffSupport { joint, .. }
-                | SystemError::Force { joint, .. } => {
-                    let joint = *joint;
-                    at_joint(Kind::System(error), joint)
-                }
+                | SystemError::Force { joint, .. } => at_joint(Kind::System(error), joint),
                 SystemError::SelfLoop { member, .. }
                 | SystemError::Parallel { member, .. }
                 | SystemError::Rope { member, .. }
                 | SystemError::NoSuchJoint { member, .. }
                 | SystemError::IdleStrength { member, .. }
                 | SystemError::PointLoad { member, .. } => {
-                    let member = *member;
                     at_member(Kind::System(error), member, "")
                 }
                 SystemError::Stiffness { member, .. } => {
-                    let member = *member;
                     at_member(Kind::System(error), member, ".stiffness_n")
                 }
                 SystemError::LengthTolerance { member, .. } => {
-                    let member = *member;
                     at_member(Kind::System(error), member, ".length_tolerance_m")
                 }
                 _ => root.error(Kind::System(error), "bars"),
@@ -425,20 +419,14 @@ impl Reading<'_> {
         let key = if root.get("bars").is_some() { "bars" } else { "bars_file" };
         let room = root.source().budget.fits_solve(&system);
         room.map_err(|error| root.error(Kind::Memory(error), key))?;
-        system.refusal().map_err(|refusal| match &refusal {
+        system.refusal().map_err(|refusal| match refusal {
             Refusal::Unconnected { joint, .. }
             | Refusal::Falls { joint, .. }
             | Refusal::OutOfReach { joint, .. }
-            | Refusal::Taut { joint, .. } => {
-                let joint = *joint;
-                at_joint(Kind::Refused(refusal), joint)
-            }
+            | Refusal::Taut { joint, .. } => at_joint(Kind::Refused(refusal), joint),
             Refusal::TooLong { member, .. }
             | Refusal::Folded { member, .. }
-            | Refusal::ShortRope { member, .. } => {
-                let member = *member;
-                at_member(Kind::Refused(refusal), member, "")
-            }
+            | Refusal::ShortRope { member, .. } => at_member(Kind::Refused(refusal), member, ""),
             _ => {
                 let key = if root.get("joints").is_some() { "joints" } else { "joints_file" };
                 root.error(Kind::Refused(refusal), key)
@@ -478,6 +466,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
 
 fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
     const SLIDES: [&str; 3] = ["free", "along", "normal"];
+    const WANTED: &str = "a point where the joint may be, [x, y, z]";
     let mut given = SLIDES.into_iter().filter(|key| table.get(key).is_some());
     let slide = given.next();
     if let (Some(other), Some(key)) = (slide, given.next()) {
@@ -485,13 +474,7 @@ fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFil
     }
     let Some(at_m) = at_m else {
         return match slide {
-            Some(key) => Err(table.error(
-                Kind::MissingKey {
-                    key: "at_m",
-                    wanted: "a point where the joint may be, [x, y, z]",
-                },
-                key,
-            )),
+            Some(key) => Err(table.error(Kind::MissingKey { key: "at_m", wanted: WANTED }, key)),
             None => Ok(Support::Free),
         };
     };

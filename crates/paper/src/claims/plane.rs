@@ -70,17 +70,16 @@ fn four(facts: &Facts, printed: &Printed) -> Finding {
         Assessment::Corrected
     };
     let proof = &facts.completeness;
-    let what = Sentence::from([
-        "equilibria, proved: the census encloses ".into(),
-        proof.planar.into(),
-        " and excludes all others (indices ".into(),
-        proof.indices().into(),
-        ", Euler characteristic ".into(),
-        Number::count(proof.alternating_sum as f64).into(),
-        "), and the sextic in cos(theta) has ".into(),
-        roots.len().into(),
-        " roots, each with its mirror image (they are not those of (x))".into(),
-    ]);
+    let what = Sentence::filled(
+        "equilibria, proved: the census encloses {} and excludes all others (indices {}, Euler characteristic {}), \
+         and the sextic in cos(theta) has {} roots, each with its mirror image (they are not those of (x))",
+        [
+            proof.planar.into(),
+            proof.indices().into(),
+            Number::count(proof.alternating_sum as f64).into(),
+            roots.len().into(),
+        ],
+    );
     Finding::new(verdict.if_shown(met), proof.planar as f64, what).lagrange(found)
 }
 
@@ -105,15 +104,15 @@ fn psi(facts: &Facts) -> Finding {
         |psi, phi| constraint_functions(chain, &state(psi, phi)).amax() / facts.example.units.l_m;
     let (alone, together) = (open(TURN, 0.0), open(TURN, -TURN));
     let shown = largest([columns, together]) <= ANGLE_RAD && alone > ANGLE_RAD;
-    let what = Sentence::from([
-        "largest difference of columns 4 and 6 of B: gimbal lock. All psi_i turned by ".into(),
-        Number::decimals(TURN, 1).into(),
-        " rad alone break the constraints by ".into(),
-        Number::decimals(alone, 2).into(),
-        " l, with phi_i turned back by ".into(),
-        Number::size(together, 0).into(),
-        " l".into(),
-    ]);
+    let what = Sentence::filled(
+        "largest difference of columns 4 and 6 of B: gimbal lock. All psi_i turned by {} rad alone break the \
+         constraints by {} l, with phi_i turned back by {} l",
+        [
+            Number::decimals(TURN, 1).into(),
+            Number::decimals(alone, 2).into(),
+            Number::size(together, 0).into(),
+        ],
+    );
     Finding::new(Assessment::Explained.if_shown(shown), columns, what).lagrange(columns)
 }
 

@@ -53,15 +53,10 @@ fn scanned(paper: &Paper, position: &str, found: &ScanMinimum) -> Finding {
     let same = numbers.iter().filter(|(claim, value)| claim.is_some_and(|c| c.rounds_to(*value)));
     let same = same.count();
     let verdict = if same == numbers.len() { Assessment::Confirmed } else { Assessment::Refuted };
-    let what = Sentence::from([
-        "of the four printed numbers to the last digit; point ".into(),
-        found.point.into(),
-        " of ".into(),
-        found.points.into(),
-        ", theta = ".into(),
-        Number::decimals(found.theta_rad, 3).into(),
-        " rad".into(),
-    ]);
+    let what = Sentence::filled(
+        "of the four printed numbers to the last digit; point {} of {}, theta = {} rad",
+        [found.point.into(), found.points.into(), Number::decimals(found.theta_rad, 3).into()],
+    );
     Finding::new(verdict, same as f64, what).energy(same as f64)
 }
 
@@ -87,12 +82,11 @@ fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
     } else {
         Assessment::Refuted
     };
-    let what = Sentence::from([
-        "printed less true, in steps of the scan (0.001 rad), whose point this is; solvers and reference agree to "
-            .into(),
-        Number::size(spread, 0).into(),
-        " rad".into(),
-    ]);
+    let what = Sentence::filled(
+        "printed less true, in steps of the scan (0.001 rad), whose point this is; solvers and reference agree to {} \
+         rad",
+        [Number::size(spread, 0).into()],
+    );
     Finding::new(verdict.if_shown(agreed), steps, what)
         .lagrange(printed_degrees(lagrange))
         .energy(printed_degrees(energy))
@@ -188,19 +182,16 @@ fn solutions(facts: &Facts, printed: &Printed) -> Finding {
         let mut of = all.iter().filter(|found| found.closes == closes);
         Number::decimals(of.nth(k).map_or(f64::NAN, |found| found.alpha_rad.to_degrees()), 3)
     };
-    let what = Sentence::from([
-        "solutions at theta = ".into(),
-        Number::decimals(theta, 3).into(),
-        " rad: alpha = ".into(),
-        degrees(true, 0).into(),
-        " and ".into(),
-        degrees(true, 1).into(),
-        " deg close the chain, ".into(),
-        degrees(false, 0).into(),
-        " and ".into(),
-        degrees(false, 1).into(),
-        " deg, added by squaring, do not".into(),
-    ]);
+    let what = Sentence::filled(
+        "solutions at theta = {} rad: alpha = {} and {} deg close the chain, {} and {} deg, added by squaring, do not",
+        [
+            Number::decimals(theta, 3).into(),
+            degrees(true, 0).into(),
+            degrees(true, 1).into(),
+            degrees(false, 0).into(),
+            degrees(false, 1).into(),
+        ],
+    );
     let count = all.len() as f64;
     let verdict = if (count - printed.value()).abs() < 0.5 {
         Assessment::Confirmed
@@ -236,11 +227,10 @@ fn branches() -> Finding {
         (true, false, true) => Assessment::Refuted,
         _ => Assessment::Undecided,
     };
-    let what = Sentence::from([
-        "deg: from this theta on, up to ".into(),
-        Number::decimals(largest.to_degrees(), 1).into(),
-        " deg, both alpha lie in the fourth quadrant".into(),
-    ]);
+    let what = Sentence::filled(
+        "deg: from this theta on, up to {} deg, both alpha lie in the fourth quadrant",
+        [Number::decimals(largest.to_degrees(), 1).into()],
+    );
     Finding::new(verdict, low.to_degrees(), what).energy(low.to_degrees())
 }
 

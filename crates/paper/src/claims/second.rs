@@ -95,11 +95,10 @@ fn slope_at_x(facts: &Facts) -> Finding {
     let minimum = &facts.example.energy.minimum;
     let control = slope(minimum.theta_rad, Branch::FirstQuadrant).abs() <= FLAT;
     let verdict = if found.abs() <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
-    let what = Sentence::from([
-        "mgl/rad (".into(),
-        Number::decimals(at_zero, 4).into(),
-        " at theta = 0): V falls on through theta < 0 (at E1 the slope is zero)".into(),
-    ]);
+    let what = Sentence::filled(
+        "mgl/rad ({} at theta = 0): V falls on through theta < 0 (at E1 the slope is zero)",
+        [Number::decimals(at_zero, 4).into()],
+    );
     Finding::new(verdict.if_shown(met && control), found, what).energy(found)
 }
 
@@ -112,11 +111,10 @@ fn multipliers(facts: &Facts) -> Finding {
     let e1 = planar_equilibria(facts)[0].angles_rad;
     let control = misfit(&facts.example.problem, facts.example.units, &e1).norm <= ANGLE_RAD;
     let verdict = if found.norm <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
-    let what = Sentence::from([
-        "mg: what the best multipliers leave of (40), norm; the largest component is ".into(),
-        Number::decimals(found.largest, 4).into(),
-        " (at E1 nothing is left)".into(),
-    ]);
+    let what = Sentence::filled(
+        "mg: what the best multipliers leave of (40), norm; the largest component is {} (at E1 nothing is left)",
+        [Number::decimals(found.largest, 4).into()],
+    );
     Finding::new(verdict.if_shown(met && control), found.norm, what).lagrange(found.norm)
 }
 
@@ -126,17 +124,15 @@ fn listed(facts: &Facts) -> Finding {
     let proof = &facts.completeness;
     let x = &proof.second;
     let shown = proof.is_closed() && proof.first.nearest_deg < PAPER_STEP_RAD.to_degrees();
-    let what = Sentence::from([
-        "mgl/rad: the slope of V is at least that wherever the angles round to the printed ones, rounded \
-         outward; the nearest of all "
-            .into(),
-        proof.planar.into(),
-        " equilibria, proved complete by the census, is ".into(),
-        Number::decimals(x.nearest_deg, 2).into(),
-        " deg away ((ix): ".into(),
-        Number::decimals(proof.first.nearest_deg, 4).into(),
-        " deg)".into(),
-    ]);
+    let what = Sentence::filled(
+        "mgl/rad: the slope of V is at least that wherever the angles round to the printed ones, rounded outward; \
+         the nearest of all {} equilibria, proved complete by the census, is {} deg away ((ix): {} deg)",
+        [
+            proof.planar.into(),
+            Number::decimals(x.nearest_deg, 2).into(),
+            Number::decimals(proof.first.nearest_deg, 4).into(),
+        ],
+    );
     let verdict = if x.is_refuted() { Assessment::Refuted } else { Assessment::Confirmed };
     Finding::new(verdict.if_shown(shown), x.least_slope_mgl(), what)
 }
@@ -149,11 +145,10 @@ fn first_point(facts: &Facts, printed: &Printed) -> Finding {
     // Before it, the energy is lower still.
     let falls = slope(second.theta_rad, Branch::FourthQuadrant) > FLAT
         && slope(-PAPER_STEP_RAD, Branch::FourthQuadrant) > FLAT;
-    let what = Sentence::from([
-        "number of the scan point that it is: the first, theta = 0.001 rad, of ".into(),
-        second.points.into(),
-        "; before it V is lower".into(),
-    ]);
+    let what = Sentence::filled(
+        "number of the scan point that it is: the first, theta = 0.001 rad, of {}; before it V is lower",
+        [second.points.into()],
+    );
     Finding::new(Assessment::Explained.if_shown(shown && falls), second.point as f64, what)
         .energy(step_deg)
 }
@@ -218,9 +213,9 @@ fn identical(facts: &Facts) -> Finding {
         (true, false) => Assessment::Refuted,
         (false, _) => Assessment::Undecided,
     };
-    let what = Sentence::from([
-        "mg: what (x) leaves of the equations of the other method, (40); (ix) leaves ".into(),
-        Number::decimals(first, 4).into(),
-    ]);
+    let what = Sentence::filled(
+        "mg: what (x) leaves of the equations of the other method, (40); (ix) leaves {}",
+        [Number::decimals(first, 4).into()],
+    );
     Finding::new(verdict, second, what).lagrange(second)
 }

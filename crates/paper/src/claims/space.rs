@@ -65,12 +65,11 @@ fn turned(facts: &Facts) -> Finding {
     }
     let most = largest([multipliers, gradient, newton]);
     let verdict = if most <= ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
-    let what = Sentence::from([
-        "largest residual of E1 turned by ".into(),
-        TURNS.len().into(),
-        " angles: the 30 equations (lagrange), the gradient of the energy (energy), Newton's laws"
-            .into(),
-    ]);
+    let what = Sentence::filled(
+        "largest residual of E1 turned by {} angles: the 30 equations (lagrange), the gradient of the energy \
+         (energy), Newton's laws",
+        [TURNS.len().into()],
+    );
     Finding::new(verdict, most, what).lagrange(multipliers).energy(gradient)
 }
 
@@ -99,13 +98,11 @@ fn infinity(facts: &Facts) -> Finding {
     let proof = &facts.completeness;
     // The census: so many circles, and each of them a single curve.
     let double = proof.is_closed() && proof.circles == 2;
-    let what = Sentence::from([
-        "dimension of the family through E1 (and through E2): nullity less one spin per bar. The census proves \
-         that there are "
-            .into(),
-        proof.circles.into(),
-        " circles of equilibria and nothing else: the infinity is double in number, not in dimension".into(),
-    ]);
+    let what = Sentence::filled(
+        "dimension of the family through E1 (and through E2): nullity less one spin per bar. The census proves that \
+         there are {} circles of equilibria and nothing else: the infinity is double in number, not in dimension",
+        [proof.circles.into()],
+    );
     let shown = nullity && single && double;
     Finding::new(Assessment::Explained.if_shown(shown), dimensions[0], what)
         .lagrange(dimensions[0])

@@ -6,7 +6,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::sample::{LargestEntry, angles, derivative, largest, positive, rotation, worst};
-use super::{EquationAudit, NUMERIC, ROUNDING};
+use super::{EquationAudit, NUMERIC, ROUNDING, says};
 
 const CLOSED: &str =
     "largest value at 1000 random configurations that are closed by construction, l";
@@ -120,27 +120,23 @@ pub(super) fn rows() -> Vec<EquationAudit> {
     };
     let begin_2 =
         |c: &Closed| c.centres[1] + rotation(c.angles[1]) * Vector3::new(-c.levers[1], 0.0, 0.0);
-    let mut rows = vec![EquationAudit::new("(6)", "III", "bar 1 begins at O").measured(
+    let mut rows = vec![says("(6)", "III", "bar 1 begins at O").measured(
         CLOSED,
         apart(|c| at_o(c) - c.joints[0]),
         ROUNDING,
     )];
     let row = |number, f: usize, what| {
-        EquationAudit::new(number, "III", what).measured(
-            CLOSED,
-            open(|c| as_printed(c)[f - 1]),
-            ROUNDING,
-        )
+        says(number, "III", what).measured(CLOSED, open(|c| as_printed(c)[f - 1]), ROUNDING)
     };
     for (number, f) in [("(7)", 1), ("(8)", 2), ("(9)", 3)] {
         rows.push(row(number, f, "constraint function: bar 1 is held at O"));
     }
-    rows.push(EquationAudit::new("(10)", "III", "bar 1 ends at A1").measured(
+    rows.push(says("(10)", "III", "bar 1 ends at A1").measured(
         CLOSED,
         apart(|c| end_1(c) - c.joints[1]),
         ROUNDING,
     ));
-    rows.push(EquationAudit::new("(11)", "III", "bar 2 begins at A1").measured(
+    rows.push(says("(11)", "III", "bar 2 begins at A1").measured(
         CLOSED,
         apart(|c| begin_2(c) - c.joints[1]),
         ROUNDING,
@@ -160,7 +156,7 @@ pub(super) fn rows() -> Vec<EquationAudit> {
         ));
     }
     rows.push(
-        EquationAudit::new("after (20)", "III", "18 coordinates less 12 constraints: 6 degrees of freedom, 3 of them useless")
+        says("after (20)", "III", "18 coordinates less 12 constraints: 6 degrees of freedom, 3 of them useless")
             .measured(
                 "columns of B less its rank less 6, and twists of a bar that move its ends, 100 random states",
                 freedom(),
@@ -169,7 +165,7 @@ pub(super) fn rows() -> Vec<EquationAudit> {
     );
     let coordinates = lagrange::load_vector(model::cases::paper().chain()).len();
     rows.push(
-        EquationAudit::new("(21)", "IV", "the vector of 18 coordinates")
+        says("(21)", "IV", "the vector of 18 coordinates")
             .counted(
                 "entries of lagrange's load vector, one per coordinate, less 18",
                 coordinates as f64 - 18.0,
@@ -177,7 +173,7 @@ pub(super) fn rows() -> Vec<EquationAudit> {
             .definition(),
     );
     rows.push(
-        EquationAudit::new("(22)", "IV", "the matrix of constraints is the derivative of (7)-(20), with (18)-(20) corrected")
+        says("(22)", "IV", "the matrix of constraints is the derivative of (7)-(20), with (18)-(20) corrected")
             .measured(
                 "largest difference of lagrange's matrix from numeric derivatives, l and l/rad, 100 random states",
                 matrix_of_constraints(),

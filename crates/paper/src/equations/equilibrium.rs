@@ -7,7 +7,7 @@ use nalgebra::{DVector, Vector3};
 
 use super::inertia::velocity_matrix;
 use super::sample::{LargestEntry, dynamic, largest};
-use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED};
+use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED, says};
 
 /// Multipliers of three bars.
 const MULTIPLIERS: usize = 12;
@@ -63,7 +63,7 @@ fn system_size() -> usize {
 pub(super) fn counted() -> Vec<EquationAudit> {
     let size = system_size() as f64;
     vec![
-        EquationAudit::new(
+        says(
             "abstract",
             "abstract",
             "a system of 18 non-linear equations gives equilibria and reactions",
@@ -92,19 +92,15 @@ pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
     let unknowns = (MULTIPLIERS + angles) as f64 - 21.0;
     let all = (COORDINATES + MULTIPLIERS) as f64 - size;
     vec![
-        EquationAudit::new("(40)", "VII", "the multipliers balance the load")
+        says("(40)", "VII", "the multipliers balance the load")
             .measured("largest entry at E1, mg", unbalanced(e1, true), SOLVED),
-        EquationAudit::new(
-            "(41)",
-            "VII",
-            "the load; its dots pass over bar 2, as those of (21) do",
-        )
-        .measured(
+        says("(41)", "VII", "the load; its dots pass over bar 2, as those of (21) do")
+            .measured(
             "largest entry of (40) at E1 with the weight of bar 2 where the dots are, mg",
             unbalanced(e1, true),
             SOLVED,
         ),
-        EquationAudit::new(
+        says(
             "(41)",
             "VII",
             "with zeros for the dots the weight of bar 2 would be missing, which (xxiii) has: lambda_6 - lambda_9 = -mg",
@@ -115,12 +111,8 @@ pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
             SOLVED,
         )
         .remark(),
-        EquationAudit::new(
-            "after (41)",
-            "VII",
-            "21 unknowns of (40); with the constraints 30 equations for 30 unknowns",
-        )
-        .counted("differences of the counts", largest([unknowns, all])),
+        says("after (41)", "VII", "21 unknowns of (40); with the constraints 30 equations for 30 unknowns")
+            .counted("differences of the counts", largest([unknowns, all])),
     ]
 }
 
@@ -129,22 +121,14 @@ pub(super) fn citations(last_number: u32) -> [EquationAudit; 2] {
     let beyond = |cited: u32| f64::from(cited.saturating_sub(last_number));
     let measure = "how far the number lies beyond the last numbered equation";
     [
-        EquationAudit::new(
-            "before (40)",
-            "VII",
-            "cites the moving equation as (45), which does not exist",
-        )
-        .counted(measure, beyond(45))
-        .corrected("(33)", beyond(33), ROUNDING)
-        .fault(Fault::Form),
-        EquationAudit::new(
-            "after (41)",
-            "VII",
-            "cites the system of equations as (52), which does not exist",
-        )
-        .counted(measure, beyond(52))
-        .corrected("(40)", beyond(40), ROUNDING)
-        .fault(Fault::Form),
+        says("before (40)", "VII", "cites the moving equation as (45), which does not exist")
+            .counted(measure, beyond(45))
+            .corrected("(33)", beyond(33), ROUNDING)
+            .fault(Fault::Form),
+        says("after (41)", "VII", "cites the system of equations as (52), which does not exist")
+            .counted(measure, beyond(52))
+            .corrected("(40)", beyond(40), ROUNDING)
+            .fault(Fault::Form),
     ]
 }
 
@@ -155,13 +139,9 @@ pub(super) fn coordinates(e1: &E1State) -> [EquationAudit; 2] {
     // In the plane OXZ, theta alone tells the direction: u = (cos(theta), 0, -sin(theta)).
     let in_oxz = e1.angles().map(|angle| [0.0, FRAC_PI_2 - angle, 0.0]);
     [
-        EquationAudit::new(
-            "before (xi)",
-            "VIII",
-            "psi_i = 0, theta_i = pi/2: the bars lie in the plane OYZ",
-        )
-        .measured("largest X of a bar's direction at E1", largest(out_of_plane), ROUNDING),
-        EquationAudit::new(
+        says("before (xi)", "VIII", "psi_i = 0, theta_i = pi/2: the bars lie in the plane OYZ")
+            .measured("largest X of a bar's direction at E1", largest(out_of_plane), ROUNDING),
+        says(
             "before (xi)",
             "VIII",
             "these coordinates are at gimbal lock: psi_i and phi_i turn about one axis",

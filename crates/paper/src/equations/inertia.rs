@@ -10,7 +10,7 @@ use super::sample::{
     LargestEntry, angles, at, derivative, dynamic, largest, positive, rotation, signed,
     three_by_three, worst,
 };
-use super::{EquationAudit, Fault, NUMERIC, ROUNDING};
+use super::{EquationAudit, Fault, NUMERIC, ROUNDING, says};
 
 const SPIN: &str = "largest difference from A^T dA/dt, numeric, along 1000 random motions with rates up to 1, rad/s";
 const ENTRY: &str =
@@ -205,7 +205,7 @@ fn velocities() -> Vec<EquationAudit> {
         (skew(&(velocity_matrix(q) * rates)) - numeric_spin(q, &rates)).largest_entry()
     });
     vec![
-        EquationAudit::new(
+        says(
             "(23)",
             "V",
             "first line: no brackets, so [phi]^T[theta]^T turns all three unit vectors",
@@ -221,25 +221,21 @@ fn velocities() -> Vec<EquationAudit> {
             ROUNDING,
         )
         .fault(Fault::Form),
-        EquationAudit::new(
-            "(23)",
-            "V",
-            "second line: the matrix from angle rates to the angular velocity",
-        )
-        .measured(SPIN, matrix_error, NUMERIC),
-        EquationAudit::new("(24)", "V", "first component of omega: the sign of the psi term")
+        says("(23)", "V", "second line: the matrix from angle rates to the angular velocity")
+            .measured(SPIN, matrix_error, NUMERIC),
+        says("(24)", "V", "first component of omega: the sign of the psi term")
             .measured(SPIN, omega_error(printed_omega, 0), NUMERIC)
             .corrected(
                 "+psi' cos(theta) cos(phi) + theta' sin(phi), as (23) has it",
                 omega_error(omega, 0),
                 NUMERIC,
             ),
-        EquationAudit::new("(24)", "V", "second and third component of omega").measured(
+        says("(24)", "V", "second and third component of omega").measured(
             SPIN,
             largest([1, 2].map(|axis| omega_error(printed_omega, axis))),
             NUMERIC,
         ),
-        EquationAudit::new("(25)", "V", "the skew matrix of omega, with (24) corrected")
+        says("(25)", "V", "the skew matrix of omega, with (24) corrected")
             .measured(SPIN, skew_error, NUMERIC),
     ]
 }
@@ -269,28 +265,24 @@ fn static_moments() -> Vec<EquationAudit> {
         (static_moment(1.0, &centre) * v - centre.cross(&v)).largest_entry()
     });
     vec![
-        EquationAudit::new("(26)", "V", "the principal moments of inertia")
+        says("(26)", "V", "the principal moments of inertia")
             .measured("largest difference of model's moments of the example's bars from integrals over their length, ml^2", of_second, ROUNDING)
             .definition(),
-        EquationAudit::new("(27)", "V", "the bar's axes start at its centre of weight")
+        says("(27)", "V", "the bar's axes start at its centre of weight")
             .measured("first moment of the example's bars about model's centres, an integral over their length, ml", of_first, ROUNDING)
             .definition(),
-        EquationAudit::new(
-            "(28)",
-            "V",
-            "the static moment, zero because of (27); m stands for m_i",
-        )
-        .measured(
+        says("(28)", "V", "the static moment, zero because of (27); m stands for m_i")
+            .measured(
             "largest entry of [S]v - m (x_C cross v) at random x_C and of [S] at x_C = 0",
             largest([moment_error, static_moment(1.0, &Vector3::zeros()).largest_entry()]),
             ROUNDING,
         ),
-        EquationAudit::new("(29)", "V", "no coupling of rotation into translation").measured(
+        says("(29)", "V", "no coupling of rotation into translation").measured(
             "largest entry, 1000 random states",
             coupling(false),
             ROUNDING,
         ),
-        EquationAudit::new("(30)", "V", "no coupling of translation into rotation").measured(
+        says("(30)", "V", "no coupling of translation into rotation").measured(
             "largest entry, 1000 random states",
             coupling(true),
             ROUNDING,
@@ -302,12 +294,12 @@ fn static_moments() -> Vec<EquationAudit> {
 fn inertias() -> Vec<EquationAudit> {
     let wrong = [(1, 0), (1, 1), (2, 0)];
     let entry = |what, at, text| {
-        EquationAudit::new("(31)", "V", what)
+        says("(31)", "V", what)
             .measured(ENTRY, inertia_error(printed_inertia, |e| e == at), ROUNDING)
             .corrected(text, inertia_error(corrected_inertia, |e| e == at), ROUNDING)
     };
     vec![
-        EquationAudit::new("(31)", "V", "the entries other than (2,1), (2,2), (3,1)").measured(
+        says("(31)", "V", "the entries other than (2,1), (2,2), (3,1)").measured(
             ENTRY,
             inertia_error(printed_inertia, |e| !wrong.contains(&e)),
             ROUNDING,
@@ -324,22 +316,18 @@ fn inertias() -> Vec<EquationAudit> {
         )
         .fault(Fault::Form),
         entry("entry (3,1): s(phi) for s(theta)", (2, 0), "J_z s(theta), the entry (1,3)"),
-        EquationAudit::new(
-            "(32)",
-            "V",
-            "two brackets side by side are a product, of 9 rows where (33) needs 6",
-        )
-        .counted(
-            "rows of the product, or of the matrix, less the 6 of a bar's coordinates",
-            rows_too_many(false),
-        )
-        .corrected(
-            "one matrix of 6 rows with the blocks [diag(m_i)] and [Q_i]^T[J_Ci][Q_i]",
-            rows_too_many(true),
-            ROUNDING,
-        )
-        .fault(Fault::Form),
-        EquationAudit::new(
+        says("(32)", "V", "two brackets side by side are a product, of 9 rows where (33) needs 6")
+            .counted(
+                "rows of the product, or of the matrix, less the 6 of a bar's coordinates",
+                rows_too_many(false),
+            )
+            .corrected(
+                "one matrix of 6 rows with the blocks [diag(m_i)] and [Q_i]^T[J_Ci][Q_i]",
+                rows_too_many(true),
+                ROUNDING,
+            )
+            .fault(Fault::Form),
+        says(
             "(32)",
             "V",
             "the matrix of inertia of a bar as one block diagonal matrix, with (31) corrected",

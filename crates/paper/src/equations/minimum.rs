@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::equilibrium::{load, planar, reactions};
 use super::sample::{LargestEntry, angles, largest, worst};
-use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED};
+use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED, says};
 
 /// Half a unit of the last digit that (ix) and (x) print, with room for the rounding of a tie.
 const LAST_DIGIT: f64 = 5.01e-6;
@@ -143,19 +143,19 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
     let no_first = nearer(outside_first_quadrant(e2[1]), outside_first_quadrant(e2[2]));
     let both = largest([quadratic(e2[0], e2[1]), quadratic(e2[0], e2[2])]);
     vec![
-        EquationAudit::new("before (i)", "VIII", "the angles are measured from the vertical descending axis Ox, where (35) has the weight along -Z")
+        says("before (i)", "VIII", "the angles are measured from the vertical descending axis Ox, where (35) has the weight along -Z")
             .measured("difference of the axis from the direction of the weights", down_from(Vector3::x()), ROUNDING)
             .corrected("from the axis -OZ", down_from(-Vector3::z()), ROUNDING),
-        EquationAudit::new("before (i)", "VIII", "OD = l, where (i) needs OD = 2l")
+        says("before (i)", "VIII", "OD = l, where (i) needs OD = 2l")
             .measured("residual of (i) at E1 with this OD, l", closure(e1.angles(), 1.0)[0], SOLVED)
             .corrected("OD = 2l", down, SOLVED),
-        EquationAudit::new("(i)", "VIII", "the chain closes along the vertical")
+        says("(i)", "VIII", "the chain closes along the vertical")
             .measured("residual at E1, l", down, SOLVED),
-        EquationAudit::new("(ii)", "VIII", "the chain closes across the vertical")
+        says("(ii)", "VIII", "the chain closes across the vertical")
             .measured("residual at E1, l", aside, SOLVED),
-        EquationAudit::new("(iii)", "VIII", "(i) over l").measured("residual at E1", down, SOLVED),
-        EquationAudit::new("(iv)", "VIII", "(ii) over l").measured("residual at E1", aside, SOLVED),
-        EquationAudit::new("(v)", "VIII", "the potential energy, zero at the height of D")
+        says("(iii)", "VIII", "(i) over l").measured("residual at E1", down, SOLVED),
+        says("(iv)", "VIII", "(ii) over l").measured("residual at E1", aside, SOLVED),
+        says("(v)", "VIII", "the potential energy, zero at the height of D")
             .measured(
                 "largest difference from the heights of the centres, 1000 random states, mgl",
                 worst(|rng| {
@@ -164,27 +164,27 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
                 }),
                 ROUNDING,
             ),
-        EquationAudit::new("(vi)", "VIII", "the potential energy with (iii) put in")
+        says("(vi)", "VIII", "the potential energy with (iii) put in")
             .measured(
                 "largest difference from the heights of the centres, 1000 random closed configurations, mgl",
                 at_closed(|phi| 5.0 - 2.0 * phi[0].cos() - phi[1].cos() - heights(phi)),
                 ROUNDING,
             ),
-        EquationAudit::new("(vii)", "VIII", "(iii) and (iv) solved for beta").measured(configurations, squared, ROUNDING),
-        EquationAudit::new("(vii)", "VIII", "is printed with the number (viii), which the next equation has too")
+        says("(vii)", "VIII", "(iii) and (iv) solved for beta").measured(configurations, squared, ROUNDING),
+        says("(vii)", "VIII", "is printed with the number (viii), which the next equation has too")
             .counted("equations numbered (viii) less one", repeated(&["(viii)", "(viii)"]))
             .corrected("(vii)", repeated(&["(vii)", "(viii)"]), ROUNDING)
             .fault(Fault::Form),
-        EquationAudit::new("(viii)", "VIII", "(vii) squared and summed, squared once more to be rid of sin(alpha)")
+        says("(viii)", "VIII", "(vii) squared and summed, squared once more to be rid of sin(alpha)")
             .measured(
                 "largest left-hand side, 1000 random closed configurations",
                 at_closed(|[theta, alpha, _]| quadratic(theta, alpha)),
                 ROUNDING,
             ),
-        EquationAudit::new("after (viii)", "VIII", "two solutions alpha: squared, (viii) has four, and two of them do not close the chain")
+        says("after (viii)", "VIII", "two solutions alpha: squared, (viii) has four, and two of them do not close the chain")
             .counted("solutions at theta = 0.344 rad less two", roots(|alpha| quadratic(THETA_IX, alpha)) - 2.0)
             .corrected("two where (vii) holds besides: its sides squared sum to 1", roots(|alpha| open(THETA_IX, alpha)) - 2.0, ROUNDING),
-        EquationAudit::new("after (viii)", "VIII", "one solution alpha is always in the first quadrant: not at theta of E2, where both are in the fourth")
+        says("after (viii)", "VIII", "one solution alpha is always in the first quadrant: not at theta of E2, where both are in the fourth")
             .measured("how far the nearer solution is from the first quadrant, deg", no_first, ROUNDING)
             .replaced("the two solutions are alpha and beta in either order; value: largest residual of (viii) at both", both),
     ]
@@ -207,7 +207,7 @@ fn results(e1: &E1State) -> Vec<EquationAudit> {
     let reported = PRINTED_X.map(f64::to_radians);
     let multipliers = "what the best multipliers leave of (40), mg (root of the sum of squares)";
     vec![
-        EquationAudit::new("(ix)", "VIII", "the angles are those of a grid point, theta = 0.344 rad, not of the minimum")
+        says("(ix)", "VIII", "the angles are those of a grid point, theta = 0.344 rad, not of the minimum")
             .measured("largest difference of an angle from E1, deg", from_e1(PRINTED_IX), LAST_DIGIT)
             .corrected(
                 "theta = 19.69487, alpha = 38.59914, beta = 286.07941 deg",
@@ -215,11 +215,11 @@ fn results(e1: &E1State) -> Vec<EquationAudit> {
                 LAST_DIGIT,
             )
             .fault(Fault::Digits),
-        EquationAudit::new("(ix)", "VIII", "the energy V = 2.33547 mgl")
+        says("(ix)", "VIII", "the energy V = 2.33547 mgl")
             .measured("difference from E1, mgl", 2.335_47 - heights(e1.angles()), LAST_DIGIT),
-        EquationAudit::new("(x)", "VIII", "the energy V = 2.50087 mgl belongs to the angles")
+        says("(x)", "VIII", "the energy V = 2.50087 mgl belongs to the angles")
             .measured("difference from the heights at the printed angles, mgl", 2.500_87 - heights(reported), LAST_DIGIT),
-        EquationAudit::new("(x)", "VIII", "no equilibrium: theta = 0.001 rad is the first point of a grid on the other branch of (viii)")
+        says("(x)", "VIII", "no equilibrium: theta = 0.001 rad is the first point of a grid on the other branch of (viii)")
             .measured(multipliers, left_of_40(reported), SOLVED)
             .replaced(
                 "the second equilibrium is E1 upside down: theta = 73.92059, alpha = -38.59914, beta = -19.69487 deg, V = 3.66453 mgl, a maximum in the plane",

@@ -10,7 +10,7 @@ use super::sample::{
     LargestEntry, angles, at, derivative, dynamic, largest, positive, rotation, second_derivative,
     signed, three_by_three, worst,
 };
-use super::{EquationAudit, Fault, NUMERIC, ROUNDING};
+use super::{EquationAudit, Fault, NUMERIC, ROUNDING, says};
 
 const GYROSCOPIC: &str = "largest difference from Lagrange's equation by numeric derivatives of the kinetic energy, 1000 random motions, J up to 1.5, rates up to 1";
 
@@ -191,7 +191,7 @@ pub(super) fn rows() -> Vec<EquationAudit> {
     let couples = largest((0..3).map(|bar| load.fixed_rows::<3>(6 * bar + 3).largest_entry()));
     let columns = "columns of the first summand less those of the left-hand side";
     vec![
-        EquationAudit::new("(33)", "VI", "lower right-hand side: -[B]{q}, without its two dots, is no derivative of the constraints")
+        says("(33)", "VI", "lower right-hand side: -[B]{q}, without its two dots, is no derivative of the constraints")
             .measured(
                 "largest entry of [B]{q''} less the right-hand side, 1000 random motions with all joints closed, l/s^2 and rates up to 0.2/s",
                 lower_rows(true),
@@ -199,33 +199,33 @@ pub(super) fn rows() -> Vec<EquationAudit> {
             )
             .corrected("-[dB/dt]{q'}", lower_rows(false), NUMERIC)
             .fault(Fault::Form),
-        EquationAudit::new("(33)", "VI", "no bracket joins [M] and -[B]^T, which so has 12 columns for 30 unknowns")
+        says("(33)", "VI", "no bracket joins [M] and -[B]^T, which so has 12 columns for 30 unknowns")
             .counted("unknowns less columns of what stands before them", missing_columns(false))
             .corrected("[[M], -[B]^T; [B], [0]]", missing_columns(true), ROUNDING)
             .fault(Fault::Form),
-        EquationAudit::new("(33)", "VI", "the matrix on the left lacks its lower rows [B] [0]")
+        says("(33)", "VI", "the matrix on the left lacks its lower rows [B] [0]")
             .counted("unknowns less equations", missing_rows(false))
             .corrected("[[M], -[B]^T; [B], [0]], 30 rows for 30 unknowns", missing_rows(true), ROUNDING)
             .fault(Fault::Form),
-        EquationAudit::new("(34)", "VI", "the generalised force: force, then moment")
+        says("(34)", "VI", "the generalised force: force, then moment")
             .counted("entries of lagrange's load vector less 3 + 3 for each bar", load.len() as f64 - 6.0 * paper.chain().bars().len() as f64)
             .definition(),
-        EquationAudit::new("(35)", "VI", "the weight acts along -Z")
+        says("(35)", "VI", "the weight acts along -Z")
             .measured("largest difference from lagrange's load vector, mg", weight_error, ROUNDING),
-        EquationAudit::new("(36)", "VI", "a weight at the centre has no moment about it")
+        says("(36)", "VI", "a weight at the centre has no moment about it")
             .measured("largest entry of lagrange's load vector, N m", couples, ROUNDING),
-        EquationAudit::new("(37)", "VI", "the generalised force of inertia: force, then moment")
+        says("(37)", "VI", "the generalised force of inertia: force, then moment")
             .measured("largest entry at rest, where section VII leaves it out: (39) corrected without rates, 1000 random states", at_rest, ROUNDING)
             .definition(),
-        EquationAudit::new("(38)", "VI", "no bracket before the column of angle rates: a matrix is added to a column (the value 0 is right)")
+        says("(38)", "VI", "no bracket before the column of angle rates: a matrix is added to a column (the value 0 is right)")
             .counted(columns, columns_too_many(false))
             .corrected("-([A][S]^T[Q'] + [A'][S]^T[Q]){psi' theta' phi'}", columns_too_many(true), ROUNDING)
             .fault(Fault::Form),
-        EquationAudit::new("(39)", "VI", "no bracket before the column of angle rates: a matrix is added to a column")
+        says("(39)", "VI", "no bracket before the column of angle rates: a matrix is added to a column")
             .counted(columns, columns_too_many(false))
             .corrected("-([Q]^T[J][Q'] + [Q]^T[omega][J][Q]){psi' theta' phi'}", columns_too_many(true), ROUNDING)
             .fault(Fault::Form),
-        EquationAudit::new("(39)", "VI", "[Q']^T for [Q]^T in front of [omega], even with the bracket: 1/s^3 added to 1/s^2")
+        says("(39)", "VI", "[Q']^T for [Q]^T in front of [omega], even with the bracket: 1/s^3 added to 1/s^2")
             .measured(GYROSCOPIC, gyroscopic_error(true), NUMERIC)
             .corrected(
                 "-([Q]^T[J][Q'] + [Q]^T[omega][J][Q]){psi' theta' phi'}",

@@ -6,7 +6,7 @@ use rand::RngExt;
 use super::equilibrium::{coordinates, load, planar, reactions};
 use super::minimum::closure;
 use super::sample::{LargestEntry, angles, largest, worst};
-use super::{E1State, EquationAudit, ROUNDING, SOLVED};
+use super::{E1State, EquationAudit, ROUNDING, SOLVED, says};
 
 /// A printed entry of the matrix of constraints, l = 1; bars from 1.
 #[derive(Debug, Clone, Copy)]
@@ -159,7 +159,7 @@ fn entries() -> impl Iterator<Item = EquationAudit> {
         } else {
             "entries of the matrix of constraints: those of bar 3, which (18)-(20) as printed do not give"
         };
-        EquationAudit::new(number, "VIII", what).measured(
+        says(number, "VIII", what).measured(
             "largest difference of the whole row from lagrange's matrix, 1000 random angles, l",
             error,
             ROUNDING,
@@ -187,22 +187,22 @@ fn reduced(e1: &E1State) -> Vec<EquationAudit> {
     let unknowns = 8.0 + 3.0;
     let others = balances.len() as f64 + 1.0 + 2.0;
     vec![
-        EquationAudit::new("(xxiv)", "VIII", "the balances of forces and the row of phi_1")
+        says("(xxiv)", "VIII", "the balances of forces and the row of phi_1")
             .measured("largest residual at E1, mg", largest(balances), SOLVED),
-        EquationAudit::new("(xxiv)", "VIII", "row of phi_2: the sign of lambda_5 cos(phi_2)")
+        says("(xxiv)", "VIII", "row of phi_2: the sign of lambda_5 cos(phi_2)")
             .measured("residual at E1, mg", second(1.0), SOLVED)
             .corrected(
                 "-lambda_5 cos(phi_2) - lambda_6 sin(phi_2) - lambda_8 cos(phi_2) - lambda_9 sin(phi_2) = 0",
                 second(-1.0),
                 SOLVED,
             ),
-        EquationAudit::new("(xxiv)", "VIII", "row of phi_3 split into two equations: the half with lambda_8 and lambda_9")
+        says("(xxiv)", "VIII", "row of phi_3 split into two equations: the half with lambda_8 and lambda_9")
             .measured("residual at E1, mg", at_b, SOLVED)
             .corrected(whole, at_b + at_d, SOLVED),
-        EquationAudit::new("(xxiv)", "VIII", "row of phi_3 split into two equations: the half with lambda_11 and lambda_12")
+        says("(xxiv)", "VIII", "row of phi_3 split into two equations: the half with lambda_11 and lambda_12")
             .measured("residual at E1, mg", at_d, SOLVED)
             .corrected(whole, at_b + at_d, SOLVED),
-        EquationAudit::new("(xxiv)-(xxvi)", "VIII", "the split makes it one equation more than unknowns")
+        says("(xxiv)-(xxvi)", "VIII", "the split makes it one equation more than unknowns")
             .counted("equations less unknowns", others + 2.0 - unknowns)
             .corrected("11 equations in 8 multipliers and 3 angles", others + 1.0 - unknowns, ROUNDING),
     ]
@@ -214,34 +214,30 @@ pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
     let mut rows = coordinates(e1).to_vec();
     rows.extend(entries());
     rows.extend([
-        EquationAudit::new("(xxiii)", "VIII", "the rows other than that of theta_1").measured(
+        says("(xxiii)", "VIII", "the rows other than that of theta_1").measured(
             rows_of_40,
             system_error(false, false),
             ROUNDING,
         ),
-        EquationAudit::new("(xxiii)", "VIII", "row of theta_1 drops b_{1,5} lambda_1")
+        says("(xxiii)", "VIII", "row of theta_1 drops b_{1,5} lambda_1")
             .measured(rows_of_40, system_error(true, false), ROUNDING)
             .corrected(
                 "-b_{1,5} lambda_1 - b_{4,5} lambda_4 = 0",
                 system_error(true, true),
                 ROUNDING,
             ),
-        EquationAudit::new(
-            "after (xxiii)",
-            "VIII",
-            "lambda_1, lambda_4, lambda_7 and lambda_10 are zero",
-        )
-        .measured(
-            "largest of them at E1, mg",
-            largest([1, 4, 7, 10].map(|k| e1.lambda(k))),
-            SOLVED,
-        ),
+        says("after (xxiii)", "VIII", "lambda_1, lambda_4, lambda_7 and lambda_10 are zero")
+            .measured(
+                "largest of them at E1, mg",
+                largest([1, 4, 7, 10].map(|k| e1.lambda(k))),
+                SOLVED,
+            ),
     ]);
     rows.extend(reduced(e1));
     rows.extend([
-        EquationAudit::new("(xxv)", "VIII", "(iii)").measured("residual at E1", down, SOLVED),
-        EquationAudit::new("(xxvi)", "VIII", "(iv)").measured("residual at E1", aside, SOLVED),
-        EquationAudit::new(
+        says("(xxv)", "VIII", "(iii)").measured("residual at E1", down, SOLVED),
+        says("(xxvi)", "VIII", "(iv)").measured("residual at E1", aside, SOLVED),
+        says(
             "after (xxvi)",
             "VIII",
             "the multipliers are the reactions: the two anchors carry the three weights",

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::sample::{LargestEntry, angles, largest, rotation, worst};
-use super::{EquationAudit, ROUNDING};
+use super::{EquationAudit, ROUNDING, says};
 
 const ENTRY: &str = "largest difference of an entry, 1000 random states";
 
@@ -47,16 +47,6 @@ fn printed([psi, theta, phi]: [f64; 3]) -> Matrix3<f64> {
     )
 }
 
-/// Eq. (5) entry (3,1), corrected.
-fn entry_31([psi, theta, phi]: [f64; 3]) -> f64 {
-    -psi.cos() * theta.sin() * phi.cos() + psi.sin() * phi.sin()
-}
-
-/// Eq. (5) entry (3,3), corrected.
-fn entry_33([psi, theta, _]: [f64; 3]) -> f64 {
-    psi.cos() * theta.cos()
-}
-
 /// Difference of an elementary rotation from nalgebra's.
 fn elementary(matrix: fn(f64) -> Matrix3<f64>, axis: Unit<Vector3<f64>>) -> f64 {
     worst(|rng| {
@@ -91,32 +81,32 @@ pub(super) fn rows() -> Vec<EquationAudit> {
         )
     });
     vec![
-        EquationAudit::new("(1)", "III", "the rotation is the product of three").measured(
+        says("(1)", "III", "the rotation is the product of three").measured(
             "largest difference of an entry from two other codes, 1000 random states",
             of_product,
             ROUNDING,
         ),
-        EquationAudit::new("(2)", "III", "rotation by psi about x").measured(
+        says("(2)", "III", "rotation by psi about x").measured(
             ENTRY,
             elementary(psi_matrix, Vector3::x_axis()),
             ROUNDING,
         ),
-        EquationAudit::new("(3)", "III", "rotation by theta about y").measured(
+        says("(3)", "III", "rotation by theta about y").measured(
             ENTRY,
             elementary(theta_matrix, Vector3::y_axis()),
             ROUNDING,
         ),
-        EquationAudit::new("(4)", "III", "rotation by phi about z").measured(
+        says("(4)", "III", "rotation by phi about z").measured(
             ENTRY,
             elementary(phi_matrix, Vector3::z_axis()),
             ROUNDING,
         ),
-        EquationAudit::new("(5)", "III", "the entries of (1) other than (3,1) and (3,3)").measured(
+        says("(5)", "III", "the entries of (1) other than (3,1) and (3,3)").measured(
             "largest difference from the product (1), 1000 random states",
             others,
             ROUNDING,
         ),
-        EquationAudit::new("(5)", "III", "entry (3,1): s(theta) where s(phi) belongs")
+        says("(5)", "III", "entry (3,1): s(theta) where s(phi) belongs")
             .measured(
                 "largest difference from the product (1), 1000 random states",
                 entry_error(2, 0, |q| printed(q)[(2, 0)]),
@@ -124,15 +114,21 @@ pub(super) fn rows() -> Vec<EquationAudit> {
             )
             .corrected(
                 "-c(psi) s(theta) c(phi) + s(psi) s(phi), as (9) has it",
-                entry_error(2, 0, entry_31),
+                entry_error(2, 0, |[psi, theta, phi]| {
+                    -psi.cos() * theta.sin() * phi.cos() + psi.sin() * phi.sin()
+                }),
                 ROUNDING,
             ),
-        EquationAudit::new("(5)", "III", "entry (3,3): c(phi) where c(theta) belongs")
+        says("(5)", "III", "entry (3,3): c(phi) where c(theta) belongs")
             .measured(
                 "largest difference from the product (1), 1000 random states",
                 entry_error(2, 2, |q| printed(q)[(2, 2)]),
                 ROUNDING,
             )
-            .corrected("c(psi) c(theta)", entry_error(2, 2, entry_33), ROUNDING),
+            .corrected(
+                "c(psi) c(theta)",
+                entry_error(2, 2, |[psi, theta, _]| psi.cos() * theta.cos()),
+                ROUNDING,
+            ),
     ]
 }

@@ -19,10 +19,6 @@ const STEP: f64 = 1e-2;
 
 /// Largest residual, by magnitude, over the random states; NaN if one is.
 pub(super) fn worst(mut residual: impl FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
-    worst_of(&mut residual)
-}
-
-fn worst_of(residual: &mut dyn FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     largest((0..STATES).map(|_| residual(&mut rng)))
 }

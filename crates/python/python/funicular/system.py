@@ -331,12 +331,12 @@ class System:
     @property
     def lengths_m(self) -> Array:
         """(m,) Lengths of the members, m."""
-        return self._problem.lengths_m()
+        return self._problem.numbers("lengths")
 
     @property
     def masses_kg(self) -> Array:
         """(m,) Masses of the members, kg."""
-        return self._problem.masses_kg()
+        return self._problem.numbers("masses")
 
     @property
     def supports_m(self) -> Array:

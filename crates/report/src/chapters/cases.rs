@@ -28,12 +28,10 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
             "The same comparison on all cases of the registry: large differences between the two would show here first. Differences \
              are in units of total length, largest force, weight times length (what each may be: `validation/tolerances.toml`); statics is the largest violation of Newton's laws.",
         ),
-        Block::Table(Table {
-            caption: "Largest differences, case by case.".to_owned(),
-            head: vec![
-                "case", "bars", "joints", "forces", "energy", "statics", "evidence", "verdict",
-            ],
-            rows: rows.collect(),
-        }),
+        Block::Table(Table::new(
+            "Largest differences, case by case.",
+            "case|bars|joints|forces|energy|statics|evidence|verdict",
+            rows.collect(),
+        )),
     ]
 }

@@ -19,19 +19,11 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              printed the solvers' values follow with three more decimals; a dash means that the solver has nothing to say \
              on it.",
         ),
-        Block::Table(Table {
-            caption: "The claims in the order of the paper.".to_owned(),
-            head: vec![
-                "claim",
-                "printed",
-                "lagrange",
-                "energy",
-                "difference",
-                "verdict",
-                "the number behind it",
-            ],
-            rows: r.claims.iter().map(row).collect(),
-        }),
+        Block::Table(Table::new(
+            "The claims in the order of the paper.",
+            "claim|printed|lagrange|energy|difference|verdict|the number behind it",
+            r.claims.iter().map(row).collect(),
+        )),
     ]
 }
 

@@ -58,9 +58,9 @@ fn overview(judged: &[Judged]) -> Table {
             of.join(", ").into(),
         ]
     });
-    Table {
-        caption: "The equations by verdict; one with several parts counts by its worst.".to_owned(),
-        head: vec!["verdict", "", "equations", "which"],
-        rows: rows.to_vec(),
-    }
+    Table::new(
+        "The equations by verdict; one with several parts counts by its worst.",
+        "verdict||equations|which",
+        rows.to_vec(),
+    )
 }

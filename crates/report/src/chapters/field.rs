@@ -20,19 +20,11 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              Forces of a line are those on its ends; a line as a run of members tends to the closed form with the square of \
              their number, and what it is off by is told in units of the largest of them.",
         ),
-        Block::Table(Table {
-            caption: "What was judged.".to_owned(),
-            head: vec![
-                "what",
-                "number",
-                "published",
-                "computed here",
-                "by hand",
-                "both solvers",
-                "verdict",
-            ],
-            rows: judged.into_iter().map(row).collect(),
-        }),
+        Block::Table(Table::new(
+            "What was judged.",
+            "what|number|published|computed here|by hand|both solvers|verdict",
+            judged.into_iter().map(row).collect(),
+        )),
         Block::List(refutations(&r.field)),
         heading(3, "field-left", "What was not judged"),
         Block::List(left.iter().map(|entry| open(entry)).collect()),

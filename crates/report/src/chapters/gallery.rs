@@ -47,22 +47,11 @@ fn numbers(pieces: &[Piece]) -> Table {
             Badge::of_agreement(piece.answer.agrees()).into(),
         ]
     };
-    Table {
-        caption:
-            "Numbers in a closed form, and the relative differences of both solvers from them."
-                .to_owned(),
-        head: vec![
-            "system",
-            "bars",
-            "what",
-            "closed form",
-            "value",
-            "lagrange",
-            "energy",
-            "verdict",
-        ],
-        rows: pieces.iter().map(row).collect(),
-    }
+    Table::new(
+        "Numbers in a closed form, and the relative differences of both solvers from them.",
+        "system|bars|what|closed form|value|lagrange|energy|verdict",
+        pieces.iter().map(row).collect(),
+    )
 }
 
 /// The rungs that both answers have reached.
@@ -80,11 +69,11 @@ fn ladder(pieces: &[Piece]) -> Table {
         };
         [Cell::from(piece.exhibit.name)].into_iter().chain(Rung::ALL.map(reached)).collect()
     };
-    Table {
-        caption: "How far the answers are proved.".to_owned(),
-        head: vec!["system", "converged", "agreed", "verified", "complete", "optimal"],
-        rows: pieces.iter().map(row).collect(),
-    }
+    Table::new(
+        "How far the answers are proved.",
+        "system|converged|agreed|verified|complete|optimal",
+        pieces.iter().map(row).collect(),
+    )
 }
 
 fn sheet<'a>(piece: &Piece) -> Result<Block<'a>, StructureError> {

@@ -36,10 +36,10 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              machine to machine.",
         ),
         Block::Figure(figures::basins(r)),
-        Block::Table(Table {
-            caption: "Random starts: planar ones with three random angles, spatial ones with three random directions.".to_owned(),
-            head: vec!["solver", "starts", "converged", "equilibria reached", "lost"],
-            rows: r
+        Block::Table(Table::new(
+            "Random starts: planar ones with three random angles, spatial ones with three random directions.",
+            "solver|starts|converged|equilibria reached|lost",
+            r
                 .seeds
                 .iter()
                 .map(|s| {
@@ -54,6 +54,6 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                     ]
                 })
                 .collect(),
-        }),
+        )),
     ]
 }

@@ -94,16 +94,13 @@ fn angles(r: &Reproduction) -> Table {
             Cell::count(p.nullity),
         ]
     });
-    Table {
-        caption: "Angles in degrees from the descending vertical and energies in mgl with the paper's zero, by `lagrange`, and how \
+    Table::new(
+        "Angles in degrees from the descending vertical and energies in mgl with the paper's zero, by `lagrange`, and how \
                   far `energy` is from them. In brackets: the number of directions in which the energy falls. Nullity: of \
-                  the Jacobian of all 30 equations (three spins of the bars and the turn about OD)."
-            .to_owned(),
-        head: vec![
-            "", "θ", "α", "β", "energy differs by, deg", "V", "energy differs by, mgl", "in the plane", "in space", "nullity",
-        ],
-        rows: rows.collect(),
-    }
+                  the Jacobian of all 30 equations (three spins of the bars and the turn about OD).",
+        "|θ|α|β|energy differs by, deg|V|energy differs by, mgl|in the plane|in space|nullity",
+        rows.collect(),
+    )
 }
 
 fn forces(r: &Reproduction) -> Table {
@@ -117,13 +114,12 @@ fn forces(r: &Reproduction) -> Table {
             .chain([numbers(&p.axial_mg, 6)])
             .collect()
     });
-    Table {
-        caption: "The multipliers as forces in mg, across and up: of the ground on the chain at O and D, of the next bar on the \
-                  one before at A and B. Axial forces of OA, AB, BD: compression is negative."
-            .to_owned(),
-        head: vec!["", "at O (λ₂, λ₃)", "at A (λ₅, λ₆)", "at B (λ₈, λ₉)", "at D (λ₁₁, λ₁₂)", "axial"],
-        rows: rows.collect(),
-    }
+    Table::new(
+        "The multipliers as forces in mg, across and up: of the ground on the chain at O and D, of the next bar on the \
+                  one before at A and B. Axial forces of OA, AB, BD: compression is negative.",
+        "|at O (λ₂, λ₃)|at A (λ₅, λ₆)|at B (λ₈, λ₉)|at D (λ₁₁, λ₁₂)|axial",
+        rows.collect(),
+    )
 }
 
 /// One row for each rung of each equilibrium; the mirror images stand on the same rungs.
@@ -138,9 +134,9 @@ fn ladder(r: &Reproduction) -> Table {
             ]
         })
     });
-    Table {
-        caption: "The rungs of each equilibrium, lowest first.".to_owned(),
-        head: vec!["", "rung", "", "how, or why not"],
-        rows: rows.collect(),
-    }
+    Table::new(
+        "The rungs of each equilibrium, lowest first.",
+        "|rung||how, or why not",
+        rows.collect(),
+    )
 }

@@ -18,10 +18,10 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
             "Everything above is the same in every run; from processor to processor only what is drawn of rounding may differ, in the \
              last points of the residuals and on the ragged borders of the basins. What follows differs.",
         ),
-        Block::Table(Table {
-            caption: String::new(),
-            head: vec!["what", "which"],
-            rows: [
+        Block::Table(Table::new(
+            "",
+            "what|which",
+            [
                 ("command", format!("`{}`", e.command)),
                 ("version", format!("funicular {}", e.version)),
                 ("compiler", e.compiler.to_owned()),
@@ -32,16 +32,16 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
             ]
             .map(|(what, which)| vec![what.into(), which.into()])
             .to_vec(),
-        }),
+        )),
         text(
             "Where random starts end. A start on the border of two basins may go either way with the last bit of a sine, which \
              processors round differently.",
         ),
-        Block::Table(Table {
-            caption: String::new(),
-            head: vec!["solver", "starts", "where to", "without help", "steps: median, 95 %, most"],
-            rows: r.seeds.iter().map(survey).collect(),
-        }),
+        Block::Table(Table::new(
+            "",
+            "solver|starts|where to|without help|steps: median, 95 %, most",
+            r.seeds.iter().map(survey).collect(),
+        )),
     ]
 }
 

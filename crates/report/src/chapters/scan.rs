@@ -64,15 +64,9 @@ fn returned(r: &Reproduction) -> Table {
             ]
         })
     });
-    Table {
-        caption: "The two results of the scan.".to_owned(),
-        head: vec![
-            "",
-            "printed",
-            "returned by the scan",
-            "the equilibrium",
-            "scan less equilibrium",
-        ],
-        rows: rows.collect(),
-    }
+    Table::new(
+        "The two results of the scan.",
+        "|printed|returned by the scan|the equilibrium|scan less equilibrium",
+        rows.collect(),
+    )
 }

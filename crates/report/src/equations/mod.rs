@@ -14,6 +14,14 @@
 //! | `minimum` | VIII, solution 1 | (i)-(x) |
 //! | `multipliers` | VIII, solution 2 | (xi)-(xxvi) |
 
+/// The equations of a section: number, what it says, what is printed in LaTeX, and if it differs what belongs there.
+macro_rules! equations {
+    ($($number:literal $says:literal $printed:literal $(=> $corrected:literal)?;)*) => {
+        pub(super) const EQUATIONS: &[super::Equation] =
+            &[$(super::Equation::new($number, $printed, &[$($corrected)?], $says)),*];
+    };
+}
+
 mod constraints;
 mod inertia;
 mod minimum;
@@ -39,9 +47,14 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// One that holds as printed, or defines something.
-    const fn as_printed(number: &'static str, printed: &'static str, says: &'static str) -> Self {
-        Self { number, printed, corrected: None, says }
+    const fn new(
+        number: &'static str,
+        printed: &'static str,
+        corrected: &[&'static str],
+        says: &'static str,
+    ) -> Self {
+        let corrected = if let [corrected] = corrected { Some(*corrected) } else { None };
+        Self { number, printed, corrected, says }
     }
 }
 

@@ -226,28 +226,24 @@ impl StoreError {
     /// What to do about it, if that is not plain from the message.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
-        match self {
-            Self::Present { .. } => Some("--resume goes on with it; or choose another folder"),
-            Self::NotEmpty { .. } => Some("choose a folder that is empty or not there yet"),
+        Some(match self {
+            Self::Present { .. } => "--resume goes on with it; or choose another folder",
+            Self::NotEmpty { .. } => "choose a folder that is empty or not there yet",
             Self::Differs { .. } => {
-                Some("a sweep is continued or joined only with exactly the same parameters")
+                "a sweep is continued or joined only with exactly the same parameters"
             }
-            Self::Unfinished { .. } => Some("run the same sweep with --resume first"),
-            Self::Busy { .. } => Some("wait until it has finished"),
+            Self::Unfinished { .. } => "run the same sweep with --resume first",
+            Self::Busy { .. } => "wait until it has finished",
             Self::File { .. } | Self::Columns(ColumnsError::File { .. }) if self.may_pass() => {
-                Some(
-                    "what is done stays; the same command goes on when there is room (sweep: with --resume)",
-                )
+                "what is done stays; the same command goes on when there is room (sweep: with --resume)"
             }
-            Self::NoPart { .. } => {
-                Some("run the same sweep with --resume: it computes the part again")
-            }
-            Self::NotRegular { .. } => Some("remove it, and run the same sweep with --resume"),
+            Self::NoPart { .. } => "run the same sweep with --resume: it computes the part again",
+            Self::NotRegular { .. } => "remove it, and run the same sweep with --resume",
             Self::TooManySeeds { .. } => {
-                Some("split them over several sweeps, each with a --seed of its own")
+                "split them over several sweeps, each with a --seed of its own"
             }
-            Self::Part { .. } => Some("remove the file and run the same sweep with --resume"),
-            _ => None,
-        }
+            Self::Part { .. } => "remove the file and run the same sweep with --resume",
+            _ => return None,
+        })
     }
 }

@@ -111,7 +111,8 @@ pub fn merge_shard(
                     let _ = fs::remove_file(&to);
                     return Err(StoreError::part(&from, CHANGED));
                 }
-                part::read(out, &whole, joined_list(joined.as_ref()), part)
+                let list = joined.as_ref().map_or(&[][..], |(list, _)| &list.equilibria);
+                part::read(out, &whole, list, part)
             }
             _ => {
                 copy(&from, &to, &record.sha256)?;
@@ -134,10 +135,6 @@ type Proved = Result<(PartRecord, Summary), StoreError>;
 
 /// What was discovered, and the way to its numbers from those of every shard.
 type Joined = (Discovered, BTreeMap<u64, Renumbering>);
-
-fn joined_list(joined: Option<&Joined>) -> &[Member] {
-    joined.map_or(&[], |(discovered, _)| &discovered.equilibria)
-}
 
 /// Join what the shards discovered, in their order; nothing where lists are complete.
 fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined>, StoreError> {

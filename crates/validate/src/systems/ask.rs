@@ -446,25 +446,16 @@ fn next_to_by(
     near_to(system, &at_rest, &question, watch).into_iter().flatten().next()
 }
 
-/// What the solvers find next to some places, each by its own method.
+/// What the solvers find next to some places.
 fn near_to(
     system: &System,
     seed: &Seed,
     question: &Question,
     watch: &dyn Fn(&str),
 ) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
-    let mut answers = vec![];
-    if question.solvers != Solvers::Energy {
-        say_lagrange(system, watch);
-        let found = lagrange::net::solve_from(system, seed, &question.lagrange());
-        answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
-    }
-    if question.solvers != Solvers::Lagrange {
-        say_energy(system, watch);
-        let found = energy::net::minimise_near(system, &seed.joints_m, &question.energy());
-        answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
-    }
-    answers
+    let lagrange = || lagrange::net::solve_from(system, seed, &question.lagrange());
+    let energy = || energy::net::minimise_near(system, &seed.joints_m, &question.energy());
+    by_each(system, question, watch, &|| Ok(lagrange()?.equilibrium), &|| Ok(energy()?.equilibrium))
 }
 
 /// The lowest equilibrium that each solver finds.
@@ -474,24 +465,29 @@ fn lowest(
     watch: &dyn Fn(&str),
 ) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
     let row = system.as_row();
+    let lagrange = || by_lagrange(system, row, question);
+    by_each(system, question, watch, &lagrange, &|| by_energy(system, row, question))
+}
+
+/// What each solver finds that is asked, by its own method.
+fn by_each(
+    system: &System,
+    question: &Question,
+    watch: &dyn Fn(&str),
+    lagrange: &dyn Fn() -> Result<SystemEquilibrium, SystemFailure>,
+    energy: &dyn Fn() -> Result<SystemEquilibrium, SystemFailure>,
+) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
+    let (members, joints) = (system.members().len(), system.joints().len());
     let mut answers = vec![];
     if question.solvers != Solvers::Energy {
-        say_lagrange(system, watch);
-        answers.push(by_lagrange(system, row, question));
+        watch(&format!("lagrange: forces and closures of {members} members"));
+        answers.push(lagrange());
     }
     if question.solvers != Solvers::Lagrange {
-        say_energy(system, watch);
-        answers.push(by_energy(system, row, question));
+        watch(&format!("energy: minimisation over the places of {joints} joints"));
+        answers.push(energy());
     }
     answers
-}
-
-fn say_lagrange(system: &System, watch: &dyn Fn(&str)) {
-    watch(&format!("lagrange: forces and closures of {} members", system.members().len()));
-}
-
-fn say_energy(system: &System, watch: &dyn Fn(&str)) {
-    watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
 }
 
 /// A row between two anchors by the condensed equations, where these have an answer, or by the paper's; any other system

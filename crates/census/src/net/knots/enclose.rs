@@ -51,7 +51,8 @@ pub(super) fn enclosed<const N: usize>(
     // The pattern is that of the search, too.
     for (s, swing) in layout.swings.iter().enumerate() {
         let sign = if layout.dim == 2 {
-            let [a, b] = swing.ends.map(|end| values(place::<N>(end, 2, &tight_array(&knots))));
+            let at = std::array::from_fn(|k| knots.get(k).copied().unwrap_or(Interval::ZERO));
+            let [a, b] = swing.ends.map(|end| values(place::<N>(end, 2, &at)));
             let (span, arm) = (minus(b, a), minus(layout.turned(places[swing.joint]), a));
             dot([-span[1], span[0], Interval::ZERO], arm).sign()
         } else {
@@ -77,10 +78,6 @@ pub(super) fn enclosed<const N: usize>(
     }
     choice.index = [index(&equations, &zero.tight)?, 0];
     Some(Enclosed { choice, knots })
-}
-
-fn tight_array<const N: usize>(knots: &[Interval]) -> [Interval; N] {
-    std::array::from_fn(|k| knots.get(k).copied().unwrap_or(Interval::ZERO))
 }
 
 /// The free turn about the vertical of the anchors, where the knot is not on it.

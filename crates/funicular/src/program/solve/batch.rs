@@ -105,16 +105,10 @@ fn print(line: &str) -> io::Result<()> {
 }
 
 /// How the lines ended.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Tally {
     ends: [u64; 4],
     worst: Exit,
-}
-
-impl Default for Tally {
-    fn default() -> Self {
-        Self { ends: [0; 4], worst: Exit::Done }
-    }
 }
 
 impl Tally {

@@ -77,7 +77,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     let read = input::problem(Some(path), None);
     let solved = read.and_then(|input| {
         let problem = arguments.in_case(input.problem)?;
-        arguments.checkable(&problem)?;
+        super::checkable(!arguments.check || problem.has_strengths())?;
         let problem = shape.map_or(Ok(problem.clone()), |shape| next_to(&problem, shape))?;
         Ok(solve.run_here(&problem)?)
     });

@@ -23,12 +23,8 @@ pub fn run(
     let draws = arguments.monte_carlo.map_or(0, |count| count as usize);
     let found = solve.tolerances_drawn(problem, draws, arguments.seed, arguments.distribution);
     let found = found.or_else(|error| super::unsolved(arguments, error))?;
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| found.write_csv(file))?;
-    }
-    if let Some(path) = &arguments.bars_csv {
-        output::write_stream(path, |file| found.write_bars_csv(file))?;
-    }
+    output::write_asked(arguments.csv.as_ref(), |file| found.write_csv(file))?;
+    output::write_asked(arguments.bars_csv.as_ref(), |file| found.write_bars_csv(file))?;
     drop(progress);
     arguments.printed.print(&found)?;
     let most = |k: usize| found.utilisation(k).map_or(0.0, |[_, most]| most);

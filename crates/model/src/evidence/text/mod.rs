@@ -16,7 +16,7 @@ fn size(f: &Formatter<'_>, value: f64) -> String {
 }
 
 /// The place in a list, counted from 1.
-fn ordinal(number: usize) -> String {
+pub(super) fn ordinal(number: usize) -> String {
     let ending = match (number % 100, number % 10) {
         (11..=13, _) => "th",
         (_, 1) => "st",
@@ -28,6 +28,6 @@ fn ordinal(number: usize) -> String {
 }
 
 /// A number of things.
-fn counted(number: usize, thing: &str) -> String {
+pub(super) fn counted(number: usize, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
