@@ -3,9 +3,11 @@
 //! Rigid members: the forces that leave the joints least out of balance, of these the least. With
 //! elastic ones: the least complementary energy $\\sum c\\,(N - N_0)^2/2$ of forces in balance, where
 //! $N_0$ is what a member bears at the length that it has in the shape; so a prestress stays what it
-//! is, and what does not fit is relaxed. Both are one solve with $\\sum k\\, u u^T$, $k = 1/c$.
+//! is, and what does not fit is relaxed. Both are one solve with $\\sum k\\, u u^T$, $k = 1/c$, and as many more as
+//! it takes until cables pull and struts push.
 
 use super::framework::{Framework, Link};
+use super::signs::SIGN_CHANGES;
 use super::state::State;
 use super::stiffness::Stiffness;
 
@@ -35,15 +37,31 @@ pub(super) fn fitted_forces(
         (along, own)
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
-    stiffness.assemble_members(framework, |k| (directions[k].0, 0.0, members[k].0));
-    stiffness.shift(RIDGE * stiffest.max(rigid));
-    stiffness.factorise_definite();
-    let pulls = directions.iter().zip(&members).map(|((u, _), (_, own))| u * *own);
-    let loads = framework.unbalance(pulls);
-    let mut moves = stiffness.gather(framework, &loads);
-    stiffness.solve(&mut moves);
-    let moves = stiffness.scatter(framework, &moves);
-    let stretch = |span: usize| directions[span].0.dot(&framework.links[span].span(&moves));
-    let members = members.iter().enumerate();
-    members.map(|(e, (k, own))| own + k * framework.whole(e, stretch)).collect()
+    let mut bearing = state.taut.clone();
+    let mut forces = vec![0.0; members.len()];
+    for _ in 0..SIGN_CHANGES {
+        let along = |k: usize| if bearing[k] { members[k].0 } else { 0.0 };
+        stiffness.assemble_members(framework, |k| (directions[k].0, 0.0, along(k)));
+        stiffness.shift(RIDGE * stiffest.max(rigid));
+        stiffness.factorise_definite();
+        let own = |k: usize| if bearing[k] { members[k].1 } else { 0.0 };
+        let loads =
+            framework.unbalance(directions.iter().enumerate().map(|(k, (u, _))| u * own(k)));
+        let mut moves = stiffness.gather(framework, &loads);
+        stiffness.solve(&mut moves);
+        let moves = stiffness.scatter(framework, &moves);
+        let stretch = |span: usize| directions[span].0.dot(&framework.links[span].span(&moves));
+        for (e, (force, (k, own))) in forces.iter_mut().zip(&members).enumerate() {
+            *force = own + k * framework.whole(e, stretch);
+        }
+        let links = framework.links.iter().zip(&forces).zip(&state.taut);
+        let next =
+            links.map(|((link, force), taut)| *taut && (*force == 0.0 || link.bears(*force)));
+        let next: Vec<bool> = next.collect();
+        if next == bearing {
+            break;
+        }
+        bearing = next;
+    }
+    forces
 }

@@ -10,7 +10,6 @@ use model::ForceRange;
 use model::system::Kind;
 
 use super::framework::Framework;
-use super::second_order::self_stresses;
 use super::solution::NO_FORCE;
 use super::state::State;
 use crate::thresholds::FOUND;
@@ -19,20 +18,13 @@ use crate::thresholds::FOUND;
 /// are the rule.
 const MOST_EXCHANGES: usize = 50;
 
-/// The range of every member's axial force over all forces in balance with the right signs. Inextensible members
-/// that have their length and bear nothing (`limp`), as a cable that is just taut, take part.
+/// The range of every member's axial force over all forces in balance with the right signs, which are these and self-stresses.
 pub(super) fn ranges(
     framework: &Framework,
-    mut state: State,
-    limp: &[usize],
+    state: &State,
+    basis: &[Vec<f64>],
 ) -> Option<Vec<ForceRange>> {
-    for &member in limp {
-        state.taut[member] = true;
-    }
-    state.taut.truncate(framework.members());
-    state.taut = framework.by_link(state.taut);
-    let basis = self_stresses(framework, &state);
-    let mut table = Table::new(framework, &state, &basis);
+    let mut table = Table::new(framework, state, basis);
     (0..framework.members()).map(|member| table.range(member)).collect()
 }
 

@@ -110,7 +110,7 @@ impl Solution {
         let basis = second_order.self_stresses.as_deref();
         let misfit_m = largest_misfit(framework, basis.unwrap_or_default(), &directions);
         evidence.self_stresses =
-            named(basis, forces, misfit_m, || ranges(framework, state.clone(), &limp));
+            named(basis, forces, misfit_m, |basis| ranges(framework, &state, basis));
         let own = |named: SelfStresses| SelfStresses {
             basis: of_members(framework, named.basis),
             ..named
@@ -150,14 +150,14 @@ fn named(
     basis: Option<&[Vec<f64>]>,
     forces: Forces,
     misfit_m: f64,
-    ranges: impl FnOnce() -> Option<Vec<ForceRange>>,
+    ranges: impl FnOnce(&[Vec<f64>]) -> Option<Vec<ForceRange>>,
 ) -> Option<SelfStresses> {
     let choice = match forces {
         Forces::LeastNorm => ForceChoice::EquallyStiff,
         Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
     };
     let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
-    let (dimension, misfit_m, ranges) = (basis.len(), Some(misfit_m), ranges());
+    let (dimension, misfit_m, ranges) = (basis.len(), Some(misfit_m), ranges(&basis));
     Some(SelfStresses { dimension, basis, choice, misfit_m, ranges })
 }
 

@@ -142,3 +142,36 @@ fn a_bar_between_a_cable_and_a_prop() {
     bounded(found[1], Some(-10.0), Some(20.0));
     bounded(found[2], Some(-30.0), Some(0.0));
 }
+
+/// Three cables and a bar on one joint in a plane: extremes by linear programming (HiGHS), whichever of them are taken for slack
+/// on the way to the forces that are shown.
+#[test]
+fn what_bears_nothing_at_first_is_open_too() {
+    let feet = [[1.433, -1.917], [-0.16, 1.009], [-1.363, -1.002], [-1.813, -0.316]];
+    let at = [-0.917, -1.207];
+    for order in [[0, 1, 2, 3], [3, 2, 1, 0], [2, 0, 3, 1]] {
+        let anchor = |k: usize| Joint::anchor(format!("{k}"), [feet[k][0], 0.0, feet[k][1]]);
+        let mut joints: Vec<Joint> = order.map(anchor).into();
+        let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+        let free = Joint::free("P").held_by(plane).with_mass(10.42 * 9.80665);
+        joints.push(free.with_force([10.6, 0.0, -0.5]));
+        let member = |(n, k): (usize, usize)| {
+            let length_m = (feet[k][0] - at[0]).hypot(feet[k][1] - at[1]);
+            let kind = if k == 2 { Kind::Bar } else { Kind::Cable };
+            bar(n, 4, length_m, 0.0).of_kind(kind)
+        };
+        let system = system(joints.clone(), order.into_iter().enumerate().map(member).collect());
+        let places = joints.iter().map(|joint| joint.support.at_m().unwrap());
+        let places = places.take(4).chain([[at[0], 0.0, at[1]]]).collect();
+        let found = told(solve_from(&system, &Seed::at(places), &Settings::default()).unwrap());
+        let extremes = [
+            (0.0, 648.705_050_180_61),
+            (0.0, 89.335_641_446_789),
+            (-189.633_825_369_21, 695.104_638_262_92),
+            (0.0, 257.944_577_107_58),
+        ];
+        for (range, k) in found.into_iter().zip(order) {
+            bounded(range, Some(extremes[k].0), Some(extremes[k].1));
+        }
+    }
+}
