@@ -19,8 +19,9 @@ use crate::net::stability::{DENSE, Dense, below, rows};
 use crate::thresholds::{KNOWN, ZERO};
 use crate::vector::scaled;
 
-/// Rounds in which members with a force of the wrong sign become slack.
-const ROUNDS: usize = 8;
+/// Rounds in which members with a force of the wrong sign become slack, those with this part of the worst and more.
+const ROUNDS: usize = 40;
+const WORST: f64 = 0.5;
 
 /// The energy at a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +91,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         let taut = rigid.into_iter().filter(|e| {
             frame.rods[*e].kind == Kind::Bar || outside(*e) >= -KNOWN * frame.rods[*e].length
         });
-        multipliers(&frame, &mut shape, taut.collect());
+        multipliers(&frame, &mut shape, &taut.collect::<Vec<_>>());
     }
     let slope = frame.slope(&shape);
     let stiff = frame.rods.iter().zip(&shape.force).map(|(rod, force)| {
@@ -119,29 +120,38 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
     Ok(Some(Critical { unbalance, allowed, misfit, index, curvature_n_m, stiffest_n_m }))
 }
 
-/// Forces of the taut inextensible members that leave least of the gradient; those whose sign would
-/// be wrong are slack.
-fn multipliers(frame: &Frame, shape: &mut Shape, mut taut: Vec<usize>) {
+/// Forces of the taut inextensible members that leave least of the gradient; those whose sign would be wrong are slack, and
+/// taut again where what is left would stretch them.
+fn multipliers(frame: &Frame, shape: &mut Shape, rigid: &[usize]) {
     let excess = frame.excesses(&shape.x);
     let elastic = shape.force.clone();
+    let gradient = DVector::from_vec(frame.gradient(|e| scaled(elastic[e], excess[e].gradient)));
+    let all = rows(frame, &excess, rigid).transpose();
+    let mut taut = vec![true; rigid.len()];
     for _ in 0..ROUNDS {
+        let held: Vec<usize> = (0..rigid.len()).filter(|k| taut[*k]).collect();
+        let balance = all.select_columns(&held);
+        let Some(forces) = least_squares(&balance, &-&gradient, ZERO) else { return };
         shape.force.clone_from(&elastic);
-        let gradient = frame.gradient(|e| scaled(elastic[e], excess[e].gradient));
-        let balance = rows(frame, &excess, &taut).transpose();
-        let gradient = DVector::from_vec(gradient);
-        let Some(forces) = least_squares(&balance, &-gradient, ZERO) else { return };
-        for (e, force) in taut.iter().zip(&forces) {
-            shape.force[*e] += force;
+        for (k, force) in held.iter().zip(&forces) {
+            shape.force[rigid[*k]] += force;
         }
         frame.spread(&mut shape.force);
+        let left = all.tr_mul(&(&gradient + balance * forces));
         let zero = KNOWN * largest(&shape.force);
-        let wrong = |e: &usize| {
-            let force = shape.force[*e];
-            force.abs() > zero && !frame.rods[*e].resists(force)
+        // A force of the wrong sign, or the pull on what is slack.
+        let wrong = |k: usize| {
+            let pull = if taut[k] { shape.force[rigid[k]] } else { -left[k] };
+            let changes = pull.abs() > zero && frame.rods[rigid[k]].resists(pull) != taut[k];
+            if changes { pull.abs() } else { 0.0 }
         };
-        if !taut.iter().any(wrong) {
+        let wrong: Vec<f64> = (0..rigid.len()).map(wrong).collect();
+        let worst = largest(&wrong);
+        if worst <= 0.0 {
             return;
         }
-        taut.retain(|e| !wrong(e));
+        for (taut, wrong) in taut.iter_mut().zip(wrong) {
+            *taut ^= wrong > WORST * worst;
+        }
     }
 }

@@ -12,6 +12,9 @@ use super::enclosed::loads_alone;
 use super::load::LoadError;
 use crate::equilibria::as_solved;
 
+/// Part of the line at which it is seen what stays taut.
+const AHEAD: f64 = 1e-3;
+
 /// Step of the difference for how supports move.
 const GIVEN: f64 = 1e-3;
 
@@ -72,7 +75,7 @@ impl<'a> Family<'a> {
             (Err(error), _) => return Err(error.into()),
         };
         let joints = system.joints().len();
-        let family = Self {
+        let mut family = Self {
             variation,
             from: from.to_vec(),
             to: to.to_vec(),
@@ -82,6 +85,18 @@ impl<'a> Family<'a> {
             loads,
             factored: None,
         };
+        // Of what is just taut at the start some goes slack at once, but for what holds the others.
+        if let Ok(found) = as_solved(&family.system(AHEAD)?).0 {
+            let there = DVector::from_vec(family.equations.unknowns(&found.equilibrium));
+            let index = found.equilibrium.stability.index_in_space;
+            for all in [true, false] {
+                family.equations.taut_as_in(&start, &found, all);
+                if load::Equations::factorise(&mut family, &there, AHEAD)? == Some(index) {
+                    break;
+                }
+                family.factored = None;
+            }
+        }
         Ok((family, DVector::from_vec(start)))
     }
 

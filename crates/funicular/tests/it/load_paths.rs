@@ -298,6 +298,44 @@ fn a_cable_becomes_slack_and_taut_again() {
     near(down.events[0].values[0], 4.0);
 }
 
+/// A post of 3 m with three guys that are just taut, from no load on: rigid guys bear the wind of 30 N along x, and the downwind
+/// ones nothing; of elastic ones of EA = 1e6 N one that is stretched by x cos² gives way by 30 N over EA cos²/l, next to which
+/// second order is some 1e-4.
+#[test]
+fn guys_that_are_just_taut_bear_from_the_first_load_on() {
+    for elastic in [false, true] {
+        for turned_deg in [0.0_f64, 10.0, 60.0] {
+            let stiffness = if elastic { "stiffness_n = 1e6\n" } else { "" };
+            let feet = [0.0, 120.0, 240.0].map(|at: f64| (at + 180.0 + turned_deg).to_radians());
+            let mut file = "[joints]\nfoot = { at_m = [0, 0, 0] }\n\
+                            P = { near_m = [0, 0, 3], force_n = [30, 0, -50] }\n"
+                .to_owned();
+            let mut guys = String::new();
+            for (guy, at) in feet.iter().enumerate() {
+                let (sin, cos) = at.sin_cos();
+                file += &format!("F{guy} = {{ at_m = [{}, {}, 0] }}\n", 4.0 * cos, 4.0 * sin);
+                guys += &format!(
+                    "[[bars]]\nfrom = \"F{guy}\"\nto = \"P\"\nkind = \"cable\"\n{stiffness}"
+                );
+            }
+            file += &format!("[[bars]]\nfrom = \"foot\"\nto = \"P\"\n{guys}");
+            let path = path(&file, "loads=0..1");
+            // Of two that bear nothing one may go slack only there.
+            let kinks = path.events.iter().all(|event| event.values[0] == 0.0);
+            assert_eq!((path.end, kinks), (LoadEnd::Range, true), "{elastic} {turned_deg}");
+            let last = path.points.last().unwrap();
+            assert!(last.values[0] == 1.0 && path.points.iter().all(|point| point.index == 0));
+            let pulls = last.axial_n[1..].iter().zip(feet);
+            let pulled_n: f64 = pulls.map(|(n, at)| 0.8 * n * at.cos()).sum();
+            assert!((pulled_n + 30.0).abs() < 0.05, "{pulled_n}");
+            assert!(last.axial_n[2..].contains(&0.0), "{:?}", last.axial_n);
+            let moved_m = last.joints_m[1][0].hypot(last.joints_m[1][1]);
+            let most_m = if elastic { 2.0 * 30.0 / (1e6 / 5.0 * 0.64) } else { 1e-12 };
+            assert!(moved_m <= 1.01 * most_m, "{moved_m} {most_m}");
+        }
+    }
+}
+
 /// A cross of four cables of 1 m, prestressed: pulled along one of them until it is slack.
 #[test]
 fn a_prestressed_net_bears_until_its_first_cable_is_slack() {

@@ -17,7 +17,7 @@ use super::newton::{Derivative, Step, with_held};
 use super::residual::Residual;
 use super::second_order::SecondOrder;
 use super::settings::Settings;
-use super::solution::{Found, Solution};
+use super::solution::{Found, NO_FORCE, Solution, limp};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
@@ -159,6 +159,20 @@ impl Equations {
             y.push(if elastic { longer / link.compliance } else { 0.0 });
         }
         y
+    }
+
+    /// Of cables and struts that have just their length and bear nothing at these unknowns those are taut from now on that
+    /// are not slack in a solution next to them, nor, if `all` are to bear something, limp there.
+    pub fn taut_as_in(&mut self, y: &[f64], solution: &Solution, all: bool) {
+        // Without loads all forces may be rounding: the unit is that of loads elsewhere.
+        let mut state = self.state(y);
+        for axial in &mut state.axial {
+            *axial = if axial.abs() <= NO_FORCE { 0.0 } else { *axial };
+        }
+        for member in limp(&self.framework, &state, &state.directions(&self.framework)) {
+            let idle = solution.slack.contains(&member) || all && solution.limp.contains(&member);
+            self.taut[member] = !idle;
+        }
     }
 
     fn state(&self, y: &[f64]) -> State {
