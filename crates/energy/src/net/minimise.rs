@@ -35,6 +35,9 @@ const RESTARTS: usize = 4;
 const COORDINATES: usize = 900;
 const MOST_RESTARTS: usize = 100;
 
+/// A shape so many times as far from the origin is elsewhere.
+const FAR: f64 = 1e3;
+
 /// Square roots of numbers that no ratio connects, as turns that have nothing in common.
 const SPREAD: f64 = 7.0;
 
@@ -96,8 +99,9 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result
     } else {
         (start.clone(), factor)
     };
-    // A relaxation that went astray is no start.
-    let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0);
+    // A relaxation that went astray is no start; where it flies away its forces hide what is left over.
+    let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0)
+        || relaxed.extent() > FAR * (1.0 + start.extent());
     let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
     let mut found = descend(frame, factor, first, way, settings, work);
     let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);

@@ -21,7 +21,7 @@ use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
 use crate::thresholds::{NO_STRAIN, STEP_ROUNDING};
-use crate::vector::{dot, scaled};
+use crate::vector::scaled;
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
 pub(super) const STIFF_STRAIN: f64 = 1e-6;
@@ -263,7 +263,6 @@ impl Frame {
 /// What roundings of the places leave of the lengths: some units in the last place of the largest
 /// coordinate over the length of a member.
 pub(super) fn rounding_floor(frame: &Frame, shape: &Shape) -> f64 {
-    let extent = shape.x.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
     let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
-    STEP_ROUNDING * (1.0 + extent / shortest)
+    STEP_ROUNDING * (1.0 + shape.extent() / shortest)
 }

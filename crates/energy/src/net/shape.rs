@@ -16,6 +16,13 @@ pub(super) struct Shape {
     pub(super) force: Vec<f64>,
 }
 
+impl Shape {
+    /// How far the joints are from the origin.
+    pub(super) fn extent(&self) -> f64 {
+        self.x.iter().map(|x| norm(*x)).fold(0.0, f64::max)
+    }
+}
+
 /// The parts of the gradient of the Lagrangian that decide about convergence.
 #[derive(Debug, Clone)]
 pub(super) struct Slope {

@@ -55,6 +55,32 @@ fn known_jams_are_agreed_upon_and_proved_optimal() {
     }
 }
 
+/// Two buckets on an elastic rope over a pulley at 3 m: the heavy one draws the other up to the pulley and hangs below by the
+/// length of the rope, longer by its weight over EA.
+#[test]
+fn the_heavier_of_two_buckets_draws_the_other_up() {
+    for (heavy_kg, light_kg, length_m, ea_n) in
+        [(16.58, 2.35, 6.6447, 11_011.0), (16.58, 2.35, 6.6447, 11_012.0), (5.0, 4.0, 3.0, 1e3)]
+    {
+        let joints = vec![
+            Joint::anchor("pulley", [0.0, 0.0, 3.0]),
+            Joint::free("heavy").with_mass(heavy_kg),
+            Joint::free("light").with_mass(light_kg),
+        ];
+        let rope = Member::cable(2, 1, Bar::homogeneous(length_m, 0.0).unwrap()).over(vec![0]);
+        let rope = rope.with_stiffness(ea_n);
+        let system = System::new("buckets", STANDARD_GRAVITY_M_S2, joints, vec![rope]).unwrap();
+        let answer = asked(&system);
+        let weight_n = heavy_kg * STANDARD_GRAVITY_M_S2;
+        assert!(answer.agrees(), "{:?} {:?}", answer.agreement, answer.failures);
+        for e in &answer.equilibria {
+            let below_m = length_m * (1.0 + weight_n / ea_n);
+            assert!((3.0 - below_m - e.joints_m[1][2]).abs() < 1e-9, "{:?}", e.joints_m);
+            assert!((e.axial_n[0] - weight_n).abs() < 1e-9 && e.joints_m[2] == [0.0, 0.0, 3.0]);
+        }
+    }
+}
+
 /// A sample and the first answer to it.
 fn answered(sample: samples::RopeSample) -> (System, SystemEquilibrium) {
     let answer = asked(&sample.system);
