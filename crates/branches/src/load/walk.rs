@@ -124,7 +124,8 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         let end = self.keep(here, None).and_then(|()| self.run(here.clone(), watch));
         let end = end.unwrap_or_else(End::Numbers);
         // Kinks alone, one after another where it began, lead nowhere.
-        let stays = self.points.len() > 1 && self.points.iter().all(|point| point.t == here.t);
+        let stays = self.points.len() > 1
+            && self.points.iter().all(|point| point.t.to_bits() == here.t.to_bits());
         let end = if stays { End::Lost } else { end };
         self.paths += 1;
         let (points, events) = (take(&mut self.points), take(&mut self.events));
