@@ -107,11 +107,13 @@ fn index_in_plane(
 /// Index and number of neutral directions by the signs of pivots.
 fn sparse(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
     let open = open(frame, shape);
-    let shape = &opened(frame, shape, &open, f64::MIN_POSITIVE);
+    // Too many to look at count as slack, the worst they can be.
+    let few = open.len() <= MOST_OPEN;
+    let shape = &opened(frame, shape, &open, if few { f64::MIN_POSITIVE } else { 0.0 });
     let neutral = below(frame, shape, factor, -ZERO, false);
     let index = below(frame, shape, factor, ZERO, false);
     let neutral = neutral.saturating_sub(index);
-    if index > 0 || open.is_empty() || open.len() > MOST_OPEN {
+    if index > 0 || open.is_empty() || !few {
         return (index, neutral);
     }
     let mut rows = rows(frame, &frame.excesses(&shape.x), &open);

@@ -3,7 +3,7 @@
 //! Where self-stresses exist the forces in balance are $N + B z$, with the basis $B$ and any $z$
 //! that lets no cable push and no strut or floor pull. The least and the largest force of a member are two
 //! linear programmes in as few unknowns as there are self-stresses. They start from forces that
-//! obey all signs, so one table serves them all: every member's force as a linear function of the
+//! obey all signs: every member's force as a linear function of the
 //! unknowns, which an exchange step (Dantzig) replaces one by one by members at their limits.
 
 use model::ForceRange;
@@ -24,12 +24,14 @@ pub(super) fn ranges(
     state: &State,
     basis: &[Vec<f64>],
 ) -> Option<Vec<ForceRange>> {
-    let mut table = Table::new(framework, state, basis);
-    (0..framework.members()).map(|member| table.range(member)).collect()
+    let table = Table::new(framework, state, basis);
+    // Each from the same table, whose rounding many exchanges would make worse.
+    (0..framework.members()).map(|member| table.clone().range(member)).collect()
 }
 
 /// Forces of all members, and pushes of the floor, as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown
 /// is free, or the force of a member with a sign, which is then at its limit.
+#[derive(Clone)]
 struct Table {
     /// 1 where the force must not be negative, -1 where it must not be positive, 0 for bars. Rows
     /// of negative sign stand negated in the table.

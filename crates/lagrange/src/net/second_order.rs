@@ -126,7 +126,9 @@ fn links(framework: &Framework, state: &State) -> Vec<Link> {
 /// it may yet fall where some of that goes slack.
 fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (usize, usize) {
     let open = open(framework, state);
-    let links = links(framework, &with_open(framework, state, true));
+    // Too many to look at count as slack, the worst they can be.
+    let few = open.len() <= MOST_OPEN;
+    let links = links(framework, &with_open(framework, state, few));
     let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
     let along = |link: &Link| link.along.unwrap_or(RIGID * largest);
     let negative = |stiffness: &mut Stiffness, shift: f64| {
@@ -142,7 +144,7 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
     let not_rising = negative(stiffness, -flat);
     let index = negative(stiffness, flat);
     let neutral = not_rising.saturating_sub(index);
-    if index > 0 || open.is_empty() || open.len() > MOST_OPEN {
+    if index > 0 || open.is_empty() || !few {
         return (index, neutral);
     }
     let firsts = (0..framework.nodes.len()).map(|joint| stiffness.first_unknown(joint));

@@ -299,8 +299,8 @@ fn ask_again(
 }
 
 /// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
-/// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high first
-/// one, then the other. What is known must be stable, and next to the drawing, if there is one: but for a barrier on the
+/// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high, or next to
+/// a drawing, where the nearer one comes first, one after the other. What is known must be stable, and next to the drawing, if there is one: but for a barrier on the
 /// straight way where the other answer is unstable; and where there is no other, wherever the lowest of all is, or what a
 /// structure that does not stay where it is drawn has come down to. If both agree then, the solver and the comparison.
 fn ask_beside(
@@ -319,10 +319,15 @@ fn ask_beside(
     let known: Vec<(&SystemEquilibrium, SolverName)> = match (&answers[..], failures) {
         ([known], [failure]) if failure.is_astray(system) => vec![(known, failure.solver())],
         ([first, second], []) => {
-            let (low, high) =
-                if first.energy_j < second.energy_j { (first, second) } else { (second, first) };
-            let level = are_level.then(|| (high, low.solver.clone()));
-            [(low, high.solver.clone())].into_iter().chain(level).collect()
+            // Next to a drawing the nearer one comes first, and else the lower one.
+            let [one, other] = [first, second].map(|answer| match drawing_m {
+                Some(at) => Near::of(system, at, answer).moved,
+                None => answer.energy_j,
+            });
+            let (best, rest) = if one < other { (first, second) } else { (second, first) };
+            let both = are_level || drawing_m.is_some();
+            let rest_too = both.then(|| (rest, best.solver.clone()));
+            [(best, rest.solver.clone())].into_iter().chain(rest_too).collect()
         }
         _ => return None,
     };
