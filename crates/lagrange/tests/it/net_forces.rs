@@ -175,3 +175,45 @@ fn what_bears_nothing_at_first_is_open_too() {
         }
     }
 }
+
+/// A box tower of four storeys with rigid cables crossed on its sides, 100 N on each joint: at a joint of the top the cables only
+/// pull down, so its column pushes by 100 N or more, and cables can bear anything from zero on.
+#[test]
+fn ranges_of_many_self_stresses_are_those_of_the_balance() {
+    let storeys = 4;
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let place = |joint: usize| {
+        let [x, y]: [f64; 2] = corners[joint % 4];
+        [x, y, 2.0 * (joint / 4) as f64]
+    };
+    let joints = (0..4 * storeys + 4).map(|joint| match joint {
+        0..4 => Joint::anchor(format!("{joint}"), place(joint)),
+        _ => Joint::free(format!("{joint}")).with_mass(100.0).near(place(joint)),
+    });
+    let member = |a: usize, b: usize, kind| {
+        let square: f64 = place(a).iter().zip(place(b)).map(|(a, b)| (a - b).powi(2)).sum();
+        bar(a, b, square.sqrt(), 0.0).of_kind(kind)
+    };
+    let members = (0..storeys).flat_map(|storey| {
+        let at = move |level: usize, corner: usize| 4 * (storey + level) + corner % 4;
+        let columns = (0..4).map(move |k| member(at(0, k), at(1, k), Kind::Bar));
+        let beams = (0..4).map(move |k| member(at(1, k), at(1, k + 1), Kind::Bar));
+        let across = [member(at(1, 0), at(1, 2), Kind::Bar)];
+        let cables = (0..4).flat_map(move |k| {
+            [(k, k + 1), (k + 1, k)].map(|(low, high)| member(at(0, low), at(1, high), Kind::Cable))
+        });
+        columns.chain(beams).chain(across).chain(cables)
+    });
+    let system = system(joints.collect(), members.collect());
+    let places = system.drawing().unwrap();
+    let found = told(solve_from(&system, &Seed::at(places), &Settings::default()).unwrap());
+    for (member, range) in system.members().iter().zip(found) {
+        match member.kind {
+            Kind::Cable => bounded(range, Some(0.0), None),
+            _ if member.from >= 4 * storeys - 4 && member.to == member.from + 4 => {
+                bounded(range, None, Some(-100.0));
+            }
+            _ => {}
+        }
+    }
+}
