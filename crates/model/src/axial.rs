@@ -108,6 +108,12 @@ impl SystemEquilibrium {
             // One tension from end to end, or none.
             return AxialForce::along(Default::default(), Default::default(), self.axial_n[k], []);
         }
+        self.loaded_force(system, k)
+    }
+
+    /// The same of a member that is no rope, with its own loads, taut or not.
+    pub(crate) fn loaded_force(&self, system: &System, k: usize) -> AxialForce {
+        let member = &system.members()[k];
         let ends_m = (self.joints_m[member.from], self.joints_m[member.to]);
         let body = &member.body;
         let place = |at_m: f64| at_m / body.length_m();

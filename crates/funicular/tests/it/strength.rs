@@ -48,6 +48,30 @@ fn the_weakest_bar_is_the_one_that_is_nearest_to_the_safety_wanted() {
     }
 }
 
+/// Two bays with a diagonal cable each, pushed by 6 N: together they bear it, and the heavy one, which need not bear anything, all
+/// of it at most, with half of its own weight along it at its upper end.
+#[test]
+fn what_may_become_taut_bears_its_own_weight_too() {
+    let mut file = "plane = \"xz\"\n[joints]\n".to_owned();
+    for (name, x, force_n) in [("0", 0, [226, 24]), ("1", 3, [0, -1200]), ("2", 6, [-232, -600])] {
+        let [right, up] = force_n;
+        file += &format!("A{name} = {{ at_m = [{x}, 0, 0] }}\n");
+        file += &format!("B{name} = {{ near_m = [{x}, 0, 3], force_n = [{right}, 0, {up}] }}\n");
+    }
+    let bars = [("A0", "B0"), ("A1", "B1"), ("A2", "B2"), ("B0", "B1"), ("B1", "B2")];
+    for (from, to) in bars {
+        file += &format!("[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nmass_kg = 0\n");
+    }
+    file += "[[bars]]\nfrom = \"A1\"\nto = \"B0\"\nmass_kg = 0\nkind = \"cable\"\n";
+    file +=
+        "[[bars]]\nfrom = \"A2\"\nto = \"B1\"\nmass_kg = 3\nkind = \"cable\"\nstrength_n = 15\n";
+    let problem = Problem::parse(&file, "bays.toml").unwrap();
+    let answer = Solve::new().run(&problem).unwrap();
+    let by_lagrange = Weakest::of(answer.system(), &answer.equilibria()[0]).unwrap();
+    let wanted_n = 72.0_f64.sqrt() + 3.0 * 9.80665 / 8.0_f64.sqrt();
+    assert!((by_lagrange.utilisation - wanted_n / 15.0).abs() < 1e-9, "{by_lagrange:?}");
+}
+
 /// The same bars stand on the anchors and push: they break by their compression, or buckle by Euler's
 /// formula, which knows of 5 m and EI.
 #[test]

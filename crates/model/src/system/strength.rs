@@ -121,8 +121,8 @@ impl SystemEquilibrium {
     /// balances; infinite where nothing bounds the force, or nobody has said what does.
     #[must_use]
     pub fn utilisation(&self, system: &System, member: usize) -> Option<f64> {
-        let strength = system.members().get(member)?.strength.as_deref()?;
-        let along = self.axial_force(system, member);
+        let given = system.members().get(member)?;
+        let strength = given.strength.as_deref()?;
         let family = self.evidence.self_stresses.as_ref();
         let range = family.map_or(ForceRange::Unique, |family| match &family.ranges {
             Some(ranges) => ranges[member],
@@ -138,6 +138,12 @@ impl SystemEquilibrium {
                 least_n.map_or(f64::INFINITY, |n| (self.axial_n[member] - n).max(0.0)),
                 most_n.map_or(f64::INFINITY, |n| (n - self.axial_n[member]).max(0.0)),
             ],
+        };
+        // What bears nothing here bears its own weight as well where it may bear something.
+        let along = if range == ForceRange::Unique || given.rope.is_some() {
+            self.axial_force(system, member)
+        } else {
+            self.loaded_force(system, member)
         };
         Some(strength.utilisation(along.least_n - below_n, along.most_n + above_n))
     }
