@@ -86,11 +86,14 @@ impl<'a> Family<'a> {
             factored: None,
         };
         // Of what is just taut at the start some goes slack at once, but for what holds the others.
-        if let Ok(found) = as_solved(&family.system(AHEAD)?).0 {
+        let open = family.equations.just_taut(start.as_slice());
+        if !open.is_empty()
+            && let Ok(found) = as_solved(&family.system(AHEAD)?).0
+        {
             let there = DVector::from_vec(family.equations.unknowns(&found.equilibrium));
             let index = found.equilibrium.stability.index_in_space;
             for all in [true, false] {
-                family.equations.taut_as_in(&start, &found, all);
+                family.equations.taut_as_in(&open, &found, all);
                 if load::Equations::factorise(&mut family, &there, AHEAD)? == Some(index) {
                     break;
                 }

@@ -161,17 +161,25 @@ impl Equations {
         y
     }
 
-    /// Of cables and struts that have just their length and bear nothing at these unknowns those are taut from now on that
-    /// are not slack in a solution next to them, nor, if `all` are to bear something, limp there.
-    pub fn taut_as_in(&mut self, y: &[f64], solution: &Solution, all: bool) {
+    /// The cables and struts that have just their length and bear nothing at these unknowns.
+    #[must_use]
+    pub fn just_taut(&self, y: &[f64]) -> Vec<usize> {
         // Without loads all forces may be rounding: the unit is that of loads elsewhere.
         let mut state = self.state(y);
         for axial in &mut state.axial {
             *axial = if axial.abs() <= NO_FORCE { 0.0 } else { *axial };
         }
-        for member in limp(&self.framework, &state, &state.directions(&self.framework)) {
-            let idle = solution.slack.contains(&member) || all && solution.limp.contains(&member);
-            self.taut[member] = !idle;
+        let limp =
+            limp(&self.framework, &state, &state.directions(&self.framework)).collect::<Vec<_>>();
+        limp.into_iter().filter(|k| self.framework.links[*k].kind != Kind::Bar).collect()
+    }
+
+    /// Of these members those are taut from now on that are not slack in a solution, nor, if `all` are to bear something,
+    /// limp there.
+    pub fn taut_as_in(&mut self, members: &[usize], solution: &Solution, all: bool) {
+        for member in members {
+            let idle = solution.slack.contains(member) || all && solution.limp.contains(member);
+            self.taut[*member] = !idle;
         }
     }
 
