@@ -24,10 +24,13 @@ const ONE_SIDED: usize = 200_000_000;
 const ONE_SIDED_LEAST: usize = 16;
 const ONE_SIDED_MOST: usize = 4096;
 
-/// So many of them in a large system at most, and what counts as negative beside their stiffness; flexibilities below this part
-/// of theirs count as it.
+/// Most one-sided springs that [`falls_one_sided`] is asked of: its work grows with their cube, 3 s here.
 pub const MOST_OPEN: usize = 600;
+
+/// A fall of less than this, over the stiffness of the springs, is rounding.
 const ONE_SIDED_ZERO: f64 = 1e-9;
+
+/// Flexibilities below this count as this: of springs that can hardly stretch.
 const STIFFEST: f64 = 1e-6;
 
 /// Eigenvalues of a form that falls are moved apart by this part of the lowest.
