@@ -291,6 +291,11 @@ impl Frame {
         along(self.displacement(step, to), -1.0, self.displacement(step, from))
     }
 
+    /// Relative displacement of the ends of a member in a step.
+    pub(super) fn turned(&self, step: &[f64], rod: usize) -> f64 {
+        self.whole(rod, |strand| norm(self.relative(step, strand)))
+    }
+
     /// The value of a member, or the sum over the strands of its rope.
     pub(super) fn whole(&self, rod: usize, value: impl Fn(usize) -> f64) -> f64 {
         match self.rods[rod].rope {

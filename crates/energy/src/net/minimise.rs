@@ -263,8 +263,9 @@ fn near_drawing(
     within(system, settings, |frame, settings| {
         let drawn = seeded(frame, drawing_m)?;
         let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let start = loaded(frame, &mut factor, &drawn);
-        descend(frame, factor, start, Way::Near, settings, Effort::default())
+        let (start, moved) = loaded(frame, &mut factor, &drawn);
+        let step = moved.clamp(LEAST_DRAWN_STEP, DRAWN_STEP);
+        descend(frame, factor, start, Way::Near { step }, settings, Effort::default())
     })
 }
 
@@ -333,7 +334,7 @@ fn relax(
 }
 
 /// How a start was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
     /// As the solution of the relaxation: most members are right.
     Relaxed,
@@ -341,8 +342,9 @@ enum Way {
     Free,
     /// Anywhere, for lengths that are hard to keep: they come before the loads.
     Stiff,
-    /// Next to the minimum, with forces near those there.
-    Near,
+    /// Next to the minimum, with forces near those there, in steps of at most this relative displacement of the ends of a
+    /// member, over its length.
+    Near { step: f64 },
 }
 
 /// First strain of the springs where the lengths come before the loads.
@@ -356,8 +358,10 @@ const RELAXED: f64 = 0.5;
 const DRAWN: f64 = 0.05;
 
 /// Largest relative displacement of the ends of a member in one step next to a drawing, over its
-/// length: less than what turns a member over.
+/// length: less than what turns a member over. Of elastic structures it is no longer than the displacement of the linear
+/// analysis, but for the least: a stiff dome has other minima beside that next to its drawing.
 const DRAWN_STEP: f64 = 0.1;
+const LEAST_DRAWN_STEP: f64 = 1e-3;
 
 impl Way {
     fn pace(self) -> Pace {
@@ -366,7 +370,7 @@ impl Way {
             Self::Relaxed => Pace { near: RELAXED, ..pace },
             Self::Free => pace,
             Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
-            Self::Near => Pace { strain: STIFF_STRAIN, near: DRAWN, step: DRAWN_STEP, own: true },
+            Self::Near { step } => Pace { strain: STIFF_STRAIN, near: DRAWN, step, own: true },
         }
     }
 }

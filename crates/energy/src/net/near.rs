@@ -19,9 +19,9 @@ pub(super) const RIGID: f64 = 1e3;
 /// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
 const LOOSE: f64 = 1e-3;
 
-/// The drawing with the forces of its linear analysis. Cables and struts that would have the wrong
-/// sign bear nothing.
-pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape {
+/// The drawing with the forces of its linear analysis, and, of elastic structures, the largest relative displacement of
+/// the ends of a member there, over its length. Cables and struts that would have the wrong sign bear nothing.
+pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> (Shape, f64) {
     let excess = frame.excesses(&drawn.x);
     let elastic = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
     let stiffest = elastic.fold(0.0, f64::max);
@@ -46,7 +46,7 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape
     let ridge = RIDGE * stiffest.max(rigid);
     frame.fill(factor, |e| excess[e].block(0.0, stiffness(e)), |_| ridge);
     if !factor.definite() {
-        return drawn.clone();
+        return (drawn.clone(), f64::INFINITY);
     }
     let mut moves = frame.gradient(|e| scaled(strained(e), excess[e].gradient));
     for value in &mut moves {
@@ -57,7 +57,11 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape
         let force = strained(e) + stiffness(e) * frame.change(&excess, e, &moves);
         if frame.rods[e].resists(force) { force } else { 0.0 }
     });
-    Shape { x: drawn.x.clone(), force: force.collect() }
+    // Inextensible members alone move by what is left of their stiffness.
+    let rods = frame.rods.iter().enumerate().filter(|_| stiffest > 0.0);
+    let turned = rods.map(|(e, rod)| frame.turned(&moves, e) / rod.length);
+    let turned = turned.reduce(f64::max).unwrap_or(f64::INFINITY);
+    (Shape { x: drawn.x.clone(), force: force.collect() }, turned)
 }
 
 #[cfg(test)]
@@ -94,7 +98,7 @@ mod tests {
                 .to_vec();
             let drawn = Shape { x, force: vec![0.0; frame.rods.len()] };
             let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
-            let found = loaded(&frame, &mut factor, &drawn);
+            let (found, _) = loaded(&frame, &mut factor, &drawn);
             for (force, wanted_n) in found.force.iter().zip(&wanted_n) {
                 // Inextensible ones to the inverse of their stiffness, 1000 times the stiffest.
                 let near = (force * frame.force_n - wanted_n).abs() < 0.02;

@@ -247,8 +247,7 @@ impl Newton {
         rods.fold(1.0, |part, (e, rod)| {
             let strut = rod.kind == Kind::Strut;
             let most = if strut { STRUT_STEP.min(self.step) } else { self.step } * rod.length;
-            let turned = self.frame.whole(e, |strand| norm(self.frame.relative(step, strand)));
-            part.min(most / turned.max(f64::MIN_POSITIVE))
+            part.min(most / self.frame.turned(step, e).max(f64::MIN_POSITIVE))
         })
     }
 

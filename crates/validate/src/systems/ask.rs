@@ -208,6 +208,12 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     }
     let mut agreement = judged(system, &mut equilibria, &failures);
     let drawing_m = drawing_m.as_deref();
+    // That an answer is the lowest of all is known from the judges.
+    if let (Some(at), Some(far), Some(first)) = (drawing_m, &mut near, equilibria.first())
+        && !far.is_neighbour
+    {
+        *far = Near::of(system, at, first);
+    }
     if drawing_m.is_none()
         && let Some((both, one)) = lower(system, question, watch, &equilibria)
     {

@@ -30,6 +30,12 @@ const FITS: usize = 8;
 const FITTED: f64 = 1e-11;
 const RIDGE: f64 = 1e-13;
 
+/// Where lengths are still off by more, over themselves, no places fit them.
+const CLOSED: f64 = 1e-6;
+
+/// A member turns at once where it does so by this part of its whole turn between two stations.
+const AT_ONCE: f64 = 0.25;
+
 /// A barrier below this part of the change of the energy along the way is rounding.
 const BARRIER: f64 = 1e-6;
 
@@ -57,7 +63,8 @@ pub struct Near {
     /// where rigid members have no energy.
     pub barrier_j: Option<f64>,
     /// Whether it is the neighbour of the drawing: no joint has moved by half a member, or no member has turned by a
-    /// quarter of its length, and no barrier lies between; or it is the only one, of cables alone.
+    /// quarter of its length, and no barrier lies between; or it is the only one, of cables alone; or the lowest of all, and the
+    /// energy falls all the way there.
     pub is_neighbour: bool,
     /// The energy of a lower equilibrium, J, where one was looked for and found.
     pub lower_j: Option<f64>,
@@ -92,12 +99,16 @@ impl Near {
         // The energy of cables is convex, with all that is held and a floor: an equilibrium is the only one.
         let is_only = system.members().iter().all(|member| member.kind == Kind::Cable);
         let is_close = moved <= FAR || turned(system, drawing_m, &answer.joints_m) <= TURNED;
+        let is_below = || {
+            answer.evidence.ladder.optimal.is_reached()
+                && falls(system, drawing_m, &answer.joints_m)
+        };
         Self {
             moved,
             moved_m,
             joint: system.joints()[at].name.to_string(),
             barrier_j,
-            is_neighbour: is_only || is_close && barrier_j.is_none(),
+            is_neighbour: is_only || barrier_j.is_none() && (is_close || is_below()),
             lower_j: None,
         }
     }
@@ -170,17 +181,41 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
     if system.members().iter().any(|member| member.stiffness_n.is_none()) {
         return None;
     }
-    let straight = |part: f64| -> Vec<Vector> {
-        let places = from_m.iter().zip(to_m);
-        places.map(|(a, b)| plus(*a, times(part, minus(*b, *a)))).collect()
-    };
+    let straight = |part: f64| straight(from_m, to_m, part);
     let rise_j = |way: &mut dyn FnMut(f64) -> Vec<Vector>| rise_j(system, way);
     let barrier_j = rise_j(&mut |part| straight(part))?;
     match Fit::new(system, [from_m, to_m]) {
         // Where no places fit, the way beside the straight one leads anywhere.
-        Some(mut fit) => rise_j(&mut |part| fit.at(part, straight(part))).map(|j| j.min(barrier_j)),
+        Some(mut fit) => {
+            rise_j(&mut |part| fit.at(part, straight(part)).0).map(|j| j.min(barrier_j))
+        }
         None => Some(barrier_j),
     }
+}
+
+/// Places on the straight way between two shapes, at a part from 0 to 1.
+fn straight(from_m: &[Vector], to_m: &[Vector], part: f64) -> Vec<Vector> {
+    let places = from_m.iter().zip(to_m);
+    places.map(|(a, b)| plus(*a, times(part, minus(*b, *a)))).collect()
+}
+
+/// Whether the energy falls from each station to the next on the way from a drawing, closed first, on which rigid members keep
+/// their lengths and elastic ones change theirs evenly; and no member turns all at once, as a gable does that snaps through.
+fn falls(system: &System, from_m: &[Vector], to_m: &[Vector]) -> bool {
+    let Some(mut fit) = Fit::new(system, [from_m, to_m]) else { return false };
+    let at_once = AT_ONCE * turned(system, from_m, to_m);
+    let rounding = SUMMED * system.total_load_n() * system.total_length_m();
+    let mut before: Option<(Vec<Vector>, f64)> = None;
+    (0..=STATIONS).all(|station| {
+        let part = f64::from(station) / f64::from(STATIONS);
+        let (places_m, misfit) = fit.at(part, straight(from_m, to_m, part));
+        let energy_j = potential_j(system, system.members(), &places_m);
+        let follows = before.as_ref().is_none_or(|(before_m, before_j)| {
+            energy_j <= before_j + rounding && turned(system, before_m, &places_m) <= at_once
+        });
+        before = Some((places_m, energy_j));
+        misfit <= CLOSED && follows
+    })
 }
 
 /// How far the energy rises on a way of places over a part from 0 to 1, J, if it rises and falls again.
@@ -213,22 +248,33 @@ impl<'a> Fit<'a> {
         if system.members().len() > MEMBERS {
             return None;
         }
-        let lengths_m = shapes_m.map(|places_m| lengths_m(system, places_m));
+        let kept = |(member, length_m): (&Member, f64)| match (member.stiffness_n, member.kind) {
+            (Some(_), _) => length_m,
+            (None, Kind::Bar) => member.body.length_m(),
+            (None, Kind::Cable) => length_m.min(member.body.length_m()),
+            (None, Kind::Strut) => length_m.max(member.body.length_m()),
+        };
+        let lengths_m = shapes_m.map(|places_m| {
+            system.members().iter().zip(lengths_m(system, places_m)).map(kept).collect()
+        });
         let Entries { starts, rows, .. } = square(system, &spans(system, shapes_m[0]));
         let order = minimum_degree(&starts, &rows)?;
         Some(Self { system, lengths_m, factor: Ldlt::new(&starts, &rows, &order)? })
     }
 
-    fn at(&mut self, part: f64, mut places_m: Vec<Vector>) -> Vec<Vector> {
+    /// The places, and by how much of itself a length is still off.
+    fn at(&mut self, part: f64, mut places_m: Vec<Vector>) -> (Vec<Vector>, f64) {
         let members = self.system.members();
         let [from_m, to_m] = &self.lengths_m;
+        let mut misfit = f64::INFINITY;
         for _ in 0..FITS {
             let now_m = lengths_m(self.system, &places_m);
             let off_m: Vec<f64> = (0..members.len())
                 .map(|k| from_m[k] + part * (to_m[k] - from_m[k]) - now_m[k])
                 .collect();
             let worst = members.iter().zip(&off_m).map(|(m, off)| off.abs() / m.body.length_m());
-            if worst.fold(0.0, worse) <= FITTED {
+            misfit = worst.fold(0.0, worse);
+            if misfit <= FITTED {
                 break;
             }
             let spans = spans(self.system, &places_m);
@@ -247,7 +293,7 @@ impl<'a> Fit<'a> {
                 *at = plus(*at, [by[0], by[1], by[2]]);
             }
         }
-        places_m
+        (places_m, misfit)
     }
 }
 
