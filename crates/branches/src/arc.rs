@@ -16,18 +16,7 @@ const SINGULAR: f64 = 1e-7;
 #[derive(Debug, Clone)]
 pub(crate) struct Arc {
     pub(crate) points: Vec<ArcPoint>,
-    pub(crate) ends: [ArcEnd; 2],
-}
-
-/// An end of an arc.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ArcEnd {
-    Low(usize),
-    High(usize),
-    /// The turn of this number on the curve.
-    Turn(usize),
-    Border,
-    Lost,
+    pub(crate) ends: [CurveEnd; 2],
 }
 
 /// A point of an arc with what happens there.
@@ -49,7 +38,6 @@ pub(crate) struct Arcs {
     pub(crate) sure: bool,
 }
 
-/// The arcs of a curve.
 pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
     let point = |y: &DVector<f64>| {
         let seen = Observables::at(&path.plane(y[y.len() - 1]), y);
@@ -65,8 +53,8 @@ pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
     let mut found = vec![];
     for (part, ends) in bounds.windows(2).enumerate() {
         let mut along: Vec<ArcPoint> = points[ends[0]..=ends[1]].to_vec();
-        let first = if part == 0 { end(curve.ends[0]) } else { ArcEnd::Turn(part - 1) };
-        let last = if part == turns.len() { end(curve.ends[1]) } else { ArcEnd::Turn(part) };
+        let first = if part == 0 { curve.ends[0] } else { CurveEnd::Turn(part - 1) };
+        let last = if part == turns.len() { curve.ends[1] } else { CurveEnd::Turn(part) };
         borrow_indices(&mut along, [first, last]);
         let mut arc = Arc { points: happenings(path, along, &mut sure), ends: [first, last] };
         let (a, b) = (&arc.points[0].y, &arc.points[arc.points.len() - 1].y);
@@ -82,7 +70,7 @@ pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
 
 /// In a turn the index in the plane is that of the arc; where the chain is straight, in space too.
 /// So it is at a border with a degenerate chain.
-fn borrow_indices(along: &mut [ArcPoint], ends: [ArcEnd; 2]) {
+fn borrow_indices(along: &mut [ArcPoint], ends: [CurveEnd; 2]) {
     let count = along.len();
     for (k, neighbour, end) in
         [(0, 1, ends[0]), (count.wrapping_sub(1), count.wrapping_sub(2), ends[1])]
@@ -90,8 +78,8 @@ fn borrow_indices(along: &mut [ArcPoint], ends: [ArcEnd; 2]) {
         let Some(from) = along.get(neighbour) else { continue };
         let (inside, outside) = (from.seen.index_in_plane, from.seen.index_out_of_plane);
         let seen = &mut along[k].seen;
-        let degenerate = end == ArcEnd::Border && seen.singular <= SINGULAR;
-        if degenerate || matches!(end, ArcEnd::Turn(_)) {
+        let degenerate = end == CurveEnd::Border && seen.singular <= SINGULAR;
+        if degenerate || matches!(end, CurveEnd::Turn(_)) {
             seen.index_in_plane = inside;
             if degenerate || seen.bent <= STRAIGHT {
                 seen.index_out_of_plane = outside;
@@ -112,15 +100,6 @@ fn drop_roundings(points: &mut Vec<ArcPoint>) {
         k += 1;
         tip || point.happens.is_some() || (low..=high).contains(&position(point))
     });
-}
-
-fn end(tip: CurveEnd) -> ArcEnd {
-    match tip {
-        CurveEnd::Low(node) => ArcEnd::Low(node),
-        CurveEnd::High(node) => ArcEnd::High(node),
-        CurveEnd::Border => ArcEnd::Border,
-        CurveEnd::Lost => ArcEnd::Lost,
-    }
 }
 
 fn turn_kind(turn: Turn) -> EventKind {
@@ -237,7 +216,7 @@ mod tests {
     /// straight also that in space, at a border only where it is degenerate.
     #[test]
     fn ends_without_indices_of_their_own_show_those_of_their_arc() {
-        let (turn, border) = (ArcEnd::Turn(0), ArcEnd::Border);
+        let (turn, border) = (CurveEnd::Turn(0), CurveEnd::Border);
         for (end, singular, bent, wanted) in [
             (turn, 1.0, 1.0, [3, 7]),
             (turn, 0.0, 1.0, [3, 7]),

@@ -2,9 +2,10 @@
 
 use nalgebra::DVector;
 
-use crate::arc::{Arc, ArcEnd, ArcPoint, Arcs, left};
+use crate::arc::{Arc, ArcPoint, Arcs, left};
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::census_point::{CensusPoint, Node};
+use crate::curve::CurveEnd;
 use crate::equations::fold_error;
 use crate::event::{Event, EventKind};
 use crate::observables::Observables;
@@ -16,7 +17,6 @@ use crate::segment::distance;
 pub(crate) struct Link<'a> {
     /// Numbers of the census points.
     pub(crate) census_points: [usize; 2],
-    /// The curves.
     pub(crate) curves: &'a [Arcs],
 }
 
@@ -55,10 +55,7 @@ impl<'a> Assembly<'a> {
             census_points,
             branches: vec![],
             events: vec![],
-            open: census_points
-                .iter()
-                .map(|census_point| vec![None; count(census_point)])
-                .collect(),
+            open: census_points.iter().map(|at| vec![None; count(at)]).collect(),
             places: vec![],
         };
         for link in links {
@@ -115,7 +112,7 @@ impl<'a> Assembly<'a> {
         let mut ids = vec![];
         for (k, kind) in kinds.iter().enumerate() {
             let place = arcs.iter().find_map(|arc| {
-                let at = arc.ends.iter().position(|end| *end == ArcEnd::Turn(k))?;
+                let at = arc.ends.iter().position(|end| *end == CurveEnd::Turn(k))?;
                 if at == 0 { arc.points.first() } else { arc.points.last() }
             });
             if let Some(place) = place {
@@ -159,7 +156,7 @@ impl<'a> Assembly<'a> {
     fn add(&mut self, link: &Link<'_>, arc: &Arc, turns: &[usize]) {
         let [low, high] = link.census_points;
         let branch = match arc.ends[0] {
-            ArcEnd::Low(node) => self.open[low][node],
+            CurveEnd::Low(node) => self.open[low][node],
             _ => None,
         };
         let branch = branch.unwrap_or_else(|| {
@@ -178,15 +175,15 @@ impl<'a> Assembly<'a> {
             let mut event = None;
             match end {
                 // The node is there already.
-                Some(ArcEnd::Low(_)) => continue,
-                Some(ArcEnd::High(node)) => {
+                Some(CurveEnd::Low(_)) => continue,
+                Some(CurveEnd::High(node)) => {
                     if let Some(nodes) = &self.census_points[high].nodes {
                         let shown = self.node_point(high, &nodes[node]);
                         self.branches[branch].points.push(shown);
                     }
                     continue;
                 }
-                Some(ArcEnd::Turn(k)) => event = turns.get(k).copied(),
+                Some(CurveEnd::Turn(k)) => event = turns.get(k).copied(),
                 _ => {}
             }
             if let Some(kind) = point.happens {
@@ -198,23 +195,23 @@ impl<'a> Assembly<'a> {
             self.branches[branch].points.push(shown);
         }
         match arc.ends[1] {
-            ArcEnd::High(node) => self.open[high][node] = Some(branch),
+            CurveEnd::High(node) => self.open[high][node] = Some(branch),
             end => self.branches[branch].end = self.end(end, turns, branch),
         }
     }
 
-    fn end(&mut self, end: ArcEnd, turns: &[usize], branch: usize) -> BranchEnd {
+    fn end(&mut self, end: CurveEnd, turns: &[usize], branch: usize) -> BranchEnd {
         match end {
-            ArcEnd::Turn(k) => match turns.get(k) {
+            CurveEnd::Turn(k) => match turns.get(k) {
                 Some(event) => {
                     self.events[*event].branches.push(branch);
                     BranchEnd::Event(*event)
                 }
                 None => BranchEnd::Lost,
             },
-            ArcEnd::Border => BranchEnd::Border,
+            CurveEnd::Border => BranchEnd::Border,
             // A node without a branch is one that could not be reached.
-            ArcEnd::Low(_) | ArcEnd::High(_) | ArcEnd::Lost => BranchEnd::Lost,
+            CurveEnd::Low(_) | CurveEnd::High(_) | CurveEnd::Lost => BranchEnd::Lost,
         }
     }
 

@@ -1,5 +1,3 @@
-//! Branches of equilibria.
-
 use serde::Serialize;
 
 /// A branch: one equilibrium followed over the parameter, as far as it goes.
@@ -69,7 +67,6 @@ pub struct BranchPoint {
 
 impl Branch {
     /// Whether the branch has a point at this position.
-    #[must_use]
     pub fn covers(&self, position: f64) -> bool {
         match (self.points.first(), self.points.last()) {
             (Some(first), Some(last)) => first.position <= position && position <= last.position,
@@ -78,7 +75,6 @@ impl Branch {
     }
 
     /// The last point at or before this position.
-    #[must_use]
     pub fn before(&self, position: f64) -> Option<&BranchPoint> {
         let after = self.points.partition_point(|point| point.position <= position);
         after.checked_sub(1).map(|k| &self.points[k])

@@ -1,5 +1,3 @@
-//! A point of the path with its census.
-
 use census::{Census, ProvenEquilibrium};
 use nalgebra::DVector;
 use serde::Serialize;

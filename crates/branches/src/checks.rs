@@ -35,7 +35,6 @@ pub struct Checks {
 
 impl Checks {
     /// Whether every check was decided, and agrees.
-    #[must_use]
     pub fn agree(&self) -> bool {
         self.decided()
             && self.mismatches.is_empty()
@@ -45,7 +44,6 @@ impl Checks {
 
     /// Whether every branch was followed, every branch point has its branches, and no stretch of
     /// the path is without a complete census.
-    #[must_use]
     pub fn decided(&self) -> bool {
         self.unfollowed.is_empty() && self.incomplete.is_empty() && self.undecided.is_empty()
     }

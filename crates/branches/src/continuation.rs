@@ -1,5 +1,3 @@
-//! All equilibria along a path: censuses at its points, curves between them, and checks.
-
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -132,7 +130,7 @@ impl Continuation {
         };
         let mut census_points = work.take(&grid)?;
         let mut round = 0;
-        let (branches, events) = loop {
+        let (mut branches, mut events) = loop {
             let segments = segments(&path, &census_points);
             let (branches, events) = work.branches(&census_points, &segments);
             work.checks.incomplete = incomplete(&branches, &events);
@@ -148,25 +146,18 @@ impl Continuation {
             census_points.sort_by(|a, b| a.position.total_cmp(&b.position));
             census_points.dedup_by(|a, b| a.position.to_bits() == b.position.to_bits());
         };
-        if census_points
-            .iter()
-            .all(|census_point| matches!(census_point.status, PointStatus::Undecided { .. }))
-        {
-            work.checks.undecided =
-                census_points.iter().map(|census_point| census_point.position).collect();
+        if census_points.iter().all(|at| matches!(at.status, PointStatus::Undecided { .. })) {
+            work.checks.undecided = census_points.iter().map(|at| at.position).collect();
         }
-        let (mut branches, mut events) = (branches, events);
         from_one(&mut branches, &mut events);
         let mut checks = work.checks;
         count_disagreements(&census_points, &mut checks);
-        let points = census_points.iter().filter(|census_point| census_point.grid.is_some()).map(
-            |census_point| PathPoint {
-                position: census_point.position,
-                values: path.values_at(census_point.position),
-                span_m: census_point.span_m,
-                status: census_point.status.clone(),
-            },
-        );
+        let points = census_points.iter().filter(|at| at.grid.is_some()).map(|at| PathPoint {
+            position: at.position,
+            values: path.values_at(at.position),
+            span_m: at.span_m,
+            status: at.status.clone(),
+        });
         Ok(Self {
             parameters: variation.numbers().iter().map(ToString::to_string).collect(),
             units: variation.numbers().iter().map(Number::unit).collect(),
@@ -214,15 +205,14 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Take censuses.
     fn take(&self, wanted: &[(f64, Option<usize>)]) -> Result<Vec<CensusPoint>, ContinuationError> {
-        let census_point = |(position, grid): &(f64, Option<usize>)| {
-            let census_point = CensusPoint::at(self.path, *position, *grid, &self.settings.census);
+        let census_points = in_parallel(wanted.len(), 1, |k| {
+            let (position, grid) = wanted[k];
+            let census_point = CensusPoint::at(self.path, position, grid, &self.settings.census);
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
             (self.watch)(Progress { done, total: self.total.load(Ordering::Relaxed) });
             census_point
-        };
-        let census_points = in_parallel(wanted.len(), 1, |k| census_point(&wanted[k]));
+        });
         Ok(census_points.into_iter().collect::<Result<_, _>>()?)
     }
 

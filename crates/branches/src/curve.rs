@@ -1,5 +1,3 @@
-//! Following one curve of equilibria between two positions.
-
 use nalgebra::DVector;
 
 use crate::equations::{RESIDUAL, Tangent, correct, position_axis, residual, tangent};
@@ -62,20 +60,21 @@ pub(crate) struct Border {
     pub(crate) gate: Gate,
 }
 
-/// A point on a curve.
 #[derive(Debug, Clone)]
 pub(crate) struct CurvePoint {
     pub(crate) y: DVector<f64>,
     pub(crate) turn: Option<Turn>,
 }
 
-/// What is at the end of a curve.
+/// What is at the end of a curve, or of one of its arcs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CurveEnd {
     /// An equilibrium of the lower census point.
     Low(usize),
     /// An equilibrium of the higher census point.
     High(usize),
+    /// The turn of this number on the curve.
+    Turn(usize),
     /// A position at which there is no chain, or no complete census.
     Border,
     /// It could not be followed.

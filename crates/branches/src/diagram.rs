@@ -1,5 +1,3 @@
-//! The bifurcation diagram.
-
 use figures::{Anchor, Axes, Axis, BLUE, Colour, GREEN, Look, ORANGE, Svg, Unit, VERMILION};
 
 use crate::branch::{Branch, BranchPoint};
@@ -62,7 +60,6 @@ struct Panel<'a> {
 
 /// The bifurcation diagram as SVG: energy, and the angle of one bar (from 1), over the parameter or
 /// the distance of the anchors.
-#[must_use]
 pub fn diagram(found: &Continuation, title: &str, abscissa: Abscissa, bar: usize) -> String {
     let bar = bar.max(1);
     let diagram = Diagram { found, abscissa, bar: bar - 1 };

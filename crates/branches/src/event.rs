@@ -65,7 +65,6 @@ impl EventKind {
     /// ```
     /// assert_eq!(branches::EventKind::SpaceExchange { from: 0, to: 1 }.name(), "space-exchange");
     /// ```
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Fold => "fold",

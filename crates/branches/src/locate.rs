@@ -1,5 +1,3 @@
-//! Locating what happens between two points of a curve.
-
 use nalgebra::DVector;
 
 use crate::equations::correct;

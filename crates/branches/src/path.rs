@@ -135,12 +135,10 @@ impl<'a> Path<'a> {
             && self.plane(position).force_unit_n > 0.0
     }
 
-    /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.row.members.len()
     }
 
-    /// Position of a point on the path.
     pub(crate) fn position(&self, point: usize) -> f64 {
         point as f64 / (self.values.len() - 1).max(1) as f64
     }
@@ -174,7 +172,6 @@ impl<'a> Path<'a> {
         self.values[k].iter().zip(&self.values[k + 1]).map(between).collect()
     }
 
-    /// The problem at some values.
     pub(crate) fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
         self.variation.problem(values)
     }

@@ -1,5 +1,3 @@
-//! Several parameters: every combination, or in step.
-
 use model::Problem;
 use model::system::System;
 
@@ -113,26 +111,22 @@ impl Variation {
     }
 
     /// The numbers that vary.
-    #[must_use]
     pub fn numbers(&self) -> &[Number] {
         &self.numbers
     }
 
     /// The paths: for each point the values of [`numbers`](Self::numbers).
-    #[must_use]
     pub fn paths(&self) -> &[Vec<Vec<f64>>] {
         &self.paths
     }
 
     /// What has the numbers that vary.
-    #[must_use]
     pub fn base(&self) -> &System {
         &self.base
     }
 
     /// Whether the system is one row of rigid bars between two anchors under upright loads, and stays
     /// one: all its equilibria can be followed.
-    #[must_use]
     pub fn is_row(&self) -> bool {
         self.base.as_row().is_some() && self.numbers.iter().all(Number::keeps_rows)
     }

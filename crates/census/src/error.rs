@@ -5,17 +5,11 @@ use model::NoCensus;
 /// Why a census was not taken.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum CensusError {
     /// Occurs when a setting is out of its range.
     #[error("setting {name} must be {allowed}, got {value}")]
-    Setting {
-        /// Name of the field.
-        name: &'static str,
-        /// The value as given.
-        value: f64,
-        /// What is allowed.
-        allowed: &'static str,
-    },
+    Setting { name: &'static str, value: f64, allowed: &'static str },
     /// Occurs when the chain has more bars than
     /// [`Settings::max_bars`](crate::settings::Settings::max_bars).
     #[error(
@@ -26,9 +20,7 @@ pub enum CensusError {
         rough_memory(*estimate_gb)
     )]
     TooManyBars {
-        /// Number of bars of the chain.
         bars: usize,
-        /// The limit.
         max_bars: usize,
         /// 2^n.
         patterns: f64,
@@ -41,7 +33,6 @@ pub enum CensusError {
 
 impl CensusError {
     /// The same as evidence.
-    #[must_use]
     pub fn reason(&self) -> NoCensus {
         match self {
             Self::TooManyBars { bars, max_bars, .. } => {
@@ -76,7 +67,6 @@ fn rough(number: f64, units: &[(f64, &str)]) -> String {
 /// assert_eq!(census::rough_time(0.002), "2 ms");
 /// assert_eq!(census::rough_time(3.0e8), "10 years");
 /// ```
-#[must_use]
 pub fn rough_time(seconds: f64) -> String {
     /// The year is the Julian one.
     const UNITS: [(f64, &str); 6] = [

@@ -325,7 +325,6 @@ fn usual_permissions(_: &mut tempfile::Builder<'_, '_>, _: u32) {}
 /// assert_eq!(columns::unfinished(".a.csv.0123456789ab.part"), Some("a.csv"));
 /// assert_eq!(columns::unfinished(".mine.part"), None);
 /// ```
-#[must_use]
 pub fn unfinished(name: &str) -> Option<&str> {
     let inner = name.strip_prefix('.')?.strip_suffix(UNFINISHED)?;
     let (target, random) = inner.rsplit_once('.')?;

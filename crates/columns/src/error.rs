@@ -7,61 +7,30 @@ use crate::table::{Mismatch, Schema};
 /// Why columns cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum ColumnsError {
     /// Occurs when the file cannot be opened, read or written.
     #[error("{}: {error}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        error: std::io::Error,
-    },
+    File { path: PathBuf, error: std::io::Error },
     /// Occurs when a folder stands where a file is wanted.
     #[error("{} is a folder, not a file", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-    },
+    Folder { path: PathBuf },
     /// Occurs when the file holds not a single byte.
     #[error("{} is empty", path.display())]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
+    Empty { path: PathBuf },
     /// Occurs when the file is no Parquet file, or its end is missing.
     #[error("{} is not a Parquet file, or not a whole one: {reason}", path.display())]
-    NotParquet {
-        /// The file.
-        path: PathBuf,
-        /// What the reader found.
-        reason: String,
-    },
+    NotParquet { path: PathBuf, reason: String },
     /// Occurs when the file begins and ends as a Parquet file, yet its columns cannot be decoded.
     #[error("{} is damaged: {reason}", path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What the reader found.
-        reason: String,
-    },
+    Damaged { path: PathBuf, reason: String },
     /// Occurs when a column is compressed by what this program does not read.
     #[error("{}: column `{column}` is compressed by {found}, which cannot be read here; {supported} can", path.display())]
-    Compression {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: String,
-        /// Its compression, as the format names it.
-        found: String,
-        /// What can be read.
-        supported: &'static str,
-    },
+    Compression { path: PathBuf, column: String, found: String, supported: &'static str },
     /// Occurs when a column claims more memory than there is for the columns of a file.
     #[error("{}: column `{column}` claims {claimed} bytes of memory; of {budget} for a file, {left} are left", path.display())]
     Memory {
-        /// The file.
         path: PathBuf,
-        /// The column.
         column: String,
         /// What a page or a dictionary of it needs at least, bytes.
         claimed: u64,
@@ -72,44 +41,16 @@ pub enum ColumnsError {
     },
     /// Occurs when a column holds something else than numbers.
     #[error("{}: column `{column}` must hold {wanted}, and holds {found}", path.display())]
-    WrongType {
-        /// The file.
-        path: PathBuf,
-        /// The column.
-        column: String,
-        /// The types it may hold.
-        wanted: &'static str,
-        /// The type it holds.
-        found: String,
-    },
+    WrongType { path: PathBuf, column: String, wanted: &'static str, found: String },
     /// Occurs when a table to be read back has other columns than it was written with.
     #[error("{}: the columns are {}, and should be {}", path.display(), found.join(", "), wanted.join(", "))]
-    OtherColumns {
-        /// The file.
-        path: PathBuf,
-        /// The columns it should have.
-        wanted: Vec<String>,
-        /// The columns it has.
-        found: Vec<String>,
-    },
+    OtherColumns { path: PathBuf, wanted: Vec<String>, found: Vec<String> },
     /// Occurs when rows to be written are not those of the table.
     #[error("{}: {error}", path.display())]
-    Mismatch {
-        /// The file.
-        path: PathBuf,
-        /// How they do not fit.
-        error: Mismatch,
-    },
+    Mismatch { path: PathBuf, error: Mismatch },
     /// Occurs when there are more rows than a system may have bars.
     #[error("{}: {rows} bars are more than the {limit} that a system may have", path.display())]
-    TooManyBars {
-        /// The file.
-        path: PathBuf,
-        /// Rows of the file.
-        rows: u64,
-        /// What is allowed.
-        limit: usize,
-    },
+    TooManyBars { path: PathBuf, rows: u64, limit: usize },
 }
 
 impl ColumnsError {

@@ -1,5 +1,3 @@
-//! Tables as Parquet.
-
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
@@ -135,7 +133,6 @@ fn properties(schema: &Schema) -> WriterProperties {
     builder.build()
 }
 
-/// What there is to say about a column.
 fn about(column: &Column) -> [KeyValue; 2] {
     let note = |key, value: &String| KeyValue::new(format!("{}.{key}", column.name), value.clone());
     [note("unit", &column.unit), note("description", &column.description)]

@@ -44,7 +44,6 @@ pub struct Column {
 
 impl Column {
     /// A column.
-    #[must_use]
     pub fn new(name: &str, kind: Kind, spread: Spread, unit: &str, description: &str) -> Self {
         let [name, unit, description] = [name, unit, description].map(str::to_owned);
         Self { name, kind, spread, unit, description }
@@ -86,7 +85,6 @@ pub enum Data {
 
 impl Data {
     /// No cells of a column of this type.
-    #[must_use]
     pub fn empty(kind: Kind) -> Self {
         match kind {
             Kind::U64 => Self::U64(Vec::new()),
@@ -98,7 +96,6 @@ impl Data {
     }
 
     /// The type of the column they belong to.
-    #[must_use]
     pub fn kind(&self) -> Kind {
         match self {
             Self::U64(_) => Kind::U64,
@@ -110,7 +107,6 @@ impl Data {
     }
 
     /// How many cells.
-    #[must_use]
     pub fn len(&self) -> usize {
         match self {
             Self::U64(cells) => cells.len(),
@@ -122,7 +118,6 @@ impl Data {
     }
 
     /// Whether there is no cell.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -142,9 +137,6 @@ impl Data {
 
 impl Schema {
     /// How many rows these columns hold.
-    ///
-    /// # Errors
-    ///
     /// What is wrong with them, if they are not the columns of this schema or not all of one
     /// length.
     pub(crate) fn rows(&self, data: &[Data]) -> Result<usize, Mismatch> {
@@ -164,19 +156,12 @@ impl Schema {
 /// How columns do not fit a schema.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum Mismatch {
     /// Occurs when there are more or fewer columns.
     #[error("{wanted} columns are wanted, and {found} given")]
-    Count {
-        /// Columns of the schema.
-        wanted: usize,
-        /// Columns given.
-        found: usize,
-    },
+    Count { wanted: usize, found: usize },
     /// Occurs when a column has another type or another length than it should.
     #[error("column `{column}` has another type or another length than it should")]
-    Column {
-        /// The column.
-        column: String,
-    },
+    Column { column: String },
 }

@@ -20,7 +20,6 @@ pub enum Format {
 
 impl Format {
     /// What the names of such files end in.
-    #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
             Self::Parquet => "parquet",

@@ -1,30 +1,20 @@
-//! Why there is no answer.
-
 use model::Vector;
 use model::number::Brief;
 use model::system::Misfit;
 use serde::Serialize;
 
-/// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
+/// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less. Numbers count from 1.
 #[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum Error {
     /// Occurs when a setting is out of its range.
     #[error(
         "the setting {field} must lie between {} and {}, got {value}",
         Brief(*low), Brief(*high)
     )]
-    Setting {
-        /// Name of the field.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-        /// Smallest allowed value.
-        low: f64,
-        /// Largest allowed value.
-        high: f64,
-    },
+    Setting { field: &'static str, value: f64, low: f64, high: f64 },
     /// Occurs when a system has no member.
     #[error("the system has no member")]
     NoMember,
@@ -33,46 +23,23 @@ pub enum Error {
     NoLoad,
     /// Occurs when the direction of a support is zero, infinite or not a number.
     #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
-    Direction {
-        /// Name of the joint.
-        joint: String,
-        /// The direction as given.
-        direction: Vector,
-    },
+    Direction { joint: String, direction: Vector },
     /// Occurs when a part of the system is free to move for ever along its load.
     #[error(
         "the part of the system with joint {joint} falls for ever: its supports leave it free to move along \
          a force of {force_n} N"
     )]
-    Falls {
-        /// Name of a joint of the part.
-        joint: String,
-        /// Force along the motion, N.
-        force_n: f64,
-    },
+    Falls { joint: String, force_n: f64 },
     /// Occurs when a seed has not one direction (or angle) per bar.
     #[error("a seed needs one direction for each of the {bars} bars, got {given}")]
-    SeedSize {
-        /// Bars of the chain.
-        bars: usize,
-        /// Directions of the seed.
-        given: usize,
-    },
+    SeedSize { bars: usize, given: usize },
     /// Occurs when a direction of a seed is zero, infinite or not a number, or has no part in the
     /// plane of the motion.
     #[error("direction {bar} of the seed, [{}, {}, {}], points nowhere", direction[0], direction[1], direction[2])]
-    SeedDirection {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// The direction as given.
-        direction: Vector,
-    },
+    SeedDirection { bar: usize, direction: Vector },
     /// Occurs when an angle of the paper's example is infinite or not a number.
     #[error("the angles of a seed must be finite, got {angle_rad} rad")]
-    SeedAngle {
-        /// The bad angle.
-        angle_rad: f64,
-    },
+    SeedAngle { angle_rad: f64 },
     /// Occurs when the chain could not be closed on its anchors from the seed.
     #[error(
         "the seed could not be closed on the anchors: {gap} of the total length is left after \
@@ -82,7 +49,6 @@ pub enum Error {
     SeedNotClosed {
         /// Distance left, in units of the total length.
         gap: f64,
-        /// Corrections made.
         iterations: usize,
     },
     /// Occurs when the iterations are used up.
@@ -91,7 +57,6 @@ pub enum Error {
         gradient = Brief(*gradient)
     )]
     NotConverged {
-        /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
         gradient: f64,
@@ -107,13 +72,11 @@ pub enum Error {
         gradient = Brief(*gradient), gap = Brief(*gap)
     )]
     NoDescent {
-        /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
         gradient: f64,
         /// Distance of the last joint from the end anchor, in units of the total length.
         gap: f64,
-        /// Directions in which the second derivative is negative.
         directions: usize,
     },
     /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do
@@ -130,35 +93,20 @@ pub enum Error {
     },
     /// Occurs when a seed has not one place per joint, or one that is not finite.
     #[error("a seed needs a finite place for each of the {joints} joints, got {given}")]
-    Seed {
-        /// Joints of the system.
-        joints: usize,
-        /// Finite places of the seed.
-        given: usize,
-    },
+    Seed { joints: usize, given: usize },
     /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a
     /// loop that cannot be closed.
     #[error(
         "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found",
         misfit_m = Brief(*misfit_m)
     )]
-    NotClosed {
-        /// Number of the member with the largest misfit, from 1.
-        member: usize,
-        /// Its misfit, m.
-        misfit_m: f64,
-    },
+    NotClosed { member: usize, misfit_m: f64 },
     /// Occurs when a ring runs to the end of a span of its rope: the energy has a corner there, and no
     /// gradient that could vanish.
     #[error(
         "the rope (member {member}) jams: its span {span} has no length left, and the energy a corner there"
     )]
-    Jammed {
-        /// Number of the rope among the members, from 1.
-        member: usize,
-        /// Number of the span, from 1.
-        span: usize,
-    },
+    Jammed { member: usize, span: usize },
     /// Occurs when more inextensible members meet than decide the shape, and their lengths do not
     /// fit each other within their tolerances.
     #[error("{}", misfit_message(misfits))]
@@ -174,7 +122,6 @@ pub enum Error {
         ratio = Brief(*ratio)
     )]
     Absurd {
-        /// Number of the member with the largest force, from 1.
         member: usize,
         /// Its force over the sum of the loads and the largest force of an elastic member.
         ratio: f64,
@@ -185,7 +132,6 @@ pub enum Error {
         unbalance = Brief(*unbalance)
     )]
     Unbalanced {
-        /// Name of the joint.
         joint: String,
         /// The unbalanced force over the load of the joint, or over the mean load where that is more.
         unbalance: f64,
@@ -197,7 +143,6 @@ pub enum Error {
         unbalance = Brief(*unbalance), misfit = Brief(*misfit)
     )]
     IterationLimit {
-        /// Iterations made.
         iterations: u64,
         /// Largest unbalanced force over the largest force.
         unbalance: f64,
@@ -209,12 +154,7 @@ pub enum Error {
         "not converged within the work it may do: factors of {spent} numbers were computed, and max_work is \
          {max_work}"
     )]
-    Work {
-        /// Numbers in all factors computed.
-        spent: u64,
-        /// How many may be.
-        max_work: u64,
-    },
+    Work { spent: u64, max_work: u64 },
     /// Occurs when no step lowers the energy and the residual is still above its tolerance.
     #[error(
         "no step lowers the energy any further: unbalanced force {unbalance} of the largest, lengths off \
@@ -231,28 +171,19 @@ pub enum Error {
     #[error(
         "the configuration found is no minimum: the energy falls in {index} independent directions"
     )]
-    NoMinimum {
-        /// Number of independent directions in which the energy falls.
-        index: usize,
-    },
+    NoMinimum { index: usize },
     /// Occurs when the descent from a drawing leads far away from it: no minimum lies next to it.
     #[error(
         "no minimum near the drawing: the descent ends where joint {joint} is {moved_m} m away",
         moved_m = Brief(*moved_m)
     )]
-    NoMinimumNear {
-        /// Name of the joint.
-        joint: String,
-        /// How far it is from where it was drawn, m.
-        moved_m: f64,
-    },
+    NoMinimumNear { joint: String, moved_m: f64 },
     /// Occurs when joints balance with a cable that pushes or a strut that pulls alone.
     #[error(
         "no minimum found: the joints would balance with {force_n} N in member {member}, which it cannot \
          bear (a cable pulls, a strut pushes)"
     )]
     WrongSign {
-        /// Number of the member, from 1.
         member: usize,
         /// The axial force that would balance, tension positive, N.
         force_n: f64,
@@ -262,29 +193,19 @@ pub enum Error {
         "no minimum found: joint {joint} would balance with {force_n} N from the floor, which only pushes"
     )]
     FloorPulls {
-        /// Name of the joint.
         joint: String,
         /// The force that would balance, up positive, N.
         force_n: f64,
     },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
-    NotFinite {
-        /// Which number.
-        quantity: &'static str,
-    },
+    NotFinite { quantity: &'static str },
     /// Occurs when there is not enough memory for the factorisation.
     #[error("not enough memory to factorise a system of {coordinates} coordinates")]
-    Memory {
-        /// Coordinates of the system.
-        coordinates: usize,
-    },
+    Memory { coordinates: usize },
     /// Occurs when argmin ends a run for a reason that this crate never gives it.
     #[error("argmin ended the run: {reason}")]
-    Ended {
-        /// The reason, in argmin's words.
-        reason: String,
-    },
+    Ended { reason: String },
 }
 
 /// The worst misfit with its numbers, how many more, and what helps.
@@ -318,7 +239,6 @@ impl Error {
     }
 
     /// The kind of an error of a chain in a few words, for counting.
-    #[must_use]
     pub fn reason(&self) -> &'static str {
         match self {
             Self::Setting { .. } => "setting out of range",

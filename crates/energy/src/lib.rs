@@ -72,9 +72,10 @@
 //! that is too sharp for the groups of bars of a coarser chain: its bars are solved by themselves
 //! (`sharp_bend`).
 //!
-//! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`)
-//! runs the minimisation. The `Solver` is ours: argmin has none for constrained problems, and its
-//! unconstrained ones cannot use a Hessian that is diagonal plus three rows.
+//! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Solver`, `IterState`) runs the
+//! minimisation of the paper's two angles ([`example`]). The others are loops of our own: argmin has
+//! no solver for constrained problems, and its unconstrained ones cannot use a Hessian that is
+//! diagonal plus three rows.
 //!
 //! Up to which *n* does it keep up? The time is linear in *n* as far as memory goes: nothing is
 //! stored but a few vectors of length *n*, and the number of iterations on the chain itself does

@@ -1,5 +1,3 @@
-//! Thresholds of more than one module.
-
 /// Rounding of a few sums and products: what is less than this part of its terms is nothing.
 pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 

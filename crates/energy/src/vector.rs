@@ -7,7 +7,6 @@ pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Vector product.
 pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
@@ -17,7 +16,6 @@ pub(crate) fn along(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
-/// `s a`.
 pub(crate) fn scaled(s: f64, a: Vector) -> Vector {
     [s * a[0], s * a[1], s * a[2]]
 }
@@ -61,7 +59,6 @@ impl VectorSum {
         }
     }
 
-    /// Add to one component.
     #[inline]
     pub(crate) fn add_to(&mut self, k: usize, t: f64) {
         let s = self.total[k];

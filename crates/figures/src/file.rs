@@ -64,7 +64,6 @@ impl Format {
     /// `DejaVu Sans Condensed`, whatever the machine has, one after the other; characters that it lacks are shown as boxes.
     ///
     /// # Errors
-    ///
     /// [`FormatError`] of all but SVG.
     pub fn file(self, svg: &str) -> Result<Vec<u8>, FormatError> {
         if self == Self::Svg {

@@ -2,6 +2,9 @@
 
 use model::budget::OutOfMemory;
 
+/// What is read of a file, or why it cannot be used.
+pub type Result<T, E = FormatError> = std::result::Result<T, E>;
+
 /// Why a file cannot be used: which file, which line where that is known, and what is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}:{}{what}", line.map_or_else(|| " ".to_owned(), |line| format!("{line}: ")))]
@@ -100,12 +103,7 @@ impl FormatError {
 }
 
 /// A finite number; anything else, `nan` and `inf` too, is an error.
-pub(crate) fn number(
-    file: &str,
-    line: Option<usize>,
-    what: &str,
-    text: &str,
-) -> Result<f64, FormatError> {
+pub(crate) fn number(file: &str, line: Option<usize>, what: &str, text: &str) -> Result<f64> {
     let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     parsed.ok_or_else(|| {
         let (what, found) = (what.to_owned(), shortened(text));
@@ -114,12 +112,7 @@ pub(crate) fn number(
 }
 
 /// A number above zero.
-pub(crate) fn positive(
-    file: &str,
-    line: Option<usize>,
-    what: &str,
-    text: &str,
-) -> Result<f64, FormatError> {
+pub(crate) fn positive(file: &str, line: Option<usize>, what: &str, text: &str) -> Result<f64> {
     let found = number(file, line, what, text)?;
     if found > 0.0 {
         return Ok(found);

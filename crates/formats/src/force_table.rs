@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use model::name_of_cell;
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{Result, Wrong};
 use crate::sheet::Sheet;
 
 const COLUMNS: &[&str] = &["time_s", "joint", "x_n", "y_n", "z_n"];
@@ -37,9 +37,8 @@ impl ForceTable {
     /// `z_n`. The times of each joint rise.
     ///
     /// # Errors
-    ///
-    /// [`FormatError`] with the line and the reason.
-    pub fn parse(text: &str, file: &str) -> Result<Self, FormatError> {
+    /// [`FormatError`](crate::FormatError) with the line and the reason.
+    pub fn parse(text: &str, file: &str) -> Result<Self> {
         let sheet = Sheet::parse(file, text, COLUMNS, &[])?;
         COLUMNS.iter().try_for_each(|name| sheet.need(name))?;
         let (mut table, mut numbers) = (Self::default(), HashMap::new());

@@ -3,14 +3,14 @@
 use model::budget::Budget;
 use serde_json::Value;
 
-use crate::error::{FormatError, Wrong, shortened};
+use crate::error::{FormatError, Result, Wrong, shortened};
 
 /// Memory that a byte of JSON needs as a tree of values, bytes: some 105 by the sizes of the nodes of the
 /// tree, of a list of objects with one key of no letters.
 const BYTES_PER_BYTE: u64 = 120;
 
 /// The tree of a text.
-pub(crate) fn parse(text: &str, file: &str) -> Result<Value, FormatError> {
+pub(crate) fn parse(text: &str, file: &str) -> Result<Value> {
     let bytes = (text.len() as u64).saturating_mul(BYTES_PER_BYTE);
     let asked = Budget::default().fits(bytes);
     asked.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
@@ -35,7 +35,7 @@ impl Reader<'_> {
         FormatError::new(self.file, None, Wrong::Value { what, wanted, found })
     }
 
-    pub(crate) fn number(self, what: &str, value: &Value) -> Result<f64, FormatError> {
+    pub(crate) fn number(self, what: &str, value: &Value) -> Result<f64> {
         let number = value.as_f64().filter(|x| x.is_finite());
         number.ok_or_else(|| self.wrong(what, "a finite number", value))
     }

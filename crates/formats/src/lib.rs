@@ -7,6 +7,12 @@
 //!
 //! Only data is moved here: nothing is solved and nothing judged.
 
+/// Words, or pairs of them, as texts.
+macro_rules! names {
+    ($($name:ident)*) => { &[$(stringify!($name)),*] };
+    ($($other:ident: $name:ident)*) => { &[$((stringify!($other), stringify!($name))),*] };
+}
+
 pub mod answer;
 mod error;
 pub mod export;
@@ -15,5 +21,5 @@ mod json;
 mod sheet;
 pub mod system;
 
-pub use error::FormatError;
+pub use error::{FormatError, Result};
 pub use force_table::{ForceOverTime, ForceTable};

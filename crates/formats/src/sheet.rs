@@ -1,6 +1,6 @@
 //! Comma-separated values with a line of names: RFC 4180, blanks around cells do not count.
 
-use crate::error::{FormatError, Wrong, number, shortened};
+use crate::error::{FormatError, Result, Wrong, number, shortened};
 
 /// A table: its names, and its rows with the lines they stand in.
 pub(crate) struct Sheet<'a> {
@@ -28,7 +28,7 @@ impl<'a> Sheet<'a> {
         text: &str,
         names: &'a [&'a str],
         aliases: &[(&str, &str)],
-    ) -> Result<Self, FormatError> {
+    ) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut rows = records(file, text)?.into_iter();
         let Some((line, head)) = rows.next() else {
@@ -77,7 +77,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Refuse a sheet without a column.
-    pub(crate) fn need(&self, name: &str) -> Result<(), FormatError> {
+    pub(crate) fn need(&self, name: &str) -> Result<()> {
         if self.has(name) {
             return Ok(());
         }
@@ -101,12 +101,12 @@ impl Row<'_> {
     }
 
     /// The number of a column.
-    pub(crate) fn number(&self, name: &str) -> Result<f64, FormatError> {
+    pub(crate) fn number(&self, name: &str) -> Result<f64> {
         number(self.sheet.file, Some(self.line), name, self.text(name))
     }
 
     /// The number of a column, 0 where there is no such column or its cell is empty.
-    pub(crate) fn number_or_zero(&self, name: &str) -> Result<f64, FormatError> {
+    pub(crate) fn number_or_zero(&self, name: &str) -> Result<f64> {
         if self.text(name).is_empty() { Ok(0.0) } else { self.number(name) }
     }
 
@@ -117,7 +117,7 @@ impl Row<'_> {
 }
 
 /// The records of a text with the lines they begin in, without empty lines.
-fn records(file: &str, text: &str) -> Result<Vec<Record>, FormatError> {
+fn records(file: &str, text: &str) -> Result<Vec<Record>> {
     let mut records = Vec::new();
     let (mut cells, mut cell, mut quoted, mut was_quoted) = (vec![], String::new(), false, false);
     let (mut line, mut began) = (1, 1);

@@ -100,7 +100,6 @@ impl Basins {
     /// Check the settings against a system.
     ///
     /// # Errors
-    ///
     /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`], [`Error::Refused`], [`Error::Memory`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
         Budget::default().fits(u64::from(self.size).pow(2).saturating_mul(BYTES_PER_START))?;
@@ -115,7 +114,6 @@ impl Basins {
     /// Run all starts.
     ///
     /// # Errors
-    ///
     /// [`Error::BasinsBars`], [`Error::BasinsAngle`] and [`Error::BasinsJoint`] for settings out of
     /// range, [`Error::Sweep`] for chains without a list of equilibria, the errors of
     /// [`Solve`](crate::Solve) for other systems.
@@ -237,7 +235,6 @@ impl Basins {
     /// Processor time that the starts take, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
         let starts = u64::from(self.size).pow(2);
@@ -341,7 +338,6 @@ impl BasinsAnswer {
     /// The picture of one solver as SVG.
     ///
     /// # Errors
-    ///
     /// [`Error::Basins`] when the solver was not asked.
     pub fn svg(&self, solver: &SolverName, field: Field) -> Result<String, Error> {
         let none = Outcomes::default();

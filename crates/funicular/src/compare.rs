@@ -12,7 +12,6 @@ use crate::problem::Problem;
 /// to.
 ///
 /// # Errors
-///
 /// [`Error::NothingToCompare`] for fewer than two answers.
 pub fn compare(
     problem: &Problem,

@@ -147,7 +147,6 @@ impl Derivatives {
     /// Of the hanging equilibrium of a problem, or of the one next to it as it is drawn.
     ///
     /// # Errors
-    ///
     /// [`Error::Refused`] when there is none, [`Error::Lagrange`] when it is not found, [`Error::Disagreed`] when the solvers
     /// disagree on it.
     pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
@@ -185,7 +184,6 @@ impl DerivativesAnswer {
     /// The stiffness matrices of all pairs of anchors.
     ///
     /// # Errors
-    ///
     /// [`Error::Lagrange`] where the equilibrium has no derivatives: it is degenerate, or an anchor
     /// cannot move alone.
     pub fn anchor_stiffness(&self) -> Result<Vec<AnchorStiffness>, Error> {
@@ -222,7 +220,6 @@ impl DerivativesAnswer {
     /// or `bars.2.axial_n`, an axial force.
     ///
     /// # Errors
-    ///
     /// [`Error::Derivatives`] when the text names no such number, [`Error::Parameter`] when the
     /// joint is not there, [`Error::Lagrange`] where there are no derivatives.
     pub fn gradient(&self, of: &str) -> Result<NumberGradient, Error> {
@@ -247,11 +244,9 @@ impl DerivativesAnswer {
     /// each joint and each member: the product with the transposed Jacobian, in one solve.
     ///
     /// # Errors
-    ///
     /// [`Error::Lagrange`] where the equilibrium has no derivatives.
     ///
     /// # Panics
-    ///
     /// Where there are more or fewer derivatives than joints or members.
     pub fn pullback(&self, by_joints: &[Vector], by_axial: &[f64]) -> Result<Gradient, Error> {
         let mut derivatives = net::Derivatives::new(&self.system, &self.solution)?;
@@ -306,7 +301,6 @@ impl DerivativesAnswer {
     /// stay in the middle.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] when the system has no such number, [`Error::Derivatives`] when there
     /// are no derivatives by it, [`Error::Lagrange`] where the equilibrium has none.
     pub fn change(&self, by: &str) -> Result<ParameterChange, Error> {
@@ -399,7 +393,6 @@ impl NumberGradient {
     /// A line per parameter as CSV.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         writeln!(to, "parameter,derivative,unit")?;

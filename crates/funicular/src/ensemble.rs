@@ -71,7 +71,6 @@ impl Ensemble {
     /// census; elsewhere the stable one, and where 256 other positions come to rest.
     ///
     /// # Errors
-    ///
     /// [`Error::Simulate`] without any damping, when nothing comes to rest, and for times out of
     /// range; [`Error::Motion`] when the system cannot be moved; the errors of
     /// [`Solve`](crate::Solve).
@@ -136,7 +135,6 @@ impl PreparedEnsemble {
     /// Write a row per position into a folder, or go on with one.
     ///
     /// # Errors
-    ///
     /// [`Error::Store`]; the folder is left as it was if it holds something else.
     pub fn write(&self, folder: &Path, settings: &RunSettings<'_>) -> Result<Run, Error> {
         Ok(sweep::run(folder, &self.manifest, &self.compute, settings)?)

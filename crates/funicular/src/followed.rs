@@ -70,7 +70,6 @@ impl<F: Follow> Followed<F> {
     /// With the list of what is known, and where that is not complete of what other starts lead to.
     ///
     /// # Errors
-    ///
     /// [`Error::Refused`] when the system has no equilibrium.
     pub(crate) fn new(
         problem: &Problem,

@@ -38,7 +38,6 @@ impl<'a> Frames<'a> {
     /// Begin the files of a collection.
     ///
     /// # Errors
-    ///
     /// Those of the file system, and [`ErrorKind::AlreadyExists`] where the folder is there and not empty.
     pub fn create(path: &Path, system: &'a System) -> io::Result<Self> {
         let folder = AtomicFolder::create(&path.with_extension(""))?;
@@ -48,7 +47,6 @@ impl<'a> Frames<'a> {
     /// Write a time.
     ///
     /// # Errors
-    ///
     /// Those of the file system.
     pub fn add(&mut self, now: &Snapshot) -> io::Result<()> {
         let numbers = [
@@ -86,7 +84,6 @@ impl<'a> Frames<'a> {
     /// Write a shape of a system with what it has while it moves.
     ///
     /// # Errors
-    ///
     /// Those of the file system, and [`ErrorKind::InvalidInput`] where its lists are not those of the system, or it does not
     /// move.
     pub fn add_shape(&mut self, shape: &Shape<'_>) -> io::Result<()> {
@@ -101,7 +98,6 @@ impl<'a> Frames<'a> {
     /// Give the files their names.
     ///
     /// # Errors
-    ///
     /// Those of the file system.
     pub fn finish(self) -> io::Result<()> {
         let folder = self.path.file_stem().unwrap_or_default().display();

@@ -75,7 +75,6 @@ impl Problem {
     /// The problem in the load case of this name, of the `[[cases]]` of its file.
     ///
     /// # Errors
-    ///
     /// [`Error::System`] when there is no such case, or its factors bring a number out of range;
     /// [`Error::Refused`] when what acts then has no equilibrium.
     ///
@@ -126,7 +125,6 @@ impl Solve {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::NoCases`] when the problem has none. What has no answer in a case is no error: it says why.
     pub fn load_cases(&self, problem: &Problem) -> Result<LoadCasesAnswer, Error> {
         self.load_cases_watched(problem, &|| {})
@@ -135,7 +133,6 @@ impl Solve {
     /// The same, with `watch` called after each case.
     ///
     /// # Errors
-    ///
     /// As [`load_cases`](Self::load_cases).
     pub fn load_cases_watched(
         &self,

@@ -58,7 +58,6 @@ impl Solve {
     /// ```
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run) for the whole system. What has no answer after a loss is no error: it says
     /// why.
     pub fn without_each(&self, problem: &Problem) -> Result<LossesAnswer, Error> {
@@ -68,7 +67,6 @@ impl Solve {
     /// The same, with `watch` told of each loss that is done.
     ///
     /// # Errors
-    ///
     /// As [`without_each`](Self::without_each).
     pub fn without_each_watched(
         &self,

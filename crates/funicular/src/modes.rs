@@ -95,7 +95,6 @@ impl Modes {
     /// Find equilibria and their modes.
     ///
     /// # Errors
-    ///
     /// [`Error::Motion`] when the system cannot be moved, and the errors of
     /// [`Solve`](crate::Solve).
     pub fn run(&self, problem: &Problem) -> Result<ModesAnswer, Error> {

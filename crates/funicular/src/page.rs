@@ -108,7 +108,6 @@ impl Page {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] with the place in the text.
     #[cfg(feature = "branches")]
     pub fn vary(self, text: &str) -> Result<Self, Error> {
@@ -125,7 +124,6 @@ impl Page {
     /// Solve the problem and make its page.
     ///
     /// # Errors
-    ///
     /// As [`Solve::run`], [`Simulate::run`] with a motion and [`Study::run`](crate::Study::run) with a
     /// parameter; [`Error::NoShapes`] where nothing hangs at any of its values. A system without
     /// modes, and a load case without an answer, are left out.

@@ -34,7 +34,6 @@ impl Parameters {
     /// units of the file. A [`Trace`](crate::Trace) also takes a range alone, `loads=0..1.2`.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] with the place in the text.
     pub fn vary(mut self, text: &str) -> Result<Self, Error> {
         self.all.push(text.parse()?);
@@ -105,7 +104,6 @@ impl Problem {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] for what the problem has not, [`Error::Point`] where the numbers describe
     /// no problem.
     pub fn with(&self, numbers: &[(impl AsRef<str>, f64)]) -> Result<Self, Error> {

@@ -20,7 +20,6 @@ use crate::moving_page::eye;
 /// ```
 ///
 /// # Errors
-///
 /// [`StructureError`] when a place is not finite.
 pub fn of_system(
     system: &System,
@@ -42,7 +41,6 @@ fn largest_n(axial: &[AxialForce]) -> Vec<f64> {
 /// as the system has joints or members, that of the parts of strengths `used` perhaps empty.
 ///
 /// # Errors
-///
 /// [`StructureError`] when a place is not finite.
 pub fn of_answer(
     system: &System,
@@ -72,7 +70,6 @@ const MOST_DRAWN: usize = 24;
 /// ```
 ///
 /// # Errors
-///
 /// [`StructureError`] when a place is not finite.
 pub fn drawn_modes(
     system: &System,

@@ -42,7 +42,6 @@ impl Reading {
     /// What [`Problem::read`] reads, with what there is to say about it. The bottom of the sea is a floor.
     ///
     /// # Errors
-    ///
     /// As [`Problem::read`].
     pub fn of(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
@@ -85,7 +84,6 @@ impl Problem {
     /// with the feature `columns` Parquet.
     ///
     /// # Errors
-    ///
     /// [`Error::File`], or [`Error::Format`] of a file of another program, with the line and what is allowed there.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         Reading::of(path).map(|reading| reading.problem)
@@ -94,7 +92,6 @@ impl Problem {
     /// The problem of the text of a system file; `name` stands for the file in errors.
     ///
     /// # Errors
-    ///
     /// [`Error::File`], with the line and what is allowed there.
     pub fn parse(text: &str, name: &str) -> Result<Self, Error> {
         Ok(system_file::parse(text, name)?.into())
@@ -104,7 +101,6 @@ impl Problem {
     /// all.
     ///
     /// # Errors
-    ///
     /// [`Error::UnknownCase`], with the name that is nearest.
     pub fn case(name: &str) -> Result<Self, Error> {
         match model::cases::exhibit(name) {
@@ -175,7 +171,6 @@ impl Problem {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::System`] when two joints are at one place, or a coordinate is not finite;
     /// [`Error::Given`] when there are more or fewer places than joints.
     pub fn near(&self, joints_m: &[Vector]) -> Result<Self, Error> {
@@ -187,7 +182,6 @@ impl Problem {
 /// The named case, with its system file; [`model::cases::all`] lists them.
 ///
 /// # Errors
-///
 /// [`Error::UnknownCase`], with the name that is nearest.
 pub fn case(name: &str) -> Result<&'static model::cases::Case, Error> {
     model::cases::get(name).ok_or_else(|| Error::unknown_case(name))
@@ -196,7 +190,6 @@ pub fn case(name: &str) -> Result<&'static model::cases::Case, Error> {
 /// The system file of a named case or of a system of the gallery.
 ///
 /// # Errors
-///
 /// [`Error::UnknownCase`], with the name that is nearest.
 pub fn case_text(name: &str) -> Result<&'static str, Error> {
     match model::cases::exhibit(name) {

@@ -28,7 +28,6 @@ impl Reproduce {
     /// Reproduce.
     ///
     /// # Errors
-    ///
     /// [`Error::Reproduction`] when a solver has no answer to the paper's example,
     /// [`Error::Report`] when it cannot be told.
     pub fn run(&self) -> Result<ReproduceAnswer, Error> {
@@ -38,7 +37,6 @@ impl Reproduce {
     /// The same, with `watch` told what is being done.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(&self, watch: impl FnMut(&str)) -> Result<ReproduceAnswer, Error> {
         let reproduction = paper::reproduce(watch)?;

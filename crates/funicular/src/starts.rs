@@ -23,7 +23,6 @@ pub enum SolversError {
 /// Both solvers of a problem, `lagrange` first.
 ///
 /// # Errors
-///
 /// [`SolversError`]; with the default settings there is none.
 ///
 /// ```

@@ -136,7 +136,6 @@ impl Sweep {
     /// Run all starts, and count what becomes of them.
     ///
     /// # Errors
-    ///
     /// As [`prepare`](Self::prepare), and [`Error::Sweep`] when the threads cannot be started.
     pub fn run(&self, problem: &Problem) -> Result<SweepAnswer, Error> {
         self.run_watched(problem, &|_| {})
@@ -145,7 +144,6 @@ impl Sweep {
     /// The same, with `watch` told every million starts how many are done.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
@@ -186,7 +184,6 @@ impl Sweep {
     /// space, those that 256 other starts lead to.
     ///
     /// # Errors
-    ///
     /// [`Error::GridSeeds`] when a grid cannot have so many points, [`Error::Sweep`] for settings
     /// out of range and chains without a list, [`Error::TooManyThreads`].
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
@@ -239,7 +236,6 @@ impl Sweep {
     /// Processor time that the starts take, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
-    ///
     /// As [`prepare`](Self::prepare).
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
         /// Starts in space that are timed.
@@ -363,7 +359,6 @@ impl PreparedSweep {
     /// Write a row per start into a folder, or go on with one.
     ///
     /// # Errors
-    ///
     /// [`Error::Store`]; the folder is left as it was if it holds something else.
     pub fn write(&self, folder: &Path, settings: &RunSettings<'_>) -> Result<Run, Error> {
         Ok(match &self.compute {

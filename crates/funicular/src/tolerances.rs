@@ -54,7 +54,6 @@ impl Solve {
     /// ```
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn tolerances(&self, problem: &Problem) -> Result<TolerancesAnswer, Error> {
         self.tolerances_drawn(problem, 0, 0, Distribution::default())
@@ -64,7 +63,6 @@ impl Solve {
     /// itself.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn tolerances_drawn(
         &self,
@@ -96,7 +94,6 @@ impl TolerancesAnswer {
     /// The ranges over all tolerances.
     ///
     /// # Errors
-    ///
     /// [`NoRanges`], why nothing is proved.
     pub fn ranges(&self) -> Result<&ToleranceRanges, &NoRanges> {
         self.ranges.as_ref()
@@ -187,7 +184,6 @@ impl TolerancesAnswer {
     /// component of the force of the ground, empty where there is none; only the heads without a proof.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         let mut columns = vec!["joint".to_owned()];
@@ -217,7 +213,6 @@ impl TolerancesAnswer {
     /// strength that is used, empty without one; only the heads without a proof.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
         writeln!(

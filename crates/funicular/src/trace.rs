@@ -87,7 +87,6 @@ impl Trace {
     /// followed along the last one; each combination of the others is a path of its own.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] with the place in the text.
     pub fn vary(self, text: &str) -> Result<Self, Error> {
         Ok(Self { parameters: self.parameters.vary(text)?, ..self })
@@ -170,7 +169,6 @@ impl Trace {
     /// The paths of a chain, before any of them is followed.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] when a parameter does not fit the chain.
     pub fn variation(&self, problem: &Problem) -> Result<Variation, Error> {
         let variation = self.parameters.over(problem)?;
@@ -191,7 +189,6 @@ impl Trace {
     /// The load paths, before any of them is followed.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] when a parameter does not fit the problem.
     pub fn load_variation(&self, problem: &Problem) -> Result<Variation, Error> {
         self.parameters.along(problem)
@@ -201,7 +198,6 @@ impl Trace {
     /// estimate of a census is. Following the branches takes less.
     ///
     /// # Errors
-    ///
     /// As [`variation`](Self::variation).
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
         let variation = self.variation(problem)?;
@@ -212,7 +208,6 @@ impl Trace {
     /// Follow all equilibria, or the load path.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] when a parameter does not fit the problem; [`Error::Load`] where no load
     /// path begins; for all equilibria [`Error::Continuation`] when the chain is too long
     /// for a census, or the paths have more points together than [`max_points`](Self::max_points)
@@ -225,7 +220,6 @@ impl Trace {
     /// points there are.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
@@ -348,7 +342,6 @@ impl TraceAnswer {
     /// force is infinite.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         if let Found::Load(found) = &self.0 {

@@ -1,5 +1,3 @@
-//! What a solve took.
-
 /// What a solve took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::settings::SettingsError;
 
-/// Why no equilibrium was returned. `Ok` always means converged.
+/// Why no equilibrium was returned. `Ok` always means converged. Numbers count from 1.
 ///
 /// ```
 /// use lagrange::{Error, Seed, Settings, solve_from};
@@ -17,6 +17,7 @@ use crate::settings::SettingsError;
 #[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum Error {
     /// Occurs when a setting is out of range.
     #[error(transparent)]
@@ -26,9 +27,7 @@ pub enum Error {
     SeedLength {
         /// `joints`, `members`, or `bars`.
         of: &'static str,
-        /// Those of the system.
         expected: usize,
-        /// Those of the seed.
         got: usize,
     },
     /// Occurs when a place, a force or an angle of the seed is infinite or not a number.
@@ -36,7 +35,6 @@ pub enum Error {
     SeedNotFinite {
         /// `joint`, `member`, or `bar`.
         of: &'static str,
-        /// Its number, from 1.
         number: usize,
     },
     /// Occurs when every run of Newton's method stopped at a local minimum of the residual that is
@@ -49,9 +47,7 @@ pub enum Error {
     Stagnated {
         /// Norm of the residual at the end, in units of the total weight and length.
         residual: f64,
-        /// Steps of all kinds.
         iterations: usize,
-        /// Relaxations among the runs.
         relaxations: usize,
     },
     /// Occurs when all equations of the paper hold and a bar is not in balance: a false root at
@@ -63,18 +59,10 @@ pub enum Error {
          times the mean length) acts on bar {bar}",
         moment = Brief(*moment)
     )]
-    FalseRoot {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// The moment that the equations do not see.
-        moment: f64,
-    },
+    FalseRoot { bar: usize, moment: f64 },
     /// Occurs when the singular value decomposition of the Jacobian does not converge.
     #[error("the singular values of the Jacobian (size {size}) did not converge")]
-    Spectrum {
-        /// Rows of the Jacobian.
-        size: usize,
-    },
+    Spectrum { size: usize },
     /// Occurs when the passes over the bars ran out, or the iteration stopped at rounding errors
     /// larger than the settings allow.
     #[error(
@@ -97,14 +85,7 @@ pub enum Error {
         if *joints == 1 { "the joint".to_owned() } else { format!("the {joints} joints") },
         load_n = Brief(*load_n)
     )]
-    Falls {
-        /// Name of the first joint of the component.
-        joint: String,
-        /// Joints of the component.
-        joints: usize,
-        /// The part of the load that no support resists, N.
-        load_n: f64,
-    },
+    Falls { joint: String, joints: usize, load_n: f64 },
     /// Occurs when a joint moves on without end and the energy falls: only struts, which cannot
     /// pull, connect it with the joints that are held.
     #[error(
@@ -112,7 +93,6 @@ pub enum Error {
         distance_m = Brief(*distance_m)
     )]
     Escapes {
-        /// Name of the joint.
         joint: String,
         /// Its last distance from the first supported joint, m.
         distance_m: f64,
@@ -124,9 +104,7 @@ pub enum Error {
     TooShort {
         /// Name of a held joint.
         from: String,
-        /// Name of another.
         to: String,
-        /// Distance of the two, m.
         distance_m: f64,
         /// Length of the shortest path of members between them, m.
         reach_m: f64,
@@ -138,14 +116,7 @@ pub enum Error {
         if distance_m > length_m { "further" } else { "less" },
         length = Brief(*length_m), off = Brief((distance_m - length_m).abs())
     )]
-    HeldMisfit {
-        /// Number of the member, from 1.
-        member: usize,
-        /// Its length, m.
-        length_m: f64,
-        /// Distance of its ends, m.
-        distance_m: f64,
-    },
+    HeldMisfit { member: usize, length_m: f64, distance_m: f64 },
     /// Occurs when no load acts and no member is stretched: every shape is in equilibrium.
     #[error(
         "no load acts on any joint that can move, and no member is stretched: nothing decides the shape"
@@ -160,14 +131,11 @@ pub enum Error {
     NotConverged {
         /// Sparse factorisations.
         iterations: usize,
-        /// Name of the joint that is least in balance.
         joint: String,
         /// What is left there, in units of the loads of the joint (of the mean load, where that is
         /// more).
         unbalance: f64,
-        /// Number of the member whose length is furthest off, from 1.
         member: usize,
-        /// How far, m.
         misfit_m: f64,
     },
     /// Occurs when a ring runs to the end of a span of its rope, where friction-free spans have no
@@ -189,19 +157,14 @@ pub enum Error {
         force_n = Brief(*force_n), ratio = Brief(*ratio)
     )]
     Absurd {
-        /// Number of the member, from 1.
         member: usize,
-        /// Its axial force, N.
         force_n: f64,
         /// Its size over the loads and what elastic members bear.
         ratio: f64,
     },
     /// Occurs when the set of joints that lie on the floor does not settle.
     #[error("which joints lie on the floor is still open after {rounds} rounds")]
-    Floor {
-        /// Rounds made.
-        rounds: usize,
-    },
+    Floor { rounds: usize },
     /// Occurs when only unstable equilibria were found, though the hanging one was asked for.
     #[error("only unstable equilibria found, the last of index {index}")]
     Unstable {
@@ -213,55 +176,39 @@ pub enum Error {
         "the work is spent: factors with {spent} entries together were computed, and max_work is {max_work}"
     )]
     Work {
-        /// Entries of all factors.
         spent: u64,
         /// What [`Settings::max_work`](crate::net::Settings::max_work) allows.
         max_work: u64,
     },
     /// Occurs when the factor of the matrix cannot be held in memory.
     #[error("no memory for the factor of a matrix of {unknowns} unknowns")]
-    Memory {
-        /// Unknowns of the matrix.
-        unknowns: usize,
-    },
+    Memory { unknowns: usize },
     /// Occurs when derivatives are asked for at an equilibrium that a motion leaves at rest: a part
     /// that turns freely about the vertical, for one.
     #[error(
         "no derivative here: {motions} independent motions meet no stiffness, as where a part turns freely; \
          where it comes to rest is no function of the parameters"
     )]
-    FreeMotion {
-        /// Number of independent motions.
-        motions: usize,
-    },
+    FreeMotion { motions: usize },
     /// Occurs when derivatives are asked for where equilibrium leaves the forces open.
     #[error(
         "no derivative here: {dimension} independent self-stresses leave the forces open, and the lengths of \
          rigid members cannot change one by one"
     )]
-    OpenForces {
-        /// Number of independent self-stresses.
-        dimension: usize,
-    },
+    OpenForces { dimension: usize },
     /// Occurs when derivatives are asked for where a cable or strut has just its length and bears
     /// no force but that of its own weight.
     #[error(
         "no derivative here: member {member} has just its length and bears no force but that of its own weight; a change to one side \
          loads it, to the other it is slack, and the derivatives of both sides differ"
     )]
-    JustTaut {
-        /// Number of the member, from 1.
-        member: usize,
-    },
+    JustTaut { member: usize },
     /// Occurs when derivatives are asked for where a joint just touches the floor.
     #[error(
         "no derivative here: joint {joint} just touches the floor, which does not push it; a change to one \
          side lifts it, to the other it is pushed, and the derivatives of both sides differ"
     )]
-    JustTouches {
-        /// Name of the joint.
-        joint: String,
-    },
+    JustTouches { joint: String },
     /// Occurs when derivatives are asked for where there are none: an inextensible member between
     /// the anchors that are to move, or equations that are singular beyond what is counted.
     #[error(
@@ -269,16 +216,10 @@ pub enum Error {
          self-stress or a rigid member that an anchor would stretch does that",
         left = Brief(*left)
     )]
-    NoDerivative {
-        /// The part of the change that no step takes away.
-        left: f64,
-    },
+    NoDerivative { left: f64 },
     /// Occurs when the derivative by the place of a joint is asked for that is no anchor.
     #[error("joint {joint} is no anchor: its place is no parameter")]
-    NotAnAnchor {
-        /// Name of the joint.
-        joint: String,
-    },
+    NotAnAnchor { joint: String },
 }
 
 fn misfit_text(misfits: &[Misfit]) -> String {

@@ -1,5 +1,3 @@
-//! Settings of the solve.
-
 use model::number::Brief;
 use serde::Serialize;
 

@@ -51,14 +51,12 @@ pub struct Kernels<'a> {
 impl<'a> Kernels<'a> {
     /// Those of a matrix whose singular values below `zero` times the largest count as zero; `None` where an entry is
     /// not finite.
-    #[must_use]
     pub fn new(matrix: &'a DMatrix<f64>, zero: f64) -> Option<Self> {
         Self::at_scale(matrix, zero, 0.0)
     }
 
     /// The same below `zero` times the largest or the scale of the entries, whichever is larger: rows of unit vectors
     /// of which nothing but rounding is left have no rank.
-    #[must_use]
     pub fn at_scale(matrix: &'a DMatrix<f64>, zero: f64, scale: f64) -> Option<Self> {
         let values = singular_values(matrix)?;
         let largest = values.first().copied().unwrap_or(0.0);
@@ -70,13 +68,11 @@ impl<'a> Kernels<'a> {
     }
 
     /// An orthonormal basis, by columns, of what the matrix takes to zero.
-    #[must_use]
     pub fn right(&self) -> DMatrix<f64> {
         complement(&self.matrix.transpose(), self.rank)
     }
 
     /// The same of its transpose.
-    #[must_use]
     pub fn left(&self) -> DMatrix<f64> {
         complement(self.matrix, self.rank)
     }
@@ -86,7 +82,6 @@ impl<'a> Kernels<'a> {
 ///
 /// Where the matrix is of a higher rank, what is orthogonal to the first of its columns by size of their pivots: of a
 /// square matrix that is all but singular the vector that it all but takes to zero from the left.
-#[must_use]
 pub fn complement(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
     let size = matrix.nrows();
     if rank == 0 || rank == size {
@@ -96,7 +91,6 @@ pub fn complement(matrix: &DMatrix<f64>, rank: usize) -> DMatrix<f64> {
 }
 
 /// The same at a rank of pivots above `zero` times the largest.
-#[must_use]
 pub fn across(columns: &DMatrix<f64>, zero: f64) -> DMatrix<f64> {
     let size = columns.nrows();
     if columns.is_empty() {
@@ -120,7 +114,6 @@ fn rank(upper: &DMatrix<f64>, zero: f64) -> usize {
 }
 
 /// Singular values, the largest first; `None` where an entry is not finite.
-#[must_use]
 pub fn singular_values(matrix: &DMatrix<f64>) -> Option<Vec<f64>> {
     if matrix.is_empty() {
         return Some(Vec::new());
@@ -132,7 +125,6 @@ pub fn singular_values(matrix: &DMatrix<f64>) -> Option<Vec<f64>> {
 
 /// The shortest of the vectors that leave the least of `right`, by a rank of pivots above `zero` times the largest;
 /// `None` where an entry of either is not finite.
-#[must_use]
 pub fn least_squares(
     matrix: &DMatrix<f64>,
     right: &DVector<f64>,
@@ -172,7 +164,6 @@ fn unit(matrix: &DMatrix<f64>) -> f64 {
 /// # Panics
 ///
 /// When the matrix is not square.
-#[must_use]
 pub fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let size = matrix.nrows();
     assert_eq!(size, matrix.ncols(), "a square matrix");
@@ -217,7 +208,6 @@ impl Lu {
     /// # Panics
     ///
     /// When the matrix is not square.
-    #[must_use]
     pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
         let size = matrix.nrows();
         assert_eq!(size, matrix.ncols(), "a square matrix");
@@ -227,7 +217,6 @@ impl Lu {
     }
 
     /// What the matrix takes to `right`.
-    #[must_use]
     pub fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
         let (size, factors, mut found) = (right.len(), &self.factors, right.clone());
         self.exchanges.iter().for_each(|(row, other)| found.as_mut_slice().swap(*row, *other));
@@ -242,7 +231,6 @@ impl Lu {
     }
 
     /// The determinant.
-    #[must_use]
     pub fn determinant(&self) -> f64 {
         let turns = self.exchanges.iter().filter(|(row, other)| row != other).count();
         self.factors.diagonal().product() * if turns % 2 == 0 { 1.0 } else { -1.0 }
@@ -255,20 +243,17 @@ pub struct Cholesky(DMatrix<f64>);
 
 impl Cholesky {
     /// Of its lower triangle; `None` where it is not positive definite.
-    #[must_use]
     pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
         Some(Self(matrix.clone().cholesky()?.unpack()))
     }
 
     /// `L^-1` times a matrix.
-    #[must_use]
     pub fn solve(&self, mut right: DMatrix<f64>) -> DMatrix<f64> {
         self.0.solve_lower_triangular_mut(&mut right);
         right
     }
 
     /// `L^-T` times a matrix.
-    #[must_use]
     pub fn solve_transposed(&self, mut right: DMatrix<f64>) -> DMatrix<f64> {
         self.0.tr_solve_lower_triangular_mut(&mut right);
         right
@@ -276,7 +261,6 @@ impl Cholesky {
 }
 
 /// What a positive definite matrix of three rows takes to `right`; `None` where it is not positive definite.
-#[must_use]
 pub fn solve_three(matrix: &[[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
     let (mut l, mut x) = (*matrix, right);
     for i in 0..3 {
@@ -296,7 +280,6 @@ pub fn solve_three(matrix: &[[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> 
 }
 
 /// The triangle `R` of a matrix `Q R` with at least as many rows as columns, and `Q^T` times another one.
-#[must_use]
 pub fn qr(matrix: DMatrix<f64>, mut other: DMatrix<f64>) -> [DMatrix<f64>; 2] {
     if matrix.is_empty() {
         return [DMatrix::zeros(0, 0), other];
@@ -311,7 +294,6 @@ pub fn qr(matrix: DMatrix<f64>, mut other: DMatrix<f64>) -> [DMatrix<f64>; 2] {
 /// # Panics
 ///
 /// When they do not fit.
-#[must_use]
 pub fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     left * right
 }
@@ -321,7 +303,6 @@ pub fn product(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
 /// # Panics
 ///
 /// When they do not fit.
-#[must_use]
 pub fn apply(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
     matrix * vector
 }
@@ -331,7 +312,6 @@ pub fn apply(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
 /// # Panics
 ///
 /// When they do not fit.
-#[must_use]
 pub fn projected(matrix: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
     basis.transpose() * matrix * basis
 }
@@ -377,7 +357,6 @@ fn triangular(
 }
 
 /// Eigenvalues of a symmetric matrix, ascending; `None` where an entry is not finite.
-#[must_use]
 pub fn eigenvalues(symmetric: &DMatrix<f64>) -> Option<Vec<f64>> {
     if symmetric.is_empty() {
         return Some(Vec::new());
@@ -389,7 +368,6 @@ pub fn eigenvalues(symmetric: &DMatrix<f64>) -> Option<Vec<f64>> {
 }
 
 /// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors by columns; `None` where an entry is not finite.
-#[must_use]
 pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     if symmetric.is_empty() {
         return Some((Vec::new(), symmetric.clone()));
@@ -403,7 +381,6 @@ pub fn eigen(symmetric: &DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
 }
 
 /// The same of three rows.
-#[must_use]
 pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
     let (values, vectors) = eigen(&DMatrix::from_column_slice(3, 3, symmetric.as_slice()))?;
     Some((Vector3::from_column_slice(&values), Matrix3::from_column_slice(vectors.as_slice())))
@@ -432,7 +409,6 @@ pub fn eigen_of_three(symmetric: &Matrix3<f64>) -> Option<(Vector3<f64>, Matrix3
 /// assert!((held(&[0.0, 1.0, 3.0, 165.0]) + 1.0).abs() < 1e-5);
 /// assert!(held(&[0.0, 90.0, 170.0]) < -0.9 && held(&[0.0, 100.0, 260.0]) < 0.0);
 /// ```
-#[must_use]
 pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
     let (size, springs) = (form.nrows(), rows.nrows());
     let lowest = eigenvalues(form).and_then(|values| values.first().copied()).unwrap_or(0.0);
@@ -489,7 +465,6 @@ pub fn least_one_sided(form: &DMatrix<f64>, rows: &DMatrix<f64>) -> f64 {
 /// assert!(falls_one_sided(&dmatrix![2.0]));
 /// assert!(!falls_one_sided(&(dmatrix![2.0, -2.0; -2.0, 2.0] / 3.0)));
 /// ```
-#[must_use]
 pub fn falls_one_sided(flexibility: &DMatrix<f64>) -> bool {
     let size = flexibility.nrows();
     let Some((values, vectors)) = eigen(&((flexibility + flexibility.transpose()) / 2.0)) else {
@@ -505,7 +480,6 @@ pub fn falls_one_sided(flexibility: &DMatrix<f64>) -> bool {
 /// # Panics
 ///
 /// When the matrix is not square.
-#[must_use]
 pub fn complex_eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<[f64; 2]>> {
     if matrix.is_empty() {
         return Some(Vec::new());

@@ -98,7 +98,6 @@ impl SystemEquilibrium {
     /// The same of one member, from 0.
     ///
     /// # Panics
-    ///
     /// If the answer is not one of the system.
     #[must_use]
     pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {

@@ -64,7 +64,6 @@ impl Bar {
     /// moments of inertia `J_x, J_y, J_z` (x along the bar).
     ///
     /// # Errors
-    ///
     /// [`BarError`] when a number is out of range; nothing is repaired.
     ///
     /// ```
@@ -90,7 +89,6 @@ impl Bar {
     /// the mass is changed.
     ///
     /// # Errors
-    ///
     /// As [`new`](Self::new).
     ///
     /// ```
@@ -130,7 +128,6 @@ impl Bar {
     /// A homogeneous slender bar: centre in the middle, moments `[0, m l²/12, m l²/12]`.
     ///
     /// # Errors
-    ///
     /// [`BarError`] when the length or the mass is out of range, or so large that `m l²` is
     /// infinite.
     ///

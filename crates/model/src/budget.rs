@@ -102,7 +102,6 @@ impl Budget {
     /// Whether there is room for so many bytes more.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is not.
     pub fn fits(&self, bytes: u64) -> Result<(), OutOfMemory> {
         let left = self.left();
@@ -115,7 +114,6 @@ impl Budget {
     /// Hold so many bytes more.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is no room for them.
     pub fn take(&self, bytes: u64) -> Result<(), OutOfMemory> {
         self.fits(bytes)?;
@@ -131,7 +129,6 @@ impl Budget {
     /// Hold so many members more, each with its joint, as they are read.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is no room for them.
     pub fn take_members(&self, count: usize) -> Result<(), OutOfMemory> {
         self.take_for_members(count, BYTES_PER_MEMBER_READ)
@@ -140,7 +137,6 @@ impl Budget {
     /// Hold so many equal members more, each with a joint that differs from the others in its name alone.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is no room for them.
     pub fn take_equal_members(&self, count: usize) -> Result<(), OutOfMemory> {
         self.take_for_members(count, BYTES_PER_EQUAL_MEMBER_READ)
@@ -156,7 +152,6 @@ impl Budget {
     /// Hold names of so many joints more, of so many bytes each.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is no room for them.
     pub fn take_names(&self, count: usize, name_bytes: usize) -> Result<(), OutOfMemory> {
         let copies = (name_bytes as u64).saturating_mul(COPIES);
@@ -166,7 +161,6 @@ impl Budget {
     /// Whether there is room for what both solvers need beside the system that was read.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is not.
     pub fn fits_solve(&self, system: &System) -> Result<(), OutOfMemory> {
         let each = if system.is_row() { BYTES_PER_MEMBER_IN_ROW } else { BYTES_PER_MEMBER };
@@ -177,7 +171,6 @@ impl Budget {
     /// Whether there is room for so many members of so many bytes each.
     ///
     /// # Errors
-    ///
     /// [`OutOfMemory`] if there is not.
     pub fn fits_members(&self, count: usize, each: u64) -> Result<(), OutOfMemory> {
         self.fits((count as u64).saturating_mul(each))

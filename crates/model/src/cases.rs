@@ -21,7 +21,6 @@ impl Case {
     /// The problem of this case.
     ///
     /// # Panics
-    ///
     /// Never: a test reads every case of the registry.
     #[must_use]
     pub fn problem(&self) -> Problem {
@@ -48,7 +47,6 @@ impl Exhibit {
     /// The system.
     ///
     /// # Panics
-    ///
     /// Never: a test reads all of the gallery.
     #[must_use]
     pub fn system(&self) -> System {

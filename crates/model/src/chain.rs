@@ -83,7 +83,6 @@ impl Chain {
     /// Whether it can hang at all is the question of [`Problem::new`](crate::Problem::new).
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when there is no bar, a number is out of range, or a total overflows or
     /// vanishes.
     pub fn new(

@@ -10,7 +10,6 @@ use std::path::Path;
 /// perhaps for ever. Pipes of a shell (`-`, `<(command)`) have their writer.
 ///
 /// # Errors
-///
 /// Those of the file system; [`ErrorKind::IsADirectory`] for a folder, [`ErrorKind::Unsupported`] for a
 /// pipe with a name.
 pub fn open_input(path: &Path) -> io::Result<File> {

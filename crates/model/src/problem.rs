@@ -34,7 +34,6 @@ impl Problem {
     /// Accept a chain, or say why it has no answer.
     ///
     /// # Errors
-    ///
     /// [`Refusal`], with the numbers it rests on.
     pub fn new(chain: Chain) -> Result<Self, Refusal> {
         let bars = chain.bars();

@@ -78,7 +78,6 @@ pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, Motion
 /// assert!((at[1].iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-14);
 /// assert_eq!((at[3], at == motion::random_places(&system, 8)), ([0.0, 0.0, -2.0], false));
 /// ```
-#[must_use]
 pub fn random_places(system: &System, seed: u64) -> Vec<Vector> {
     guess(system, seed, 0)
 }

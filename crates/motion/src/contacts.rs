@@ -60,7 +60,6 @@ pub struct Impact {
 /// assert!(motion::has_impacts(&rigid?) && !motion::has_impacts(&elastic?));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
 pub fn has_impacts(system: &System) -> bool {
     Contacts::of(system).is_some()
 }
@@ -92,9 +91,6 @@ impl Contacts {
     }
 
     /// Close what is closed at the places of a beginning, world frame, m.
-    ///
-    /// # Errors
-    ///
     /// [`MotionError::NotClosed`] where a gap is negative by more than the rounding of printed
     /// digits.
     pub(crate) fn begin(&mut self, joints_m: &[Vector]) -> Result<(), MotionError> {
@@ -143,7 +139,6 @@ impl Contacts {
         (z_m - self.system.floor_m().unwrap_or_default()) / self.system.total_length_m()
     }
 
-    /// The gap of a contact at places by joint.
     fn gap_at(&self, contact: Contact, joints_m: &[Vector]) -> f64 {
         let longer = |member: &Member| {
             let spans = member.spans().map(|[a, b]| minus(joints_m[b], joints_m[a]));

@@ -75,9 +75,6 @@ pub(crate) fn second_axis(d: Vector) -> Vector {
 }
 
 /// Add corners to all bars whose moments across differ.
-///
-/// # Errors
-///
 /// [`MotionError::UnequalMoments`] where a bar with a stiffness has such moments, or where one of
 /// the three is not less than the sum of the other two: a body has none such, or lies in a plane.
 pub(crate) fn expand(system: &System) -> Result<Expanded, MotionError> {

@@ -19,7 +19,6 @@ use crate::settings::Settings;
 use crate::state::State;
 use numerics::vector::{add_times, cross, dot, minus, plus, times};
 
-/// Forces of the damping.
 pub(crate) struct Damping {
     /// Drag on the point mass of each slot, N.
     pub on_joints: Vec<Vector>,

@@ -8,6 +8,7 @@ use model::system::RunTogether;
 /// Members are counted from 1, joints are named.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum MotionError {
     /// Occurs when an inextensible cable or strut is part of a system whose mechanics are asked for
     /// without a position: it may be taut or slack.
@@ -15,7 +16,6 @@ pub enum MotionError {
         "member {member} is an inextensible {kind}: a position tells whether it is taut or slack"
     )]
     Unilateral {
-        /// Number of the member, from 1.
         member: usize,
         /// `cable` or `strut`.
         kind: &'static str,
@@ -33,34 +33,21 @@ pub enum MotionError {
          linear there"
     )]
     NeitherTautNorSlack {
-        /// Number of the member, from 1.
         member: usize,
         /// `cable` or `strut`.
         kind: &'static str,
-        /// Distance of its ends, m.
         distance_m: f64,
-        /// Its length, m.
         length_m: f64,
         /// Its axial force, tension positive, N.
         axial_n: f64,
     },
     /// Occurs when there is no memory for the factor of the equations of a step.
     #[error("there is no memory for the equations of {joints} joints")]
-    Memory {
-        /// Joints that move.
-        joints: usize,
-    },
+    Memory { joints: usize },
     /// Occurs when impacts follow each other too fast, or when no impulses of the right signs are
     /// found for what closes at one time.
     #[error("at t = {time_s} s there are more than {most} impacts in a step of {step_s} s")]
-    Impacts {
-        /// Time of the last one.
-        time_s: f64,
-        /// The step.
-        step_s: f64,
-        /// Most impacts in a step.
-        most: usize,
-    },
+    Impacts { time_s: f64, step_s: f64, most: usize },
     /// Occurs when a joint about whose equilibrium a system oscillates lies on a floor that does
     /// not certainly push it: it may rise and not sink, and no small motion is linear.
     #[error(
@@ -68,7 +55,6 @@ pub enum MotionError {
          nothing, and small motions are not linear there"
     )]
     NotPushed {
-        /// Name of the joint.
         joint: String,
         /// Force of the floor on it, up, N.
         push_n: f64,
@@ -81,19 +67,14 @@ pub enum MotionError {
     #[error(
         "joint {joint:?} has come down its line to the floor, where it cannot move: motions end there"
     )]
-    FloorEndsLine {
-        /// Name of the joint.
-        joint: String,
-    },
+    FloorEndsLine { joint: String },
     /// Occurs when the two moments across a member differ where that is not provided for (members
     /// with a stiffness, flat bodies in motion), or when no body has its moments.
     #[error("the moments of member {member} are {moments_kg_m2:?} kg m^2: {reason}")]
     UnequalMoments {
-        /// Number of the member, from 1.
         member: usize,
         /// `J_x`, `J_y`, `J_z`.
         moments_kg_m2: [f64; 3],
-        /// Why they are refused.
         reason: &'static str,
     },
     /// Occurs when a joint can be moved without moving any mass.
@@ -102,12 +83,7 @@ pub enum MotionError {
          acceleration is indeterminate; give it a mass_kg, or a mass to a member that ends there (in such \
          systems each joint that moves needs one)"
     )]
-    Massless {
-        /// Name of the joint.
-        joint: String,
-        /// What of its inertia is left when the others move with it, kg.
-        inertia_kg: f64,
-    },
+    Massless { joint: String, inertia_kg: f64 },
     /// Occurs when the motions about an equilibrium that keep the lengths of rigid members are no linear space.
     #[error(
         "this shape is singular, as bars that are folded into one line, or a cable more than needed that slackens to either \
@@ -122,7 +98,6 @@ pub enum MotionError {
         pivot = Brief(*pivot)
     )]
     Redundant {
-        /// Name of the joint where it shows.
         joint: String,
         /// The pivot, relative to what it is made of.
         pivot: f64,
@@ -134,7 +109,6 @@ pub enum MotionError {
         off = Brief(*off)
     )]
     NotClosed {
-        /// Corrections made.
         iterations: usize,
         /// Largest relative violation left.
         off: f64,
@@ -146,11 +120,8 @@ pub enum MotionError {
         Brief(*time_s), Brief(step_s.abs()), Brief(*off)
     )]
     StepTooLong {
-        /// Time at the beginning of the step.
         time_s: f64,
-        /// The step.
         step_s: f64,
-        /// Corrections made.
         iterations: usize,
         /// Largest relative violation left.
         off: f64,
@@ -162,41 +133,23 @@ pub enum MotionError {
          {} s: take steps of at most {} s, or less stiff members",
         Brief(*step_s), Brief(*longest_s), Brief(*most_s)
     )]
-    Stiff {
-        /// The step.
-        step_s: f64,
-        /// The longest step without parts.
-        longest_s: f64,
-        /// The longest step that is taken in parts.
-        most_s: f64,
-    },
+    Stiff { step_s: f64, longest_s: f64, most_s: f64 },
     /// Occurs when speeds overflow: a force is too large for what it moves.
     #[error(
         "at t = {} s a step of {} s leads to speeds beyond all numbers: are forces and masses right?",
         Brief(*time_s), Brief(step_s.abs())
     )]
-    Overflow {
-        /// Time at the beginning of the step.
-        time_s: f64,
-        /// The step.
-        step_s: f64,
-    },
+    Overflow { time_s: f64, step_s: f64 },
     /// Occurs when the number of places or velocities given is not that of the joints, or one is
     /// not finite.
     #[error("{what}: {reason}")]
-    Input {
-        /// What was given.
-        what: &'static str,
-        /// What is wrong with it.
-        reason: String,
-    },
+    Input { what: &'static str, reason: String },
     /// Occurs when modes are asked for at a position that is not an equilibrium.
     #[error(
         "the position is not an equilibrium: {off} of the largest force is left over at joint {joint:?}",
         off = Brief(*off)
     )]
     NotInBalance {
-        /// Name of the joint with the largest force left over.
         joint: String,
         /// That force, relative to the largest force in the system.
         off: f64,
@@ -207,22 +160,12 @@ pub enum MotionError {
         "all modes are found by dense linear algebra, for at most {most} joints that move, and this \
          system has {joints}: ask for the lowest"
     )]
-    TooLarge {
-        /// Number of joints that move.
-        joints: usize,
-        /// Most of them.
-        most: usize,
-    },
+    TooLarge { joints: usize, most: usize },
     /// Occurs when the modes that are found are not as many as the inertia of the shifted stiffness
     /// counts.
     #[error(
         "{found} modes are found where {asked} are asked for, and the inertia of the stiffness does \
          not confirm them"
     )]
-    ModesUncounted {
-        /// Number of modes found.
-        found: usize,
-        /// Number asked for.
-        asked: usize,
-    },
+    ModesUncounted { found: usize, asked: usize },
 }

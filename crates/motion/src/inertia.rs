@@ -35,7 +35,6 @@ impl EndInertia {
     /// assert!((m.to - 2.0).abs() < 1e-15);
     /// # Ok::<(), model::BarError>(())
     /// ```
-    #[must_use]
     pub fn new(bar: &Bar) -> Self {
         Self::with_moment(bar, bar.inertia_kg_m2()[1])
     }

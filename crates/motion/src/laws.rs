@@ -37,7 +37,6 @@ pub struct Laws {
 
 impl Laws {
     /// The largest violation; NaN stays NaN.
-    #[must_use]
     pub fn largest(&self) -> f64 {
         [self.force, self.moment, self.joint, self.momentum, self.angular_momentum]
             .into_iter()

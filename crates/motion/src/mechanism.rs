@@ -1,5 +1,3 @@
-//! A system of bars as the mechanics of the places of its joints.
-
 use std::ops::Range;
 
 use model::Vector;
@@ -174,19 +172,16 @@ impl Mechanism {
     }
 
     /// The system.
-    #[must_use]
     pub fn system(&self) -> &System {
         self.given.as_ref().unwrap_or(&self.system)
     }
 
     /// Number of constraints: rigid members, and directions that supports of sliders take.
-    #[must_use]
     pub fn constraints(&self) -> usize {
         self.bars.len() + self.slides.len()
     }
 
     /// Number of coordinates: three for each joint that is no anchor.
-    #[must_use]
     pub fn coordinates(&self) -> usize {
         3 * self.moving
     }
@@ -253,12 +248,10 @@ impl Mechanism {
         self.spans = spans;
     }
 
-    /// Name of the joint in a slot.
     pub(crate) fn name(&self, slot: usize) -> String {
         self.system.joints()[self.joint_at[slot]].name.to_string()
     }
 
-    /// The spans of a member.
     pub(crate) fn of(&self, spans: &Range<usize>) -> &[Link] {
         &self.spans[spans.clone()]
     }
@@ -287,9 +280,6 @@ impl Mechanism {
     }
 
     /// Places by slot, relative to the reference, of places by joint in the world frame.
-    ///
-    /// # Errors
-    ///
     /// [`MotionError::Input`] when their number is not that of the joints, or one is not finite.
     pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
         let reference = self.reference_m;

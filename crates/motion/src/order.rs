@@ -1,5 +1,3 @@
-//! The order in which joints are eliminated.
-
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 

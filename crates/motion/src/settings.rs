@@ -1,5 +1,3 @@
-//! How a motion is integrated.
-
 use crate::error::MotionError;
 
 /// Order of the integrator.

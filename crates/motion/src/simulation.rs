@@ -1,5 +1,3 @@
-//! A motion in time.
-
 use model::Vector;
 use model::system::{RunTogether, System};
 
@@ -224,7 +222,6 @@ impl Simulation {
     /// assert_eq!(simulation.parts_of(0.12)?, 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn longest_step_s(&self) -> f64 {
         self.longest_s
     }
@@ -325,31 +322,26 @@ impl Simulation {
     /// assert!((drop.joints_m()[1][2] + 1.0).abs() < 1e-12 && drop.kinetic_j() < 1e-18);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn impacts(&self) -> &[Impact] {
         &self.impacts
     }
 
     /// Energy that was lost in impacts so far, J.
-    #[must_use]
     pub fn lost_j(&self) -> f64 {
         model::sum(self.impacts.iter().map(|impact| impact.lost_j))
     }
 
     /// The mechanics of the system, with what holds at the present time.
-    #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
         &self.mechanism
     }
 
     /// Time since the beginning, s.
-    #[must_use]
     pub fn time_s(&self) -> f64 {
         self.time_s
     }
 
     /// Places of the joints, world frame, m.
-    #[must_use]
     pub fn joints_m(&self) -> Vec<Vector> {
         let reference = self.mechanism.reference_m;
         let places = self.mechanism.by_joint(&self.state.at);
@@ -357,44 +349,37 @@ impl Simulation {
     }
 
     /// Velocities of the joints, m/s.
-    #[must_use]
     pub fn velocities_m_s(&self) -> Vec<Vector> {
         self.mechanism.by_joint(&self.state.velocity)
     }
 
     /// Kinetic energy, J.
-    #[must_use]
     pub fn kinetic_j(&self) -> f64 {
         kinetic_j(&self.mechanism, &self.state)
     }
 
     /// Potential energy relative to [`System::reference_m`], J; the forces of time are not in it.
-    #[must_use]
     pub fn potential_j(&self) -> f64 {
         potential_j(&self.mechanism, &self.state)
     }
 
     /// Mechanical energy, J.
-    #[must_use]
     pub fn energy_j(&self) -> f64 {
         self.kinetic_j() + self.potential_j()
     }
 
     /// Largest relative violation of a length, and of its derivative in units of the largest speed,
     /// after the last step.
-    #[must_use]
     pub fn constraints_off(&self) -> [f64; 2] {
         self.stepper.off
     }
 
     /// Corrections of the places that the last step took.
-    #[must_use]
     pub fn corrections(&self) -> usize {
         self.stepper.corrections
     }
 
     /// Everything at the present time: places, velocities, accelerations, forces, energies.
-    #[must_use]
     pub fn snapshot(&mut self) -> Snapshot {
         let damping = damping::forces(&self.mechanism, &self.settings, &self.state);
         let solved = self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());

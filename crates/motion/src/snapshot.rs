@@ -1,5 +1,3 @@
-//! Everything about a motion at one time.
-
 use model::Vector;
 
 use crate::corners::Turning;
@@ -163,7 +161,6 @@ impl Snapshot {
     }
 
     /// Mechanical energy, J.
-    #[must_use]
     pub fn energy_j(&self) -> f64 {
         self.kinetic_j + self.potential_j
     }

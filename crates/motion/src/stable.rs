@@ -27,9 +27,6 @@ const LONGEST: f64 = 1.0;
 const ITERATIONS: usize = 40;
 
 /// The longest step, s; infinite where no member is elastic.
-///
-/// # Errors
-///
 /// [`MotionError::Massless`] where the inertia is singular.
 pub(crate) fn longest_step_s(mechanism: &Mechanism) -> Result<f64, MotionError> {
     if mechanism.springs.iter().all(|spring| spring.stiffness_n <= 0.0) {

@@ -1,5 +1,3 @@
-//! Places and velocities, with the rounding of the places kept.
-
 use model::Vector;
 use numerics::two_sum;
 
@@ -41,7 +39,6 @@ impl State {
         plus(minus(self.at[b], self.at[a]), minus(self.rest[b], self.rest[a]))
     }
 
-    /// Sum of the lengths of spans, m.
     pub(crate) fn length_m(&self, spans: &[Link]) -> f64 {
         spans.iter().map(|span| norm(self.between(span.a, span.b))).sum()
     }

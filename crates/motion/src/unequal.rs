@@ -41,9 +41,6 @@ pub(crate) struct Excess {
 }
 
 /// The inertia of all members for small motions: with the smaller moment across.
-///
-/// # Errors
-///
 /// [`MotionError::UnequalMoments`] where the moments across a member that may stretch or go slack
 /// differ, or where no body has such moments.
 pub(crate) fn smaller(system: &System) -> Result<Vec<EndInertia>, MotionError> {

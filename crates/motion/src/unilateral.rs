@@ -37,9 +37,6 @@ pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
 /// The system with bars in place of those inextensible cables and struts that are not slack at a
 /// position, world frame, m, and without a floor: joints that lie on it slide in its level. Ropes
 /// that are not slack stay.
-///
-/// # Errors
-///
 /// [`MotionError::Input`] where there are not as many places as joints, or one is below the floor.
 pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System, MotionError> {
     let refused = |reason| MotionError::Input { what: "places of the joints", reason };
@@ -89,9 +86,6 @@ fn lies(system: &System, joint: &Joint, height_m: f64) -> bool {
 
 /// Refuse joints on the floor that it does not push. Where the floor is one of too many supports
 /// its push is what the given forces leave over.
-///
-/// # Errors
-///
 /// [`MotionError::NotPushed`].
 pub(crate) fn check_pushes(
     system: &System,
@@ -118,9 +112,6 @@ fn distance(system: &System, number: usize, joints_m: &[Vector]) -> f64 {
 /// Refuse cables taken as bars that do not pull, and struts that do not push.
 ///
 /// `system` is the one as given, `densities` are those of the rigid bars of the mechanism, N/m.
-///
-/// # Errors
-///
 /// [`MotionError::NeitherTautNorSlack`].
 pub(crate) fn check_forces(
     system: &System,

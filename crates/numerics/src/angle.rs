@@ -33,7 +33,6 @@ const TERMS: usize = 13;
 ///
 /// The alternating series and the halving formula atan x = 2 atan(x/(1 + √(1 + x²))): NIST Digital
 /// Library of Mathematical Functions, 4.24.3 and 4.24.17, <https://dlmf.nist.gov/4.24>
-#[must_use]
 pub fn atan2(y: Interval, x: Interval) -> Interval {
     let half_pi = PI.scale(0.5);
     if x.mid().abs() >= y.mid().abs() {

@@ -52,7 +52,6 @@ impl DoubleDouble {
     /// use numerics::DoubleDouble;
     /// assert!(DoubleDouble::point(0.1).interval().contains(0.1));
     /// ```
-    #[must_use]
     pub fn point(x: f64) -> Self {
         Self { hi: x, lo: 0.0, error: 0.0 }
     }
@@ -86,7 +85,6 @@ impl DoubleDouble {
     /// let third = (DoubleDouble::point(1.0) / DoubleDouble::point(3.0)).interval();
     /// assert!(third.contains(1.0 / 3.0) && third.width() < 2e-16);
     /// ```
-    #[must_use]
     pub fn interval(self) -> Interval {
         Interval::point(self.hi) + Interval::around(self.lo, self.error)
     }

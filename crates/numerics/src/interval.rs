@@ -63,7 +63,6 @@ impl Interval {
     /// assert!(one_to_two.contains(1.5));
     /// assert_eq!(Interval::new(2.0, 1.0), Interval::LINE);
     /// ```
-    #[must_use]
     #[inline]
     pub fn new(lo: f64, hi: f64) -> Self {
         if lo <= hi { Self { lo, hi } } else { Self::LINE }
@@ -80,7 +79,6 @@ impl Interval {
     /// use numerics::Interval;
     /// assert!(Interval::point(0.5).width() <= 0.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn point(x: f64) -> Self {
         Self::new(x, x)
@@ -93,7 +91,6 @@ impl Interval {
     /// let x = Interval::around(1.0, 0.25);
     /// assert!(x.lo() <= 0.75 && x.hi() >= 1.25);
     /// ```
-    #[must_use]
     #[inline]
     pub fn around(middle: f64, radius: f64) -> Self {
         Self::rounded(middle - radius, middle + radius)
@@ -105,13 +102,23 @@ impl Interval {
         Self::new(down(lo), up(hi))
     }
 
+    /// Around these numbers, each off by one rounding at most.
+    #[inline]
+    fn hull_of(numbers: [f64; 4]) -> Self {
+        // `min` and `max` pass over NaN, which 0 times infinity makes.
+        if numbers.iter().any(|number| number.is_nan()) {
+            return Self::LINE;
+        }
+        let [a, b, c, d] = numbers;
+        Self::rounded(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+    }
+
     /// The lower end.
     ///
     /// ```
     /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).lo(), 1.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn lo(self) -> f64 {
         self.lo
@@ -123,7 +130,6 @@ impl Interval {
     /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).hi(), 2.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn hi(self) -> f64 {
         self.hi
@@ -135,7 +141,6 @@ impl Interval {
     /// use numerics::Interval;
     /// assert_eq!(Interval::new(1.0, 2.0).mid(), 1.5);
     /// ```
-    #[must_use]
     #[inline]
     pub fn mid(self) -> f64 {
         // Halves of subnormal ends are rounded; the result must stay inside all the same.
@@ -149,7 +154,6 @@ impl Interval {
     /// let radius = Interval::new(1.0, 2.0).rad();
     /// assert!((0.5..0.5000001).contains(&radius));
     /// ```
-    #[must_use]
     #[inline]
     pub fn rad(self) -> f64 {
         let middle = self.mid();
@@ -163,7 +167,6 @@ impl Interval {
     /// let width = Interval::new(1.0, 2.0).width();
     /// assert!((1.0..1.0000001).contains(&width));
     /// ```
-    #[must_use]
     #[inline]
     pub fn width(self) -> f64 {
         if self.lo < self.hi { up(self.hi - self.lo) } else { 0.0 }
@@ -175,7 +178,6 @@ impl Interval {
     /// use numerics::Interval;
     /// assert_eq!(Interval::new(-3.0, 2.0).mag(), 3.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn mag(self) -> f64 {
         self.lo.abs().max(self.hi.abs())
@@ -188,7 +190,6 @@ impl Interval {
     /// assert_eq!(Interval::new(-3.0, -2.0).mig(), 2.0);
     /// assert_eq!(Interval::new(-3.0, 2.0).mig(), 0.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn mig(self) -> f64 {
         if self.contains(0.0) { 0.0 } else { self.lo.abs().min(self.hi.abs()) }
@@ -201,7 +202,6 @@ impl Interval {
     /// assert!(Interval::new(1.0, 2.0).contains(2.0));
     /// assert!(!Interval::LINE.contains(f64::NAN));
     /// ```
-    #[must_use]
     #[inline]
     pub fn contains(self, x: f64) -> bool {
         self.lo <= x && x <= self.hi
@@ -213,7 +213,6 @@ impl Interval {
     /// use numerics::Interval;
     /// assert!(Interval::new(1.0, 2.0).encloses(Interval::point(2.0)));
     /// ```
-    #[must_use]
     #[inline]
     pub fn encloses(self, other: Self) -> bool {
         self.lo <= other.lo && other.hi <= self.hi
@@ -226,7 +225,6 @@ impl Interval {
     /// assert!(Interval::point(1.5).interior_to(Interval::new(1.0, 2.0)));
     /// assert!(!Interval::point(2.0).interior_to(Interval::new(1.0, 2.0)));
     /// ```
-    #[must_use]
     #[inline]
     pub fn interior_to(self, other: Self) -> bool {
         other.lo < self.lo && self.hi < other.hi
@@ -239,7 +237,6 @@ impl Interval {
     /// assert!(Interval::new(1.0, 2.0).disjoint(Interval::new(3.0, 4.0)));
     /// assert!(!Interval::new(1.0, 2.0).disjoint(Interval::new(2.0, 4.0)));
     /// ```
-    #[must_use]
     #[inline]
     pub fn disjoint(self, other: Self) -> bool {
         self.hi < other.lo || other.hi < self.lo
@@ -253,7 +250,6 @@ impl Interval {
     /// assert_eq!(Interval::new(-1.0, 2.0).sign(), None);
     /// assert_eq!(Interval::ZERO.sign(), Some(0));
     /// ```
-    #[must_use]
     #[inline]
     pub fn sign(self) -> Option<i8> {
         if self.lo > 0.0 {
@@ -411,14 +407,8 @@ impl Mul for Interval {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let products =
-            [self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi];
-        // `min` and `max` pass over NaN, which 0 times infinity makes.
-        if products.iter().any(|product| product.is_nan()) {
-            return Self::LINE;
-        }
-        let [a, b, c, d] = products;
-        Self::rounded(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        let Self { lo, hi } = other;
+        Self::hull_of([self.lo * lo, self.lo * hi, self.hi * lo, self.hi * hi])
     }
 }
 
@@ -429,13 +419,8 @@ impl Div for Interval {
         if other.contains(0.0) {
             return Self::LINE;
         }
-        let quotients =
-            [self.lo / other.lo, self.lo / other.hi, self.hi / other.lo, self.hi / other.hi];
-        if quotients.iter().any(|quotient| quotient.is_nan()) {
-            return Self::LINE;
-        }
-        let [a, b, c, d] = quotients;
-        Self::rounded(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        let Self { lo, hi } = other;
+        Self::hull_of([self.lo / lo, self.lo / hi, self.hi / lo, self.hi / hi])
     }
 }
 

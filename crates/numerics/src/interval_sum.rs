@@ -49,7 +49,6 @@ impl IntervalSum {
     /// ```
     /// assert!(numerics::IntervalSum::ZERO.value().contains(0.0));
     /// ```
-    #[must_use]
     pub fn value(&self) -> Interval {
         Interval::point(self.head) + self.tail
     }

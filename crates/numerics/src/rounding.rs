@@ -33,7 +33,6 @@ const ETA: f64 = f64::from_bits(1);
 /// assert!(numerics::up(1.0) >= 1.0_f64.next_up());
 /// assert!(numerics::up(0.0) > 0.0);
 /// ```
-#[must_use]
 #[inline]
 pub fn up(x: f64) -> f64 {
     x + (PHI * x.abs() + ETA)
@@ -45,7 +44,6 @@ pub fn up(x: f64) -> f64 {
 /// assert!(numerics::down(1.0) <= 1.0_f64.next_down());
 /// assert!(numerics::down(0.0) < 0.0);
 /// ```
-#[must_use]
 #[inline]
 pub fn down(x: f64) -> f64 {
     x - (PHI * x.abs() + ETA)
@@ -57,7 +55,6 @@ pub fn down(x: f64) -> f64 {
 /// let (sum, error) = numerics::two_sum(1.0, 1e-20);
 /// assert_eq!([sum, error], [1.0, 1e-20]);
 /// ```
-#[must_use]
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;

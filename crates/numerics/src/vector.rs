@@ -4,28 +4,24 @@ use std::ops::{Add, Mul, Sub};
 
 /// `a + b`.
 #[inline]
-#[must_use]
 pub fn plus<T: Copy + Add<Output = T>>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// `a − b`.
 #[inline]
-#[must_use]
 pub fn minus<T: Copy + Sub<Output = T>>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// `c a`.
 #[inline]
-#[must_use]
 pub fn times<T: Copy + Mul<Output = T>>(c: T, a: [T; 3]) -> [T; 3] {
     [c * a[0], c * a[1], c * a[2]]
 }
 
 /// `a + c b`.
 #[inline]
-#[must_use]
 pub fn add_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
     a: [T; 3],
     c: T,
@@ -43,35 +39,30 @@ pub fn add_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
 /// assert_eq!(cross(a, b), [26.0, 10.5, -10.0]);
 /// ```
 #[inline]
-#[must_use]
 pub fn dot<T: Copy + Add<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `a × b`.
 #[inline]
-#[must_use]
 pub fn cross<T: Copy + Sub<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `|a|`, free of overflow in between.
 #[inline]
-#[must_use]
 pub fn norm([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).hypot(z)
 }
 
 /// The larger of two sizes; NaN is the largest of all (`f64::max` would forget it).
 #[inline]
-#[must_use]
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// What of a size is beyond the rounding; NaN stays NaN.
 #[inline]
-#[must_use]
 pub fn beyond(size: f64, rounding: f64) -> f64 {
     if size <= rounding { 0.0 } else { size - rounding }
 }

@@ -35,7 +35,6 @@ pub struct Basins {
 
 impl Basins {
     /// Both solvers over the same slice.
-    #[must_use]
     pub fn of_both(example: &Example) -> [Self; 2] {
         let places = example.lagrange.all().map(|found| {
             let planar = example.by_lagrange(found);
@@ -66,7 +65,6 @@ impl Basins {
     }
 
     /// How many starts lead to the equilibrium of this letter.
-    #[must_use]
     pub fn count(&self, letter: char) -> usize {
         self.rows.iter().map(|row| row.chars().filter(|c| *c == letter).count()).sum()
     }

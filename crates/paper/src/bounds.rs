@@ -54,7 +54,6 @@ impl Bounds {
     }
 
     /// Whether E1 is proved to be the global minimum and E2 the global maximum.
-    #[must_use]
     pub fn are_tight(&self) -> bool {
         let tight = |gap: f64| (-ROUNDING_MGL..TIGHT_MGL).contains(&gap);
         tight(self.gap_to_e1_mgl) && tight(self.gap_to_e2_mgl)

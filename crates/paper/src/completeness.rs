@@ -65,13 +65,11 @@ pub struct PrintedPosition {
 
 impl PrintedPosition {
     /// Whether no position in the box is an equilibrium: the energy has a slope all over it.
-    #[must_use]
     pub fn is_refuted(&self) -> bool {
         self.least_slope_mgl() > 0.0
     }
 
     /// The least size of the slope in the box, mgl/rad; 0 if it may vanish.
-    #[must_use]
     pub fn least_slope_mgl(&self) -> f64 {
         let [low, high] = self.slope_mgl;
         if low > 0.0 {
@@ -122,7 +120,6 @@ fn apart(angle_rad: Interval, printed_deg: Interval, side: f64) -> f64 {
 
 impl Completeness {
     /// Hold the census of the example against all that does not need it.
-    #[must_use]
     pub fn new(paper: &Paper, example: &Example) -> Self {
         let (problem, census) = (&example.problem, &example.census);
         let chain = problem.chain();
@@ -158,7 +155,6 @@ impl Completeness {
 
     /// Whether the list is proved complete, all that does not need it confirms it, and (x) is
     /// proved not to be on it.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         self.confirms_the_list(&Tolerances::project())
             && self.second.is_refuted()
@@ -166,7 +162,6 @@ impl Completeness {
     }
 
     /// The numbers of equilibria in the plane by index, in words.
-    #[must_use]
     pub fn indices(&self) -> String {
         let some = self.by_index.iter().enumerate().filter(|(_, count)| **count != 0);
         let words: Vec<String> =
@@ -175,7 +170,6 @@ impl Completeness {
     }
 
     /// Whether the list is proved complete, and all that does not need it confirms it.
-    #[must_use]
     pub fn confirms_the_list(&self, tolerances: &Tolerances) -> bool {
         self.complete
             && self.euler == Some(self.alternating_sum)

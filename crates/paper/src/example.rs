@@ -55,7 +55,6 @@ impl PaperUnits {
     }
 
     /// Unit of energies and moments, J.
-    #[must_use]
     pub fn mgl_j(&self) -> f64 {
         self.mg_n * self.l_m
     }
@@ -120,7 +119,6 @@ pub struct ByLagrange {
 
 impl ByLagrange {
     /// All four.
-    #[must_use]
     pub fn all(&self) -> [&lagrange::Solution; 4] {
         [&self.e1, &self.e1_mirrored, &self.e2, &self.e2_mirrored]
     }
@@ -209,25 +207,21 @@ impl Example {
     }
 
     /// V of the paper, mgl, from an energy measured from the height of *O*, J.
-    #[must_use]
     pub fn v_mgl(&self, energy_j: f64) -> f64 {
         energy_j / self.units.mgl_j() + ENERGY_ZERO_MGL
     }
 
     /// One of the solutions of `lagrange` in the paper's numbers.
-    #[must_use]
     pub fn by_lagrange(&self, found: &lagrange::Solution) -> Planar {
         Planar::of(self.units, &found.equilibrium)
     }
 
     /// E1 by `energy` in the paper's numbers.
-    #[must_use]
     pub fn by_energy_e1(&self) -> Planar {
         Planar::turned(self.units, &self.energy.e1.equilibrium)
     }
 
     /// A solution of `energy` in the plane, as it is.
-    #[must_use]
     pub fn by_energy_in_plane(&self, found: &energy::Solution) -> Planar {
         Planar::of(self.units, &found.equilibrium)
     }

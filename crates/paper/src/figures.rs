@@ -66,7 +66,6 @@ pub struct History {
 
 impl Figures {
     /// Work them out.
-    #[must_use]
     pub fn compute(example: &Example) -> Self {
         let (problem, found) = (&example.problem, &example.energy.scan);
         let scanned = |branch: Branch| {

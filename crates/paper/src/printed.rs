@@ -40,7 +40,6 @@ pub struct Printed {
 
 impl Printed {
     /// The printed number; NaN, which no verdict survives, if none is.
-    #[must_use]
     pub fn value(&self) -> f64 {
         if self.digits.is_none() {
             return f64::NAN;
@@ -49,13 +48,11 @@ impl Printed {
     }
 
     /// Whether a value rounds to exactly what is printed.
-    #[must_use]
     pub fn rounds_to(&self, value: f64) -> bool {
         self.digits.is_some_and(|digits| format!("{value:.digits$}") == self.printed)
     }
 
     /// Whether it is a number of things, an integer, and no measure.
-    #[must_use]
     pub fn is_count(&self) -> bool {
         /// Units of what is measured; all others count.
         const MEASURED: [&str; 8] = ["deg", "rad", "mg", "mgl", "mgl/rad", "l", "%", "s"];
@@ -91,6 +88,11 @@ impl Assessment {
     pub fn if_shown(self, shown: bool) -> Self {
         if shown { self } else { Self::Undecided }
     }
+
+    /// [`Assessment::Confirmed`] if the claim holds, otherwise this verdict.
+    pub(crate) fn unless(self, holds: bool) -> Self {
+        if holds { Self::Confirmed } else { self }
+    }
 }
 
 impl std::fmt::Display for Assessment {
@@ -111,7 +113,6 @@ impl Paper {
     /// # Panics
     ///
     /// Never: a test reads the file that is compiled in.
-    #[must_use]
     pub fn project() -> Self {
         let file = file();
         let claim = |claim: &Table| Printed {
@@ -136,14 +137,12 @@ impl Paper {
     }
 
     /// The claim of this name.
-    #[must_use]
     pub fn claim(&self, id: &str) -> Option<&Printed> {
         self.claims.iter().find(|claim| claim.id == id)
     }
 
     /// The reference number of this name, rounded to a double; NaN, which passes no comparison, if
     /// there is none.
-    #[must_use]
     pub fn reference(&self, id: &str) -> f64 {
         let found = self.references.iter().find(|(name, _)| name == id);
         found.map_or(f64::NAN, |(_, value)| *value)

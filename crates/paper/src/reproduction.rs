@@ -85,7 +85,6 @@ pub struct Position {
 
 impl Position {
     /// The highest rung reached.
-    #[must_use]
     pub fn rung(&self) -> Option<Rung> {
         self.ladder.highest()
     }
@@ -290,7 +289,6 @@ impl Summary {
     }
 
     /// Whether every verdict is the expected one and every case agrees.
-    #[must_use]
     pub fn as_expected(&self) -> bool {
         self.claims > 0
             && self.unexpected_claims.is_empty()

@@ -70,19 +70,16 @@ pub struct Survey {
 
 impl Survey {
     /// Part of the seeds that converged, 0 to 1.
-    #[must_use]
     pub fn rate(&self) -> f64 {
         self.converged as f64 / self.seeds.max(1) as f64
     }
 
     /// Equilibria reached by at least one seed.
-    #[must_use]
     pub fn distinct(&self) -> usize {
         self.reached.iter().filter(|reached| reached.seeds > 0).count()
     }
 
     /// Where the seeds led; the mirror images have this mark.
-    #[must_use]
     pub fn led_to(&self, prime: &str) -> String {
         let reached = self.reached.iter().filter(|reached| reached.seeds > 0);
         let mut parts: Vec<_> = reached
@@ -129,7 +126,6 @@ struct Outcome {
 }
 
 /// The four surveys: both kinds of seeds with both solvers, `count` seeds each.
-#[must_use]
 pub fn surveys(example: &Example, count: usize) -> Vec<Survey> {
     let mut all = Vec::new();
     for kind in [Kind::Planar, Kind::Spatial] {
@@ -215,7 +211,6 @@ fn by_energy(
     seeds.iter().map(|seed| outcome(seed).map_err(|error| error.reason().to_owned())).collect()
 }
 
-/// Count the outcomes.
 fn counted(
     example: &Example,
     solver: SolverName,

@@ -34,7 +34,6 @@ pub struct Sentence {
 
 impl Sentence {
     /// Words with parts in the place of each `{}`.
-    #[must_use]
     pub fn filled<const N: usize>(words: &str, parts: [Part; N]) -> Self {
         let mut words = words.split("{}").map(Part::from);
         let mut all: Vec<Part> = words.next().into_iter().collect();
@@ -69,7 +68,6 @@ impl Sentence {
     }
 
     /// Whether there is nothing in it.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }

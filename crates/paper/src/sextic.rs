@@ -12,7 +12,6 @@
 const COEFFICIENTS: [f64; 7] = [-1189.0, 7120.0, -11348.0, 2080.0, 9472.0, -8192.0, 2048.0];
 
 /// p and its derivative.
-#[must_use]
 pub fn polynomial(c: f64) -> [f64; 2] {
     COEFFICIENTS.iter().rev().fold([0.0, 0.0], |[p, slope], a| [p * c + a, slope * c + p])
 }
@@ -41,7 +40,6 @@ fn slopes() -> [f64; 2] {
 /// assert!((roots[0] - 0.276_969_386_897_539_9).abs() < 1e-15);
 /// assert!((roots[1] - 0.941_500_734_898_234_9).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn roots() -> Option<Vec<f64>> {
     let bounds = slopes();
     let mut found = Vec::new();

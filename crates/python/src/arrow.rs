@@ -89,6 +89,15 @@ impl Values {
         }
     }
 
+    /// A column of the same kind without rows.
+    fn emptied(&self) -> Self {
+        match self {
+            Self::Doubles(_) => Self::Doubles(vec![]),
+            Self::Integers(_) => Self::Integers(vec![]),
+            Self::Texts(..) => Self::Texts(vec![0], vec![]),
+        }
+    }
+
     /// Validity (there is none), then the data.
     fn buffers(&self) -> Vec<*const c_void> {
         match self {
@@ -179,7 +188,6 @@ fn boxed<T: Node>(children: Vec<T>) -> Vec<*mut T> {
 /// Frees what [`schema`] or [`array`] made, children that nobody has taken included.
 ///
 /// # Safety
-///
 /// `of` is null or a struct of this file that was not released.
 unsafe extern "C" fn release<T: Node>(of: *mut T) {
     // SAFETY: as promised by the caller; the owner was made by `Box::into_raw` in `schema` or
@@ -232,7 +240,6 @@ fn array(rows: usize, values: Option<Values>, children: Vec<Array>) -> Array {
 /// The table of a stream.
 ///
 /// # Safety
-///
 /// `stream` is a stream of this file that was not released.
 unsafe fn table<'a>(stream: *mut Stream) -> &'a mut Table {
     // SAFETY: `private_data` was made by `Box::into_raw` in `arrow_stream`.
@@ -240,7 +247,6 @@ unsafe fn table<'a>(stream: *mut Stream) -> &'a mut Table {
 }
 
 /// # Safety
-///
 /// As the specification says of `get_schema`.
 unsafe extern "C" fn get_schema(stream: *mut Stream, out: *mut Schema) -> c_int {
     // SAFETY: the consumer hands over a stream of ours and room for a schema.
@@ -255,26 +261,14 @@ unsafe extern "C" fn get_schema(stream: *mut Stream, out: *mut Schema) -> c_int 
 }
 
 /// # Safety
-///
 /// As the specification says of `get_next`.
 unsafe extern "C" fn get_next(stream: *mut Stream, out: *mut Array) -> c_int {
     // SAFETY: the consumer hands over a stream of ours and room for an array.
     unsafe {
         let table = table(stream);
         if table.given {
-            // A released array is the end.
-            out.write(Array {
-                length: 0,
-                null_count: 0,
-                offset: 0,
-                n_buffers: 0,
-                n_children: 0,
-                buffers: ptr::null_mut(),
-                children: ptr::null_mut(),
-                dictionary: ptr::null_mut(),
-                release: None,
-                private_data: ptr::null_mut(),
-            });
+            // A released array is the end: no pointer, no callback, nothing in it.
+            out.write(std::mem::zeroed());
             return 0;
         }
         table.given = true;
@@ -288,16 +282,6 @@ unsafe extern "C" fn get_next(stream: *mut Stream, out: *mut Array) -> c_int {
     0
 }
 
-impl Values {
-    fn emptied(&self) -> Self {
-        match self {
-            Self::Doubles(_) => Self::Doubles(vec![]),
-            Self::Integers(_) => Self::Integers(vec![]),
-            Self::Texts(..) => Self::Texts(vec![0], vec![]),
-        }
-    }
-}
-
 /// There is no error to tell.
 unsafe extern "C" fn get_last_error(_: *mut Stream) -> *const c_char {
     ptr::null()
@@ -306,7 +290,6 @@ unsafe extern "C" fn get_last_error(_: *mut Stream) -> *const c_char {
 /// Frees the table of a stream.
 ///
 /// # Safety
-///
 /// `stream` is null or a stream of this file.
 unsafe extern "C" fn release_stream(stream: *mut Stream) {
     // SAFETY: the table was made by `Box::into_raw` in `arrow_stream`.

@@ -12,7 +12,7 @@ use validate::systems::{SystemFailure, ask_with, judge_chain};
 use validate::{Question, UseCensus};
 
 use crate::arrays::{column, numbers, vectors};
-use crate::raise::{exception, parts};
+use crate::raise::{internal, parts};
 use crate::told::{self, Told};
 use crate::{words, work};
 
@@ -35,6 +35,7 @@ struct Batch {
 }
 
 /// The answers of some chains in a row: an entry, row or block of rows for each.
+#[derive(Default)]
 struct Block {
     joints_m: Vec<Vector>,
     forces_n: Vec<Vector>,
@@ -47,19 +48,6 @@ struct Block {
 }
 
 impl Block {
-    fn new(chains: usize, bars: usize) -> Self {
-        Self {
-            joints_m: Vec::with_capacity(chains * (bars + 1)),
-            forces_n: Vec::with_capacity(chains * (bars + 1)),
-            axial_n: Vec::with_capacity(chains * bars),
-            energy_j: Vec::with_capacity(chains),
-            residual: Vec::with_capacity(chains),
-            statics: Vec::with_capacity(chains),
-            rung: Vec::with_capacity(chains),
-            failures: Vec::new(),
-        }
-    }
-
     fn add(&mut self, found: &Equilibrium, statics: f64) {
         self.joints_m.extend_from_slice(&found.joints_m);
         self.forces_n.extend_from_slice(&found.multipliers_n);
@@ -84,11 +72,8 @@ impl Block {
 
 /// The number of a rung, lowest first, from 0.
 pub fn number(rung: Rung) -> i8 {
-    Rung::ALL
-        .iter()
-        .position(|other| *other == rung)
-        .and_then(|k| k.try_into().ok())
-        .unwrap_or(NO_RUNG)
+    let place = Rung::ALL.iter().position(|other| *other == rung);
+    place.and_then(|k| k.try_into().ok()).unwrap_or(NO_RUNG)
 }
 
 impl Batch {
@@ -107,7 +92,7 @@ impl Batch {
     fn block(&self, chains: std::ops::Range<usize>) -> Block {
         let mut solver = condensed::Solver::default();
         let settings = Question::default().condensed(self.bars);
-        let mut block = Block::new(chains.len(), self.bars);
+        let mut block = Block::default();
         for chain in chains {
             let problem = match self.problem(chain) {
                 Ok(problem) => problem,
@@ -154,12 +139,6 @@ fn unsolved(failures: &[SystemFailure]) -> Told {
     Told::new("Unsolved", message, told::failures(failures))
 }
 
-/// A wrong shape, which the Python half has looked for before.
-fn misshapen(what: &str, wanted: usize, found: usize) -> PyErr {
-    let message = format!("{what}: {wanted} numbers wanted, got {found}");
-    exception(Told::new("InternalError", message, vec![]))
-}
-
 /// The hanging equilibria of chains: arrays with an entry for each, NaN where there is none, and
 /// why.
 #[pyfunction]
@@ -196,8 +175,9 @@ pub fn solve_many<'py>(
         ("starts", chains, batch.starts_m.len()),
         ("ends", chains, batch.ends_m.len()),
     ] {
+        // The Python half has looked for a wrong shape before.
         if wanted != found {
-            return Err(misshapen(what, wanted, found));
+            return Err(internal(&format!("{what}: {wanted} numbers wanted, got {found}")));
         }
     }
     let whole = work::run(py, threads, progress.as_ref(), move |watch| {
@@ -213,22 +193,22 @@ pub fn solve_many<'py>(
                 block
             })
             .collect();
-        joined(blocks, chains, bars)
+        joined(blocks)
     })?;
     dict(py, whole, chains, bars)
 }
 
 /// All blocks, in their order.
-fn joined(blocks: Vec<Block>, chains: usize, bars: usize) -> Block {
-    let mut whole = Block::new(chains, bars);
+fn joined(blocks: Vec<Block>) -> Block {
+    let mut whole = Block::default();
     for block in blocks {
-        whole.joints_m.extend_from_slice(&block.joints_m);
-        whole.forces_n.extend_from_slice(&block.forces_n);
-        whole.axial_n.extend_from_slice(&block.axial_n);
-        whole.energy_j.extend_from_slice(&block.energy_j);
-        whole.residual.extend_from_slice(&block.residual);
-        whole.statics.extend_from_slice(&block.statics);
-        whole.rung.extend_from_slice(&block.rung);
+        whole.joints_m.extend(block.joints_m);
+        whole.forces_n.extend(block.forces_n);
+        whole.axial_n.extend(block.axial_n);
+        whole.energy_j.extend(block.energy_j);
+        whole.residual.extend(block.residual);
+        whole.statics.extend(block.statics);
+        whole.rung.extend(block.rung);
         whole.failures.extend(block.failures);
     }
     whole

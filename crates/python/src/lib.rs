@@ -33,7 +33,6 @@ use pyo3::prelude::*;
 /// The module `funicular._native`.
 ///
 /// # Errors
-///
 /// When the interpreter cannot hold it.
 #[pymodule(gil_used = false)]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -26,6 +26,10 @@ impl Problem {
     fn new(of: funicular::Problem) -> Self {
         Self { of: Arc::new(of), notes: vec![] }
     }
+
+    fn made(of: Result<funicular::Problem, funicular::Error>) -> PyResult<Self> {
+        of.map(Self::new).map_err(|error| raise(&error))
+    }
 }
 
 /// Bars of these lengths, masses, and where given centres of weight and moments of inertia.
@@ -74,20 +78,18 @@ impl Problem {
         let centres = centres_m.as_ref().map(numbers).transpose()?;
         let inertias = inertias_kg_m2.as_ref().map(vectors).transpose()?;
         let count = |length: Option<usize>| length.unwrap_or(lengths.len());
-        same(
-            lengths.len(),
-            &[
-                ("masses", masses.len()),
-                ("centres", count(centres.as_ref().map(Vec::len))),
-                ("inertias", count(inertias.as_ref().map(Vec::len))),
-            ],
-        )?;
+        let others = [
+            ("masses", masses.len()),
+            ("centres", count(centres.as_ref().map(Vec::len))),
+            ("inertias", count(inertias.as_ref().map(Vec::len))),
+        ];
+        same(lengths.len(), &others)?;
         let build = || {
             let bars = bars(&lengths, &masses, centres.as_deref(), inertias.as_deref())?;
             let chain = Chain::new(name, gravity_m_s2, Anchors { start_m, end_m }, bars)?;
             funicular::Problem::try_from(chain)
         };
-        build().map(Self::new).map_err(|error| raise(&error))
+        Self::made(build())
     }
 
     /// Joints and members. `supports` has 0 for a free joint, 1 for an anchor, 2 for one that
@@ -114,31 +116,27 @@ impl Problem {
     ) -> PyResult<Self> {
         let (at_m, directions) = (vectors(&at_m)?, vectors(&directions)?);
         let (joint_masses, forces) = (numbers(&joint_masses_kg)?, vectors(&forces_n)?);
-        same(
-            names.len(),
-            &[
-                ("supports", supports.len()),
-                ("places", at_m.len()),
-                ("directions", directions.len()),
-                ("masses of joints", joint_masses.len()),
-                ("forces", forces.len()),
-            ],
-        )?;
+        let others = [
+            ("supports", supports.len()),
+            ("places", at_m.len()),
+            ("directions", directions.len()),
+            ("masses of joints", joint_masses.len()),
+            ("forces", forces.len()),
+        ];
+        same(names.len(), &others)?;
         let (lengths, masses) = (numbers(&lengths_m)?, numbers(&masses_kg)?);
         let centres = centres_m.as_ref().map(numbers).transpose()?;
         let stiffnesses = stiffnesses_n.as_ref().map(numbers).transpose()?;
         let count = |list: &Option<Vec<f64>>| list.as_ref().map_or(lengths.len(), Vec::len);
-        same(
-            lengths.len(),
-            &[
-                ("masses", masses.len()),
-                ("first joints", from.len()),
-                ("second joints", to.len()),
-                ("kinds", kinds.len()),
-                ("centres", count(&centres)),
-                ("stiffnesses", count(&stiffnesses)),
-            ],
-        )?;
+        let others = [
+            ("masses", masses.len()),
+            ("first joints", from.len()),
+            ("second joints", to.len()),
+            ("kinds", kinds.len()),
+            ("centres", count(&centres)),
+            ("stiffnesses", count(&stiffnesses)),
+        ];
+        same(lengths.len(), &others)?;
         let build = || {
             let joints = names.into_iter().enumerate().map(|(k, name)| {
                 Joint::free(name)
@@ -157,15 +155,13 @@ impl Problem {
             system.refusal()?;
             Ok(funicular::Problem::from(system))
         };
-        let built: Result<funicular::Problem, funicular::Error> = py.detach(build);
-        built.map(Self::new).map_err(|error| raise(&error))
+        Self::made(py.detach(build))
     }
 
     /// The text of a system file.
     #[staticmethod]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
-        let parsed = py.detach(|| funicular::Problem::parse(text, name));
-        parsed.map(Self::new).map_err(|error| raise(&error))
+        Self::made(py.detach(|| funicular::Problem::parse(text, name)))
     }
 
     /// A system file, or one of another program.
@@ -178,7 +174,7 @@ impl Problem {
     /// A named case.
     #[staticmethod]
     fn case(name: &str) -> PyResult<Self> {
-        funicular::Problem::case(name).map(Self::new).map_err(|error| raise(&error))
+        Self::made(funicular::Problem::case(name))
     }
 
     /// The names of all cases.
@@ -190,13 +186,12 @@ impl Problem {
     /// The same with another question: the equilibrium next to this shape.
     fn near(&self, py: Python<'_>, joints_m: Doubles<'_>) -> PyResult<Self> {
         let joints = vectors(&joints_m)?;
-        let drawn = py.detach(|| self.of.near(&joints));
-        drawn.map(Self::new).map_err(|error| raise(&error))
+        Self::made(py.detach(|| self.of.near(&joints)))
     }
 
     /// The same in one of its load cases.
     fn in_case(&self, name: &str) -> PyResult<Self> {
-        self.of.in_case(name).map(Self::new).map_err(|error| raise(&error))
+        Self::made(self.of.in_case(name))
     }
 
     /// The numbers under the name of an array of [`with_numbers`](Self::with_numbers), NaN where there

@@ -57,6 +57,12 @@ pub fn internal(what: &str) -> PyErr {
     exception(Told::new("InternalError", what.to_owned(), vec![]))
 }
 
+/// A setting of another value than it may have.
+pub fn bad_setting(setting: &'static str, value: &str, why: &str) -> PyErr {
+    let fields = vec![("setting", Field::from(setting)), ("value", Field::from(value))];
+    exception(Told::new("SettingError", format!("{setting}: {why}"), fields))
+}
+
 /// A setting that is none of the words allowed.
 pub fn bad_word(setting: &'static str, word: &str, allowed: &[&str]) -> PyErr {
     let message = format!("{setting} must be one of {}, got {word:?}", allowed.join(", "));

@@ -14,8 +14,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{column, numbers, vectors};
 use crate::problem::Problem;
-use crate::raise::{exception, raise};
-use crate::told::{Field, Told};
+use crate::raise::{bad_setting, raise};
 use crate::work;
 
 /// What is stored of a motion: an entry for each time.
@@ -40,11 +39,7 @@ pub fn start(word: &str, joints_m: Option<PyReadonlyArrayDyn<'_, f64>>) -> PyRes
     if let Some(joints) = joints_m {
         return Ok(Start::Joints(vectors(&joints)?));
     }
-    word.parse().map_err(|why: String| {
-        let message = format!("start: {why}");
-        let fields = vec![("setting", Field::from("start")), ("value", Field::from(word))];
-        exception(Told::new("SettingError", message, fields))
-    })
+    word.parse().map_err(|why: String| bad_setting("start", word, &why))
 }
 
 /// 2, 4 or 8.
@@ -54,10 +49,8 @@ fn order(order: usize) -> PyResult<Order> {
         4 => Ok(Order::Fourth),
         8 => Ok(Order::Eighth),
         _ => {
-            let message = format!("order: 2, 4 or 8 is required, got {order}");
-            let fields =
-                vec![("setting", Field::from("order")), ("value", Field::from(order.to_string()))];
-            Err(exception(Told::new("SettingError", message, fields)))
+            let why = format!("2, 4 or 8 is required, got {order}");
+            Err(bad_setting("order", &order.to_string(), &why))
         }
     }
 }

@@ -185,17 +185,14 @@ fn refused(refusal: &Refusal) -> Parts {
             let (from_joint, to_joint, missing_m) = (from, to, span_m - total_length_m);
             ("OutOfReach", fields!(span_m, total_length_m, missing_m, from_joint, to_joint))
         }
-        Refusal::Taut { from, to, distance_m, reach_m, .. } => {
+        Refusal::Taut { from: from_joint, to: to_joint, distance_m, reach_m, .. } => {
             let (span_m, total_length_m) = (*distance_m, *reach_m);
-            let (from_joint, to_joint) = (from, to);
             ("Taut", fields!(span_m, total_length_m, from_joint, to_joint))
         }
-        Refusal::TooLong { member, from, to, length_m, rest_m, way } => {
-            let (bar, from_joint, to_joint) = (*member, from, to);
+        Refusal::TooLong { member: bar, from: from_joint, to: to_joint, length_m, rest_m, way } => {
             ("BarTooLong", fields!(bar, length_m, rest_m, from_joint, to_joint, way))
         }
-        Refusal::Folded { member, from, to, length_m, way } => {
-            let (bar, from_joint, to_joint) = (*member, from, to);
+        Refusal::Folded { member: bar, from: from_joint, to: to_joint, length_m, way } => {
             ("Folded", fields!(bar, length_m, from_joint, to_joint, way))
         }
         _ => ("Refused", vec![]),
@@ -210,8 +207,8 @@ fn given(error: &GivenError) -> Parts {
             fields!(names, count)
         }
         GivenError::NotFinite { what } => fields!(what),
-        GivenError::UnknownMember { from, to } | GivenError::RepeatedMember { from, to } => {
-            let (from_joint, to_joint) = (from, to);
+        GivenError::UnknownMember { from: from_joint, to: to_joint }
+        | GivenError::RepeatedMember { from: from_joint, to: to_joint } => {
             fields!(from_joint, to_joint)
         }
         GivenError::Count { of, wanted, found } => fields!(of, wanted, found),

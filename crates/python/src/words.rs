@@ -14,9 +14,8 @@ fn one<T: Copy, const N: usize>(
     all: [(&'static str, T); N],
 ) -> PyResult<T> {
     let found = all.iter().find(|(known, _)| *known == word);
-    found
-        .map(|(_, value)| *value)
-        .ok_or_else(|| bad_word(setting, word, &all.map(|(known, _)| known)))
+    let found = found.map(|(_, value)| *value);
+    found.ok_or_else(|| bad_word(setting, word, &all.map(|(known, _)| known)))
 }
 
 pub fn solvers(word: &str) -> PyResult<Solvers> {

@@ -47,7 +47,6 @@ impl Report {
     /// A report of this reproduction, made here.
     ///
     /// # Errors
-    ///
     /// [`ReportError::Census`] when the equilibria of the example cannot be listed,
     /// [`ReportError::Json`] when a number is not finite.
     pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
@@ -85,7 +84,6 @@ impl Report {
     /// `results.json`.
     ///
     /// # Errors
-    ///
     /// [`ReportError::Json`], which a finished reproduction does not cause.
     pub fn json(&self) -> Result<String, ReportError> {
         let results = Results { reproduction: &self.reproduction, environment: &self.environment };

@@ -3,16 +3,7 @@
 use serde::Serialize;
 
 /// The packages whose versions matter to the numbers.
-const PACKAGES: [&str; 8] = [
-    "argmin",
-    "argmin-math",
-    "clarabel",
-    "nalgebra",
-    "pulldown-latex",
-    "rand",
-    "rand_chacha",
-    "rayon",
-];
+const PACKAGES: &str = "argmin argmin-math clarabel nalgebra pulldown-latex rand rand_chacha rayon";
 
 /// The versions that the program is built from.
 const LOCK: &str = include_str!(concat!(env!("OUT_DIR"), "/Cargo.lock"));
@@ -48,7 +39,7 @@ impl Environment {
             version: env!("CARGO_PKG_VERSION"),
             compiler: env!("REPORT_COMPILER"),
             packages: PACKAGES
-                .iter()
+                .split(' ')
                 .flat_map(|name| versions(name).map(move |version| format!("{name} {version}")))
                 .collect(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),

@@ -22,7 +22,6 @@ pub struct Unreadable(pub String);
 /// a dollar sign without a second one in its run is a dollar sign, and so is every one in code.
 ///
 /// # Errors
-///
 /// [`Unreadable`] has the first formula that the converter refuses.
 ///
 /// ```

@@ -142,7 +142,6 @@ impl View {
     /// The view as a piece of HTML: a `figure` without headings, at most once in a page.
     ///
     /// # Errors
-    ///
     /// Occurs when the numbers cannot be written as JSON.
     pub fn fragment(&self) -> serde_json::Result<String> {
         // `<` only ever stands inside a string, where JSON lets it be written like this; then

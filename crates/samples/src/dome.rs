@@ -13,7 +13,6 @@ use std::fmt::Write as _;
 /// assert_eq!(file.matches("[[bars]]").count(), 12 + 18);
 /// assert_eq!(file.matches("force_n").count(), 1);
 /// ```
-#[must_use]
 pub fn dome(rings: i32, all_loaded: bool) -> String {
     let edge = rings + 1;
     let ring = |q: i32, r: i32| q.abs().max(r.abs()).max((q + r).abs());

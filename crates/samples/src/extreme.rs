@@ -81,15 +81,10 @@ fn anchors(rng: &mut ChaCha8Rng, bars: &[Bar]) -> Anchors {
 /// over many orders of magnitude, one mass alone, anchors in one place, next to one vertical, or a
 /// ten-trillionth of the length nearer than the chain reaches; 2 to 200 bars.
 ///
-/// # Panics
-///
-/// Never: what is drawn is in range.
-///
 /// ```
 /// let problem = samples::extreme_chain(3);
 /// assert!((2..8).contains(&problem.chain().bars().len()));
 /// ```
-#[must_use]
 pub fn extreme_chain(seed: u64) -> Problem {
     let mut rng = stream(1, seed);
     // Chains that cannot close, and weightless ones, are drawn again.

@@ -12,15 +12,10 @@ use crate::stream::stream;
 /// two to six bars, and a thousandth to a hundred-billionth of the length more span than the least,
 /// any slope.
 ///
-/// # Panics
-///
-/// Never: what is drawn is in range.
-///
 /// ```
 /// let problem = samples::folded_chain(0);
 /// assert!((2..=6).contains(&problem.chain().bars().len()));
 /// ```
-#[must_use]
 pub fn folded_chain(seed: u64) -> Problem {
     let mut rng = stream(4, seed);
     loop {

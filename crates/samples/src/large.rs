@@ -7,11 +7,6 @@ use model::{Bar, STANDARD_GRAVITY_M_S2};
 
 /// Three strands of `n` bars of 1 m and 1 kg from anchors on a circle, 0.8 n m wide, to a joint with the mass of a
 /// strand.
-///
-/// # Panics
-///
-/// When there is no bar.
-#[must_use]
 pub fn bridle(n: usize) -> System {
     let bar = Bar::homogeneous(1.0, 1.0).expect("a valid bar");
     let mut joints = vec![Joint::free("knot").with_mass(n as f64)];
@@ -34,11 +29,6 @@ pub fn bridle(n: usize) -> System {
 
 /// A net of `n` by `n` joints with all of the edge held 1 m apart, massless cables of 1.05 m between
 /// them, and 1 kg at each.
-///
-/// # Panics
-///
-/// When no joint is free.
-#[must_use]
 pub fn cable_net(n: usize) -> System {
     let edge = |k: usize| k == 0 || k + 1 == n;
     let body = Bar::homogeneous(1.05, 0.0).expect("a valid bar");

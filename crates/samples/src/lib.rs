@@ -19,12 +19,14 @@
 //! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
+//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`joints`] are anchors and free joints by their places and masses, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
 //! Here are lengths, masses and places, and no mechanics: so both solvers may draw their test
-//! chains from here and still have nothing in common but data.
+//! chains from here and still have nothing in common but data. Numbers out of range make these
+//! functions panic, as what is not so does those that assert it.
+#![expect(clippy::missing_panics_doc, reason = "said above of all")]
 
 mod dome;
 mod extreme;
@@ -47,8 +49,8 @@ pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use large::{bridle, cable_net};
 pub use named::{
-    assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, legs, of_bars,
-    parsed,
+    assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, joints, legs,
+    of_bars, parsed,
 };
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, rope, ropes};

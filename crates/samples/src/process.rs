@@ -3,7 +3,6 @@
 use std::fs::read_to_string;
 
 /// Processor time of all threads, s, in steps of 10 ms.
-#[must_use]
 pub fn processor_s() -> Option<f64> {
     /// Ticks of the clock in `/proc`.
     const PER_SECOND: f64 = 100.0;
@@ -15,14 +14,12 @@ pub fn processor_s() -> Option<f64> {
 }
 
 /// Processor time of this thread, s.
-#[must_use]
 pub fn thread_s() -> Option<f64> {
     let told = read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(1e-9 * told.split_whitespace().next()?.parse::<f64>().ok()?)
 }
 
 /// The most memory, kB.
-#[must_use]
 pub fn peak_kb() -> Option<u64> {
     let told = read_to_string("/proc/self/status").ok()?;
     let peak = told.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

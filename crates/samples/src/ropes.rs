@@ -35,11 +35,6 @@ const G: f64 = STANDARD_GRAVITY_M_S2;
 /// let ring = &samples::ropes()[0];
 /// assert!((ring.axial_n[0] - 81.722_083_333_333).abs() < 1e-11);
 /// ```
-///
-/// # Panics
-///
-/// When a number is out of range.
-#[must_use]
 pub fn ropes() -> Vec<RopeSample> {
     let leaning = 10.0 * G / (2.0 * 0.6);
     let block_m = [0.0, 0.0, -(9.0 - 10.0_f64.sqrt()) / 4.0];
@@ -169,11 +164,6 @@ fn known(
 /// let weights = &samples::jammed_ropes()[0];
 /// assert_eq!(weights.jams, [(2, [0.0, 0.0, -2.0 * model::STANDARD_GRAVITY_M_S2])]);
 /// ```
-///
-/// # Panics
-///
-/// When a number is out of range.
-#[must_use]
 pub fn jammed_ropes() -> Vec<RopeSample> {
     let free = |name: &str, mass_kg: f64| Joint::free(name).with_mass(mass_kg);
     let leaning = 10.0 * G / (2.0 * 0.6);
@@ -247,11 +237,6 @@ fn cable(from: usize, to: usize, length_m: f64) -> Member {
 }
 
 /// A massless rope over these joints, from the first to the last.
-///
-/// # Panics
-///
-/// When the length is out of range, or there is no joint.
-#[must_use]
 pub fn rope(path: &[usize], length_m: f64) -> Member {
     let last = path.len() - 1;
     cable(path[0], path[last], length_m).over(path[1..last].to_vec())

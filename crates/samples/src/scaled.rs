@@ -8,11 +8,6 @@ fn times(vector: Vector, factor: f64) -> Vector {
 }
 
 /// A chain with its lengths, masses and gravity times these factors, as [`scaled`]; without moments of inertia.
-///
-/// # Panics
-///
-/// Where the factors make no chain of it.
-#[must_use]
 pub fn scaled_chain(problem: &Problem, [length, mass, gravity]: [f64; 3]) -> Problem {
     let chain = problem.chain();
     let anchors = chain.anchors();
@@ -40,11 +35,6 @@ pub fn scaled_chain(problem: &Problem, [length, mass, gravity]: [f64; 3]) -> Pro
 /// assert_eq!((other.members()[0].stiffness_n, other.joints()[1].force_n[2]), (Some(10.0), -5.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-///
-/// # Panics
-///
-/// Where the factors make no system of it.
-#[must_use]
 pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
     let force = mass * gravity;
     let given = |within: f64| (within > 0.0).then_some(within);

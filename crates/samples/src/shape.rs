@@ -86,16 +86,11 @@ pub(crate) fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
 
 /// Chain number `seed`: its shape, and the chain, of 2 to 200 bars.
 ///
-/// # Panics
-///
-/// Never: what is drawn is in range.
-///
 /// ```
 /// let (shape, problem) = samples::random_chain(3);
 /// assert_eq!(shape, samples::Shape::Vertical);
 /// assert!(problem.chain().anchors_on_one_vertical());
 /// ```
-#[must_use]
 pub fn random_chain(seed: u64) -> (Shape, Problem) {
     let mut rng = stream(3, seed);
     let shapes = Shape::ALL.len() as u64;
@@ -166,7 +161,6 @@ pub(crate) fn lengths(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> 
     sizes
 }
 
-/// Masses of `n` bars.
 pub(crate) fn masses(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
     let equal = rng.random_range(0..2) == 0;
     (0..n)

@@ -1,5 +1,3 @@
-//! Streams of random numbers.
-
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -11,7 +9,6 @@ use rand_chacha::ChaCha8Rng;
 /// assert_eq!(draw(5).to_bits(), draw(5).to_bits());
 /// assert_ne!(draw(5).to_bits(), draw(6).to_bits());
 /// ```
-#[must_use]
 pub fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number);

@@ -32,15 +32,11 @@ pub struct Basins<'a> {
 /// Why there is no picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum BasinsError {
     /// Occurs when the columns do not hold a square of seeds.
     #[error("a picture of {size} x {size} seeds needs {} outcomes, got {outcomes}", u64::from(*size).pow(2))]
-    Shape {
-        /// Seeds along each side.
-        size: u32,
-        /// Entries in the shortest column.
-        outcomes: usize,
-    },
+    Shape { size: u32, outcomes: usize },
 }
 
 /// What a picture shows.

@@ -60,7 +60,6 @@ pub struct Member {
 impl Member {
     /// Directions in which the energy falls: in space where starts are places in space, else in the
     /// plane. None if it is not known.
-    #[must_use]
     pub fn index(&self) -> Option<usize> {
         self.index_in_space.or(self.index_in_plane)
     }
@@ -122,26 +121,22 @@ impl Members {
     pub(crate) const MOST: usize = i16::MAX as usize;
 
     /// The entries; the number of one is its place.
-    #[must_use]
     pub fn list(&self) -> &[Member] {
         &self.list
     }
 
     /// Whether it is proved that there are no others.
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.complete
     }
 
     /// What energies are compared in: total weight times total length, J.
-    #[must_use]
     pub fn energy_unit_j(&self) -> f64 {
         self.lookup.unit_j
     }
 
     /// The number of the nearest entry within the tolerance, for unit directions (along the
     /// heading, up) of the bars.
-    #[must_use]
     pub fn identify(&self, directions: &[[f64; 2]], energy_j: f64) -> Option<i16> {
         let entry = self.lookup.nearest(directions, energy_j)?;
         i16::try_from(entry).ok()
@@ -188,7 +183,6 @@ impl Lookup {
         self.directions.truncate(entries * self.lengths.len());
     }
 
-    /// Bars of the chain.
     pub(crate) fn bars(&self) -> usize {
         self.lengths.len()
     }

@@ -66,7 +66,6 @@ pub struct Reached {
 
 impl Reached {
     /// Nothing yet, behind so many proven entries.
-    #[must_use]
     pub(crate) fn new(problem: &Problem, proven: usize) -> Self {
         let lookup = Lookup::new(problem, &[]);
         let most = DISCOVERED.min(DISCOVERED_BARS / lookup.bars().max(1)).max(1);
@@ -82,7 +81,6 @@ impl Reached {
     }
 
     /// Nothing of the same sweep.
-    #[must_use]
     pub(crate) fn nothing(&self) -> Self {
         let mut nothing = self.clone();
         nothing.lookup.truncate(0);
@@ -92,13 +90,11 @@ impl Reached {
     }
 
     /// How many are listed by now.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
     /// Whether nothing is listed.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -108,7 +104,6 @@ impl Reached {
         self.proven + self.given
     }
 
-    /// How many numbers were given.
     pub(crate) fn given(&self) -> usize {
         self.given
     }
@@ -247,7 +242,6 @@ impl Reached {
         Renumbering { proven: self.proven, codes }
     }
 
-    /// Bars of the chain.
     pub(crate) fn bars(&self) -> usize {
         self.lookup.bars()
     }

@@ -1,5 +1,3 @@
-//! What became of seeds, as columns.
-
 use std::ops::Range;
 
 /// What one solver made of a run of consecutive seeds: one entry per seed in every column.
@@ -43,7 +41,6 @@ pub struct Chunk {
 
 impl Chunk {
     /// What the solver of this name made of them, if it was asked.
-    #[must_use]
     pub fn of(&self, solver: &str) -> Option<&Outcomes> {
         self.outcomes.iter().find(|outcomes| outcomes.solver == solver)
     }

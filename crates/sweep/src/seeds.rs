@@ -23,19 +23,16 @@ const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 impl Stream {
     /// The stream of a seed number. The number is mixed first: neighbouring numbers have streams
     /// that do not overlap by a shift of one.
-    #[must_use]
     pub fn new(number: u64) -> Self {
         Self { key: Self::raw(number ^ GAMMA).at(0) }
     }
 
     /// The stream of the published generator with this state.
-    #[must_use]
     pub fn raw(key: u64) -> Self {
         Self { key }
     }
 
     /// Number `k`, 64 random bits.
-    #[must_use]
     #[inline]
     pub fn at(self, k: u64) -> u64 {
         let mut z = self.key.wrapping_add(GAMMA.wrapping_mul(k.wrapping_add(1)));
@@ -46,7 +43,6 @@ impl Stream {
 }
 
 /// The upper 53 bits as a number in [0, 1).
-#[must_use]
 #[inline]
 pub(crate) fn unit(bits: u64) -> f64 {
     const SCALE: f64 = 1.0 / (1_u64 << 53) as f64;

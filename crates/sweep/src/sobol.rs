@@ -1,5 +1,3 @@
-//! Sobol's sequence, any point by its index.
-
 use crate::error::SweepError;
 
 /// Bits of a coordinate, and of the index.

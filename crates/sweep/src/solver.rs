@@ -80,7 +80,6 @@ pub struct Solvers {
 impl Solvers {
     /// All of these are asked. The order of their columns is `lagrange`, `energy`, and the others as
     /// they stand here.
-    #[must_use]
     pub fn new(mut solvers: Vec<Arc<dyn BatchSolver>>) -> Self {
         let place = |name: &str| FIRST.iter().position(|first| *first == name);
         solvers.sort_by_key(|solver| place(solver.name()).unwrap_or(FIRST.len()));

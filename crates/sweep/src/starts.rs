@@ -49,19 +49,16 @@ pub struct Axis {
 
 impl Axis {
     /// The full turn in `points` parts.
-    #[must_use]
     pub fn full(points: u64) -> Self {
         Self { from_rad: 0.0, to_rad: TAU, points }
     }
 
     /// One angle.
-    #[must_use]
     pub fn fixed(angle_rad: f64) -> Self {
         Self { from_rad: angle_rad, to_rad: angle_rad, points: 1 }
     }
 
     /// The angle of part `k`, rad.
-    #[must_use]
     pub fn at(&self, k: u64) -> f64 {
         let part = (k as f64 + 0.5) / self.points as f64;
         // A fixed angle is exact: the length of the interval is zero.

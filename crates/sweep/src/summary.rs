@@ -50,7 +50,6 @@ impl Comparison {
     ];
 
     /// Whether a seed with this comparison is to be looked at.
-    #[must_use]
     pub fn should_not_be(self) -> bool {
         matches!(self, Self::EnergyAtNoMinimum | Self::EnergiesDiffer | Self::NotListed)
     }
@@ -116,7 +115,6 @@ const SAME_ENERGY: f64 = 1e-10;
 impl Summary {
     /// Nothing yet, of a sweep with this list and this unit of the energies
     /// ([`Members::energy_unit_j`](crate::Members::energy_unit_j)).
-    #[must_use]
     pub fn new<'a>(list: impl IntoIterator<Item = &'a Member>, energy_unit_j: f64) -> Self {
         let index = |member: &Member| {
             member.index().map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX))
@@ -194,13 +192,11 @@ impl Summary {
     }
 
     /// Counts of outcomes and iterations, by solver.
-    #[must_use]
     pub fn tally(&self) -> &Tally {
         &self.tally
     }
 
     /// Seeds in all.
-    #[must_use]
     pub fn seeds(&self) -> u64 {
         self.tally.seeds
     }
@@ -212,7 +208,6 @@ impl Summary {
 
     /// The seeds on which the solvers disagree where they should not, by number, and then those in
     /// no list, by number: the first [`KEPT`] of them.
-    #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
     }
@@ -241,7 +236,6 @@ impl OpenSummary {
         Self { counts, proven, differ: BTreeMap::new() }
     }
 
-    /// Count a chunk.
     pub(crate) fn add(&mut self, chunk: &Chunk) {
         self.counts.add(chunk);
         self.counts.leave_out_unlisted();

@@ -1,5 +1,3 @@
-//! A sweep over seeds.
-
 use std::ops::Range;
 
 use model::{Ends, Finish, Problem};
@@ -74,25 +72,21 @@ impl Sweep {
     }
 
     /// The settings.
-    #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
     /// The solvers.
-    #[must_use]
     pub fn solvers(&self) -> &Solvers {
         &self.solvers
     }
 
     /// The proven list, by which outcomes are numbered first.
-    #[must_use]
     pub fn members(&self) -> &Members {
         &self.members
     }
 
     /// The angles of a run of seeds, rad: n for each seed.
-    #[must_use]
     pub fn angles_rad(&self, seeds: Range<u64>) -> Vec<f64> {
         let mut angles = vec![];
         self.starts.fill(seeds, self.bars, &mut angles);
@@ -101,7 +95,6 @@ impl Sweep {
 
     /// What becomes of a run of seeds. All columns are in memory: about 20 bytes per seed and
     /// solver. What is not in the proven list is [`Failure::Unlisted`].
-    #[must_use]
     pub fn run_chunk(&self, seeds: Range<u64>) -> Chunk {
         self.run_blocks(seeds, None)
     }
@@ -167,7 +160,6 @@ impl Sweep {
     }
 
     /// Nothing reached yet; none where the proven list is complete.
-    #[must_use]
     pub fn nothing_reached(&self) -> Option<Reached> {
         self.nothing.clone()
     }
@@ -204,7 +196,6 @@ impl Sweep {
     }
 
     /// Nothing counted yet, for [`go_on`](Self::go_on).
-    #[must_use]
     pub fn begin(&self) -> Swept {
         let summary = Summary::new(self.members.list(), self.members.energy_unit_j());
         match &self.nothing {
@@ -291,7 +282,6 @@ enum Counts {
 impl Swept {
     /// The counts by the final numbers, and what these stand for behind the proven list, where that
     /// is not complete.
-    #[must_use]
     pub fn finish(self) -> (Summary, Option<Discovered>) {
         match self.0 {
             Counts::Complete(summary) => (*summary, None),

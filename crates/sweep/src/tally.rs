@@ -1,5 +1,3 @@
-//! Counts of outcomes, as rows go by.
-
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -29,7 +27,6 @@ impl OutcomeTally {
     /// let tally = OutcomeTally { count: 5, iterations: BTreeMap::from([(3, 2), (4, 2), (9, 1)]) };
     /// assert_eq!((tally.median_iterations(), tally.max_iterations()), (4, 9));
     /// ```
-    #[must_use]
     pub fn median_iterations(&self) -> u16 {
         let mut below = 0;
         for (iterations, count) in &self.iterations {
@@ -42,7 +39,6 @@ impl OutcomeTally {
     }
 
     /// The largest number of iterations.
-    #[must_use]
     pub fn max_iterations(&self) -> u16 {
         self.iterations.last_key_value().map_or(0, |(iterations, _)| *iterations)
     }
@@ -76,7 +72,6 @@ pub struct Tally {
 
 impl Tally {
     /// Outcomes of the solver of this name, if it was asked.
-    #[must_use]
     pub fn of(&self, solver: &str) -> Option<&SolverTally> {
         self.solvers.iter().find(|(name, _)| name == solver).map(|(_, tally)| tally)
     }
@@ -226,7 +221,6 @@ const Z_95: f64 = 1.959_963_984_540_054;
 /// assert_eq!(low, 0.0);
 /// assert!((high - 0.003_826_758_5).abs() < 1e-9);
 /// ```
-#[must_use]
 pub fn rate_interval(count: u64, all: u64) -> (f64, f64) {
     if all == 0 {
         return (0.0, 1.0);

@@ -6,7 +6,6 @@ use toml::{Table, Value};
 /// A whole file.
 ///
 /// # Panics
-///
 /// On what is no TOML.
 #[must_use]
 pub fn parsed(file: &str) -> Table {
@@ -16,7 +15,6 @@ pub fn parsed(file: &str) -> Table {
 /// The value of a key, as `read` has it.
 ///
 /// # Panics
-///
 /// Without the key, and on a value that `read` refuses; a test reads all that is built in.
 pub fn key<'a, T>(table: &'a Table, key: &str, read: fn(&'a Value) -> Option<T>) -> T {
     optional(table, key, read).unwrap_or_else(|| panic!("there is no {key}"))
@@ -25,7 +23,6 @@ pub fn key<'a, T>(table: &'a Table, key: &str, read: fn(&'a Value) -> Option<T>)
 /// The value of a key that may be left out.
 ///
 /// # Panics
-///
 /// On a value that `read` refuses.
 pub fn optional<'a, T>(table: &'a Table, key: &str, read: fn(&'a Value) -> Option<T>) -> Option<T> {
     let value = table.get(key)?;

@@ -115,11 +115,9 @@ pub struct Visit {
 /// Start `lagrange` in the middle of the boxes of every listed equilibrium.
 ///
 /// # Errors
-///
 /// [`Error`] of the first start that does not converge.
 ///
 /// # Panics
-///
 /// Never: a converged solution has the joints of its chain, and the census from which it was
 /// started has an entry.
 ///
@@ -169,7 +167,6 @@ pub fn statics(problem: &Problem, census: &Census) -> f64 {
 /// units of the weight between the anchors times the total length.
 ///
 /// # Errors
-///
 /// [`NoCertificate`] when something lower or higher is not excluded.
 pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], NoCertificate> {
     let answers = census.to_model();

@@ -105,7 +105,6 @@ impl Certificate {
 /// Only its end reaction, the signs of its axial forces, its last joint and its energy are used.
 ///
 /// # Errors
-///
 /// [`NoCertificate`] when the bound proves nothing, with the reason.
 ///
 /// ```

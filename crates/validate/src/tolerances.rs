@@ -23,7 +23,6 @@ impl Tolerances {
     /// The budgets of this project.
     ///
     /// # Panics
-    ///
     /// Never: a test reads the file that is compiled in.
     #[must_use]
     pub fn project() -> Self {

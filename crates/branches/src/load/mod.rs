@@ -42,58 +42,39 @@ use nalgebra::DVector;
 use serde::Serialize;
 
 /// A system of equations with a parameter, symmetric in its unknowns, as its model computes them.
+#[expect(clippy::missing_errors_doc, reason = "said of the type of the errors")]
 pub trait Equations {
     /// Names a one-sided condition.
     type Side: Copy + PartialEq;
     /// What is kept of a point of the path.
     type Record;
-    /// Why there are no equations at some value of the parameter.
+    /// Why there are no equations at some value of the parameter, or no memory to change sides.
     type Error;
 
     /// How many of the unknowns, the first ones, are places: these measure the path.
     fn places(&self) -> usize;
 
     /// The unknowns moved to where the model allows them; where all are free they stay.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn onto(&mut self, y: &DVector<f64>, _t: f64) -> Result<DVector<f64>, Self::Error> {
         Ok(y.clone())
     }
 
     /// $G(y, t)$, and its size, of which rounding leaves some 1e-14.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn residual(&mut self, y: &DVector<f64>, t: f64) -> Result<(DVector<f64>, f64), Self::Error>;
 
     /// $\partial G/\partial t$: by a difference, if the model knows no better.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn by_parameter(&mut self, y: &DVector<f64>, t: f64) -> Result<DVector<f64>, Self::Error> {
         difference(self, y, t)
     }
 
     /// How the unknowns that are given move with the parameter, as places of supports do; `None` when they
     /// do not.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn given(&mut self, _y: &DVector<f64>, _t: f64) -> Result<Option<DVector<f64>>, Self::Error> {
         Ok(None)
     }
 
     /// Factorise $J$: the number of directions in which the energy falls, nothing where it cannot be
     /// factorised.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn factorise(&mut self, y: &DVector<f64>, t: f64) -> Result<Option<usize>, Self::Error>;
 
     /// $J^{-1} r$ by the last factor, exactly or nearly.
@@ -103,24 +84,12 @@ pub trait Equations {
     fn apply(&self, y: &DVector<f64>) -> DVector<f64>;
 
     /// The one-sided conditions with their values, which are positive where they hold.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn sides(&mut self, y: &DVector<f64>, t: f64) -> Result<Vec<(Self::Side, f64)>, Self::Error>;
 
     /// Change sides: whether the condition is active now (taut, on the floor).
-    ///
-    /// # Errors
-    ///
-    /// Where there is no memory for it.
     fn switch(&mut self, side: Self::Side) -> Result<bool, Self::Error>;
 
     /// What is kept of a point.
-    ///
-    /// # Errors
-    ///
-    /// Where the parameter has no meaning.
     fn record(
         &mut self,
         y: &DVector<f64>,

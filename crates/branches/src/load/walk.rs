@@ -1,5 +1,3 @@
-//! Steps along a path.
-
 use std::mem::take;
 
 use nalgebra::DVector;

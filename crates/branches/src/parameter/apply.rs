@@ -6,47 +6,28 @@ use model::{Bar, BarError};
 
 use crate::parameter::number::{BarField, Number, Which};
 
-/// Why a point of a variation is refused: the values describe no problem.
+/// Why a point of a variation is refused: the values describe no problem. Numbers count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum PointError {
     /// Occurs when a number of a bar is out of range.
     #[error("bar {bar}: {error}")]
-    Bar {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// What is wrong with it.
-        error: BarError,
-    },
+    Bar { bar: usize, error: BarError },
     /// Occurs when a prestress does not fit its member.
     #[error("bar {bar}: {error}")]
-    Prestress {
-        /// Number of the bar, from 1.
-        bar: usize,
-        /// What is wrong with it.
-        error: PrestressError,
-    },
+    Prestress { bar: usize, error: PrestressError },
     /// Occurs when all equilibria of a row of rigid bars are followed and these values make it something else.
     #[error("no row of rigid bars between two anchors under upright loads")]
     NoRow,
     /// Occurs when a row cannot have so many bars.
     #[error("a row of {value} bars: a whole number from 1 to {most} is allowed")]
-    Count {
-        /// The count.
-        value: f64,
-        /// The largest that is allowed.
-        most: usize,
-    },
+    Count { value: f64, most: usize },
     /// Occurs when a row that gets another count has bars that are not equal.
     #[error(
         "bars {first} to {last} get other numbers than each other: a row with a count has equal bars"
     )]
-    Unequal {
-        /// Number of the first bar of the row, from 1.
-        first: usize,
-        /// Number of the last one.
-        last: usize,
-    },
+    Unequal { first: usize, last: usize },
     /// Occurs when a system of so many bars does not fit into memory.
     #[error(transparent)]
     Memory(#[from] OutOfMemory),

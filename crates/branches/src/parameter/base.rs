@@ -13,7 +13,6 @@ const MOST_NAMES: usize = 12;
 
 /// The number itself, where the path is another name for it: an end of a row of bars is a joint, the bars of a
 /// row have numbers, and a count is that of a whole row.
-#[must_use]
 pub fn resolved(system: &System, number: &Number) -> Number {
     if let Number::Row(name, field) = number {
         return row(system, name).map_or(number.clone(), |[a, b]| {

@@ -27,7 +27,6 @@ impl ParameterError {
     }
 
     /// Where, in characters from 1.
-    #[must_use]
     pub fn column(&self) -> usize {
         self.text.char_indices().take_while(|(at, _)| *at < self.span.start).count() + 1
     }

@@ -1,5 +1,3 @@
-//! The numbers of a system file, by their paths.
-
 use std::fmt;
 use std::ops::Range;
 
@@ -112,7 +110,6 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Which {
     /// Whether it names the bar of this number, from 1.
-    #[must_use]
     pub fn has(self, bar: usize) -> bool {
         let (first, last) = self.ends();
         (first..=last).contains(&bar)
@@ -162,7 +159,6 @@ impl fmt::Display for BarField {
 
 impl Number {
     /// The unit of this number.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Gravity => "m/s^2",
@@ -175,13 +171,11 @@ impl Number {
     }
 
     /// Whether it counts bars: its values are whole numbers, and nothing is followed over it.
-    #[must_use]
     pub fn is_count(&self) -> bool {
         matches!(self, Self::Bar(_, BarField::Count) | Self::Row(_, BarField::Count))
     }
 
     /// Whether a row of rigid bars under upright loads is one whatever the value.
-    #[must_use]
     pub fn keeps_rows(&self) -> bool {
         let of_bar = |field: &BarField| {
             !matches!(field, BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance)

@@ -1,5 +1,3 @@
-//! From numbers to systems.
-
 use model::Vector;
 use model::budget::Budget;
 use model::system::{Joint, Member, PointLoad, System};

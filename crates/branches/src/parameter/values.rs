@@ -1,5 +1,3 @@
-//! One parameter with its values.
-
 use std::ops::Range;
 use std::str::FromStr;
 
@@ -61,7 +59,6 @@ impl Parameter {
     }
 
     /// The text it was read from.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }

@@ -2,7 +2,6 @@
 
 use numerics::Interval;
 
-/// A vector of intervals.
 pub(crate) type Vector = [Interval; 3];
 
 /// The vector 0.
@@ -35,17 +34,14 @@ pub(crate) fn product(a: Interval, b: Interval) -> Interval {
     }
 }
 
-/// `a + b`.
 pub(crate) fn plus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|k| sum(a[k], b[k]))
 }
 
-/// `a − b`.
 pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|k| difference(a[k], b[k]))
 }
 
-/// `c a`.
 pub(crate) fn times(c: Interval, a: Vector) -> Vector {
     a.map(|part| product(c, part))
 }
@@ -55,12 +51,10 @@ pub(crate) fn over(a: Vector, c: Interval) -> Vector {
     a.map(|part| if part == Interval::ZERO { part } else { part / c })
 }
 
-/// `a · b`.
 pub(crate) fn dot(a: Vector, b: Vector) -> Interval {
     (0..3).fold(Interval::ZERO, |all, k| sum(all, product(a[k], b[k])))
 }
 
-/// `a × b`.
 pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -68,7 +62,6 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     })
 }
 
-/// `|a|²`.
 pub(crate) fn squared(a: Vector) -> Interval {
     a.into_iter()
         .filter(|part| *part != Interval::ZERO)
@@ -76,7 +69,6 @@ pub(crate) fn squared(a: Vector) -> Interval {
         .fold(Interval::ZERO, sum)
 }
 
-/// `|a|`.
 pub(crate) fn norm(a: Vector) -> Interval {
     squared(a).sqrt()
 }

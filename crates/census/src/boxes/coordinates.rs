@@ -44,7 +44,6 @@ impl Coordinates {
         Self { first, origin: place, axes: vec![] }
     }
 
-    /// The place at these unknowns.
     pub(super) fn place(&self, unknowns: &[Interval]) -> Vector {
         plus(self.origin, self.step(unknowns))
     }

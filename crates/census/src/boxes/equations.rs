@@ -17,7 +17,6 @@ use super::turns::Turn;
 /// An entry of the derivative: row, column, value.
 pub(super) type Entry = (usize, usize, Interval);
 
-/// A member that acts.
 #[derive(Debug, Clone)]
 pub(crate) struct Acting {
     /// Its number in the system.
@@ -50,13 +49,11 @@ pub(crate) struct Equations {
     pub(crate) acting: Vec<Acting>,
     pub(crate) holds: Vec<Hold>,
     pub(super) loads: Vec<Vector>,
-    /// Lengths of all members.
     pub(super) lengths: Vec<Interval>,
     /// The joints of the spans of all members.
     pub(super) ends: Vec<[usize; 2]>,
     /// Which of them are those of a member.
     pub(super) spans: Vec<Range<usize>>,
-    /// Number of unknowns.
     pub(crate) size: usize,
 }
 
@@ -128,15 +125,11 @@ impl Equations {
         at
     }
 
-    /// Places of all joints.
     pub(crate) fn places(&self, unknowns: &[Interval]) -> Vec<Vector> {
         self.joints.iter().map(|joint| joint.place(unknowns)).collect()
     }
 
     /// Left-hand sides over a box.
-    ///
-    /// # Errors
-    ///
     /// [`NoBox::NotFinite`] when a place is not finite.
     pub(super) fn value(&self, unknowns: &[Interval]) -> Result<Vec<Interval>, NoBox> {
         let places = self.places(unknowns);
@@ -196,7 +189,6 @@ impl Equations {
         entries
     }
 
-    /// The spans of a member that acts.
     fn spans_of(&self, acting: &Acting, places: &[Vector]) -> Vec<Vector> {
         let ends = self.ends[acting.spans.clone()].iter();
         ends.map(|[a, b]| minus(places[*b], places[*a])).collect()
@@ -257,7 +249,6 @@ impl Acting {
         }
     }
 
-    /// The direction of a span in which it pulls.
     pub(crate) fn direction(&self, span: Vector) -> Direction {
         if self.is_squared() {
             return Direction { along: span, size: None };

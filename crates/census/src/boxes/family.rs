@@ -8,7 +8,6 @@ use super::activity::Activity;
 use super::arithmetic::{Vector, dot, minus, product, sum};
 use super::equations::{Entry, Equations};
 use super::frame::Frame;
-use super::krawczyk::Zero;
 use super::prove::{Posed, complementarity};
 use super::symmetry::{Block, Symmetry};
 use super::tube::last;
@@ -105,8 +104,8 @@ impl<'a> Family<'a> {
     }
 
     /// Prove that in all of a box the same members act.
-    pub(super) fn acts(&self, y: Vec<Interval>) -> Result<(), NoBox> {
-        complementarity(self.system, &self.equations, &self.activities, &Zero { tight: y })
+    pub(super) fn acts(&self, y: &[Interval]) -> Result<(), NoBox> {
+        complementarity(self.system, &self.equations, &self.activities, y)
     }
 }
 

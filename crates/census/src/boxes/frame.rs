@@ -42,17 +42,14 @@ impl Frame {
         }
     }
 
-    /// A length in units.
     pub(crate) fn length(&self, metres: Interval) -> Interval {
         metres.scale(self.length_m.recip())
     }
 
-    /// A force in units.
     pub(crate) fn force(&self, newtons: Interval) -> Interval {
         newtons.scale(self.force_n.recip())
     }
 
-    /// A place in units.
     pub(crate) fn place(&self, at_m: Point) -> Vector {
         std::array::from_fn(|k| {
             // The difference of doubles is zero only if they are equal.
@@ -64,7 +61,6 @@ impl Frame {
         })
     }
 
-    /// A place in metres.
     pub(crate) fn place_m(&self, place: Vector) -> Vector {
         std::array::from_fn(|k| {
             sum(place[k].scale(self.length_m), Interval::point(self.origin_m[k]))
@@ -119,7 +115,6 @@ impl Frame {
         self.weight(system, mass_kg * part)
     }
 
-    /// The weight of a mass, in units.
     pub(super) fn weight(&self, system: &System, mass_kg: Interval) -> Vector {
         if mass_kg == Interval::ZERO {
             return NOWHERE;
@@ -138,7 +133,6 @@ impl Frame {
     }
 }
 
-/// An end of a member.
 #[derive(Debug, Clone, Copy)]
 enum End {
     Start,

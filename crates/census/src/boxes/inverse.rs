@@ -4,8 +4,6 @@
 //! of $E$ is below 1, so $R$ and every matrix in $M$ are regular, and every solution of $M x = r$ lies
 //! in $R r + [-1, 1]\\,E D$. Only $R$ is dense: rows of $R$ meet the sparse columns of $M$.
 //!
-//! # References
-//!
 //! S. M. Rump, "Verification methods", Acta Numerica 19 (2010) 287-449,
 //! doi:10.1017/S096249291000005X, section 10.
 
@@ -27,7 +25,6 @@ const NARROW: usize = 3;
 /// Corrections of an approximate solution by what it leaves, at most.
 const CORRECTIONS: usize = 20;
 
-/// An approximate inverse.
 #[derive(Debug, Clone)]
 pub(super) struct Inverse {
     size: usize,
@@ -56,7 +53,6 @@ impl Inverse {
         self.rows.chunks_exact(self.size.max(1)).map(|row| row[self.size - 1]).collect()
     }
 
-    /// The last row.
     pub(super) fn last_row(&self) -> &[f64] {
         &self.rows[self.rows.len() - self.size..]
     }

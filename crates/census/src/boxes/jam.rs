@@ -30,9 +30,6 @@ pub(super) fn jammed(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Ve
 }
 
 /// Prove an answer with such spans.
-///
-/// # Errors
-///
 /// As [`prove`], and [`NoBox::Rope`] where a span may bear all of the tension of its rope, or no joint tells what it
 /// bears.
 pub(super) fn prove_joined(

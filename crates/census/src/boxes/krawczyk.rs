@@ -8,8 +8,6 @@
 //! then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x - z + [-1, 1]\\,E D$. The box
 //! is found by widening $|z|$ a little, again and again.
 //!
-//! # References
-//!
 //! R. Krawczyk, Computing 4 (1969) 187-201, doi:10.1007/BF02234767; S. M. Rump, "Verification
 //! methods", Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X, section 13
 //! (inflation).
@@ -29,18 +27,11 @@ const WIDER: f64 = 2.0;
 /// Least room, in units of the last place of the point.
 const LAST_PLACES: f64 = 4.0 * f64::EPSILON;
 
-/// A zero, proved.
-pub(crate) struct Zero {
-    /// Where it is, and no other.
-    pub(crate) tight: Vec<Interval>,
-}
-
 /// A box around a point, or around all points of a line, that holds exactly one zero for each.
 #[derive(Debug)]
 pub(super) struct Proved {
     /// Half-widths of the box.
     pub(super) within: Vec<f64>,
-    /// Where the zeros are.
     pub(super) tight: Vec<Interval>,
     /// The derivative over the box, and what it differs from the inverted one.
     pub(super) entries: Vec<Entry>,
@@ -49,9 +40,6 @@ pub(super) struct Proved {
 
 /// Prove the zeros next to the points of a line, where the left-hand sides times the approximate inverse
 /// are `newton`, with at least `room` around.
-///
-/// # Errors
-///
 /// [`NoBox::NotContracting`] when no box is mapped into itself.
 pub(super) fn prove_around(
     line: &[Interval],
@@ -78,16 +66,12 @@ pub(super) fn prove_around(
     Err(NoBox::NotContracting)
 }
 
-/// Prove the zero next to a refined point.
-///
-/// # Errors
-///
+/// Where the zero next to a refined point is, and no other, proved.
 /// [`NoBox::NotContracting`] when no box is mapped into itself.
-pub(crate) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Zero, NoBox> {
+pub(crate) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Vec<Interval>, NoBox> {
     let Refined { at, inverse } = refined;
     let at: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
     let newton = inverse.apply(&equations.value(&at)?);
     let slope = |x: &[Interval]| equations.slope(x);
-    let Proved { tight, .. } = prove_around(&at, &newton, 0.0, inverse, slope)?;
-    Ok(Zero { tight })
+    Ok(prove_around(&at, &newton, 0.0, inverse, slope)?.tight)
 }

@@ -20,8 +20,6 @@
 //! zero in the tube and the interval Newton step $N = -\tau(0)/\dot\tau$ is inside, then exactly one singular
 //! point lies in the tube, at an $s$ in $N$. So matrices of one more row than unknowns are inverted.
 //!
-//! # References
-//!
 //! G. Moore, A. Spence, SIAM J. Numer. Anal. 17 (1980) 567-576, doi:10.1137/0717048. B. Werner, A. Spence,
 //! SIAM J. Numer. Anal. 21 (1984) 388-399, doi:10.1137/0721029.
 
@@ -131,7 +129,6 @@ fn part([from, to, at]: [f64; 3]) -> f64 {
     (at - from) / (to - from)
 }
 
-/// The value of the parameter.
 pub(super) fn value([from, to, _]: [f64; 3], t: Interval) -> Interval {
     let [from, to] = [from, to].map(Interval::point);
     sum(from, product(t, difference(to, from)))
@@ -142,7 +139,6 @@ pub(super) fn value([from, to, _]: [f64; 3], t: Interval) -> Interval {
 pub(super) struct Singular {
     /// The parameter there.
     pub(super) t: Interval,
-    /// The point.
     pub(super) point: Vec<Interval>,
 }
 
@@ -194,7 +190,7 @@ fn alone(
     let tube = centre.tube(family, Interval::around(0.0, length))?;
     // The curve of the thin tube is the one of this.
     centre.shares(thin, &tube)?;
-    family.acts(family.spread(tube.curve()))?;
+    family.acts(&family.spread(tube.curve()))?;
     let rate = centre.rate(family, &tube)?.vector;
     let slope = tested(family, centre, &tube, side, &rate)?.1;
     let step = zero(start, slope, tube.over).ok_or(NoBox::NotContracting)?;

@@ -25,9 +25,6 @@ pub(crate) struct Refined {
 }
 
 /// Refine an answer.
-///
-/// # Errors
-///
 /// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead
 /// away.
 pub(crate) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, NoBox> {
@@ -35,9 +32,6 @@ pub(crate) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, No
 }
 
 /// Refine a guess that may be so far from the zero.
-///
-/// # Errors
-///
 /// As [`refine`].
 pub(super) fn refine_within(
     reach: f64,

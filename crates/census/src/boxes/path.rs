@@ -134,7 +134,7 @@ impl<'a> Walk<'a> {
         let slope = centre.slope.clone();
         let here = Node::new(family, centre)?;
         near(&here.place, &start)?;
-        family.acts(family.spread(&here.place))?;
+        family.acts(&family.spread(&here.place))?;
         let side = |block| Side::new(family, block, &slope, None).ok_or(NoBox::Singular);
         let broken = (1..family.blocks.len()).filter(|block| family.blocks[*block].size() > 0);
         let sides = broken.map(side).collect::<Result<_, _>>()?;
@@ -194,7 +194,7 @@ impl<'a> Walk<'a> {
         if places[0].hi() >= places[1].lo() {
             return Err(NoBox::NotContracting);
         }
-        family.acts(family.spread(tube.curve()))?;
+        family.acts(&family.spread(tube.curve()))?;
         let side = |side: &Side| Side::new(family, side.block, &centre.slope, Some(side));
         let sides = self.sides.iter().map(side).collect::<Option<Vec<_>>>();
         let sides = sides.ok_or(NoBox::Singular)?;

@@ -1,5 +1,3 @@
-//! From an answer to a proof.
-
 use model::system::{Joint, Kind, Support, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
@@ -11,7 +9,7 @@ use super::equations::Equations;
 use super::floor::prove_above;
 use super::frame::Frame;
 use super::jam::{jammed, prove_joined};
-use super::krawczyk::{Zero, prove_zero};
+use super::krawczyk::prove_zero;
 use super::newton::refine;
 use super::proven::{SystemBox, reach};
 use super::turns::turns;
@@ -160,11 +158,11 @@ pub(super) fn complementarity(
     system: &System,
     equations: &Equations,
     activities: &[Activity],
-    zero: &Zero,
+    zero: &[Interval],
 ) -> Result<(), NoBox> {
-    let places = equations.places(&zero.tight);
+    let places = equations.places(zero);
     for acting in &equations.acting {
-        let sign = zero.tight[acting.force].sign();
+        let sign = zero[acting.force].sign();
         let right = match system.members()[acting.member].kind {
             Kind::Bar => true,
             Kind::Cable => sign == Some(1),

@@ -1,12 +1,9 @@
-//! What is proved.
-
 use model::system::{Kind, Member, System};
 use numerics::Interval;
 
 use super::activity::Activity;
 use super::arithmetic::{Vector, minus, norm, sum};
 use super::equations::Equations;
-use super::krawczyk::Zero;
 
 /// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an
 /// enclosure of the exact value.
@@ -36,10 +33,10 @@ impl SystemBox {
         equations: &Equations,
         activities: &[Activity],
         loose: &[bool],
-        zero: &Zero,
+        zero: &[Interval],
     ) -> Self {
         let frame = &equations.frame;
-        let places = equations.places(&zero.tight);
+        let places = equations.places(zero);
         let of_idle = |(activity, member)| match activity {
             &Activity::Idle => idle_n(member, &places, frame.length_m),
             _ => Interval::ZERO,
@@ -47,7 +44,7 @@ impl SystemBox {
         let mut axial_n: Vec<Interval> =
             activities.iter().zip(system.members()).map(of_idle).collect();
         for acting in &equations.acting {
-            let axial = acting.axial(zero.tight[acting.force]);
+            let axial = acting.axial(zero[acting.force]);
             axial_n[acting.member] = axial.scale(frame.force_n);
         }
         let joints_m: Vec<_> = places.iter().map(|place| frame.place_m(*place)).collect();
@@ -66,14 +63,12 @@ impl SystemBox {
     }
 
     /// How far outside of the box the joints of an answer lie, m; NaN where it is not finite.
-    #[must_use]
     pub fn beyond_m(&self, joints_m: &[model::Vector]) -> f64 {
         let places = self.joints_m.iter().flatten().zip(joints_m.iter().flatten());
         worst(places.map(|(enclosure, x)| beyond(*enclosure, *x)))
     }
 
     /// How far outside of the box the axial forces of an answer lie, N; NaN where it is not finite.
-    #[must_use]
     pub fn beyond_n(&self, axial_n: &[f64]) -> f64 {
         let forces = self.axial_n.iter().zip(axial_n);
         worst(forces.map(|(enclosure, x)| beyond(*enclosure, *x)))

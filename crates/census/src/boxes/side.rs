@@ -11,7 +11,6 @@ use super::symmetry::Block;
 /// $[J_\chi, p; q, 0]$ with $p$ and $q$ near the left and right null vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Side {
-    /// The number of the block.
     pub(super) block: usize,
     column: Vec<f64>,
     row: Vec<f64>,

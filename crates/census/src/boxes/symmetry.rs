@@ -256,7 +256,6 @@ impl Block {
         Self { of, first }
     }
 
-    /// Number of unknowns.
     pub(super) fn size(&self) -> usize {
         self.first.len()
     }

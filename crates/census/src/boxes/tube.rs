@@ -212,7 +212,6 @@ impl Centre {
     }
 }
 
-/// A tube that is proved.
 #[derive(Debug)]
 pub(super) struct Tube {
     /// The values of $s$.

@@ -24,7 +24,6 @@ use super::activity::Activity;
 /// A set that turns.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Turn {
-    /// The joints that turn.
     pub(crate) joints: Vec<usize>,
     /// What gives the vertical: an anchor, a slider on it, or the joint on which all hangs.
     pub(crate) centre: usize,

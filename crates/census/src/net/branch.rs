@@ -77,9 +77,6 @@ fn falls(part: &Part, loads: &[Vector]) -> bool {
 }
 
 /// Whether the taut members of a position pull or push as their kinds do.
-///
-/// # Errors
-///
 /// [`NoCensus::Limp`], of a member that may bear nothing.
 pub(super) fn signs_hold(system: &System, choice: &Choice) -> Result<bool, NoCensus> {
     let signed = choice.axial.iter().filter_map(|(member, axial)| {
@@ -93,7 +90,6 @@ pub(super) fn signs_hold(system: &System, choice: &Choice) -> Result<bool, NoCen
     hold(signed)
 }
 
-/// Whether all of these are positive.
 fn hold(signed: impl Iterator<Item = (usize, Interval)>) -> Result<bool, NoCensus> {
     let mut open = None;
     for (member, spare) in signed {
@@ -109,9 +105,6 @@ fn hold(signed: impl Iterator<Item = (usize, Interval)>) -> Result<bool, NoCensu
 
 impl Branch {
     /// Whether the slack cables of a position are longer than they reach, and the slack struts shorter.
-    ///
-    /// # Errors
-    ///
     /// [`NoCensus::Limp`], of a member that may be taut.
     pub(super) fn has(
         &self,

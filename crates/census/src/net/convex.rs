@@ -8,8 +8,6 @@
 //! them and $\lambda$. Both contradict a box around $(x, \lambda)$ that holds exactly one zero of the equations. It
 //! is the only equilibrium, whatever spans have no length in others.
 //!
-//! # References
-//!
 //! R. T. Rockafellar, Convex Analysis (1970), section 28 (saddle points of the Lagrangian).
 
 use std::time::Instant;
@@ -49,7 +47,6 @@ impl SystemCensus {
     /// assert!(census.equilibria[0].axial_n[0].contains(1.25));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn of_cables(system: &System, joints_m: &[Vector], axial_n: &[f64]) -> Option<Self> {
         let start = Instant::now();
         let pulls = system.members().iter().all(|member| member.kind == Kind::Cable);

@@ -88,7 +88,6 @@ impl LoadedChain {
         Ok(Self { chain, loads, whole: own.iter().all(Option::is_some) })
     }
 
-    /// Its census.
     pub(super) fn census(
         &self,
         settings: &Settings,

@@ -252,20 +252,17 @@ impl SystemCensus {
     }
 
     /// Cells of pulls of chains and boxes of places of nets that could not be decided.
-    #[must_use]
     pub fn undecided(&self) -> usize {
         let chains: usize = self.chains().map(|chain| chain.census.undecided.len()).sum();
         chains + self.nets().map(|net| net.undecided.len()).sum::<usize>()
     }
 
     /// Families of equilibria with slack bars.
-    #[must_use]
     pub fn families(&self) -> usize {
         self.chains().map(|chain| chain.census.families.len()).sum()
     }
 
     /// Cells of pulls and boxes of places looked at.
-    #[must_use]
     pub fn cells(&self) -> u64 {
         let chains: u64 = self.chains().map(|chain| chain.census.statistics.cells).sum();
         chains + self.nets().map(|net| net.cells).sum::<u64>()
@@ -273,7 +270,6 @@ impl SystemCensus {
 
     /// The census of the row of bars that the system is, if it is one
     /// ([`as_row`](System::as_row)) whose bars bear their own weight.
-    #[must_use]
     pub fn row(&self, system: &System) -> Option<&ChainCensus> {
         let [PartCensus { chain, .. }] = &self.parts[..] else { return None };
         chain.as_ref().filter(|chain| chain.whole && system.as_row().is_some())
@@ -372,7 +368,6 @@ fn framing(system: &System, joints: &[usize], members: &[usize]) -> Option<Vec<t
     (joints.len() <= MAX_FRAMED).then(|| order(system, joints, members)).flatten()
 }
 
-/// One part and its positions.
 fn of_part(
     system: &System,
     frame: &Frame,

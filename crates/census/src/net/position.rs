@@ -1,5 +1,3 @@
-//! One equilibrium of a system, proved.
-
 use model::system::{Kind, System, SystemEquilibrium, SystemStability};
 use model::{
     Complete, CompleteSystem, Evidence, InSpace, Jam, NoCensus, NoCertificate, Reason, SolverName,
@@ -87,13 +85,11 @@ impl SystemPosition {
     }
 
     /// Largest width of the place of a joint, m.
-    #[must_use]
     pub fn width_m(&self) -> f64 {
         self.joints_m.iter().flatten().map(|x| x.width()).fold(0.0, f64::max)
     }
 
     /// Largest width of an axial force, N.
-    #[must_use]
     pub fn width_n(&self) -> f64 {
         self.axial_n.iter().map(|x| x.width()).fold(0.0, f64::max)
     }
@@ -145,7 +141,6 @@ fn balance(system: &System, places: &[Vector], axial: &[Interval], loads: Vec<Ve
 impl SystemCensus {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
     /// enclosures, and how far each is proved.
-    #[must_use]
     pub fn to_model(&self, system: &System) -> Vec<SystemEquilibrium> {
         let frame = Frame::new(system, &[]);
         self.equilibria.iter().map(|position| self.one_to_model(system, &frame, position)).collect()
@@ -235,7 +230,6 @@ impl SystemCensus {
     }
 
     /// The rung `complete` of every equilibrium of this list.
-    #[must_use]
     pub fn completeness(&self, system: &System) -> Status<Complete> {
         if !self.complete {
             let open = self.chains().find(|chain| !chain.census.complete);

@@ -22,7 +22,6 @@ pub struct LoadedRow {
 impl LoadedRow {
     /// Of a system, if it is one ([`as_row`](System::as_row)) whose bars bear their own weight
     /// ([`ChainCensus::whole`](super::ChainCensus::whole)).
-    #[must_use]
     pub fn of(system: &System) -> Option<Self> {
         system.as_row()?;
         let Core::Chain { joints, members } = parts(system, &[]).pop()?.core else { return None };
@@ -31,13 +30,11 @@ impl LoadedRow {
     }
 
     /// Number of bars.
-    #[must_use]
     pub fn bars(&self) -> usize {
         self.loaded.chain.bars().len()
     }
 
     /// As [`Census::estimate`](crate::Census::estimate).
-    #[must_use]
     pub fn estimate(&self) -> Estimate {
         of_chain(&self.loaded.chain, &self.loaded.loads)
     }

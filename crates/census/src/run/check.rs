@@ -43,64 +43,37 @@ const LOOSE: f64 = 64.0;
 /// An enclosure narrower than this many units in the last place is never called loose.
 const ROUNDINGS: f64 = 256.0 * f64::EPSILON;
 
-/// What is wrong with a census.
+/// What is wrong with a census. Numbers count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum CheckError {
     /// Occurs when an equilibrium has not one sign for each bar, +1 or −1 (0 for one bar at most),
     /// or its neighbourhood is no rectangle in a chart.
     #[error("equilibrium {number} is malformed")]
-    Malformed {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    Malformed { number: usize },
     /// Occurs when the neighbourhood of an equilibrium is proved to hold none.
     #[error("the neighbourhood of equilibrium {number} holds none")]
-    Empty {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    Empty { number: usize },
     /// Occurs when the neighbourhood of an equilibrium is not proved to hold exactly one. That
     /// refutes nothing: it may hold one all the same.
     #[error("the neighbourhood of equilibrium {number} is not proved to hold exactly one")]
-    NotOne {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    NotOne { number: usize },
     /// Occurs when the index of an equilibrium is not proved. That refutes nothing.
     #[error("the index of equilibrium {number} is not proved")]
-    IndexNotProved {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    IndexNotProved { number: usize },
     /// Occurs when an enclosure does not contain the value.
     #[error("{quantity} of equilibrium {number} is wrong")]
-    Wrong {
-        /// Number in the list, from 1.
-        number: usize,
-        /// Which quantity.
-        quantity: &'static str,
-    },
+    Wrong { number: usize, quantity: &'static str },
     /// Occurs when an enclosure is much wider than it need be.
     #[error("the enclosure of {quantity} of equilibrium {number} is not tight")]
-    Loose {
-        /// Number in the list, from 1.
-        number: usize,
-        /// Which quantity.
-        quantity: &'static str,
-    },
+    Loose { number: usize, quantity: &'static str },
     /// Occurs when an index or a certificate is not what is proved.
     #[error("the index or the certificate of equilibrium {number} is wrong")]
-    Index {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    Index { number: usize },
     /// Occurs when equilibria are listed twice or out of order.
     #[error("equilibrium {number} is listed twice or out of order")]
-    Order {
-        /// Number in the list, from 1.
-        number: usize,
-    },
+    Order { number: usize },
     /// Occurs when the equilibria and the topology of the configuration space contradict each
     /// other.
     #[error(transparent)]
@@ -113,16 +86,12 @@ pub enum CheckError {
     Extreme {
         /// `lowest` or `highest`.
         which: &'static str,
-        /// How many it has.
         found: usize,
     },
     /// Occurs when the slack families, the topology or the claim of completeness are not what
     /// follows from the rest.
     #[error("{quantity} does not follow from the chain")]
-    Claim {
-        /// Which claim.
-        quantity: &'static str,
-    },
+    Claim { quantity: &'static str },
 }
 
 /// The isolated equilibria by their numbers, from 0.
@@ -155,7 +124,6 @@ impl CheckError {
     /// assert!(CheckError::Empty { number: 1 }.refutes());
     /// assert!(!CheckError::NotOne { number: 1 }.refutes());
     /// ```
-    #[must_use]
     pub fn refutes(&self) -> bool {
         !matches!(self, Self::NotOne { .. } | Self::IndexNotProved { .. })
     }

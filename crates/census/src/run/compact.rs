@@ -153,13 +153,11 @@ impl CompactCensus {
     }
 
     /// Number of isolated equilibria, or of circles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.records.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
@@ -169,7 +167,6 @@ impl CompactCensus {
     /// # Panics
     ///
     /// If there is no such number.
-    #[must_use]
     pub fn equilibrium(&self, number: usize) -> ProvenEquilibrium {
         self.whole(&self.records[number])
     }
@@ -185,13 +182,11 @@ impl CompactCensus {
     }
 
     /// As [`Census::position_to_model`].
-    #[must_use]
     pub fn position_to_model(&self, position: &Position) -> Equilibrium {
         self.besides.one_to_model(&position.equilibrium, self.count_in_plane())
     }
 
     /// The first equilibria, and everything else of the census: a list that is cut off.
-    #[must_use]
     pub fn first(&self, number: usize) -> Census {
         let shown = &self.records[..number.min(self.len())];
         let equilibria = worked(shown, shown.len(), WORTH_THREADS, |record| self.whole(record));
@@ -199,43 +194,36 @@ impl CompactCensus {
     }
 
     /// Everything of the census but its list of isolated equilibria, which is empty there.
-    #[must_use]
     pub fn besides(&self) -> &Census {
         &self.besides
     }
 
     /// As [`Census::complete`].
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.besides.complete
     }
 
     /// As [`Census::decided`].
-    #[must_use]
     pub fn decided(&self) -> bool {
         self.besides.is_decided_with(&self.count_by_index())
     }
 
     /// As [`Census::count_in_plane`].
-    #[must_use]
     pub fn count_in_plane(&self) -> usize {
         self.records.len() * if self.besides.circles { 2 } else { 1 }
     }
 
     /// As [`Census::count_by_index`].
-    #[must_use]
     pub fn count_by_index(&self) -> Vec<i64> {
         self.besides.count_of(self.records.iter().map(|record| record.in_plane.into()))
     }
 
     /// As [`Census::alternating_sum`].
-    #[must_use]
     pub fn alternating_sum(&self) -> i64 {
         alternating_sum(&self.count_by_index())
     }
 
     /// As [`Census::figure`].
-    #[must_use]
     pub fn figure(&self, name: &str, limit: usize) -> String {
         let first = self.first(limit);
         let shown: Vec<Position> = first.positions().take(limit).collect();

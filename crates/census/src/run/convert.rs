@@ -24,14 +24,12 @@ impl Census {
     /// assert_eq!(answers[1].stability.index_in_space, 2);
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn to_model(&self) -> Vec<Equilibrium> {
         let all = self.count_in_plane();
         self.equilibria.iter().map(|equilibrium| self.one_to_model(equilibrium, all)).collect()
     }
 
     /// One position as the answer of a solver, as in [`to_model`](Self::to_model).
-    #[must_use]
     pub fn position_to_model(&self, position: &Position) -> Equilibrium {
         self.one_to_model(&position.equilibrium, self.count_in_plane())
     }
@@ -91,7 +89,6 @@ impl Census {
     /// assert_eq!(proof.proof().map(|complete| complete.in_plane), Some(4));
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn completeness(&self) -> Status<Complete> {
         self.completeness_of(self.count_in_plane())
     }
@@ -132,7 +129,6 @@ impl Census {
     /// assert_eq!(census.patterns(), 8);
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn patterns(&self) -> u64 {
         2_u64.saturating_pow(u32::try_from(self.statistics.bars).unwrap_or(u32::MAX))
     }

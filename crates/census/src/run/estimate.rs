@@ -66,7 +66,6 @@ pub struct Estimate {
 impl Census {
     /// What the census of a chain would take. Takes a fraction of a second itself for chains of up
     /// to [`Settings::MAX_BARS`] bars; those of more are not looked at.
-    #[must_use]
     pub fn estimate(problem: &Problem) -> Estimate {
         of_chain(problem.chain(), JointLoads::NONE)
     }

@@ -63,7 +63,6 @@ impl Census {
     /// assert_eq!(svg.matches("class=\"shape\"").count(), 4);
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn figure(&self, name: &str, limit: usize) -> String {
         self.figure_of(
             name,
@@ -317,7 +316,6 @@ impl Caption {
 /// What the key is longer where some bar carries no force.
 const NO_FORCE_KEY: f64 = 112.0;
 
-/// The key, and the scale.
 fn key(svg: &mut Svg, frame: &Frame, unloaded: bool, y: f64) {
     let text =
         |svg: &mut Svg, x: f64, text: &str| svg.text(TEXT, [x, y + 4.0], Anchor::Start, text);

@@ -119,7 +119,6 @@ impl Census {
     /// assert_eq!(census.straight.iter().filter(|straight| straight.upright).count(), 3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn decided(&self) -> bool {
         self.is_decided_with(&self.count_by_index())
     }
@@ -149,7 +148,6 @@ impl Census {
 
     /// Number of isolated equilibria in a vertical plane: with the anchors on one vertical, each
     /// circle meets the plane twice.
-    #[must_use]
     pub fn count_in_plane(&self) -> usize {
         self.equilibria.len() * if self.circles { 2 } else { 1 }
     }
@@ -165,7 +163,6 @@ impl Census {
     /// assert_eq!((census.alternating_sum(), census.morse()), (0, Ok(())));
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn count_by_index(&self) -> Vec<i64> {
         self.count_of(self.equilibria.iter().map(|equilibrium| equilibrium.index_in_plane))
     }
@@ -191,7 +188,6 @@ impl Census {
     }
 
     /// Σ (−1)^index over the equilibria in the plane.
-    #[must_use]
     pub fn alternating_sum(&self) -> i64 {
         morse::alternating_sum(&self.count_by_index())
     }
@@ -241,7 +237,6 @@ const FACTOR: f64 = 2.1;
 /// assert!((census::expected_time_s(10) - 0.3).abs() < 1e-12);
 /// assert!((census::expected_time_s(12) / census::expected_time_s(10) - 2.1 * 2.1).abs() < 1e-12);
 /// ```
-#[must_use]
 pub fn expected_time_s(bars: usize) -> f64 {
     const TEN_BARS_S: f64 = 0.3;
     // Beyond this the numbers overflow; the message stays finite.

@@ -1,5 +1,3 @@
-//! The equilibria of one vertical plane, one by one.
-
 use numerics::Interval;
 
 use crate::run::Census;
@@ -30,7 +28,6 @@ impl Position {
     }
 
     /// The number, with a prime for a mirror image: `2'`.
-    #[must_use]
     pub fn label(&self) -> String {
         format!("{}{}", self.number, if self.mirrored { "'" } else { "" })
     }

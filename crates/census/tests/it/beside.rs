@@ -500,11 +500,7 @@ fn linkages_with_a_rope_are_listed_as_newton_finds_them() {
 /// Cables alone, more ropes than are tried, a ring without a load, and a rope that may be slack and taut.
 #[test]
 fn what_has_no_list_is_told_why() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(1.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [3.0, 0.0, 0.0]], &[1.0]);
     let alone = system(joints.clone(), vec![rope(&[0, 2, 1], 5.0)]);
     assert_eq!(refusal(&alone), NoCensus::Cables);
     let mut many = joints.clone();
@@ -529,12 +525,7 @@ fn what_has_no_list_is_told_why() {
 /// too long: it hangs and stands, and a list without any position of bar and strut together passes its check.
 #[test]
 fn what_does_not_reach_has_no_position() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [3.0, 0.2, 0.1]),
-        Joint::anchor("T", [2.0, 0.5, 1.0]),
-        Joint::free("P").with_mass(2.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [3.0, 0.2, 0.1], [2.0, 0.5, 1.0]], &[2.0]);
     let strut = Member::bar(1, 3, light(1.5)).of_kind(Kind::Strut);
     let members = vec![Member::bar(0, 3, light(1.0)), strut, rope(&[1, 2, 3], 12.0)];
     let census = whole(&system(joints, members));

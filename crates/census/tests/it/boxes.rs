@@ -26,11 +26,7 @@ fn proved(system: &System, joints_m: &[Vector], axial_n: &[f64]) -> SystemBox {
 
 /// A weight of 2 N on two members of 5 m between anchors 6 m apart: 5/4 N each.
 fn hanger(second: Kind) -> System {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.2]);
     let members =
         vec![Member::bar(0, 2, light(5.0)), Member::bar(2, 1, light(5.0)).of_kind(second)];
     system(joints, members)
@@ -176,11 +172,7 @@ fn self_stresses_and_free_motions_are_counted() {
 /// Anchors above each other: the joint between them goes round in a circle.
 #[test]
 fn a_part_that_turns_is_held_fast() {
-    let joints = vec![
-        Joint::anchor("A", [1.0, 2.0, 0.0]),
-        Joint::anchor("B", [1.0, 2.0, -6.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[1.0, 2.0, 0.0], [1.0, 2.0, -6.0]], &[0.2]);
     let members = vec![Member::bar(0, 2, light(5.0)), Member::bar(2, 1, light(5.0))];
     let upright = system(joints.clone(), members.clone());
     let at = [[1.0, 2.0, 0.0], [1.0, 2.0, -6.0], [1.0 + 4.0 * 0.6, 2.0 + 4.0 * 0.8, -3.0]];

@@ -109,12 +109,7 @@ fn what_is_no_equilibrium_of_a_rope_is_not_proved() {
 #[test]
 fn joints_that_have_run_together_are_proved() {
     let over_pulleys = |mass_kg: f64| {
-        let joints = vec![
-            Joint::anchor("D", [0.0; 3]),
-            Joint::anchor("E", [1.0, 0.0, 0.0]),
-            Joint::free("P").with_mass(3.0),
-            Joint::free("Q").with_mass(mass_kg),
-        ];
+        let joints = samples::joints(&[[0.0; 3], [1.0, 0.0, 0.0]], &[3.0, mass_kg]);
         let rope = Member::cable(2, 3, Bar::homogeneous(6.0, 0.0).unwrap()).over(vec![0, 1]);
         System::new("two weights", 10.0, joints, vec![rope]).unwrap()
     };
@@ -153,12 +148,7 @@ fn joints_that_have_run_together_are_proved() {
 #[test]
 fn what_hangs_on_ropes_below_one_anchor_turns() {
     let at_m = [[0.0, 0.0, 0.0], [0.0, 0.0, -6.0], [4.0, 0.0, -3.0], [4.0, 0.0, -5.0]];
-    let joints = vec![
-        Joint::anchor("A", at_m[0]),
-        Joint::anchor("B", at_m[1]),
-        Joint::free("P"),
-        Joint::free("Q").with_mass(1.2),
-    ];
+    let joints = samples::joints(&[at_m[0], at_m[1]], &[0.0, 1.2]);
     let body = |length_m: f64| Bar::homogeneous(length_m, 0.0).unwrap();
     // A bar from A to P and one from B push P out; the rope of both hangs Q below P.
     let members = vec![

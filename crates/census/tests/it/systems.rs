@@ -67,12 +67,7 @@ fn a_bar_told_against_its_row_is_the_same_bar() {
         let anchors = Anchors { start_m: ends[0], end_m: ends[1] };
         let chain = Problem::new(Chain::new("row", G, anchors, bars).unwrap()).unwrap();
         let alone = Census::take(&chain, &Settings::default()).unwrap();
-        let joints = vec![
-            Joint::anchor("A", ends[0]),
-            Joint::anchor("B", ends[1]),
-            Joint::free("P"),
-            Joint::free("Q"),
-        ];
+        let joints = samples::joints(&[ends[0], ends[1]], &[0.0, 0.0]);
         // From the last anchor on, so that the row is walked against the order of its members too.
         let members = vec![
             Member::bar(3, 1, last),
@@ -365,12 +360,7 @@ fn longer_strands_of_equal_bars_have_mirror_images() {
 
 /// A lamp on two bars between anchors, and a bar that hangs on it: three signs.
 fn hanging_lamp() -> System {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(0.2),
-        Joint::free("Q").with_mass(0.1),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.2, 0.1]);
     let members = vec![
         Member::bar(0, 2, light(5.0)),
         Member::bar(2, 1, light(5.0)),
@@ -482,10 +472,7 @@ fn chains_and_trees_in_a_plane_have_their_lists() {
         }
         assert_eq!(found.equilibria.len(), 3);
         let of = |sliding: &dyn Fn(Joint) -> Joint| {
-            let mut joints = vec![
-                Joint::anchor("A", place(axis, 0.0, 0.0)),
-                Joint::anchor("B", place(axis, 2.0, 0.3)),
-            ];
+            let mut joints = samples::joints(&[place(axis, 0.0, 0.0), place(axis, 2.0, 0.3)], &[]);
             let free = [("P", 1.0), ("Q", 2.0), ("L", 1.0)];
             joints.extend(free.map(|(name, kg)| sliding(Joint::free(name).with_mass(kg))));
             let members = [(0, 2, 1.0), (2, 3, 1.0), (3, 1, 1.0), (2, 4, 0.5)];

@@ -14,9 +14,7 @@ const DAMPING: f64 = 0.1;
 /// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
 /// parallel turn together towards the line of the gap, ever more slowly.
 const SEED_CORRECTIONS: u32 = 25;
-/// Corrections after a step.
 const STEP_CORRECTIONS: u32 = 12;
-/// Halvings of a step.
 const HALVINGS: u32 = 40;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;

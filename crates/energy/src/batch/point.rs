@@ -45,7 +45,6 @@ pub(crate) struct Sums {
     pub(crate) spread: [Wide; 3],
     /// $\sum l_i h_i (t_i\cdot e_z)\\, t_i$.
     pub(crate) weight: [Wide; 2],
-    /// Energy.
     pub(crate) value: Wide,
 }
 

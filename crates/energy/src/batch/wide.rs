@@ -24,7 +24,6 @@ pub(crate) fn wide<T>(entry: impl Fn(usize) -> T) -> [T; WIDTH] {
     [a, b, c, d, entry(4), entry(5), entry(6), entry(7)]
 }
 
-/// Add to each entry.
 #[inline(always)]
 pub(crate) fn accumulate(sum: &mut Wide, entry: impl Fn(usize) -> f64) {
     for (k, sum) in sum.iter_mut().enumerate() {

@@ -36,7 +36,6 @@ impl Branch {
 /// // Bars 2 and 3 drawn out reach no farther than cos(theta) = 1/4.
 /// assert!(alpha(0.25_f64.acos() + 1e-6, Branch::FirstQuadrant).is_none());
 /// ```
-#[must_use]
 pub fn alpha(theta_rad: f64, branch: Branch) -> Option<f64> {
     let (sin, cos) = theta_rad.sin_cos();
     if cos.is_nan() || cos < LARGEST_THETA_COSINE {
@@ -57,7 +56,6 @@ pub fn alpha(theta_rad: f64, branch: Branch) -> Option<f64> {
 /// let third = std::f64::consts::FRAC_PI_3;
 /// assert!((energy::example::beta(0.0, third) + third).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn beta(theta_rad: f64, alpha_rad: f64) -> f64 {
     (-theta_rad.sin() - alpha_rad.sin()).atan2(2.0 - theta_rad.cos() - alpha_rad.cos())
 }
@@ -75,7 +73,6 @@ pub fn beta(theta_rad: f64, alpha_rad: f64) -> f64 {
 /// // ... that is sin(60 deg) where the scan begins, and goes on beyond.
 /// assert!((slope(0.0, Branch::FourthQuadrant) - 0.75_f64.sqrt()).abs() < 1e-14);
 /// ```
-#[must_use]
 pub fn slope(theta_rad: f64, branch: Branch) -> f64 {
     let Some(alpha_rad) = alpha(theta_rad, branch) else { return f64::NAN };
     let v = potential_gradient([theta_rad, alpha_rad]);
@@ -121,7 +118,6 @@ impl CurvePoint {
 /// let lowest = curve.iter().map(|p| p.energy_mgl).fold(f64::INFINITY, f64::min);
 /// assert!((lowest - 2.335_468_65).abs() < 1e-4);
 /// ```
-#[must_use]
 pub fn curve(points: usize) -> Vec<CurvePoint> {
     let largest = LARGEST_THETA_COSINE.acos();
     let theta = |k: usize| largest * (PI * (k as f64 + 0.5) / points as f64).cos();

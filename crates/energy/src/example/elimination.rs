@@ -9,10 +9,7 @@ use super::closure;
 /// assert_eq!(energy::example::quadratic(0.0), [4.0, -4.0, 1.0]);
 /// ```
 ///
-/// # References
-///
 /// Equation (viii) of the paper (the second one of that number).
-#[must_use]
 pub fn quadratic(theta_rad: f64) -> [f64; 3] {
     let (sin, cos) = theta_rad.sin_cos();
     [
@@ -51,7 +48,6 @@ pub struct Candidate {
 /// assert!(!minus.closes && minus.closure.abs() > 0.4);
 /// assert!(plus.closes && plus.closure.abs() < 1e-14);
 /// ```
-#[must_use]
 pub fn candidates(theta_rad: f64) -> Vec<Candidate> {
     let [a, b, c] = quadratic(theta_rad);
     let square = b * b - 4.0 * a * c;

@@ -3,12 +3,13 @@
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use argmin::core::{
-    CostFunction, Gradient, Hessian, IterState, KV, Problem, Solver, State, TerminationStatus,
+    CostFunction, Executor, Gradient, Hessian, IterState, KV, Problem, Solver, State,
+    TerminationReason, TerminationStatus,
 };
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
 use crate::error::Error;
-use crate::run::{Settings, executed, stops, verdict};
+use crate::run::Settings;
 use crate::thresholds::{ROUNDING, STEP_ROUNDING};
 
 /// A local minimum of (vi) on the closure curve.
@@ -39,6 +40,8 @@ pub struct ExampleMinimum {
 /// between them; a seed goes to the minimum on its side. `gradient_tolerance` of the settings is in
 /// `mgl` here; `motion` means nothing.
 ///
+/// Section VIII, Solution 1 of the paper, (vi) and (viii).
+///
 /// # Errors
 ///
 /// [`Error::SeedAngle`] for a seed that is not finite, or an error of the run.
@@ -49,10 +52,6 @@ pub struct ExampleMinimum {
 /// assert!((found.theta_rad.to_degrees() - 19.694_867_976_133_02).abs() < 1e-13);
 /// # Ok::<(), energy::Error>(())
 /// ```
-///
-/// # References
-///
-/// Section VIII, Solution 1 of the paper, (vi) and (viii).
 pub fn minimise(
     theta_rad: f64,
     alpha_rad: f64,
@@ -64,7 +63,10 @@ pub fn minimise(
     }
     let start = onto_curve([theta_rad, alpha_rad].map(wrapped));
     let begin = |state: Iterate| state.param(start).max_iters(settings.max_iterations);
-    let state = executed(Example, CurveNewton::new(*settings), begin)?.state;
+    let executor = Executor::new(Example, CurveNewton::new(*settings)).configure(begin);
+    let other = |error: argmin::core::Error| Error::Ended { reason: error.to_string() };
+    let ended = executor.ctrlc(false).timer(false).run();
+    let state = ended.map_err(|error| error.downcast::<Error>().unwrap_or_else(other))?.state;
     let Some(&place) = state.get_param() else {
         return Err(Error::NotFinite { quantity: "last iterate" });
     };
@@ -82,6 +84,20 @@ pub fn minimise(
         closure: closure(theta_rad, alpha_rad),
         iterations: state.get_iter(),
     })
+}
+
+/// What the end of a run says: converged, the `limit` of iterations, or another end, by its text.
+fn verdict<E>(
+    status: &TerminationStatus,
+    limit: E,
+    other: impl FnOnce(String) -> E,
+) -> Result<(), E> {
+    match status {
+        TerminationStatus::Terminated(TerminationReason::SolverConverged) => Ok(()),
+        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Err(limit),
+        TerminationStatus::Terminated(reason) => Err(other(reason.text().to_owned())),
+        TerminationStatus::NotTerminated => Err(other("not terminated".to_owned())),
+    }
 }
 
 /// The angle in (-pi, pi].
@@ -295,7 +311,11 @@ impl Solver<Example, Iterate> for CurveNewton {
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        stops(self.converged)
+        if self.converged {
+            TerminationStatus::Terminated(TerminationReason::SolverConverged)
+        } else {
+            TerminationStatus::NotTerminated
+        }
     }
 }
 
@@ -380,5 +400,23 @@ mod tests {
                 assert!(theta * x + alpha * y > 0.0, "{seed:?}");
             }
         }
+    }
+
+    /// Only one of the reasons to stop is a success.
+    #[test]
+    fn a_run_that_ends_otherwise_is_an_error() {
+        let run = |status| verdict(&status, None, Some);
+        let reason = |reason| run(TerminationStatus::Terminated(reason));
+        assert_eq!(reason(TerminationReason::SolverConverged), Ok(()));
+        assert_eq!(reason(TerminationReason::MaxItersReached), Err(None));
+        for other in [
+            TerminationReason::TargetCostReached,
+            TerminationReason::Interrupt,
+            TerminationReason::Timeout,
+            TerminationReason::SolverExit("tired".to_owned()),
+        ] {
+            assert!(matches!(reason(other), Err(Some(_))));
+        }
+        assert!(matches!(run(TerminationStatus::NotTerminated), Err(Some(_))));
     }
 }

@@ -29,7 +29,6 @@ pub use scan::{PAPER_STEP_RAD, Printed, Scan, ScanMinimum, scan};
 /// assert!((potential_of_three(0.0, third, -third) - 2.5).abs() < 1e-15);
 /// assert!((potential(0.0, third) - 2.5).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn potential_of_three(theta_rad: f64, alpha_rad: f64, beta_rad: f64) -> f64 {
     6.0 - 2.5 * theta_rad.cos() - 1.5 * alpha_rad.cos() - 0.5 * beta_rad.cos()
 }
@@ -41,7 +40,6 @@ pub fn potential_of_three(theta_rad: f64, alpha_rad: f64, beta_rad: f64) -> f64 
 /// let [theta, alpha] = [19.694_867_976_133_02_f64, 38.599_136_184_451_89].map(f64::to_radians);
 /// assert!((potential(theta, alpha) - 2.335_468_651_999_305).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn potential(theta_rad: f64, alpha_rad: f64) -> f64 {
     5.0 - 2.0 * theta_rad.cos() - alpha_rad.cos()
 }
@@ -58,7 +56,6 @@ pub fn potential(theta_rad: f64, alpha_rad: f64) -> f64 {
 /// // Bars 1 and 2 straight down end at *D*, which bar 3 then misses by its length.
 /// assert_eq!(closure(0.0, 0.0), -1.0);
 /// ```
-#[must_use]
 pub fn closure(theta_rad: f64, alpha_rad: f64) -> f64 {
     5.0 - 4.0 * theta_rad.cos() - 4.0 * alpha_rad.cos() + 2.0 * (alpha_rad - theta_rad).cos()
 }

@@ -39,7 +39,6 @@ pub struct Printed {
 
 impl ScanMinimum {
     /// Rounded as the paper rounds.
-    #[must_use]
     pub fn printed(&self) -> Printed {
         let degrees = |rad: f64| format!("{:.5}", rad.to_degrees().rem_euclid(360.0));
         Printed {
@@ -52,7 +51,6 @@ impl ScanMinimum {
 
     /// Whether the smallest value is the first point of the scan: then nothing says that the energy
     /// does not fall on before it.
-    #[must_use]
     pub fn is_end_point(&self) -> bool {
         self.point == 1
     }
@@ -84,10 +82,7 @@ pub struct Scan {
 /// assert!(found.second.is_end_point());
 /// ```
 ///
-/// # References
-///
 /// Equations (vi), (viii), (ix), (x) of the paper.
-#[must_use]
 pub fn scan(step_rad: f64) -> Option<Scan> {
     if step_rad.is_nan() || step_rad < SMALLEST_STEP_RAD {
         return None;

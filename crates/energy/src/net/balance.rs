@@ -23,7 +23,6 @@ const ABSURD: f64 = 1e-6;
 /// A strand shorter than this part of its rope, where nothing converges, has run to its end.
 const JAMMED: f64 = 1e-2;
 
-/// The balance of a joint.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Balance {
     /// Unbalanced force over the scale of the joint.

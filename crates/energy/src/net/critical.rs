@@ -43,7 +43,6 @@ pub struct Critical {
 
 impl Critical {
     /// Whether the shape is an equilibrium.
-    #[must_use]
     pub fn is_equilibrium(&self) -> bool {
         self.unbalance <= self.allowed && self.misfit <= KNOWN
     }

@@ -160,7 +160,6 @@ impl Factor {
         Ok(Self { starts, pairs: pairs.collect(), ties, values, ldlt, meter, count: 0 })
     }
 
-    /// Size of the matrix.
     pub(super) fn size(&self) -> usize {
         self.ldlt.size()
     }

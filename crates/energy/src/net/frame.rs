@@ -27,7 +27,6 @@ pub(super) struct Spot {
 pub(super) struct Rod {
     pub(super) from: usize,
     pub(super) to: usize,
-    /// Unstretched length.
     pub(super) length: f64,
     pub(super) kind: Kind,
     /// Elongation by a unit force; zero where inextensible.
@@ -64,9 +63,7 @@ pub(super) fn strands(rods: &[Rod]) -> Vec<Vec<usize>> {
 pub(super) struct Frame {
     /// The origin in the world, m.
     pub(super) origin_m: Vector,
-    /// The unit of length, m.
     pub(super) length_m: f64,
-    /// The unit of force, N.
     pub(super) force_n: f64,
     /// Number of joints; a point of the floor may stand behind them.
     pub(super) joints: usize,
@@ -81,7 +78,6 @@ pub(super) struct Frame {
     pub(super) rods: Vec<Rod>,
     /// Load of each joint, what its members bring included.
     pub(super) loads: Vec<Vector>,
-    /// Number of coordinates.
     pub(super) freedom: usize,
     /// What minimisations over it cost.
     pub(super) meter: Meter,

@@ -17,17 +17,12 @@
 
 use std::sync::Arc;
 
-use argmin::core::{KV, Problem, Solver, TerminationStatus};
 use model::system::Kind;
 
-use crate::error::Error;
 use crate::net::factor::Factor;
 use crate::net::frame::Frame;
 use crate::net::law::Excess;
-use crate::net::newton::accept;
-use crate::net::potential::{Iterate, Potential};
 use crate::net::shape::Shape;
-use crate::run::stops;
 
 /// First slack of a member that is as long as it may be or longer, over its length.
 const FIRST_SLACK: f64 = 0.05;
@@ -48,12 +43,11 @@ const SHIFT: f64 = 1e-12;
 /// Iterations of the interior point method: 8 to 15 are normal.
 pub(super) const ITERATIONS: u64 = 60;
 
-/// The interior point method as a solver for argmin.
+/// The interior point method.
 pub(super) struct Interior {
     frame: Arc<Frame>,
     pub(super) factor: Factor,
     slack: Vec<f64>,
-    ended: bool,
 }
 
 /// A step in all variables.
@@ -82,7 +76,7 @@ impl Interior {
         let slack = frame.rods.iter().zip(&excess).zip(&start.force).map(|((rod, c), force)| {
             (rod.flexibility * force - c.value).max(FIRST_SLACK * rod.length)
         });
-        Self { slack: slack.collect(), frame, factor, ended: false }
+        Self { slack: slack.collect(), frame, factor }
     }
 
     /// Mean of `F s`.
@@ -92,7 +86,7 @@ impl Interior {
     }
 
     /// Whether the active members are known.
-    fn centred(&self, force: &[f64], misfit: f64) -> bool {
+    pub(super) fn centred(&self, force: &[f64], misfit: f64) -> bool {
         let products = force.iter().zip(&self.frame.rods).map(|(force, rod)| force * rod.length);
         let cables = self.frame.rods.iter().any(|rod| rod.kind == Kind::Cable);
         let gap = if cables { CABLE_GAP } else { GAP };
@@ -134,7 +128,7 @@ impl Interior {
 
     /// Predictor: straight to the boundary. Corrector: towards the centre, with the second order of
     /// the predictor.
-    fn mehrotra(&mut self, shape: &Shape) -> Option<Shape> {
+    pub(super) fn mehrotra(&mut self, shape: &Shape) -> Option<Shape> {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let sizes = frame.sizes(|e| shape.force[e]);
@@ -184,42 +178,6 @@ impl Interior {
             if slack && rod.kind == Kind::Cable { 0.0 } else { shape.force[e] }
         });
         Shape { x: shape.x.clone(), force: force.collect() }
-    }
-}
-
-impl Solver<Potential, Iterate> for Interior {
-    fn name(&self) -> &'static str {
-        "primal-dual interior point"
-    }
-
-    fn init(
-        &mut self,
-        problem: &mut Problem<Potential>,
-        mut state: Iterate,
-    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
-        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "start" })?;
-        accept(problem, state, shape)
-    }
-
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<Potential>,
-        mut state: Iterate,
-    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
-        self.frame.meter.check()?;
-        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
-        let Some(next) = self.mehrotra(&shape) else {
-            self.ended = true;
-            return Ok((state.param(shape), None));
-        };
-        let next = Arc::new(next);
-        let slope = problem.gradient(&next)?;
-        self.ended = self.centred(&next.force, slope.unbalance);
-        Ok((state.param(next).gradient(slope), None))
-    }
-
-    fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        stops(self.ended)
     }
 }
 

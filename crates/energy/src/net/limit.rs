@@ -233,7 +233,6 @@ impl Newton {
         largest(&rest) <= self.settings.tolerance * largest(&shape.force)
     }
 
-    /// One reading of the shape.
     fn reading(&mut self, share: &mut Share, start: &Shape, softness: f64) -> Reading {
         let frame = Arc::clone(&self.frame);
         let mut shape = start.clone();

@@ -1,9 +1,6 @@
-//! The minimisation: from no guess, or from a seed.
-
 use std::sync::Arc;
 use std::time::Instant;
 
-use argmin::core::State;
 use model::Vector;
 use model::system::System;
 
@@ -16,13 +13,11 @@ use crate::net::jam::at_corners;
 use crate::net::limit::Limit;
 use crate::net::near::loaded;
 use crate::net::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
-use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
-use crate::net::shape::Shape;
+use crate::net::shape::{Shape, Slope};
 use crate::net::solution::Solution;
 use crate::net::start::hanging;
 use crate::net::work::Meter;
-use crate::run::{executed, verdict};
 use crate::thresholds::{GOLDEN, KNOWN};
 use crate::vector::{along, dot, scaled};
 
@@ -309,7 +304,7 @@ pub(super) struct Effort {
 
 /// What a run of the minimiser ends with.
 pub(super) struct Minimum {
-    pub(super) shape: Arc<Shape>,
+    pub(super) shape: Shape,
     pub(super) factor: Factor,
     pub(super) effort: Effort,
     /// Where lengths overdetermine the shape.
@@ -323,14 +318,21 @@ fn relax(
     start: Shape,
     effort: &mut Effort,
 ) -> Result<(Shape, Factor), Error> {
-    let solver = Interior::new(Arc::clone(frame), factor, &start);
-    let mut ended = executed(Potential { frame: Arc::clone(frame) }, solver, |state: Iterate| {
-        state.param(Arc::new(start)).max_iters(ITERATIONS)
-    })?;
+    let mut solver = Interior::new(Arc::clone(frame), factor, &start);
+    frame.finite_slope(&start)?;
+    let mut shape = start;
     // Ended or not: a relaxation is only a start.
-    let shape = ended.state.take_param().ok_or(Error::NotFinite { quantity: "relaxation" })?;
-    effort.relaxation = ended.state.get_iter();
-    Ok((ended.solver.settled(&shape), ended.solver.factor))
+    while effort.relaxation < ITERATIONS {
+        frame.meter.check()?;
+        effort.relaxation += 1;
+        let Some(next) = solver.mehrotra(&shape) else { break };
+        let unbalance = frame.finite_slope(&next)?.unbalance;
+        shape = next;
+        if solver.centred(&shape.force, unbalance) {
+            break;
+        }
+    }
+    Ok((solver.settled(&shape), solver.factor))
 }
 
 /// How a start was found.
@@ -384,32 +386,26 @@ fn descend(
     settings: &Settings,
     mut effort: Effort,
 ) -> Result<Minimum, Error> {
-    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
-    let mut ended = executed(Potential { frame: Arc::clone(frame) }, solver, |state: Iterate| {
-        state.param(Arc::new(start)).max_iters(settings.max_iterations)
-    })?;
-    let last = ended.state.get_param().map(Arc::clone);
-    let named = |error| match (error, last) {
-        (Error::IterationLimit { .. }, Some(shape)) if frame.is_relaxed(&shape) => Error::NoLoad,
-        (error @ Error::IterationLimit { .. }, Some(shape)) => frame.jam(&shape).unwrap_or(error),
-        (error, _) => error,
-    };
-    outcome(&ended.state).map_err(named)?;
-    effort.iterations = ended.state.get_iter();
-    effort.factorisations = ended.solver.factor.count;
-    match ended.state.take_param() {
-        Some(shape) => {
-            let Newton { factor, limit, .. } = ended.solver;
-            Ok(Minimum { shape, factor, effort, limit })
+    let mut solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
+    let mut slope = frame.finite_slope(&start)?;
+    let mut shape = start;
+    while !solver.ended {
+        if effort.iterations >= settings.max_iterations {
+            let Slope { unbalance, misfit, .. } = slope;
+            let iterations = effort.iterations;
+            let limit = || Error::IterationLimit { iterations, unbalance, misfit };
+            let relaxed = frame.is_relaxed(&shape);
+            return Err(if relaxed {
+                Error::NoLoad
+            } else {
+                frame.jam(&shape).unwrap_or_else(limit)
+            });
         }
-        None => Err(Error::NotFinite { quantity: "last iterate" }),
+        shape = solver.iterate(&shape, &slope)?;
+        slope = frame.finite_slope(&shape)?;
+        effort.iterations += 1;
     }
-}
-
-/// What the end of a run says, whatever `Ok` it came in.
-fn outcome(state: &Iterate) -> Result<(), Error> {
-    let (unbalance, misfit) =
-        state.get_gradient().map_or((f64::NAN, f64::NAN), |slope| (slope.unbalance, slope.misfit));
-    let limit = Error::IterationLimit { iterations: state.get_iter(), unbalance, misfit };
-    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
+    let Newton { factor, limit, .. } = solver;
+    effort.factorisations = factor.count;
+    Ok(Minimum { shape, factor, effort, limit })
 }

@@ -79,7 +79,6 @@ mod minimise;
 mod near;
 mod newton;
 mod polish;
-mod potential;
 mod settings;
 mod shape;
 mod share;

@@ -19,8 +19,6 @@
 
 use std::sync::Arc;
 
-use argmin::core::{KV, Problem, Solver, TerminationStatus};
-
 use model::system::Kind;
 
 use crate::error::Error;
@@ -29,10 +27,8 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::limit::{Limit, Reading};
 use crate::net::polish::NEUTRAL;
-use crate::net::potential::{Iterate, Potential};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
-use crate::run::stops;
 use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
 use crate::vector::{norm, scaled};
 
@@ -84,7 +80,7 @@ const AGAIN: u64 = 20;
 /// How often lengths may seem to fit no shape where members may be slack.
 const MISFITS: usize = 4;
 
-/// Newton's method as a solver for argmin.
+/// Newton's method on the augmented Lagrangian.
 pub(super) struct Newton {
     pub(super) frame: Arc<Frame>,
     pub(super) factor: Factor,
@@ -108,7 +104,7 @@ pub(super) struct Newton {
     step: f64,
     /// Whether elastic members keep their own stiffness.
     own: bool,
-    ended: bool,
+    pub(super) ended: bool,
 }
 
 /// How boldly a run goes.
@@ -381,61 +377,25 @@ impl Newton {
         let change = local.soft.iter().zip(&shape.force).map(|(soft, force)| soft.force - force);
         change.fold(0.0, |most: f64, change| most.max(change.abs())) / self.stiffness
     }
-}
 
-impl Solver<Potential, Iterate> for Newton {
-    fn name(&self) -> &'static str {
-        "Newton's method on the augmented Lagrangian"
-    }
-
-    fn init(
-        &mut self,
-        problem: &mut Problem<Potential>,
-        mut state: Iterate,
-    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
-        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "start" })?;
-        accept(problem, state, shape)
-    }
-
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<Potential>,
-        mut state: Iterate,
-    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+    /// One iteration.
+    pub(super) fn iterate(&mut self, shape: &Shape, slope: &Slope) -> Result<Shape, Error> {
         self.frame.meter.check()?;
-        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
-        let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
         self.since += 1;
         // Off a saddle the misfit need not become less than it was there.
         let again = slope.misfit <= NEAR && self.near < NEAR && self.since >= AGAIN;
         if slope.misfit <= self.near || again {
-            if let Some(solution) = self.finish(&shape)? {
+            if let Some(solution) = self.finish(shape)? {
                 self.ended = true;
-                return accept(problem, state, Arc::new(solution));
+                return Ok(solution);
             }
             self.near = NEAR.min((0.1 * slope.misfit).max(STEP_ROUNDING));
             self.since = 0;
         }
-        let next = Arc::new(self.approach(&shape, &slope)?);
-        accept(problem, state, next)
-    }
-
-    fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
-        stops(self.ended)
+        self.approach(shape, slope)
     }
 }
 
-/// Make a configuration the current iterate.
-pub(super) fn accept(
-    problem: &mut Problem<Potential>,
-    state: Iterate,
-    shape: Arc<Shape>,
-) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
-    let slope = problem.gradient(&shape)?;
-    Ok((state.param(shape).gradient(slope), None))
-}
-
-/// Whether all places are numbers.
 pub(super) fn finite(x: &[model::Vector]) -> bool {
     x.iter().all(|x| norm(*x).is_finite())
 }

@@ -1,7 +1,6 @@
-//! A configuration with the forces of its members.
-
 use model::Vector;
 
+use crate::error::Error;
 use crate::net::factor::{Block, Factor};
 use crate::net::frame::Frame;
 use crate::net::law::Excess;
@@ -52,7 +51,6 @@ pub(super) fn largest(values: &[f64]) -> f64 {
 }
 
 impl Frame {
-    /// Excess of each member.
     pub(super) fn excesses(&self, x: &[Vector]) -> Vec<Excess> {
         (0..self.rods.len()).map(|e| self.excess(x, e)).collect()
     }
@@ -87,6 +85,13 @@ impl Frame {
         }
         let unbalance = largest(&gradient) / self.force_scale(&shape.force);
         Slope { unbalance, misfit, worst }
+    }
+
+    /// The same, of numbers alone: a minimiser that compares with NaN may never stop.
+    pub(super) fn finite_slope(&self, shape: &Shape) -> Result<Slope, Error> {
+        let slope = self.slope(shape);
+        let quantity = "gradient of the energy";
+        if slope.residual().is_finite() { Ok(slope) } else { Err(Error::NotFinite { quantity }) }
     }
 
     /// Energy of the loads and of the stretched members.

@@ -1,5 +1,3 @@
-//! The answer of a minimisation.
-
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -77,7 +75,6 @@ impl Solution {
         clock: Instant,
     ) -> Result<Self, Error> {
         let Minimum { shape, mut factor, effort, limit } = minimum;
-        let shape = Arc::unwrap_or_clone(shape);
         let least = limit.is_some();
         let settled = if least {
             Settled::as_is(frame, shape)

@@ -36,9 +36,6 @@ impl Meter {
     }
 
     /// Asked before each iteration: those without a factor would not end by their work.
-    ///
-    /// # Errors
-    ///
     /// [`Error::Work`] when the end is reached.
     pub(super) fn check(&self) -> Result<(), Error> {
         let spent = self.read.load(Relaxed);

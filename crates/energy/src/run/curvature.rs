@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use argmin::core::Operator;
 use model::Vector;
 
-use crate::run::closure::{LOST_SPREAD, Shape, add_projector, answer, unpacked};
+use crate::run::closure::{LOST_SPREAD, Shape, add_projector, unpacked};
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::slope::Slope;
@@ -379,24 +378,18 @@ const ENCLOSURE: f64 = 0.02;
 /// about `1 / ENCLOSURE`.
 const INVERSE_ITERATIONS: usize = 4;
 
-impl Operator for Curvature {
-    type Param = Vec<Vector>;
-    type Output = Vec<Vector>;
-
+#[cfg(test)]
+impl Curvature {
     /// The Riemannian Hessian times a closed motion.
-    fn apply(&self, motion: &Vec<Vector>) -> Result<Vec<Vector>, argmin::core::Error> {
+    pub(crate) fn apply(&self, motion: &[Vector]) -> Vec<Vector> {
         let links = &*self.links;
         let mut sum = [0.0; 3];
         for (i, &v) in motion.iter().enumerate() {
             sum = along(sum, links.length[i] * self.slope.axial[i], v);
         }
-        let pull = answer(&self.shape.moments.spread, 0.0, sum);
-        Ok(motion
-            .iter()
-            .zip(&self.shape.u)
-            .enumerate()
-            .map(|(i, (&v, &u))| along(scaled(self.slope.axial[i], v), -1.0, tangent(u, pull)))
-            .collect())
+        let pull = crate::run::closure::answer(&self.shape.moments.spread, 0.0, sum);
+        let rows = motion.iter().zip(&self.shape.u).zip(&self.slope.axial);
+        rows.map(|((&v, &u), axial)| along(scaled(*axial, v), -1.0, tangent(u, pull))).collect()
     }
 }
 

@@ -84,12 +84,10 @@ impl Frame {
         Self { axis: axes.map(|axis| self.into_world(axis)), ..*self }
     }
 
-    /// World to frame.
     pub(crate) fn into_frame(self, v: Vector) -> Vector {
         self.axis.map(|axis| dot(axis, v))
     }
 
-    /// Frame to world.
     pub(crate) fn into_world(self, v: Vector) -> Vector {
         std::array::from_fn(|k| {
             self.axis[0][k] * v[0] + self.axis[1][k] * v[1] + self.axis[2][k] * v[2]

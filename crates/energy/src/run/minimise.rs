@@ -1,24 +1,18 @@
-//! The minimisation: from no guess, or from a seed.
-
 use std::sync::Arc;
 use std::time::Instant;
 
-use argmin::core::{
-    Executor, OptimizationResult, Solver, State, TerminationReason, TerminationStatus,
-};
 use model::{Problem, Vector};
 
 use crate::error::Error;
 use crate::run::closure::Shape;
 use crate::run::curvature::Curvature;
-use crate::run::objective::Objective;
 use crate::run::refine::{Refinement, refine};
 use crate::run::scaled_chain::{ScaledChain, Units};
 use crate::run::seed::Seed;
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::solution::Solution;
-use crate::run::solver::{FeasibleNewton, Run};
+use crate::run::solver::FeasibleNewton;
 use crate::vector::norm;
 
 /// Corrections of the closure from a seed, which may be anywhere.
@@ -124,7 +118,7 @@ pub(crate) struct Minimum {
     pub(crate) shape: Arc<Shape>,
     pub(crate) slope: Arc<Slope>,
     pub(crate) iterations: u64,
-    /// Calls of energy, gradient and Hessian, as argmin counts them.
+    /// Evaluations of energy, gradient and Hessian.
     pub(crate) evaluations: u64,
     /// Why it is not known to be a minimum, if it is not.
     pub(crate) unsettled: Option<Error>,
@@ -178,7 +172,7 @@ fn first_guess(links: &ScaledChain, settings: &Settings) -> Result<Vec<Vector>, 
 /// that no chain of these bars is near.
 const OPEN_PART: f64 = 0.1;
 
-/// Close the start and let argmin run the solver.
+/// Close the start and run the solver.
 pub(crate) fn descend(
     links: ScaledChain,
     start: Vec<Vector>,
@@ -201,80 +195,25 @@ fn descend_to_line(
     let closed = links.close(Shape { u: start, moments }, SEED_CORRECTIONS).map_err(
         |(gap, iterations)| Error::SeedNotClosed { gap: gap / links.total(), iterations },
     )?;
-    let objective = Objective { links: Arc::clone(&links) };
-    let state = executed(objective, FeasibleNewton::new(*settings), |state: Run| {
-        state.param(Arc::new(closed)).max_iters(settings.max_iterations)
-    })?;
-    let evaluations = state.problem.counts.values().sum();
-    let (mut state, unsettled) = (state.state, state.solver.unsettled);
-    // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
-    let asked = settings.max_iterations < Settings::default().max_iterations;
-    let unsettled = match outcome(&state) {
-        Err(error @ Error::NotConverged { .. }) if !asked => Some(error),
-        outcome => outcome.map(|()| unsettled)?,
-    };
-    match (state.take_param(), state.take_gradient()) {
-        (Some(shape), Some(slope)) => {
-            let gap = norm(shape.moments.gap);
-            if gap > OPEN_PART * links.spare() {
-                return Err(Error::SeedNotClosed {
-                    gap: gap / links.total(),
-                    iterations: SEED_CORRECTIONS,
-                });
-            }
-            Ok(Minimum {
-                links,
-                shape,
-                slope,
-                iterations: state.get_iter(),
-                evaluations,
-                unsettled,
-            })
+    let mut solver = FeasibleNewton::new(Arc::clone(&links), *settings);
+    let (shape, slope) = solver.run(closed, settings.max_iterations)?;
+    let FeasibleNewton { iterations, evaluations, finished, mut unsettled, .. } = solver;
+    if !finished {
+        let error = Error::NotConverged { iterations, gradient: slope.residual() };
+        // Newton's method may still get there from where the iterations ended, unless fewer were asked for.
+        if settings.max_iterations < Settings::default().max_iterations {
+            return Err(error);
         }
-        _ => Err(Error::NotFinite { quantity: "last iterate" }),
+        unsettled = Some(error);
     }
-}
-
-/// What the end of a run says, whatever `Ok` it came in.
-fn outcome(state: &Run) -> Result<(), Error> {
-    let iterations = state.get_iter();
-    let gradient = state.get_gradient().map_or(f64::NAN, |slope| slope.residual());
-    let limit = Error::NotConverged { iterations, gradient };
-    verdict(state.get_termination_status(), limit, |reason| Error::Ended { reason })
-}
-
-/// Let argmin run a solver, from the state that `begin` makes of an empty one.
-pub(crate) fn executed<O, S: Solver<O, I>, I: State>(
-    problem: O,
-    solver: S,
-    begin: impl FnOnce(I) -> I,
-) -> Result<OptimizationResult<O, S, I>, Error> {
-    let executor = Executor::new(problem, solver).configure(begin).ctrlc(false).timer(false);
-    let other = |error: argmin::core::Error| Error::Ended { reason: error.to_string() };
-    executor.run().map_err(|error| error.downcast::<Error>().unwrap_or_else(other))
-}
-
-/// What a solver says of a run that has ended, or goes on.
-pub(crate) fn stops(ended: bool) -> TerminationStatus {
-    if ended {
-        TerminationStatus::Terminated(TerminationReason::SolverConverged)
-    } else {
-        TerminationStatus::NotTerminated
+    let gap = norm(shape.moments.gap);
+    if gap > OPEN_PART * links.spare() {
+        return Err(Error::SeedNotClosed {
+            gap: gap / links.total(),
+            iterations: SEED_CORRECTIONS,
+        });
     }
-}
-
-/// What the end of a run says: converged, the `limit` of iterations, or another end, by its text.
-pub(crate) fn verdict<E>(
-    status: &TerminationStatus,
-    limit: E,
-    other: impl FnOnce(String) -> E,
-) -> Result<(), E> {
-    match status {
-        TerminationStatus::Terminated(TerminationReason::SolverConverged) => Ok(()),
-        TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Err(limit),
-        TerminationStatus::Terminated(reason) => Err(other(reason.text().to_owned())),
-        TerminationStatus::NotTerminated => Err(other("not terminated".to_owned())),
-    }
+    Ok(Minimum { links, shape, slope, iterations, evaluations, unsettled })
 }
 
 #[cfg(test)]

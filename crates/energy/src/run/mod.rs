@@ -7,7 +7,6 @@ mod curvature;
 mod frame;
 mod idle_bars;
 mod minimise;
-mod objective;
 mod reaction;
 mod refine;
 mod regime;
@@ -29,7 +28,6 @@ mod vertical_plane;
 #[cfg(test)]
 mod derivative_tests;
 
-pub(crate) use minimise::{executed, stops, verdict};
 pub use minimise::{minimise, minimise_from};
 pub use reaction::reaction_by_differences;
 pub use seed::Seed;

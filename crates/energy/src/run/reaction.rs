@@ -1,5 +1,3 @@
-//! Forces from the energy alone.
-
 use model::{Problem, Reactions, Sum, Vector};
 
 use crate::error::Error;
@@ -81,7 +79,6 @@ fn lift_from(problem: &Problem, origin: usize) -> Vec<f64> {
     lift
 }
 
-/// The axial forces, N.
 pub(crate) fn axial_forces(units: &Units, slope: &Slope) -> Vec<f64> {
     slope.axial.iter().map(|n| n * units.weight_n).collect()
 }

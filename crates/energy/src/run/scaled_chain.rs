@@ -114,7 +114,6 @@ impl ScaledChain {
         )
     }
 
-    /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.length.len()
     }
@@ -129,7 +128,6 @@ impl ScaledChain {
         (self.total() - span).min(others - longest + span)
     }
 
-    /// The total length.
     pub(crate) fn total(&self) -> f64 {
         let mut total = Sum::default();
         self.length.iter().for_each(|l| total.add(*l));

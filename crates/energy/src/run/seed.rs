@@ -81,7 +81,6 @@ impl Seed {
     }
 
     /// The unit directions.
-    #[must_use]
     pub fn as_slice(&self) -> &[Vector] {
         &self.directions
     }

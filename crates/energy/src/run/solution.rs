@@ -1,5 +1,3 @@
-//! The answer of a minimisation.
-
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -41,7 +39,7 @@ pub struct Solution {
 pub struct Work {
     /// Iterations of the solver on the chain itself (coarser chains not counted).
     pub iterations: u64,
-    /// Calls of energy, gradient and Hessian on the chain itself, as argmin counts them.
+    /// Evaluations of energy, gradient and Hessian on the chain itself.
     pub evaluations: u64,
     /// Projected gradient, in the unit of its tolerance.
     pub gradient: f64,

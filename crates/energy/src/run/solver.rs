@@ -1,16 +1,11 @@
-//! Newton's method on the closed chains, as a solver for argmin.
-
 use std::sync::Arc;
 
-use argmin::core::{IterState, KV, Problem, Solver, State, TerminationStatus};
 use model::Vector;
 
 use crate::error::Error;
 use crate::run::closure::{LOST_SPREAD, Shape};
 use crate::run::convergence::{Convergence, Iterate};
 use crate::run::curvature::{Curvature, Step};
-use crate::run::minimise::stops;
-use crate::run::objective::{Objective, Place};
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
@@ -19,13 +14,12 @@ use crate::run::vertical_plane::Turn;
 use crate::thresholds::{CORRECTIONS, FAIR_PART, LOST, PROGRESS, ROUNDING};
 use crate::vector::{dot, norm, scaled};
 
-/// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
-pub(crate) type Run = IterState<Arc<Shape>, Arc<Slope>, (), Curvature, (), f64>;
+/// A closed chain with its projected gradient.
+pub(crate) type Place = (Arc<Shape>, Arc<Slope>);
 
 /// Feasible Newton with a shift.
 ///
-/// argmin has no solver for constrained problems, so this one is ours; argmin runs it. Every
-/// iterate is a closed chain. One iteration:
+/// Every iterate is a closed chain. One iteration:
 ///
 /// 1. judge the iterate: a minimum ends the run, a saddle is left along its lowest mode;
 /// 2. about nearly vertical anchors, turn the whole chain towards its plane;
@@ -39,8 +33,12 @@ pub(crate) type Run = IterState<Arc<Shape>, Arc<Slope>, (), Curvature, (), f64>;
 /// eigenvector. So it can only end at a local minimum or by an error.
 #[derive(Debug)]
 pub(crate) struct FeasibleNewton {
+    links: Arc<ScaledChain>,
     convergence: Convergence,
-    finished: bool,
+    pub(crate) iterations: u64,
+    /// Evaluations of energy, gradient and Hessian.
+    pub(crate) evaluations: u64,
+    pub(crate) finished: bool,
     /// Why the place where it finished is not known to be a minimum.
     pub(crate) unsettled: Option<Error>,
 }
@@ -67,25 +65,71 @@ struct Trial {
     predicted: f64,
 }
 
-/// What the trials of an iteration came to.
-enum Search {
-    /// The next iterate.
-    Found(Place),
-    /// No step lowers the energy.
-    Exhausted,
-}
-
 impl FeasibleNewton {
-    pub(crate) fn new(settings: Settings) -> Self {
-        Self { convergence: Convergence::new(settings), finished: false, unsettled: None }
+    pub(crate) fn new(links: Arc<ScaledChain>, settings: Settings) -> Self {
+        let convergence = Convergence::new(settings);
+        let (iterations, evaluations, finished, unsettled) = (0, 0, false, None);
+        Self { links, convergence, iterations, evaluations, finished, unsettled }
     }
 
-    /// Newton's step with a shift that lowers the energy.
-    fn search(
-        &mut self,
-        problem: &mut Problem<Objective>,
-        curvature: &Curvature,
-    ) -> Result<Search, argmin::core::Error> {
+    /// From a closed chain down, with so many iterations at most.
+    pub(crate) fn run(&mut self, start: Shape, most: u64) -> Result<Place, Error> {
+        let mut here = self.place(start)?;
+        self.check_energy(&here)?;
+        while !self.finished && self.iterations < most {
+            match self.next(&here)? {
+                Some(place) => {
+                    self.check_energy(&place)?;
+                    here = place;
+                }
+                None => self.finished = true,
+            }
+            self.iterations += 1;
+        }
+        Ok(here)
+    }
+
+    /// The next iterate; nothing where the run ends.
+    fn next(&mut self, (shape, slope): &Place) -> Result<Option<Place>, Error> {
+        let (links, shape, slope) = (Arc::clone(&self.links), Arc::clone(shape), Arc::clone(slope));
+        let curvature = Curvature { links, shape, slope };
+        self.evaluations += 1;
+        match self.convergence.judge(&curvature) {
+            Iterate::Minimum => return Ok(None),
+            Iterate::Saddle => {
+                let place = self.escape(&curvature)?;
+                if place.is_none() {
+                    self.unsettled = Some(self.stalled(&curvature));
+                }
+                return Ok(place);
+            }
+            Iterate::Near | Iterate::Sloping => {}
+        }
+        if let Some(place) = self.turn(&curvature)? {
+            return Ok(Some(place));
+        }
+        let place = self.search(&curvature)?;
+        // Else the gradient has reached its rounding.
+        if place.is_none() && !self.at_rounding(&curvature) {
+            self.unsettled = Some(self.stalled(&curvature));
+        }
+        Ok(place)
+    }
+
+    fn place(&mut self, shape: Shape) -> Result<Place, Error> {
+        self.evaluations += 1;
+        let slope = Slope::new(&self.links, &shape);
+        finite(slope.mean, "projected gradient")?;
+        Ok((Arc::new(shape), Arc::new(slope)))
+    }
+
+    fn check_energy(&mut self, (shape, _): &Place) -> Result<(), Error> {
+        self.evaluations += 1;
+        finite(shape.moments.value, "energy")
+    }
+
+    /// Newton's step with a shift that lowers the energy; nothing where no step does.
+    fn search(&mut self, curvature: &Curvature) -> Result<Option<Place>, Error> {
         let (shape, slope) = (&*curvature.shape, &*curvature.slope);
         let stationary = self.convergence.stationary(shape, slope);
         // Differences of energies below this say nothing, and the gradient decides alone; an error of the closure costs the
@@ -94,9 +138,9 @@ impl FeasibleNewton {
         for _ in 0..TRIALS {
             let Some(step) = curvature.step(self.convergence.shift) else {
                 if slope.mean <= SADDLE_PART * -slope.lowest
-                    && let Some(place) = self.escape(problem, curvature)?
+                    && let Some(place) = self.escape(curvature)?
                 {
-                    return Ok(Search::Found(place));
+                    return Ok(Some(place));
                 }
                 self.convergence.indefinite(curvature);
                 continue;
@@ -109,14 +153,13 @@ impl FeasibleNewton {
             if !decided || trial.fall >= FAIR_PART * trial.predicted {
                 let good = trial.fall >= GOOD_PART * trial.predicted;
                 let lower = trial.predicted > HALF_BLIND * noise && good;
-                let shape = Arc::new(trial.shape);
-                let next = problem.gradient(&shape)?;
+                let (shape, next) = self.place(trial.shape)?;
                 let flatter = next.mean <= PROGRESS * slope.mean;
                 if decided || flatter || lower {
                     if !decided || good {
                         self.convergence.good_step(&next);
                     }
-                    return Ok(Search::Found((shape, next)));
+                    return Ok(Some((shape, next)));
                 }
                 if stationary {
                     break;
@@ -124,15 +167,11 @@ impl FeasibleNewton {
             }
             self.convergence.failed_step(slope);
         }
-        Ok(Search::Exhausted)
+        Ok(None)
     }
 
     /// Turn the whole chain towards the plane of its anchors, if that is far and the turn is soft.
-    fn turn(
-        &mut self,
-        problem: &mut Problem<Objective>,
-        curvature: &Curvature,
-    ) -> Result<Option<Place>, argmin::core::Error> {
+    fn turn(&mut self, curvature: &Curvature) -> Result<Option<Place>, Error> {
         if !self.convergence.may_turn() {
             return Ok(None);
         }
@@ -140,7 +179,7 @@ impl FeasibleNewton {
         if turned.is_none() {
             self.convergence.not_turned();
         }
-        turned.map(|shape| with_slope(problem, shape)).transpose()
+        turned.map(|shape| self.place(shape)).transpose()
     }
 
     fn turned(&mut self, curvature: &Curvature) -> Option<Shape> {
@@ -160,11 +199,7 @@ impl FeasibleNewton {
 
     /// Leave a saddle: down along the lowest mode, as far as the second order is right. `None` if
     /// there is no such mode or no way along it.
-    fn escape(
-        &mut self,
-        problem: &mut Problem<Objective>,
-        curvature: &Curvature,
-    ) -> Result<Option<Place>, argmin::core::Error> {
+    fn escape(&mut self, curvature: &Curvature) -> Result<Option<Place>, Error> {
         let (links, shape, slope) = (&curvature.links, &curvature.shape, &curvature.slope);
         let Some((mode, lowest)) = curvature.falling(slope.zero) else {
             return Ok(None);
@@ -181,7 +216,7 @@ impl FeasibleNewton {
                 let fall = shape.moments.value - trial.moments.value;
                 let predicted = -0.5 * lowest * size * length * length;
                 if fall >= 0.5 * predicted && fall > ROUNDING * slope.pull {
-                    let place = with_slope(problem, trial)?;
+                    let place = self.place(trial)?;
                     self.convergence.left_saddle();
                     return Ok(Some(place));
                 }
@@ -191,10 +226,30 @@ impl FeasibleNewton {
         Ok(None)
     }
 
-    fn finish(&mut self, run: Run) -> (Run, Option<KV>) {
-        self.finished = true;
-        (run, None)
+    /// Why no step helps: the chain is folded beyond what double precision tells, or it is not known.
+    fn stalled(&self, curvature: &Curvature) -> Error {
+        let slope = &curvature.slope;
+        if let Some(across) = slope.lost(&curvature.links) {
+            return Error::NearlyFolded { across };
+        }
+        let (iterations, gradient) = (self.iterations, slope.residual());
+        let directions = curvature.index(slope.zero);
+        let gap = norm(curvature.shape.moments.gap) / curvature.links.total();
+        Error::NoDescent { iterations, gradient, gap, directions }
     }
+
+    /// Whether a place from which no step helps is a minimum, as well as rounding lets it be known.
+    fn at_rounding(&self, curvature: &Curvature) -> bool {
+        let (shape, slope) = (&curvature.shape, &curvature.slope);
+        let flat = self.convergence.stationary(shape, slope)
+            || (self.convergence.closed(shape) && slope.residual() <= rounding_floor(shape));
+        flat && curvature.index(slope.zero) == 0
+    }
+}
+
+/// Refuse what is not a number: a minimiser that compares with NaN may never stop.
+fn finite(value: f64, quantity: &'static str) -> Result<(), Error> {
+    if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity }) }
 }
 
 /// Take a step and close the chain again; `None` if it does not close.
@@ -212,25 +267,6 @@ fn trial(curvature: &Curvature, step: &Step) -> Option<Trial> {
     let fall = (shape.moments.value - trial.moments.value)
         + (worth(shape.moments.gap) - worth(trial.moments.gap));
     Some(Trial { shape: trial, fall, predicted })
-}
-
-fn with_slope(
-    problem: &mut Problem<Objective>,
-    shape: Shape,
-) -> Result<Place, argmin::core::Error> {
-    let shape = Arc::new(shape);
-    let slope = problem.gradient(&shape)?;
-    Ok((shape, slope))
-}
-
-/// Make a closed shape the current iterate.
-fn accept(
-    problem: &mut Problem<Objective>,
-    run: Run,
-    (shape, slope): Place,
-) -> Result<(Run, Option<KV>), argmin::core::Error> {
-    let value = problem.cost(&shape)?;
-    Ok((run.param(shape).gradient(slope).cost(value), None))
 }
 
 /// Smallest eigenvalue of the spread of the directions: the square of their angle to the line to
@@ -262,91 +298,6 @@ pub(crate) fn force_uncertainty(links: &ScaledChain, shape: &Shape, slope: &Slop
         off_the_line(links, e).map_or(known, f64::sqrt)
     } else {
         (LOST + slope.residual()) / smallest_spread(shape).sqrt()
-    }
-}
-
-/// Why no step helps: the chain is folded beyond what double precision tells, or it is not known.
-fn stalled(curvature: &Curvature, run: &Run) -> Error {
-    let slope = &curvature.slope;
-    if let Some(across) = slope.lost(&curvature.links) {
-        return Error::NearlyFolded { across };
-    }
-    let (iterations, gradient) = (run.get_iter(), slope.residual());
-    let directions = curvature.index(slope.zero);
-    let gap = norm(curvature.shape.moments.gap) / curvature.links.total();
-    Error::NoDescent { iterations, gradient, gap, directions }
-}
-
-/// The current iterate; `init` puts the first one in.
-fn current(run: &Run) -> Result<Place, Error> {
-    match (run.get_param(), run.get_gradient()) {
-        (Some(shape), Some(slope)) => Ok((Arc::clone(shape), Arc::clone(slope))),
-        _ => Err(Error::NotFinite { quantity: "first iterate" }),
-    }
-}
-
-impl Solver<Objective, Run> for FeasibleNewton {
-    fn name(&self) -> &'static str {
-        "feasible Newton"
-    }
-
-    fn init(
-        &mut self,
-        problem: &mut Problem<Objective>,
-        mut run: Run,
-    ) -> Result<(Run, Option<KV>), argmin::core::Error> {
-        let Some(shape) = run.take_param() else {
-            return Err(Error::NotFinite { quantity: "first iterate" }.into());
-        };
-        let slope = problem.gradient(&shape)?;
-        accept(problem, run, (shape, slope))
-    }
-
-    fn next_iter(
-        &mut self,
-        problem: &mut Problem<Objective>,
-        mut run: Run,
-    ) -> Result<(Run, Option<KV>), argmin::core::Error> {
-        // Nobody looks at these, and of a long chain they are large.
-        drop((run.take_prev_param(), run.take_prev_best_param(), run.take_prev_gradient()));
-        let curvature = problem.hessian(&current(&run)?)?;
-        match self.convergence.judge(&curvature) {
-            Iterate::Minimum => return Ok(self.finish(run)),
-            Iterate::Saddle => {
-                if let Some(place) = self.escape(problem, &curvature)? {
-                    return accept(problem, run, place);
-                }
-                self.unsettled = Some(stalled(&curvature, &run));
-                return Ok(self.finish(run));
-            }
-            Iterate::Near | Iterate::Sloping => {}
-        }
-        if let Some(place) = self.turn(problem, &curvature)? {
-            return accept(problem, run, place);
-        }
-        match self.search(problem, &curvature)? {
-            Search::Found(place) => accept(problem, run, place),
-            // The gradient has reached its rounding.
-            Search::Exhausted if self.at_rounding(&curvature) => Ok(self.finish(run)),
-            Search::Exhausted => {
-                self.unsettled = Some(stalled(&curvature, &run));
-                Ok(self.finish(run))
-            }
-        }
-    }
-
-    fn terminate(&mut self, _run: &Run) -> TerminationStatus {
-        stops(self.finished)
-    }
-}
-
-impl FeasibleNewton {
-    /// Whether a place from which no step helps is a minimum, as well as rounding lets it be known.
-    fn at_rounding(&self, curvature: &Curvature) -> bool {
-        let (shape, slope) = (&curvature.shape, &curvature.slope);
-        let flat = self.convergence.stationary(shape, slope)
-            || (self.convergence.closed(shape) && slope.residual() <= rounding_floor(shape));
-        flat && curvature.index(slope.zero) == 0
     }
 }
 

@@ -1,5 +1,3 @@
-//! Second-order behaviour of an equilibrium.
-
 use std::sync::Arc;
 
 use model::{InPlane, InSpace, Problem, Stability};

@@ -1,5 +1,3 @@
-//! The vertical plane in which a chain hangs.
-
 use model::Vector;
 
 use crate::run::regime::Turning;

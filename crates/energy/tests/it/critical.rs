@@ -85,11 +85,7 @@ fn springs_bear_what_their_length_says() {
 /// the stiffness of the stiffest member over the largest force. Of members of 2 m and 0.25 m, 40 GN and 10 N.
 #[test]
 fn stiff_members_may_be_out_of_balance_by_rounding() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [0.0, 0.0, -2.25]),
-        Joint::free("P").with_mass(0.5),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [0.0, 0.0, -2.25]], &[0.5]);
     for stiffness_n in [4e10, 3e8] {
         let members = vec![
             bar(0, 2, 2.0, 0.0).with_stiffness(stiffness_n),

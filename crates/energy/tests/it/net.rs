@@ -286,12 +286,7 @@ fn what_cannot_hang_is_refused_with_numbers() {
     let Err(Error::NotClosed { misfit_m, .. }) = lamp(2.5) else { panic!("{:?}", lamp(2.5)) };
     assert!((0.2..=0.5).contains(&misfit_m), "{misfit_m}");
     // Of a member of 1 m or 2 m, each a sixth too short, beside one of 10 m that fits.
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [3.5, 0.0, 0.0]),
-        Joint::free("P").with_mass(5.0),
-        Joint::free("Q").with_mass(0.5),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [3.5, 0.0, 0.0]], &[5.0, 0.5]);
     let members = vec![bar(0, 3, 10.0, 0.0), bar(0, 2, 1.0, 0.0), bar(2, 1, 2.0, 0.0)];
     let apart = System::new("apart", G, joints, members).unwrap();
     match minimise(&apart, &Settings::default()) {

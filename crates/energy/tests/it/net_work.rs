@@ -1,7 +1,7 @@
 //! The work of the minimiser of systems, frozen as that of chains in `work`.
 
 use energy::net::{Error, Settings, Solution, minimise, minimise_from, minimise_near};
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Kind, Member, Support, System};
 use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -139,17 +139,20 @@ fn work_on_nets() {
     );
 }
 
+/// A bridle, and places for its joints.
+fn seeded(stream: u64) -> (System, Vec<Vector>) {
+    let mut rng = ChaCha8Rng::seed_from_u64(stream);
+    let system = bridle(&mut rng);
+    let mut place = || std::array::from_fn(|_| rng.random_range(-1.5..1.5));
+    let seed = system.joints().iter().map(|_| place()).collect();
+    (system, seed)
+}
+
 #[test]
 fn work_from_seeds() {
     let mut found = [Row::default(); 6];
     for stream in 2000..2040 {
-        let mut rng = ChaCha8Rng::seed_from_u64(stream);
-        let system = bridle(&mut rng);
-        let seed: Vec<Vector> = system
-            .joints()
-            .iter()
-            .map(|_| std::array::from_fn(|_| rng.random_range(-1.5..1.5)))
-            .collect();
+        let (system, seed) = seeded(stream);
         for (row, system) in found.iter_mut().zip(variants(system)) {
             add(row, &system, minimise_from(&system, &seed, &Settings::default()));
         }
@@ -165,24 +168,6 @@ fn work_from_seeds() {
     assert_frozen(&found, &expected);
 }
 
-/// The same system with all lengths four times as long.
-fn enlarged(system: &System) -> System {
-    let joints = system.joints().iter().map(|joint| {
-        let mut joint = joint.clone();
-        if let Support::Fixed { at_m } = &mut joint.support {
-            *at_m = at_m.map(|x| 4.0 * x);
-        }
-        joint
-    });
-    let members = system.members().iter().map(|member| {
-        member.clone().with_body(
-            Bar::homogeneous(4.0 * member.body.length_m(), member.body.mass_kg()).expect("a bar"),
-        )
-    });
-    let system = System::new("4", G, joints.collect(), members.collect());
-    system.expect("a system")
-}
-
 /// Powers of two change no digit: places and misfits are four times as large, forces the same.
 #[test]
 fn four_times_as_long_is_the_same_in_every_digit() {
@@ -192,16 +177,10 @@ fn four_times_as_long_is_the_same_in_every_digit() {
     };
     let mut refused = 0;
     for stream in 2000..2040 {
-        let mut rng = ChaCha8Rng::seed_from_u64(stream);
-        let system = bridle(&mut rng);
-        let seed: Vec<Vector> = system
-            .joints()
-            .iter()
-            .map(|_| std::array::from_fn(|_| rng.random_range(-1.5..1.5)))
-            .collect();
+        let (system, seed) = seeded(stream);
         let large: Vec<Vector> = seed.iter().map(|at| at.map(|x| 4.0 * x)).collect();
         let here = minimise_from(&system, &seed, &settings);
-        let there = minimise_from(&enlarged(&system), &large, &settings);
+        let there = minimise_from(&samples::scaled(&system, [4.0, 1.0, 1.0]), &large, &settings);
         match (here, there) {
             (Ok(here), Ok(there)) => {
                 let (here, there) = (here.equilibrium, there.equilibrium);
@@ -273,12 +252,7 @@ fn work_on_exhibits() {
 /// Three cables and a lamp: one factor of 3 coordinates has 6 numbers, and the work is asked before each.
 #[test]
 fn a_minimisation_ends_with_its_work() {
-    let joints = vec![
-        Joint::anchor("A", [0.0, 0.0, 0.0]),
-        Joint::anchor("B", [2.0, 0.0, 0.5]),
-        Joint::anchor("C", [1.0, 1.5, -0.3]),
-        Joint::free("P").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.5], [1.0, 1.5, -0.3]], &[3.0]);
     let cable = |from| Member::cable(from, 3, Bar::homogeneous(2.0, 1.0).unwrap());
     let system = System::new("a lamp", G, joints, (0..3).map(cable).collect()).unwrap();
     let found = minimise(&system, &Settings::default()).unwrap();

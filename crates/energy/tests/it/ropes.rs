@@ -79,13 +79,7 @@ fn minima_at_corners_of_the_energy_are_found() {
 /// Three rings of one rope run together two by two: each span bears what the rings before it leave.
 #[test]
 fn corners_may_meet_in_one_place() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [4.0, 0.0, 1.0]),
-        Joint::free("P").with_mass(1.0),
-        Joint::free("Q").with_mass(2.0),
-        Joint::free("R").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [4.0, 0.0, 1.0]], &[1.0, 2.0, 3.0]);
     let rope = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()).over(vec![2, 3, 4]);
     let system = System::new("rings", 10.0, joints, vec![rope]).unwrap();
     let found = minimise(&system, &Settings::default()).unwrap().equilibrium;

@@ -135,7 +135,6 @@ impl Structure<'_> {
     /// The drawing as an SVG file.
     ///
     /// # Errors
-    ///
     /// [`StructureError`].
     pub fn svg(&self) -> Result<String, StructureError> {
         self.draw(|size, description| Svg::new(size, self.title).described(description))
@@ -145,7 +144,6 @@ impl Structure<'_> {
     /// ground.
     ///
     /// # Errors
-    ///
     /// [`StructureError`].
     pub fn in_page(&self, id: &str) -> Result<String, StructureError> {
         self.draw(|size, description| Svg::in_page(id, size, self.title, description))

@@ -66,7 +66,6 @@ impl ModeShapes<'_> {
     /// The drawing as an SVG file.
     ///
     /// # Errors
-    ///
     /// [`StructureError`] when there is nothing to draw or a place is not finite.
     pub fn svg(&self) -> Result<String, StructureError> {
         if self.system.members().is_empty() {

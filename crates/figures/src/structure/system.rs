@@ -51,7 +51,6 @@ impl SystemShape<'_> {
     /// The drawing as an SVG file.
     ///
     /// # Errors
-    ///
     /// [`StructureError`] when a place is not finite.
     pub fn svg(&self) -> Result<String, StructureError> {
         self.draw(None)
@@ -61,7 +60,6 @@ impl SystemShape<'_> {
     /// ground.
     ///
     /// # Errors
-    ///
     /// [`StructureError`] when a place is not finite.
     pub fn in_page(&self, id: &str) -> Result<String, StructureError> {
         self.draw(Some(id))

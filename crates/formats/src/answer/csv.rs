@@ -5,54 +5,30 @@ use std::collections::HashMap;
 use model::name_of_cell;
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 use crate::sheet::Sheet;
 
-const JOINTS: &[&str] = &[
-    "joint",
-    "x_m",
-    "y_m",
-    "z_m",
-    "solver",
-    "reaction_x_n",
-    "reaction_y_n",
-    "reaction_z_n",
+const JOINTS: &[&str] = names! {
+    joint x_m y_m z_m solver reaction_x_n reaction_y_n reaction_z_n
     // What `solve --csv` writes for a chain besides: the force between two bars, which follows from
     // the joints and the axial forces, and those.
-    "force_x_n",
-    "force_y_n",
-    "force_z_n",
-    "axial_n",
-];
+    force_x_n force_y_n force_z_n axial_n
+};
 const REACTION: [&str; 3] = ["reaction_x_n", "reaction_y_n", "reaction_z_n"];
-const MEMBERS: &[&str] = &[
-    "from",
-    "to",
-    "axial_n",
-    "solver",
-    "bar",
+const MEMBERS: &[&str] = names! {
+    from to axial_n solver bar
     // What `solve --bars-csv` writes besides; all follow from the axial force and the loads of the
     // member.
-    "axial_from_n",
-    "axial_to_n",
-    "axial_max_n",
-    "start_x_n",
-    "start_y_n",
-    "start_z_n",
-    "end_x_n",
-    "end_y_n",
-    "end_z_n",
+    axial_from_n axial_to_n axial_max_n start_x_n start_y_n start_z_n end_x_n end_y_n end_z_n
     // And of those that have them the part of the strength that is used, and the joints of a rope.
-    "utilisation",
-    "via",
-];
+    utilisation via
+};
 
 /// Parse joints as CSV: one answer, or one for each name in the column `solver`.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the reason.
-pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
+pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
     let sheet = Sheet::parse(file, text, JOINTS, &[])?;
     for name in &JOINTS[..4] {
         sheet.need(name)?;
@@ -116,18 +92,15 @@ pub type MemberForces = (Option<String>, Vec<(String, String, f64)>);
 /// one list for all; in the order of the column `bar`, if there is one.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the reason.
-pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>, FormatError> {
+pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>> {
     let sheet = Sheet::parse(file, text, MEMBERS, &[])?;
     for name in &MEMBERS[..3] {
         sheet.need(name)?;
     }
     let (mut lists, mut numbers) = (Vec::<MemberForces>::new(), HashMap::new());
-    let mut rows: Vec<_> = sheet
-        .rows()
-        .map(|row| Ok((row.number_or_zero("bar")?, row)))
-        .collect::<Result<_, FormatError>>()?;
+    let mut rows: Vec<_> =
+        sheet.rows().map(|row| Ok((row.number_or_zero("bar")?, row))).collect::<Result<_>>()?;
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, row) in rows {
         let solver = Some(row.text("solver").to_owned()).filter(|name| !name.is_empty());

@@ -4,16 +4,15 @@ use model::Vector;
 use serde_json::{Map, Value};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::FormatError;
+use crate::error::Result;
 use crate::json::{self, Reader};
 
 /// Parse JSON: every equilibrium of `solve --json` or `census --json`, or one object with the same
 /// keys.
 ///
 /// # Errors
-///
-/// [`FormatError`] with the reason.
-pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
+/// [`FormatError`](crate::FormatError) with the reason.
+pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>> {
     let root = json::parse(text, file)?;
     let reader = Reader { file };
     let Some(object) = root.as_object() else {
@@ -35,7 +34,7 @@ pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
 }
 
 impl Reader<'_> {
-    fn vector(&self, what: &str, value: &Value) -> Result<Vector, FormatError> {
+    fn vector(&self, what: &str, value: &Value) -> Result<Vector> {
         let list = value.as_array().filter(|list| list.len() == 3);
         let list = list.ok_or_else(|| self.wrong(what, "a vector [x, y, z]", value))?;
         Ok([
@@ -45,11 +44,11 @@ impl Reader<'_> {
         ])
     }
 
-    fn list<'v>(&self, what: &str, value: &'v Value) -> Result<&'v [Value], FormatError> {
+    fn list<'v>(&self, what: &str, value: &'v Value) -> Result<&'v [Value]> {
         value.as_array().map(Vec::as_slice).ok_or_else(|| self.wrong(what, "a list", value))
     }
 
-    fn answer(&self, object: &Map<String, Value>, name: &str) -> Result<Answer, FormatError> {
+    fn answer(&self, object: &Map<String, Value>, name: &str) -> Result<Answer> {
         let source = object.get("solver").and_then(Value::as_str).unwrap_or(name).to_owned();
         let joints = match (object.get("joints"), object.get("joints_m")) {
             (Some(joints), _) => Joints::Named(self.named_joints(joints)?),
@@ -77,12 +76,12 @@ impl Reader<'_> {
         Ok(Answer { source, joints, forces, reactions_n })
     }
 
-    fn text(&self, what: &str, object: &Value, key: &str) -> Result<String, FormatError> {
+    fn text(&self, what: &str, object: &Value, key: &str) -> Result<String> {
         let text = object.get(key).and_then(Value::as_str).map(str::to_owned);
         text.ok_or_else(|| self.missing(&format!("text `{key}` in {what}")))
     }
 
-    fn named_joints(&self, value: &Value) -> Result<Vec<(String, Vector)>, FormatError> {
+    fn named_joints(&self, value: &Value) -> Result<Vec<(String, Vector)>> {
         let joints = self.list("joints", value)?.iter().enumerate();
         joints
             .map(|(k, joint)| {
@@ -94,7 +93,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    fn bar_forces(&self, value: &Value) -> Result<Forces, FormatError> {
+    fn bar_forces(&self, value: &Value) -> Result<Forces> {
         let mut forces = Vec::new();
         for (k, bar) in self.list("bars", value)?.iter().enumerate() {
             let what = format!("bars[{k}]");
@@ -107,11 +106,7 @@ impl Reader<'_> {
     }
 
     /// By name, or of a chain at its start and end.
-    fn reactions(
-        &self,
-        value: &Value,
-        joints: &Joints,
-    ) -> Result<Vec<(String, Vector)>, FormatError> {
+    fn reactions(&self, value: &Value, joints: &Joints) -> Result<Vec<(String, Vector)>> {
         let Some(object) = value.as_object() else {
             return Err(self.wrong("reactions_n", "an object", value));
         };

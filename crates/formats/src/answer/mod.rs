@@ -14,7 +14,7 @@ use std::collections::HashMap;
 
 use model::Vector;
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 
 pub use csv::{MemberForces, parse_csv, parse_member_forces};
 pub use json::parse_json;
@@ -60,7 +60,6 @@ pub enum Forces {
 /// CSV.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the reason.
 ///
 /// ```
@@ -69,7 +68,7 @@ pub enum Forces {
 /// assert_eq!(answers[0].joints, Joints::Named(vec![("P".to_owned(), [0.0, 0.0, -4.0])]));
 /// # Ok::<(), formats::FormatError>(())
 /// ```
-pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
+pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>> {
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     match begins.chars().next() {
         None => Err(FormatError::new(file, None, Wrong::Empty)),
@@ -83,7 +82,6 @@ pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
 /// errors.
 ///
 /// # Errors
-///
 /// When an answer has no list, or a list no answer.
 ///
 /// ```
@@ -95,11 +93,7 @@ pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
 /// assert_eq!(answers[0].forces, formats::answer::Forces::Named(forces));
 /// # Ok::<(), formats::FormatError>(())
 /// ```
-pub fn attach_forces(
-    answers: &mut [Answer],
-    lists: &[MemberForces],
-    file: &str,
-) -> Result<(), FormatError> {
+pub fn attach_forces(answers: &mut [Answer], lists: &[MemberForces], file: &str) -> Result<()> {
     let missing = |what| Err(FormatError::new(file, None, Wrong::Missing { what }));
     let mut taken = vec![false; lists.len()];
     let numbers: HashMap<_, _> =

@@ -8,7 +8,7 @@ use model::Vector;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Wrong, as_count, number};
+use crate::error::{FormatError, Result, Wrong, as_count, number};
 
 /// VTK's numbers for a line of two points, and for one of many.
 const LINES: [usize; 2] = [3, 4];
@@ -20,9 +20,8 @@ const MOST_ATTRIBUTES: usize = 100;
 /// ropes, in the order of their numbers `member` if it has these.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the reason: what is not ASCII, not a line, or not understood.
-pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
+pub fn parse_vtu(text: &str, file: &str) -> Result<Answer> {
     check_attributes(text, file)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
@@ -71,7 +70,7 @@ pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
 
 /// Refuse an element with more attributes than any of VTK has, as the parser holds each of them
 /// against all others. What follows a `<` up to the next one contains all of the element's.
-fn check_attributes(text: &str, file: &str) -> Result<(), FormatError> {
+fn check_attributes(text: &str, file: &str) -> Result<()> {
     let elements = text.split('<').skip(1).filter(|part| !part.starts_with('!'));
     let mut elements = elements.map(|part| (part, part.matches('=').count()));
     let Some((part, found)) = elements.find(|(_, found)| *found > MOST_ATTRIBUTES) else {
@@ -96,13 +95,13 @@ impl Reader<'_> {
         self.error(node, Wrong::Missing { what: what.to_owned() })
     }
 
-    fn child<'n, 'd>(&self, node: Node<'n, 'd>, name: &str) -> Result<Node<'n, 'd>, FormatError> {
+    fn child<'n, 'd>(&self, node: Node<'n, 'd>, name: &str) -> Result<Node<'n, 'd>> {
         let child = node.children().find(|child| child.has_tag_name(name));
         child.ok_or_else(|| self.missing(node, &format!("{name} in {}", node.tag_name().name())))
     }
 
     /// The numbers of a DataArray.
-    fn array(&self, node: Node<'_, '_>) -> Result<Vec<f64>, FormatError> {
+    fn array(&self, node: Node<'_, '_>) -> Result<Vec<f64>> {
         let format = node.attribute("format").unwrap_or("ascii");
         if format != "ascii" {
             let what = format!("DataArray of format {format:?}");
@@ -117,12 +116,7 @@ impl Reader<'_> {
     }
 
     /// The DataArray of a name, if it is there.
-    fn named(
-        &self,
-        piece: Node<'_, '_>,
-        part: &str,
-        name: &str,
-    ) -> Result<Option<Vec<f64>>, FormatError> {
+    fn named(&self, piece: Node<'_, '_>, part: &str, name: &str) -> Result<Option<Vec<f64>>> {
         let Some(part) = piece.children().find(|child| child.has_tag_name(part)) else {
             return Ok(None);
         };
@@ -131,7 +125,7 @@ impl Reader<'_> {
         arrays.next().map(|array| self.array(array)).transpose()
     }
 
-    fn counts(&self, piece: Node<'_, '_>, name: &str) -> Result<Vec<usize>, FormatError> {
+    fn counts(&self, piece: Node<'_, '_>, name: &str) -> Result<Vec<usize>> {
         let cells = self.child(piece, "Cells")?;
         let found = self.named(piece, "Cells", name)?;
         let found =
@@ -146,7 +140,7 @@ impl Reader<'_> {
     }
 
     /// The members: every line of two points, every piece of one of many.
-    fn lines(&self, piece: Node<'_, '_>) -> Result<Vec<[usize; 2]>, FormatError> {
+    fn lines(&self, piece: Node<'_, '_>) -> Result<Vec<[usize; 2]>> {
         let ends = self.counts(piece, "offsets")?;
         let kinds = self.counts(piece, "types")?;
         let points = self.counts(piece, "connectivity")?;

@@ -20,11 +20,7 @@ const TEXT: f64 = 0.02;
 pub(super) fn write(shape: &Shape<'_>) -> String {
     let mut text = "0\nSECTION\n2\nENTITIES\n".to_owned();
     for line in shape.lines() {
-        let colour = match line.axial_n {
-            force if force > 0.0 => COLOURS[0],
-            force if force < 0.0 => COLOURS[1],
-            _ => COLOURS[2],
-        };
+        let colour = COLOURS[line.look()];
         let _ = write!(text, "0\nLINE\n8\n{}s\n62\n{colour}\n", kind(line.member));
         for (end, joint) in line.ends.into_iter().enumerate() {
             place(&mut text, end, shape.joints_m[joint]);

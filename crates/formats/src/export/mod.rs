@@ -156,7 +156,6 @@ impl<'a> Shape<'a> {
     /// The text of a file.
     ///
     /// # Errors
-    ///
     /// [`ExportError`] for what the format cannot hold, and for lists that are not those of the system.
     pub fn text(&self, target: Target) -> Result<String, ExportError> {
         let (joints, members) = (self.joints_m.len(), self.axial_n.len());
@@ -199,6 +198,17 @@ struct Line<'a> {
     ends: [usize; 2],
     /// Tension positive, N.
     axial_n: f64,
+}
+
+impl Line<'_> {
+    /// 0 in tension, 1 in compression, 2 without force.
+    fn look(&self) -> usize {
+        if self.axial_n > 0.0 { 0 } else { 2 - usize::from(self.axial_n < 0.0) }
+    }
+}
+
+fn one_line(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control()).collect()
 }
 
 /// Name of a kind of member.

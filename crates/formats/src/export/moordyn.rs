@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use model::system::Kind;
 
-use super::{ExportError, Shape, joint_loads};
+use super::{ExportError, Shape, joint_loads, one_line};
 
 /// Density of the lines' material, kg/m^3: only their volume follows from it, which weighs nothing in the file's water.
 const STEEL: f64 = 7850.0;
@@ -69,7 +69,7 @@ pub(super) fn write(shape: &Shape<'_>) -> Result<String, ExportError> {
             refuse(format!("floor at or above the water's surface (z = {floor_m} m)"))
         }
     })?;
-    let name: String = shape.system.name().chars().filter(|c| !c.is_control()).collect();
+    let name = one_line(shape.system.name());
     Ok(format!(
         "--------------------- MoorDyn Input File ---------------------\n{name}\n\
          ---------------------- LINE TYPES ----------------------------\n\

@@ -14,7 +14,7 @@ use numerics::vector::{cross, minus, norm, plus, times};
 use serde_json::json;
 
 use super::dxf::extent;
-use super::{Shape, row};
+use super::{Shape, one_line, row};
 
 /// Sides of a prism.
 const SIDES: usize = 12;
@@ -70,13 +70,8 @@ fn prisms(shape: &Shape<'_>) -> impl Iterator<Item = Prism> {
             triangles.push([0, k + 1, k]);
             triangles.push([SIDES, SIDES + k, SIDES + k + 1]);
         }
-        let look = match line.axial_n {
-            force if force > 0.0 => 0,
-            force if force < 0.0 => 1,
-            _ => 2,
-        };
         let normals = normals.iter().chain(&normals).copied().collect();
-        Some(Prism { member: line.number, look, corners, normals, triangles })
+        Some(Prism { member: line.number, look: line.look(), corners, normals, triangles })
     })
 }
 
@@ -159,8 +154,4 @@ pub(super) fn gltf(shape: &Shape<'_>) -> String {
 #[expect(clippy::cast_possible_truncation, reason = "glTF has single precision")]
 fn y_up([x, y, z]: Vector) -> [f32; 3] {
     [x as f32, z as f32, -y as f32]
-}
-
-fn one_line(name: &str) -> String {
-    name.chars().filter(|c| !c.is_control()).collect()
 }

@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 use crate::json::{self, Reader};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
@@ -27,9 +27,8 @@ const EDGE_RESULTS: &[&str] = &["length", "force", "_l", "_f"];
 /// Read a network, graph or mesh.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the part that is wrong, missing or not understood.
-pub fn parse_compas(text: &str, file: &str) -> Result<ForceDensityNet, FormatError> {
+pub fn parse_compas(text: &str, file: &str) -> Result<ForceDensityNet> {
     let root = json::parse(text, file)?;
     let reader = Reader { file };
     let kind = root.get("dtype").or_else(|| root.get("datatype")).and_then(Value::as_str);
@@ -91,11 +90,7 @@ impl Reader<'_> {
         FormatError::new(self.file, None, Wrong::Unknown { what })
     }
 
-    fn object<'v>(
-        &self,
-        what: &str,
-        value: Option<&'v Value>,
-    ) -> Result<&'v Map<String, Value>, FormatError> {
+    fn object<'v>(&self, what: &str, value: Option<&'v Value>) -> Result<&'v Map<String, Value>> {
         let value = value.ok_or_else(|| self.missing(&format!("object `{what}`")))?;
         value.as_object().ok_or_else(|| self.wrong(what, "an object", value))
     }
@@ -105,11 +100,11 @@ impl Reader<'_> {
         key: &str,
         own: &Map<String, Value>,
         defaults: Option<&Map<String, Value>>,
-    ) -> Result<Node, FormatError> {
+    ) -> Result<Node> {
         let known = [&PLACE[..], &LOAD, &HELD, NODE_RESULTS];
         self.only(own, &known, &format!("node {key}"))?;
         let attributes = Attributes { own: Some(own), defaults };
-        let vector = |keys: [&str; 3], needed: bool| -> Result<[f64; 3], FormatError> {
+        let vector = |keys: [&str; 3], needed: bool| -> Result<[f64; 3]> {
             let mut vector = [0.0; 3];
             for (x, name) in vector.iter_mut().zip(keys) {
                 match attributes.get(name) {
@@ -132,12 +127,7 @@ impl Reader<'_> {
     }
 
     /// Refuse attributes that are not known.
-    fn only(
-        &self,
-        own: &Map<String, Value>,
-        known: &[&[&str]],
-        place: &str,
-    ) -> Result<(), FormatError> {
+    fn only(&self, own: &Map<String, Value>, known: &[&[&str]], place: &str) -> Result<()> {
         let known = || known.iter().flat_map(|list| list.iter().copied());
         match own.keys().find(|key| !known().any(|name| name == key.as_str())) {
             None => Ok(()),
@@ -149,7 +139,7 @@ impl Reader<'_> {
         }
     }
 
-    fn end(&self, key: &str, numbers: &HashMap<String, usize>) -> Result<usize, FormatError> {
+    fn end(&self, key: &str, numbers: &HashMap<String, usize>) -> Result<usize> {
         numbers.get(key).copied().ok_or_else(|| self.missing(&format!("node {key:?}")))
     }
 
@@ -158,7 +148,7 @@ impl Reader<'_> {
         [from, to]: [&str; 2],
         numbers: &HashMap<String, usize>,
         attributes: Attributes<'_>,
-    ) -> Result<Edge, FormatError> {
+    ) -> Result<Edge> {
         let place = format!("the edge {from} - {to}");
         if let Some(own) = attributes.own {
             self.only(own, &[&["q"], &LOAD, EDGE_RESULTS], &place)?;
@@ -185,7 +175,7 @@ impl Reader<'_> {
         data: &Map<String, Value>,
         numbers: &HashMap<String, usize>,
         defaults: Option<&Map<String, Value>>,
-    ) -> Result<Vec<Edge>, FormatError> {
+    ) -> Result<Vec<Edge>> {
         let mut edges = Vec::new();
         for (from, row) in ordered(self.object("edge", data.get("edge"))?) {
             for (to, own) in ordered(self.object(&format!("edge {from}"), Some(row))?) {
@@ -202,7 +192,7 @@ impl Reader<'_> {
         data: &Map<String, Value>,
         numbers: &HashMap<String, usize>,
         defaults: Option<&Map<String, Value>>,
-    ) -> Result<Vec<Edge>, FormatError> {
+    ) -> Result<Vec<Edge>> {
         let mut own = HashMap::new();
         if let Some(edgedata) = data.get("edgedata") {
             for (key, value) in self.object("edgedata", Some(edgedata))? {

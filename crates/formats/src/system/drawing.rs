@@ -14,7 +14,7 @@ use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 use numerics::vector::{minus, norm};
 
-use crate::error::{FormatError, Wrong, shortened};
+use crate::error::{FormatError, Result, Wrong, shortened};
 use crate::system::ForeignSystem;
 
 /// Ends that are no further apart are one joint, in units of the diagonal of the drawing: what programs round off
@@ -72,12 +72,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// One more member, in a layer or group of this name.
-    pub(super) fn line(
-        &mut self,
-        line: usize,
-        layer: &str,
-        ends_m: [Vector; 2],
-    ) -> Result<(), FormatError> {
+    pub(super) fn line(&mut self, line: usize, layer: &str, ends_m: [Vector; 2]) -> Result<()> {
         let room = self.budget.fits_members(self.lines.len() + 1, BYTES_PER_MEMBER);
         room.map_err(|error| FormatError::new(self.file, Some(line), Wrong::Memory(error)))?;
         let layer = layer.to_lowercase();
@@ -102,7 +97,7 @@ impl<'a> Drawing<'a> {
         layer: &str,
         places_m: &[Vector],
         closed: bool,
-    ) -> Result<(), FormatError> {
+    ) -> Result<()> {
         let back = closed.then(|| places_m.first()).flatten();
         for (a, b) in places_m.iter().zip(places_m.iter().skip(1).chain(back)) {
             self.line(line, layer, [*a, *b])?;
@@ -111,12 +106,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// A point, in a layer or group of this name: an anchor or nothing.
-    pub(super) fn point(
-        &mut self,
-        line: usize,
-        layer: &str,
-        at_m: Vector,
-    ) -> Result<(), FormatError> {
+    pub(super) fn point(&mut self, line: usize, layer: &str, at_m: Vector) -> Result<()> {
         let layer = layer.to_lowercase();
         if ANCHORS.iter().all(|word| !layer.contains(word)) {
             self.skip("POINT");
@@ -150,7 +140,7 @@ impl<'a> Drawing<'a> {
         word: &str,
         mark: &str,
         notes: Vec<String>,
-    ) -> Result<ForeignSystem, FormatError> {
+    ) -> Result<ForeignSystem> {
         let mut read = self.joined(word, mark)?;
         read.notes.extend(notes);
         read.notes.push(format!(
@@ -165,7 +155,7 @@ impl<'a> Drawing<'a> {
         Ok(read)
     }
 
-    fn joined(&self, word: &str, mark: &str) -> Result<ForeignSystem, FormatError> {
+    fn joined(&self, word: &str, mark: &str) -> Result<ForeignSystem> {
         let mut places = Places::of(self.lines.iter().flat_map(|line| line.ends_m));
         let (mut ends, mut short) = (Vec::with_capacity(self.lines.len()), 0);
         let mut seen = HashMap::with_capacity(self.lines.len());
@@ -196,7 +186,7 @@ impl<'a> Drawing<'a> {
                 .map_err(|error| self.no_system(Some(line.line), &error))?;
             Ok(Member::bar(a, b, body).of_kind(line.kind))
         });
-        let members = members.collect::<Result<Vec<_>, FormatError>>()?;
+        let members = members.collect::<Result<Vec<_>>>()?;
         let mut notes = vec![format!(
             "{} members between {} joints; ends within {:.1e} m of each other are one",
             members.len(),
@@ -256,7 +246,7 @@ impl<'a> Drawing<'a> {
         places: &Places,
         mut names: Vec<Option<String>>,
         mark: &str,
-    ) -> Result<Vec<Joint>, FormatError> {
+    ) -> Result<Vec<Joint>> {
         // Of a flat drawing every joint stays in its plane.
         let unmarked = [true, !places.level, true];
         let mut free = vec![unmarked; places.at_m.len()];

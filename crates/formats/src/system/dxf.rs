@@ -17,7 +17,7 @@ use model::Vector;
 
 use self::blocks::Blocks;
 pub(super) use self::letters::decoded;
-use crate::error::{FormatError, Wrong, number, shortened};
+use crate::error::{FormatError, Result, Wrong, number, shortened};
 use crate::system::ForeignSystem;
 use crate::system::drawing::Drawing;
 
@@ -93,9 +93,8 @@ struct Sheet<'a> {
 /// Read the lines of a drawing.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the part that is wrong or not understood.
-pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
     if text.starts_with("AutoCAD Binary DXF") {
         let what = "a binary DXF file".to_owned();
         let error = FormatError::new(file, None, Wrong::Unknown { what });
@@ -143,7 +142,7 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
 }
 
 impl<'a> Groups<'a> {
-    fn group(&mut self) -> Result<Option<Group<'a>>, FormatError> {
+    fn group(&mut self) -> Result<Option<Group<'a>>> {
         let Some((k, code)) = self.lines.next() else { return Ok(None) };
         let (line, text) = (k + 1, code.trim());
         let Ok(code) = text.parse() else {
@@ -162,7 +161,7 @@ impl<'a> Groups<'a> {
     }
 
     /// A group 0 with those that follow it.
-    fn entity(&mut self) -> Result<Option<Entity<'a>>, FormatError> {
+    fn entity(&mut self) -> Result<Option<Entity<'a>>> {
         /// A remark.
         const REMARK: i32 = 999;
         let mut head = self.next.take();
@@ -193,18 +192,18 @@ impl<'a> Entity<'a> {
         self.groups.iter().find(|group| group.code == code).map_or("", |group| group.value)
     }
 
-    fn value(&self, group: &Group<'_>) -> Result<f64, FormatError> {
+    fn value(&self, group: &Group<'_>) -> Result<f64> {
         let what = format!("the group {}", group.code);
         number(self.file, Some(group.line + 1), &what, group.value)
     }
 
-    fn number(&self, code: i32, otherwise: f64) -> Result<f64, FormatError> {
+    fn number(&self, code: i32, otherwise: f64) -> Result<f64> {
         let group = self.groups.iter().find(|group| group.code == code);
         group.map_or(Ok(otherwise), |group| self.value(group))
     }
 
     /// Bits of group 70.
-    fn flags(&self) -> Result<u32, FormatError> {
+    fn flags(&self) -> Result<u32> {
         let text = Some(self.text(70)).filter(|text| !text.is_empty()).unwrap_or("0");
         text.parse().map_err(|_| {
             let (what, found) = ("the group 70".to_owned(), shortened(text));
@@ -221,7 +220,7 @@ impl<'a> Entity<'a> {
     }
 
     /// The point of the groups 10, 20, 30, or 11, 21, 31, m.
-    fn place(&self, number: i32, unit_m: f64) -> Result<Vector, FormatError> {
+    fn place(&self, number: i32, unit_m: f64) -> Result<Vector> {
         let mut at_m = [0.0; 3];
         for (k, x) in (1..).zip(&mut at_m) {
             let code = 10 * k + number;
@@ -234,7 +233,7 @@ impl<'a> Entity<'a> {
     }
 
     /// The unit of a header.
-    fn unit(&self) -> Result<Option<(&'static str, &'static str, f64)>, FormatError> {
+    fn unit(&self) -> Result<Option<(&'static str, &'static str, f64)>> {
         let named = |group: &Group<'_>| group.code == 9 && group.value == "$INSUNITS";
         let mut rest = self.groups.iter().skip_while(|group| !named(group)).skip(1);
         let Some(group) = rest.next() else { return Ok(None) };
@@ -247,7 +246,7 @@ impl<'a> Entity<'a> {
     }
 
     /// Whether it is a layer that is not shown.
-    fn is_off(&self) -> Result<bool, FormatError> {
+    fn is_off(&self) -> Result<bool> {
         Ok(self.text(62).starts_with('-') || self.flags()? & FROZEN != 0)
     }
 
@@ -261,7 +260,7 @@ impl<'a> Entity<'a> {
         }
     }
 
-    fn read(self, sheet: &mut Sheet<'a>) -> Result<(), FormatError> {
+    fn read(self, sheet: &mut Sheet<'a>) -> Result<()> {
         let Sheet { drawing, open, off, blocks, unit: (.., unit_m) } = sheet;
         if let Some(polyline) = open {
             return match self.kind {
@@ -299,7 +298,7 @@ impl<'a> Entity<'a> {
     }
 
     /// The corners of a polyline in a level plane, m.
-    fn corners(&self, unit_m: f64) -> Result<Vec<Vector>, FormatError> {
+    fn corners(&self, unit_m: f64) -> Result<Vec<Vector>> {
         self.level()?;
         self.straight()?;
         let z = unit_m * self.number(38, 0.0)?;
@@ -315,7 +314,7 @@ impl<'a> Entity<'a> {
     }
 
     /// Refuse arcs between the corners of a polyline.
-    fn straight(&self) -> Result<(), FormatError> {
+    fn straight(&self) -> Result<()> {
         let bulges = self.groups.iter().filter(|group| group.code == 42);
         for group in bulges {
             if self.value(group)?.abs() > 0.0 {
@@ -328,7 +327,7 @@ impl<'a> Entity<'a> {
     }
 
     /// Refuse a plane of its own.
-    fn level(&self) -> Result<(), FormatError> {
+    fn level(&self) -> Result<()> {
         let normal = [self.number(210, 0.0)?, self.number(220, 0.0)?, self.number(230, 1.0)?];
         if normal[0].abs() + normal[1].abs() > 0.0 || normal[2] <= 0.0 {
             let what = "a polyline in a plane of its own (groups 210 to 230)".to_owned();
@@ -339,7 +338,7 @@ impl<'a> Entity<'a> {
 }
 
 impl<'a> Polyline<'a> {
-    fn corner(&mut self, vertex: &Entity<'a>, unit_m: f64) -> Result<(), FormatError> {
+    fn corner(&mut self, vertex: &Entity<'a>, unit_m: f64) -> Result<()> {
         if self.unseen.is_none() {
             vertex.straight()?;
             if vertex.flags()? & CONTROL == 0 {
@@ -349,7 +348,7 @@ impl<'a> Polyline<'a> {
         Ok(())
     }
 
-    fn read(self, drawing: &mut Drawing<'a>, unit_m: f64) -> Result<(), FormatError> {
+    fn read(self, drawing: &mut Drawing<'a>, unit_m: f64) -> Result<()> {
         let Self { head, mut corners, unseen } = self;
         if let Some(why) = unseen {
             drawing.skip(&format!("POLYLINE {why}"));

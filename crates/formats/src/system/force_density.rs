@@ -3,7 +3,7 @@
 use model::system::{Joint, Member, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 
 /// A net: nodes, and edges that each pull with their force density times their length.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,6 @@ impl ForceDensityNet {
     /// certificate made of it.
     ///
     /// # Errors
-    ///
     /// [`FormatError`] when the places are not as many as the nodes, two joints of a member meet,
     /// or it is no system.
     ///
@@ -89,7 +88,7 @@ impl ForceDensityNet {
     /// assert_eq!((member.body.length_m(), member.stiffness_n), (2.5, Some(10.0)));
     /// # Ok::<(), formats::FormatError>(())
     /// ```
-    pub fn system_at(&self, places_m: &[Vector], file: &str) -> Result<System, FormatError> {
+    pub fn system_at(&self, places_m: &[Vector], file: &str) -> Result<System> {
         let no_system = |reason: String| FormatError::new(file, None, Wrong::NoSystem { reason });
         if places_m.len() != self.nodes.len() {
             let (places, nodes) = (places_m.len(), self.nodes.len());

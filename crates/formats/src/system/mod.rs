@@ -34,7 +34,7 @@ pub use nodes::parse_net;
 pub use obj::parse_obj;
 pub use opensees::parse_opensees;
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 
 /// Whose file a system is read from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,7 +103,6 @@ impl Source {
     /// another one (`$DWGCODEPAGE`), letters that are no ASCII are replaced.
     ///
     /// # Errors
-    ///
     /// Where other files are no UTF-8.
     pub fn text(ending: &str, bytes: Vec<u8>) -> Result<String, std::str::Utf8Error> {
         match String::from_utf8(bytes) {
@@ -117,9 +116,8 @@ impl Source {
     /// next to these is wanted.
     ///
     /// # Errors
-    ///
     /// [`FormatError`] with the part that is wrong, missing or not understood, and its line where there is one.
-    pub fn parse(self, text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+    pub fn parse(self, text: &str, file: &str) -> Result<ForeignSystem> {
         match self {
             Self::Dxf => parse_dxf(text, file),
             Self::Obj => parse_obj(text, file),
@@ -155,9 +153,8 @@ impl ForeignSystem {
     /// The system above its floor, where that is an equilibrium problem.
     ///
     /// # Errors
-    ///
     /// [`FormatError`] with the reason where it is none.
-    pub fn above_floor(self, file: &str) -> Result<System, FormatError> {
+    pub fn above_floor(self, file: &str) -> Result<System> {
         let system = match self.floor_m {
             Some(floor_m) => {
                 self.system.with_floor(floor_m).map_err(|error| no_system(file, &error))?
@@ -167,6 +164,11 @@ impl ForeignSystem {
         system.refusal().map_err(|refusal| no_system(file, &refusal))?;
         Ok(system)
     }
+}
+
+/// Whether a word is one of these.
+fn among(words: &str, word: &str) -> bool {
+    words.split(' ').any(|known| known == word)
 }
 
 /// What there is to say of loads on nodes that cannot move.

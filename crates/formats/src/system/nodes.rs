@@ -2,51 +2,23 @@
 
 use std::collections::HashMap;
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Result, Wrong};
 use crate::sheet::{Row, Sheet};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
-const NODES: &[&str] = &[
-    "joint",
-    "x_m",
-    "y_m",
-    "z_m",
-    "free",
-    "u_m",
-    "v_m",
-    "w_m",
-    "force_x_n",
-    "force_y_n",
-    "force_z_n",
-];
+const NODES: &[&str] = names! {
+    joint x_m y_m z_m free u_m v_m w_m force_x_n force_y_n force_z_n
+};
 /// Names that stand for them in files of jax_fdm.
-const NODE_ALIASES: &[(&str, &str)] = &[
-    ("id", "joint"),
-    ("Knoten", "joint"),
-    ("node", "joint"),
-    ("x", "x_m"),
-    ("y", "y_m"),
-    ("z", "z_m"),
-    ("is_free", "free"),
-    ("u", "u_m"),
-    ("v", "v_m"),
-    ("w", "w_m"),
-    ("px", "force_x_n"),
-    ("py", "force_y_n"),
-    ("pz", "force_z_n"),
-];
+const NODE_ALIASES: &[(&str, &str)] = names! {
+    id: joint Knoten: joint node: joint x: x_m y: y_m z: z_m is_free: free u: u_m v: v_m w: w_m
+    px: force_x_n py: force_y_n pz: force_z_n
+};
 const EDGES: &[&str] = &["from", "to", "q_n_m", "q_start_n_m", "force_n"];
-const EDGE_ALIASES: &[(&str, &str)] = &[
-    ("a", "from"),
-    ("b", "to"),
-    ("u", "from"),
-    ("v", "to"),
-    ("qopt", "q_n_m"),
-    ("q0", "q_start_n_m"),
-    ("q", "q_start_n_m"),
-    ("f", "force_n"),
-    ("forceopt", "force_n"),
-];
+const EDGE_ALIASES: &[(&str, &str)] = names! {
+    a: from b: to u: from v: to qopt: q_n_m q0: q_start_n_m q: q_start_n_m f: force_n
+    forceopt: force_n
+};
 /// How far the force of an edge may be from its density times its length, as a part of it: the
 /// digits of such files.
 const DIGITS: f64 = 1e-6;
@@ -59,13 +31,8 @@ const DIGITS: f64 = 1e-6;
 /// must be the density times the length. The names of the files of jax_fdm stand for these.
 ///
 /// # Errors
-///
 /// [`FormatError`] with file, line and reason.
-pub fn parse_net(
-    nodes: (&str, &str),
-    edges: (&str, &str),
-    name: &str,
-) -> Result<ForceDensityNet, FormatError> {
+pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result<ForceDensityNet> {
     let (text, file) = nodes;
     let sheet = Sheet::parse(file, text, NODES, NODE_ALIASES)?;
     for column in &NODES[..5] {
@@ -100,7 +67,7 @@ pub fn parse_net(
     Ok(ForceDensityNet { name: name.to_owned(), nodes: found, edges })
 }
 
-fn node(row: &Row<'_>) -> Result<Node, FormatError> {
+fn node(row: &Row<'_>) -> Result<Node> {
     let name = row.text("joint").to_owned();
     if name.is_empty() {
         return Err(row.error(Wrong::Missing { what: "name of the joint".to_owned() }));
@@ -124,7 +91,7 @@ fn edge(
     numbers: &HashMap<String, usize>,
     nodes: &[Node],
     with_force: bool,
-) -> Result<Edge, FormatError> {
+) -> Result<Edge> {
     let end = |column: &str| {
         let name = row.text(column);
         let number = numbers.get(name).copied();

@@ -9,50 +9,21 @@
 
 use model::Vector;
 
-use crate::error::{FormatError, Wrong, number, shortened};
-use crate::system::ForeignSystem;
+use crate::error::{FormatError, Result, Wrong, number, shortened};
 use crate::system::drawing::Drawing;
+use crate::system::{ForeignSystem, among};
 
 /// Elements that are counted and not read.
 const SKIPPED: &[&str] = &["f", "curv", "curv2", "surf"];
 /// What belongs to surfaces and pictures.
-const NO_BEARING: &[&str] = &[
-    "vt",
-    "vn",
-    "vp",
-    "s",
-    "mg",
-    "usemtl",
-    "mtllib",
-    "usemap",
-    "maplib",
-    "cstype",
-    "deg",
-    "bmat",
-    "step",
-    "parm",
-    "trim",
-    "hole",
-    "scrv",
-    "sp",
-    "end",
-    "con",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-];
+const NO_BEARING: &str = "vt vn vp s mg usemtl mtllib usemap maplib cstype deg bmat step parm trim \
+    hole scrv sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech stech";
 /// How an anchor is marked.
 const MARK: &str = "mark each anchor by an element `p` of its vertex, in a group (`g`) whose name has \"anchor\" in it";
 
 /// Read the lines of an OBJ file.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the part that is wrong or not understood.
 ///
 /// ```
@@ -61,7 +32,7 @@ const MARK: &str = "mark each anchor by an element `p` of its vertex, in a group
 /// assert_eq!((system.name(), system.joints().len(), system.members().len()), ("lamp", 3, 2));
 /// # Ok::<(), formats::FormatError>(())
 /// ```
-pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (mut vertices, mut group) = (Vec::<Vector>::new(), "");
     let mut drawing = Drawing::new(file);
@@ -92,7 +63,7 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
             }
             "g" | "o" => group = rest,
             word if SKIPPED.contains(&word) => drawing.skip(word),
-            word if NO_BEARING.contains(&word) => {}
+            word if among(NO_BEARING, word) => {}
             word => {
                 let what = format!("the element {:?}", shortened(word));
                 return Err(FormatError::new(file, at, Wrong::Unknown { what }));
@@ -103,7 +74,7 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
 }
 
 /// The vertex of a word as `3`, `-1` or `3/2`: negative ones count from the last.
-fn corner(vertices: &[Vector], word: &str, file: &str, line: usize) -> Result<Vector, FormatError> {
+fn corner(vertices: &[Vector], word: &str, file: &str, line: usize) -> Result<Vector> {
     let index = word.split('/').next().unwrap_or_default().parse::<i64>().ok();
     let count = i64::try_from(vertices.len()).unwrap_or(i64::MAX);
     let index = index.map(|index| if index < 0 { count.saturating_add(index) } else { index - 1 });

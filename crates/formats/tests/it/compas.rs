@@ -2,6 +2,8 @@
 
 use formats::system::{Edge, Source, parse_compas};
 
+use crate::refused;
+
 const NETWORK: &str = r#"{"dtype": "jax_fdm.datastructures/FDNetwork", "data": {
     "attributes": {"name": "lamp"},
     "default_node_attributes": {"x": 0.0, "y": 0.0, "z": 0.0, "pz": 0.0, "is_support": false},
@@ -48,36 +50,6 @@ fn a_mesh_has_the_edges_of_its_faces_once() {
 
 #[test]
 fn what_is_not_understood_is_named() {
-    let wrong = |from: &str, to: &str| {
-        assert!(NETWORK.contains(from), "{from}");
-        parse_compas(&NETWORK.replacen(from, to, 1), "x").unwrap_err().to_string()
-    };
-    for (from, to, what) in [
-        ("\"q\": 2.5", "\"lmin\": 2.5", "x: the attribute \"lmin\" of the edge 1 - 10"),
-        ("\"neighbors\"", "\"stiffness\"", "x: the attribute \"stiffness\" of node 10"),
-        ("FDNetwork", "VolMesh2", "x: the data of type \"jax_fdm.datastructures/VolMesh2\""),
-    ] {
-        assert_eq!(wrong(from, to), format!("{what} is not understood"));
-    }
-    for (from, to, says) in [
-        (
-            "\"q\": 2.5",
-            "\"pz\": 2.5",
-            "x: the load pz on the edge 1 - 10 is not part of a system of bars at rest",
-        ),
-        ("{\"10\": {}}", "{\"11\": {}}", "x: there is no node \"11\""),
-        (
-            "\"z\": -4",
-            "\"z\": \"low\"",
-            "x: z of node 10 must be a finite number, found \"\\\"low\\\"\"",
-        ),
-        ("\"z\": -4", "\"z\": null", "x: z of node 10 must be a finite number, found \"null\""),
-        ("true", "1", "x: is_support of node 0 must be true or false, found \"1\""),
-        ("\"q\": 2.0, ", "", "x: there is no q of the edge 0 - 10"),
-        ("\"edge\":", "\"edges\":", "x: there is no object `edge`"),
-        ("\"dtype\"", "\"kind\"", "x: there is no text `dtype`"),
-    ] {
-        assert_eq!(wrong(from, to), says);
-    }
+    refused("compas", NETWORK, |text| parse_compas(text, "x"));
     assert!(parse_compas("", "x").unwrap_err().to_string().contains("this is no JSON"));
 }

@@ -7,6 +7,8 @@ use formats::system::{Source, parse_dxf, parse_obj};
 use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, Vector};
 
+use crate::refused;
+
 /// The groups of an entity, one a line: `code value`.
 fn groups(text: &str) -> String {
     let mut out = String::new();
@@ -178,20 +180,7 @@ fn lines_of_an_obj_file_are_members_by_their_groups() {
     let held = system.joints().iter().map(|joint| joint.support.is_fixed()).collect::<Vec<_>>();
     assert_eq!((held, system.name()), (vec![true, true, false, true], "x"));
     assert!(read.notes.iter().any(|note| note == "not read: 1 POINT, 1 f"), "{:?}", read.notes);
-    for (from, to, says) in [
-        ("l 1 2", "l 1 9", "x:7: there is no vertex \"9\""),
-        ("l -1 1", "l -9 1", "x:11: there is no vertex \"-9\""),
-        ("l 1 2", "l 0 2", "x:7: there is no vertex \"0\""),
-        ("l 1 2", "l 1 one", "x:7: there is no vertex \"one\""),
-        ("v 0 3 2", "v 0 3", "x:9: 3 values are needed here, found 2"),
-        ("v 0 3 2", "v 0 3 inf", "x:9: a coordinate must be a finite number, found \"inf\""),
-        ("mtllib", "include", "x:2: the element \"include\" is not understood"),
-        ("l -1 1 -2", "l 2 1", "x:11: the line (`l`) in line 7 is there twice"),
-        ("g anchors", "g dots", "x: there is no anchor"),
-    ] {
-        assert!(OBJ.contains(from));
-        assert_eq!(parse_obj(&OBJ.replacen(from, to, 1), "x").unwrap_err().to_string(), says);
-    }
+    refused("obj", OBJ, |text| parse_obj(text, "x"));
     let solid = parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "x").unwrap_err();
     assert_eq!(solid.to_string(), "x: there is no line (`l`) that has a length");
 }

@@ -3,6 +3,8 @@
 use formats::system::{Source, parse_map};
 use model::STANDARD_GRAVITY_M_S2;
 
+use crate::refused;
+
 /// A buoy between a chain to the ground and a rope to a vessel, and the same turned by a right angle.
 const DECK: &str = "\
 --------------- LINE DICTIONARY ---------------
@@ -105,42 +107,7 @@ fn options_that_begin_with_a_space_or_a_hash_are_comments() {
 
 #[test]
 fn what_is_wrong_in_a_deck_has_its_line() {
-    let wrong = |from: &str, to: &str| {
-        assert!(DECK.contains(from), "{from}");
-        parse_map(&DECK.replacen(from, to, 1), "x").unwrap_err().to_string()
-    };
-    for (from, to, what) in [
-        ("gx_pos plot", "plot frobnicate", "x:15: the flag \"frobnicate\""),
-        ("gx_pos plot", "Linear_Spring", "x:15: the flag \"Linear_Spring\""),
-        ("gx_pos plot", "OMIT_CONTACT", "x:15: a bottom for some lines alone (OMIT_CONTACT)"),
-        ("(N)  (N)  (N)", "(kN) (N) (N)", "x:10: the force fx on node 2 in \"kN\""),
-        ("Connect", "Slide", "x:10: the type \"slide\" of node 2"),
-        ("outer_tol", "inner_tool", "x:21: the option \"inner_tool 1e-5\""),
-    ] {
-        assert_eq!(wrong(from, to), format!("{what} is not understood"));
-    }
-    for (from, to, says) in [
-        ("-80   0", "depth 0", "x:9: there is no depth of the water"),
-        ("300  0", "#300 0", "x:10: fx must be a finite number, found \"#300\""),
-        ("Connect  #40", "Connect  #nan", "x:10: x must be a finite number, found \"nan\""),
-        (
-            "repeat 90",
-            "repeat 90deg",
-            "x:22: an angle of repeat must be a finite number, found \"90deg\"",
-        ),
-        ("chain     70 ", "wire      70 ", "x:15: there is no line type \"wire\""),
-        ("2         3\n", "2         7\n", "x:16: there is no point \"7\""),
-        ("70        1", "-70       1", "x:15: length must be positive, found \"-70\""),
-        (
-            "2     rope      50        2         3",
-            "2 rope 50 2",
-            "x:16: 5 values are needed here, found 4",
-        ),
-        ("2     Connect", "1     Connect", "x:10: node 1 is there twice"),
-        ("2     Connect", "6     Connect", "x:11: node 6 is there twice"),
-    ] {
-        assert_eq!(wrong(from, to), says);
-    }
+    refused("map", DECK, |text| parse_map(text, "x"));
 }
 
 /// What flags there are, and what to do about a spring.

@@ -3,6 +3,8 @@
 use formats::system::parse_moordyn;
 use model::system::Kind;
 
+use crate::refused;
+
 /// A line heavier than water from an anchor to a fairlead, and a buoyant one to a free float.
 const FILE: &str = "\
 --------------------- MoorDyn Input File ------------------------------------
@@ -101,95 +103,15 @@ fn version_one_has_its_columns_in_another_order() {
     assert_eq!(parse_moordyn(&text, "x").unwrap().system, parse_moordyn(FILE, "x").unwrap().system);
 }
 
-fn wrong(from: &str, to: &str) -> String {
-    assert!(FILE.contains(from), "{from}");
-    parse_moordyn(&FILE.replacen(from, to, 1), "x").unwrap_err().to_string()
-}
-
 #[test]
-fn what_is_not_statics_of_lines_is_named_and_refused() {
-    for (from, to, says) in [
-        ("0          1.37   1.0", "5          1.37   1.0", "6: the bending stiffness EI = 5 N m^2"),
-        ("1.0e9 ", "1.0e9|2.0e9 ", "6: the stiffness \"1.0e9|2.0e9\", which is no constant,"),
-        ("1.0e9 ", "curve.txt ", "6: the stiffness \"curve.txt\", which is no constant,"),
-        ("0             WaveKin", "1             WaveKin", "24: WaveKin = 1"),
-        ("60            WtrDpth", "floor.txt     WtrDpth", "23: the floor \"floor.txt\""),
-    ] {
-        let says = format!("x:{says} is not part of a system of bars at rest");
-        assert_eq!(wrong(from, to), says);
+fn what_is_no_statics_of_lines_or_no_table_is_told_with_its_line() {
+    let parse = |text: &str| parse_moordyn(text, "x");
+    refused("moordyn", FILE, parse);
+    for (text, says) in
+        [("", "x: the file is empty"), ("hello\n", "x: there is no section LINE TYPES")]
+    {
+        assert_eq!(parse(text).unwrap_err().to_string(), says);
     }
-    for (from, to, says) in [
-        (
-            "0.001         dtM ",
-            "0.001         Seismic ",
-            "20: the option \"0.001         Seismic           time step\"",
-        ),
-        ("- OUTPUTS -", "- EXTERNAL LOADS -", "25: the section \"EXTERNAL LOADS\""),
-        ("Vessel ", "Pinned ", "12: the type \"pinned\" of point 2"),
-        ("Cd     Ca     CdAx", "Cd     Qx     CdAx", "4: the column \"Qx\""),
-    ] {
-        assert_eq!(wrong(from, to), format!("x:{says} is not understood"));
-    }
-    assert_eq!(wrong("Vessel ", "Body1  "), "x:12: there is no body \"1\" of point 2");
-    let rods = "---------------------- RODS ------------------\nID RodType Attachment\n(#) (name) (#)\n1 pipe Free\n";
-    let text = FILE.replacen(
-        "---------------------- LINES",
-        &format!("{rods}---------------------- LINES"),
-        1,
-    );
-    let error = parse_moordyn(&text, "x").unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "x:17: the rod \"1 pipe Free\" is not part of a system of bars at rest"
-    );
-}
-
-#[test]
-fn bad_tables_are_told_with_their_lines() {
-    for (from, to, says) in [
-        (
-            "100        1.0e9",
-            "nan        1.0e9",
-            "x:6: mass must be a finite number, found \"nan\"",
-        ),
-        ("100        1.0e9", "100        -1", "x:6: EA must be positive, found \"-1\""),
-        (
-            "80        4 ",
-            "80        4.5 ",
-            "x:17: NumSegs must be a whole number up to 1e6, found \"4.5\"",
-        ),
-        (
-            "80        4 ",
-            "80        1e9 ",
-            "x:17: NumSegs must be a whole number up to 1e6, found \"1000000000\"",
-        ),
-        ("80        4 ", "0         4 ", "x:17: length must be positive, found \"0\""),
-        (
-            "1     chain      1        2",
-            "1     wire       1        2",
-            "x:17: there is no line type \"wire\"",
-        ),
-        (
-            "1     chain      1        2",
-            "1     chain      1        7",
-            "x:17: there is no point \"7\"",
-        ),
-        ("2     Vessel", "1     Vessel", "x:12: point 1 is there twice"),
-        (
-            "2     Vessel    60      0.0     -10.0   0      0       0      0",
-            "2 Vessel 60",
-            "x:12: 9 values are needed here, found 3",
-        ),
-        ("LINE TYPES", "LINES", "x:14: the section \"LINES\" is there twice"),
-        ("10            g ", "0             g ", "x:22: g must be positive, found \"0\""),
-    ] {
-        assert_eq!(wrong(from, to), says);
-    }
-    assert_eq!(parse_moordyn("", "x").unwrap_err().to_string(), "x: the file is empty");
-    assert_eq!(
-        parse_moordyn("hello\n", "x").unwrap_err().to_string(),
-        "x: there is no section LINE TYPES"
-    );
 }
 
 #[test]

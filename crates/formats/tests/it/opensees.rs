@@ -4,6 +4,8 @@ use formats::system::parse_opensees;
 use model::STANDARD_GRAVITY_M_S2;
 use model::system::{Kind, Support};
 
+use crate::refused;
+
 /// A tripod on two supports and a slider, with masses.
 const DECK: &str = "\
 # a tripod
@@ -107,65 +109,7 @@ fn comments_go_on_as_those_of_tcl() {
 
 #[test]
 fn what_is_not_a_truss_at_rest_is_named_with_its_line() {
-    let check = |from: &str, to: &str, says: &str| {
-        assert!(DECK.contains(from), "{from}");
-        let error = parse_opensees(&DECK.replacen(from, to, 1), "x").unwrap_err();
-        assert!(error.to_string().starts_with(says), "{error}\n{says}");
-    };
-    for (from, to, what) in [
-        (
-            "Elastic 1 200e9",
-            "ElasticPPGap 1 200e9 1e6 0.1",
-            "x:11: the material \"ElasticPPGap 1 200e9 1e6 0.1\"",
-        ),
-        (
-            "Elastic 1 200e9",
-            "Elastic 1 200e9 0 1e9",
-            "x:11: the material \"Elastic 1 200e9 0 1e9\"",
-        ),
-        ("element truss", "element elasticBeamColumn", "x:12: the element \"elasticBeamColumn\""),
-        ("-rho 8", "-beta 8", "x:13: the word \"-beta\""),
-        ("-ndm 3", "-ndm 1", "x:3: a model that has not -ndm 2 or 3"),
-        ("[expr 7/2]", "[nodeCoord 1 1]", "x:7: the command [nodeCoord 1 1] within another"),
-        ("[expr 7/2]", "[expr 7/0]", "x:7: the arithmetic \"expr 7/0\""),
-        ("wipe", "source other.tcl", "x:2: the command \"source\""),
-        ("analyze 10", "for {set k 0} {1} {} {analyze 1}", "x:23: the command \"for\""),
-        ("Plain 1", "UniformExcitation 1", "x:16: the pattern \"UniformExcitation\""),
-        ("load 4 0 0.5 0", "sp 4 1 0.5", "x:19: the load \"sp 4 1 0.5\""),
-    ] {
-        check(from, to, &format!("{what} is not understood"));
-    }
-    for (from, to, what) in [
-        ("-cMass 0", "-cMass 1", "x:14: a mass that is not at the nodes (-cMass)"),
-        (
-            "-mass 10 10 10",
-            "-mass 10 10 9",
-            "x:7: a mass that differs by direction, or a negative one,",
-        ),
-        ("load 4 0 0.5 0", "load 4 0 0.5 0 0 0 1", "x:19: a moment"),
-    ] {
-        check(from, to, &format!("{what} is not part of a system of bars at rest"));
-    }
-    for (from, to, says) in [
-        ("1e-4 1", "1e-4 2", "x:12: there is no material \"2\""),
-        ("1 4 1e-4", "1 9 1e-4", "x:12: there is no node \"9\""),
-        ("1 4 1e-4", "1 4 -1", "x:12: A must be positive, found \"-1\""),
-        ("1 4 1e-4", "1 1 1e-4", "x:12: the length of a bar must be positive and finite, got 0 m"),
-        ("node 1 0 0 0", "node 4 0 0 0", "x:7: node 4 is there twice"),
-        ("node 1 0 0 0", "node 1 0 0", "x:5: 5 values are needed here, found 4"),
-        (
-            "node 1 0 0 0",
-            "node 1 0 0 zero",
-            "x:5: a coordinate must be a finite number, found \"zero\"",
-        ),
-        ("fix 2 0 1 1", "fix 5 0 1 1", "x:9: there is no node \"5\""),
-        ("$L 0 0", "$M 0 0", "x:6: there is no value of the variable \"M\""),
-        ("Plain 1 Linear", "Plain 1 3", "x:16: there is no time series \"3\""),
-        ("\n}\npattern", "\npattern", "x:16: there is no '}' that closes '{'"),
-        ("\"Constant\"", "\"Constant", "x:21: there is no end of a text in quotes"),
-    ] {
-        check(from, to, says);
-    }
+    refused("opensees", DECK, |text| parse_opensees(text, "x"));
     assert_eq!(parse_opensees("", "x").unwrap_err().to_string(), "x: there is no element");
     // A word does not grow without end by variables of variables.
     let mut text = "set a 0123456789\n".to_owned();

@@ -16,7 +16,6 @@ impl CensusAnswer {
     /// 0 of the ground on bar 1, and angle and axial force of that bar.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         self.write_list(&self.equilibria, &mut to)

@@ -87,7 +87,6 @@ impl LargeCensusAnswer {
     /// [`List::Signs`] the key `list` says so, each equilibrium is a [`Line`], and has one.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_json(&self, list: List, to: &mut impl Write) -> io::Result<()> {
         match list {
@@ -123,7 +122,6 @@ impl LargeCensusAnswer {
     /// pull by the middles of its enclosures.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, list: List, to: &mut impl Write) -> io::Result<()> {
         match list {

@@ -82,7 +82,6 @@ impl Census {
     /// is the only one.
     ///
     /// # Errors
-    ///
     /// [`Error::Census`] when a chain is too long, [`Error::Refused`] when a system has no
     /// equilibrium, [`Error::SystemCensus`] when it has no census: nets that move in too many ways,
     /// level loads on a chain, elastic bars. What cannot be decided is no error: it is listed, and
@@ -94,7 +93,6 @@ impl Census {
     /// The same, with `watch` told how far the search is.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
@@ -121,7 +119,6 @@ impl Census {
     /// first so many are made at once.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     ///
     /// ```

@@ -87,7 +87,6 @@ impl Judge {
     /// Judge an answer.
     ///
     /// # Errors
-    ///
     /// [`Error::Tolerance`] when the tolerance is out of range.
     pub fn run(&self, problem: &Problem, answer: &ForeignAnswer) -> Result<Judged, Error> {
         self.run_watched(problem, answer, &|_| {})
@@ -96,7 +95,6 @@ impl Judge {
     /// The same, with `watch` told what is being done.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
@@ -149,7 +147,6 @@ impl Judged {
 /// Fit an answer of a file to the joints and members of a system.
 ///
 /// # Errors
-///
 /// [`GivenError`]: names or counts that do not fit.
 ///
 /// ```

@@ -83,7 +83,6 @@ impl Subject {
     /// Judge an answer, with `watch` told what is being done.
     ///
     /// # Errors
-    ///
     /// [`Error::Given`] when names or counts do not fit, [`Error::Format`] when a net is no system
     /// at the places of the answer, [`Error::Tolerance`].
     pub fn judge(

@@ -43,7 +43,6 @@ impl Change {
     /// The file with the change.
     ///
     /// # Errors
-    ///
     /// A sentence where the file is no TOML, or has no place for the change.
     pub(super) fn of(&self, text: &str) -> Result<String, String> {
         let mut file: DocumentMut =

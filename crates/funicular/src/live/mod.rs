@@ -116,7 +116,6 @@ impl Ask {
     /// Answer what the script of the page asks at a path: `ask` or `page`. `None` at any other.
     ///
     /// # Errors
-    ///
     /// Why the question is none, or its system has no page.
     #[must_use]
     pub fn answer(path: &str, question: &[u8]) -> Option<Result<String, String>> {

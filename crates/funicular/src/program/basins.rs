@@ -8,7 +8,7 @@ use funicular::{Basins, Field, Plane};
 use model::SolverName;
 
 use crate::cost::tell_time;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -67,7 +67,7 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     end_on_interrupt()?;
     threads::install(0)?;
     let Input { problem, files } = arguments.input.read()?;
@@ -101,7 +101,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         .iter()
         .flat_map(|solver| FIELDS.iter().map(|(_, suffix)| picture(solver, suffix)))
         .collect();
-    output::check(pictures.iter().map(PathBuf::as_path), &files)?;
+    output::check(&pictures, &files)?;
     tell_time("these pictures", basins.expected_time_s(&problem)?);
     let progress = Progress::start();
     progress.say(&format!("{} starts", u64::from(arguments.size).pow(2)));

@@ -10,7 +10,7 @@ use model::cases;
 use rayon::prelude::*;
 
 use crate::case_name::CaseName;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -33,7 +33,7 @@ pub struct Cases {
 }
 
 /// Run the command.
-pub fn run(arguments: &Cases) -> Result<Exit, Failure> {
+pub fn run(arguments: &Cases) -> Result<Exit> {
     match (&arguments.name, &arguments.html) {
         (Some(name), _) => output::print(funicular::case_text(name)?)?,
         (None, Some(folder)) => return gallery(folder),
@@ -56,7 +56,7 @@ fn registry() -> String {
 }
 
 /// Solve all cases and write their pages.
-fn gallery(folder: &Path) -> Result<Exit, Failure> {
+fn gallery(folder: &Path) -> Result<Exit> {
     end_on_interrupt()?;
     output::make_folder(folder)?;
     let index = folder.join("index.html");
@@ -71,7 +71,7 @@ fn gallery(folder: &Path) -> Result<Exit, Failure> {
     progress.say("all cases of the gallery");
     let all: Vec<_> = cases::named().collect();
     let shown = all.par_iter().map(|(name, about)| one(folder, name, about));
-    let shown = shown.collect::<Result<Vec<_>, Failure>>()?;
+    let shown = shown.collect::<Result<Vec<_>>>()?;
     drop(progress);
     let mut text = HEAD.to_owned();
     text.extend(shown.iter().map(|(card, _)| card.as_str()));
@@ -82,7 +82,7 @@ fn gallery(folder: &Path) -> Result<Exit, Failure> {
 }
 
 /// Write the page, the file, the answer and the picture of a case, and show them.
-fn one(folder: &Path, name: &str, about: &str) -> Result<(String, Exit), Failure> {
+fn one(folder: &Path, name: &str, about: &str) -> Result<(String, Exit)> {
     let problem = Problem::case(name)?;
     let page = Page::new().run(&problem)?;
     let answer = page.answer();

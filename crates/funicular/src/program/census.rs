@@ -13,7 +13,7 @@ use model::NoCensus;
 
 use crate::cost::tell_time;
 use crate::diagnostics::Diagnostic;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::memory;
@@ -66,7 +66,7 @@ pub struct Census {
 }
 
 /// Run the command.
-pub fn run(arguments: &Census) -> Result<Exit, Failure> {
+pub fn run(arguments: &Census) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
     let usual = Settings::default();
@@ -88,7 +88,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         _ => vec![],
     };
     let outputs = arguments.csv.iter().chain(&arguments.svg).chain(&most);
-    output::check(outputs.map(PathBuf::as_path), &files)?;
+    output::check(outputs, &files)?;
     let takes_long = Settings::SOUGHT_BARS + 1..=settings.max_bars;
     let long = row.as_ref().filter(|row| takes_long.contains(&row.bars()));
     if let Some(row) = long {
@@ -115,7 +115,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
 }
 
 /// The shapes of a row of bars side by side; of another system, and from somewhere, each into a file of its own.
-fn draw(path: &Path, answer: &CensusAnswer, view: Seen) -> Result<(), Failure> {
+fn draw(path: &Path, answer: &CensusAnswer, view: Seen) -> Result<()> {
     let system = answer.system();
     if let Some(row) = answer.row().filter(|_| view == Seen::Best) {
         return output::write_picture(path, &row.census.figure(system.name(), SHAPES));

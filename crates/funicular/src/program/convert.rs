@@ -7,7 +7,7 @@ use funicular::Solve;
 use funicular::export::Target;
 
 use crate::diagnostics::Diagnostic;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -49,7 +49,7 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     end_on_interrupt()?;
     arguments.threads.install()?;
     let ending = arguments.to.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::bad_input(Diagnostic::from(message).with_help(help)));
     }
     let Input { problem, files } = arguments.input.read()?;
-    output::check_files([arguments.to.as_path()], &files)?;
+    output::check_files([&arguments.to], &files)?;
     if is(OWN) {
         output::write_whole(&arguments.to, &problem.to_toml())?;
         output::print(&format!("{}: a system file\n", arguments.to.display()))?;

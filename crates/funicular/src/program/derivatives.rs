@@ -7,7 +7,7 @@ use funicular::text::derivatives::stiffness;
 use funicular::{AnchorStiffness, DerivativesAnswer, Summary};
 use serde::Serialize;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -68,11 +68,11 @@ struct Anchors {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
     let Input { problem, files } = arguments.input.read()?;
-    output::check(arguments.csv.iter().map(PathBuf::as_path), &files)?;
+    output::check(&arguments.csv, &files)?;
     let derivatives = funicular::Derivatives::new().run(&problem)?;
     if let Some(of) = &arguments.of {
         let found = derivatives.gradient(of)?;
@@ -92,7 +92,7 @@ fn print(
     of: &DerivativesAnswer,
     text: &str,
     found: &impl Serialize,
-) -> Result<Exit, Failure> {
+) -> Result<Exit> {
     let system = of.system();
     if arguments.printed.is_json() {
         let (schema_version, system) = (funicular::SCHEMA_VERSION, Summary::new(system));

@@ -64,6 +64,9 @@ impl From<Exit> for std::process::ExitCode {
     }
 }
 
+/// How a command ends, or what stopped it.
+pub type Result<T, E = Failure> = std::result::Result<T, E>;
+
 /// What stopped a command, and the way to end for it.
 #[derive(Debug)]
 pub struct Failure {

@@ -9,12 +9,12 @@ use funicular::judge::Subject;
 use model::open_input;
 use model::system_file::most_file_bytes;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, Result};
 use crate::input::Input;
 use crate::judge::{Format, Judge};
 
 /// The system that the arguments name, and the files that were read for it.
-pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
+pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>)> {
     let own = || {
         let Input { problem, files } = arguments.input.read()?;
         Ok((Subject::from(&problem), files))
@@ -74,7 +74,7 @@ enum Written {
 }
 
 /// Which format a file is in.
-fn guess(path: &Path, with_edges: bool) -> Result<Written, Failure> {
+fn guess(path: &Path, with_edges: bool) -> Result<Written> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if with_edges || ending.eq_ignore_ascii_case("csv") {
         return Ok(Written::Net);
@@ -86,12 +86,12 @@ fn guess(path: &Path, with_edges: bool) -> Result<Written, Failure> {
 }
 
 /// Whether a file is of another program.
-pub fn is_foreign(path: &Path) -> Result<bool, Failure> {
+pub fn is_foreign(path: &Path) -> Result<bool> {
     Ok(matches!(guess(path, false)?, Written::By(_)))
 }
 
 /// The text of a file (`-` is standard input), and the name that stands for it in errors.
-pub fn text(path: &Path) -> Result<(String, String), Failure> {
+pub fn text(path: &Path) -> Result<(String, String)> {
     let standard = path == Path::new("-");
     let name = if standard { "standard input".to_owned() } else { path.display().to_string() };
     let unreadable = |why: &dyn std::fmt::Display| {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use clap::Args;
 use funicular::text::markdown::page;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::output;
 
 /// Names of the chapters, and their text.
@@ -51,7 +51,7 @@ pub struct Guide {
 }
 
 /// Print a chapter, or the list of them.
-pub fn run(arguments: &Guide) -> Result<Exit, Failure> {
+pub fn run(arguments: &Guide) -> Result<Exit> {
     let wanted = arguments.chapter.as_deref();
     let chapter = CHAPTERS.iter().find(|(name, _)| Some(*name) == wanted);
     let text = chapter.map_or_else(list, |(_, text)| page(text));

@@ -8,7 +8,7 @@ use funicular::{Error, Problem, Reading};
 
 use crate::case_name::CaseName;
 use crate::diagnostics::{Diagnostic, tell};
-use crate::exit::Failure;
+use crate::exit::{Failure, Result};
 use crate::foreign_input;
 use crate::tables::wrapped;
 
@@ -29,7 +29,7 @@ pub struct Source {
 
 impl Source {
     /// The system, and the files that were read.
-    pub fn read(&self) -> Result<Input, Failure> {
+    pub fn read(&self) -> Result<Input> {
         let input = problem(self.file.as_deref(), self.case.as_deref())?;
         Ok(Input { problem: in_case(input.problem, self.load_case.as_deref())?, ..input })
     }
@@ -57,7 +57,7 @@ pub struct Shape {
 
 impl Drawn {
     /// The system, drawn with the shape that was given, and the files that were read.
-    pub fn read(&self) -> Result<Input, Failure> {
+    pub fn read(&self) -> Result<Input> {
         read_once([&self.source.file, &self.shape.near].into_iter().flatten())?;
         let Input { problem, mut files } = self.source.read()?;
         files.extend(self.shape.near.clone());
@@ -71,13 +71,13 @@ impl Drawn {
 
 impl Shape {
     /// The shape, if one was given.
-    pub fn read(&self) -> Result<Option<Answer>, Failure> {
+    pub fn read(&self) -> Result<Option<Answer>> {
         self.near.as_deref().map_or(Ok(None), shape)
     }
 }
 
 /// Standard input can be read once.
-pub fn read_once<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+pub fn read_once<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<()> {
     if files.into_iter().filter(|file| file.as_path() == Path::new("-")).count() > 1 {
         return Err(Failure::bad_input("two files cannot both come from standard input"));
     }
@@ -85,14 +85,14 @@ pub fn read_once<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> Result<(),
 }
 
 /// The first shape of a file.
-fn shape(path: &Path) -> Result<Option<Answer>, Failure> {
+fn shape(path: &Path) -> Result<Option<Answer>> {
     let (text, name) = foreign_input::text(path)?;
     let shapes = formats::answer::parse(&text, &name).map_err(Error::from)?;
     Ok(shapes.into_iter().next())
 }
 
 /// The places of the joints of a problem in a file, m.
-pub fn places(problem: &Problem, path: &Path) -> Result<Vec<model::Vector>, Failure> {
+pub fn places(problem: &Problem, path: &Path) -> Result<Vec<model::Vector>> {
     let none = || Failure::bad_input(format!("{} has no shape", path.display()));
     Ok(fitted(problem, shape(path)?.ok_or_else(none)?)?)
 }
@@ -118,7 +118,7 @@ pub struct Input {
 }
 
 /// The problem of a system file (`-` is standard input) or of a named case.
-pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
+pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input> {
     let (problem, files) = match (file, case) {
         (Some(file), _) if file == Path::new("-") => {
             let (text, name) = foreign_input::text(file)?;
@@ -159,7 +159,7 @@ fn tell_notes(notes: &[String]) {
 }
 
 /// A table of bars or nodes is a part of a system.
-fn meant_as_table(file: &Path) -> Result<(), Failure> {
+fn meant_as_table(file: &Path) -> Result<()> {
     if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
         return Ok(());
     }
@@ -170,7 +170,7 @@ fn meant_as_table(file: &Path) -> Result<(), Failure> {
 }
 
 /// A file that does not exist and has the name of a case was meant as that.
-fn meant_as_case(file: &Path) -> Result<(), Failure> {
+fn meant_as_case(file: &Path) -> Result<()> {
     let name = file.to_str().filter(|name| Problem::case(name).is_ok());
     match name {
         Some(name) if !file.exists() => {

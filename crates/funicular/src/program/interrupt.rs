@@ -5,7 +5,7 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 
 /// Set by the first Ctrl-C while something is done that can be gone on with.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -30,7 +30,7 @@ impl Interrupt {
 }
 
 /// Ctrl-C ends the program, until there is something to keep.
-pub fn on_interrupt() -> Result<Interrupt, Failure> {
+pub fn on_interrupt() -> Result<Interrupt> {
     watch(|| {
         if !KEEPING.load(Ordering::SeqCst) || STOP.swap(true, Ordering::SeqCst) {
             end();
@@ -41,14 +41,14 @@ pub fn on_interrupt() -> Result<Interrupt, Failure> {
 
 /// For commands that keep nothing to go on from: the first Ctrl-C ends the program, and no file is
 /// left half written.
-pub fn end_on_interrupt() -> Result<(), Failure> {
+pub fn end_on_interrupt() -> Result<()> {
     // A hangup would be heard like a Ctrl-C, and a command under `nohup` is to live on.
     if hangups_are_ignored() { Ok(()) } else { watch(end) }
 }
 
 /// For commands that print line by line with [`whole_line`]: the first Ctrl-C ends the program as
 /// soon as no line is half written, the second at once, for a reader that takes no more.
-pub fn end_between_lines() -> Result<(), Failure> {
+pub fn end_between_lines() -> Result<()> {
     if hangups_are_ignored() {
         return Ok(());
     }
@@ -74,7 +74,7 @@ pub fn whole_line(write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
     written
 }
 
-fn watch(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+fn watch(heard: impl FnMut() + Send + 'static) -> Result<()> {
     ctrlc::set_handler(heard)
         .map_err(|error| Failure::bad_input(format!("Ctrl-C cannot be watched for: {error}")))
 }

@@ -7,7 +7,7 @@ use formats::answer::Answer;
 use funicular::judge::{Ruling, Subject};
 use funicular::picture::Seen;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::foreign_input;
 use crate::input::{Source, read_once};
 use crate::interrupt::end_on_interrupt;
@@ -89,7 +89,7 @@ pub enum Format {
 }
 
 /// Run the command.
-pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
+pub fn run(arguments: &Judge) -> Result<Exit> {
     end_on_interrupt()?;
     threads::install(0)?;
     let Judge { input, answer, members, edges, .. } = arguments;
@@ -102,7 +102,7 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
         .html
         .as_deref()
         .map_or_else(Vec::new, |path| output::numbered(path, answers.len()));
-    output::check(pages.iter().map(PathBuf::as_path), &files)?;
+    output::check(&pages, &files)?;
     let judge = funicular::Judge::new().tolerance(arguments.tolerance);
     let one = |answer| subject.judge(&judge, answer, &|what| progress.say(what));
     let all = answers.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
@@ -135,11 +135,7 @@ fn exit(all: &[Ruling], check: bool) -> Exit {
 }
 
 /// The answers that are to be judged: those of the file, or the places of a net.
-fn answers(
-    arguments: &Judge,
-    subject: &Subject,
-    files: &mut Vec<PathBuf>,
-) -> Result<Vec<Answer>, Failure> {
+fn answers(arguments: &Judge, subject: &Subject, files: &mut Vec<PathBuf>) -> Result<Vec<Answer>> {
     let Some(path) = &arguments.answer else {
         return subject
             .own_answer()

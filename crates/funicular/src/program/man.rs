@@ -6,7 +6,7 @@ use clap::{Args, CommandFactory};
 use clap_mangen::Man as Page;
 
 use crate::args::Cli;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::output;
 
 /// `funicular man`.
@@ -18,7 +18,7 @@ pub struct Man {
 }
 
 /// Run the command.
-pub fn run(arguments: &Man) -> Result<Exit, Failure> {
+pub fn run(arguments: &Man) -> Result<Exit> {
     let mut program = crate::help::with_chapters(Cli::command()).disable_help_subcommand(true);
     program.build();
     output::make_folder(&arguments.out)?;

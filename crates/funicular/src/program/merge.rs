@@ -7,7 +7,7 @@ use clap::Args;
 use funicular::Error;
 
 use crate::diagnostics::tell;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::sweep::{json_object, seeds_bar, verdict, written};
@@ -45,7 +45,7 @@ pub struct Merge {
 }
 
 /// Run the command.
-pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
+pub fn run(arguments: &Merge) -> Result<Exit> {
     let stop = on_interrupt()?.keep_what_is_done();
     let seeds = arguments.folders.first().and_then(|folder| ::sweep::Manifest::read(folder).ok());
     let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));

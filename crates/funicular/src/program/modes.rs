@@ -7,7 +7,7 @@ use funicular::picture::Seen;
 use funicular::{ModesAnswer, Page};
 use model::system::System;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -60,7 +60,7 @@ fn count(text: &str) -> Result<usize, String> {
 }
 
 /// Run the command.
-pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
+pub fn run(arguments: &Modes) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
     arguments.threads.install()?;
@@ -68,7 +68,7 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
     let outputs = [&arguments.svg, &arguments.html];
-    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    output::check(outputs.into_iter().flatten(), &files)?;
     progress.say("equilibria and their modes");
     let mut modes = funicular::Modes::new().max_bars(arguments.max_bars);
     if let Some(count) = arguments.lowest {
@@ -89,7 +89,7 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
 }
 
 /// The drawing, if it is asked for.
-fn write_drawing(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Result<(), Failure> {
+fn write_drawing(arguments: &Modes, system: &System, answer: &ModesAnswer) -> Result<()> {
     if let Some(path) = &arguments.svg {
         let found = answer.equilibria.iter().find(|found| found.label == arguments.equilibrium);
         let Some(found) = found else {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::output;
 
 /// The file, with a comment for every key.
@@ -44,7 +44,7 @@ fn sides(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Run the command.
-pub fn run(arguments: &New) -> Result<Exit, Failure> {
+pub fn run(arguments: &New) -> Result<Exit> {
     let text = match arguments.net {
         Some(sides) => net(sides),
         None if arguments.truss => funicular::case_text(TRUSS)?.to_owned(),
@@ -59,7 +59,7 @@ pub fn run(arguments: &New) -> Result<Exit, Failure> {
 }
 
 /// Write a file that is not there yet.
-fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+fn write_new(path: &Path, text: &str) -> Result<()> {
     let name = path.display();
     // A link that leads nowhere is there too.
     if path.symlink_metadata().is_ok() {

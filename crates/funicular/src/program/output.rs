@@ -10,26 +10,26 @@ use funicular::picture::Format;
 use funicular::text::printed::{self, in_ascii};
 use serde::Serialize;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, Result};
 use crate::printable::filtered;
 use crate::tables::finished;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: &str) -> Result<()> {
     let text = filtered(&finished(text), false);
     let text = if printed::ascii() { in_ascii(&text) } else { text };
     print_stream(|out| out.write_all(text.as_bytes()))
 }
 
 /// The same for JSON, which escapes what would steer a terminal.
-pub fn print_objects(text: &str) -> Result<(), Failure> {
+pub fn print_objects(text: &str) -> Result<()> {
     print_stream(|out| out.write_all(text.as_bytes()))
 }
 
 /// The same for what is too long to be held as one text.
 pub fn print_stream(
     content: impl FnOnce(&mut BufWriter<StdoutLock<'_>>) -> io::Result<()>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match content(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -40,7 +40,7 @@ pub fn print_stream(
 }
 
 /// Print a JSON object.
-pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
+pub fn print_json(object: &impl Serialize) -> Result<()> {
     print_stream(|out| {
         serde_json::to_writer_pretty(&mut *out, object)?;
         out.write_all(b"\n")
@@ -54,10 +54,7 @@ pub fn no_json(error: &serde_json::Error) -> Failure {
 
 /// Refuse, before the work, what cannot be written after it, and what would overwrite a file that
 /// is read or another that is written. What ends as a picture does is one.
-pub fn check<'a>(
-    outputs: impl IntoIterator<Item = &'a Path>,
-    inputs: &[PathBuf],
-) -> Result<(), Failure> {
+pub fn check<'a>(outputs: impl IntoIterator<Item = &'a PathBuf>, inputs: &[PathBuf]) -> Result<()> {
     let outputs: Vec<_> = outputs.into_iter().collect();
     outputs.iter().try_for_each(|path| check_picture(path))?;
     check_files(outputs, inputs)
@@ -65,11 +62,11 @@ pub fn check<'a>(
 
 /// The same of what is no picture, whatever its name ends in.
 pub fn check_files<'a>(
-    outputs: impl IntoIterator<Item = &'a Path>,
+    outputs: impl IntoIterator<Item = &'a PathBuf>,
     inputs: &[PathBuf],
-) -> Result<(), Failure> {
+) -> Result<()> {
     let inputs: Vec<_> = inputs.iter().map(|path| (path, place(path))).collect();
-    let mut others: Vec<(&Path, PathBuf)> = Vec::new();
+    let mut others: Vec<(&PathBuf, PathBuf)> = Vec::new();
     for path in outputs {
         check_one(path)?;
         let Some(place) = place(path) else { continue };
@@ -109,7 +106,7 @@ pub fn page_file(text: &str) -> Result<PathBuf, String> {
 }
 
 /// A picture can be written only in formats that we write.
-fn check_picture(path: &Path) -> Result<(), Failure> {
+fn check_picture(path: &Path) -> Result<()> {
     if OTHER_PICTURES.contains(&ending(path).to_ascii_lowercase().as_str()) {
         let why = format!("pictures are written as .{}", Format::ENDINGS.join(", ."));
         return Err(cannot_write(path, why));
@@ -119,7 +116,7 @@ fn check_picture(path: &Path) -> Result<(), Failure> {
 
 /// A file can be written only into a folder that is there, and where the system lets us; `-` is meant
 /// as standard output, not as a name.
-fn check_one(path: &Path) -> Result<(), Failure> {
+fn check_one(path: &Path) -> Result<()> {
     if path == Path::new("-") {
         return Err(cannot_write(path, "it names no file; standard output is /dev/stdout"));
     }
@@ -178,12 +175,12 @@ pub fn numbered(path: &Path, results: usize) -> Vec<PathBuf> {
 
 /// Write a file, so that an interruption leaves the old file or the new one and never half of
 /// either.
-pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+pub fn write_whole(path: &Path, text: &str) -> Result<()> {
     write_stream(path, |file| file.write_all(text.as_bytes()))
 }
 
 /// Write a drawing in the format that the ending of the file's name stands for: SVG if it is no other.
-pub fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
+pub fn write_picture(path: &Path, svg: &str) -> Result<()> {
     let format = Format::of_ending(ending(path)).unwrap_or(Format::Svg);
     let file = format.file(svg).map_err(Failure::undecided)?;
     write_stream(path, |out| out.write_all(&file))
@@ -193,7 +190,7 @@ pub fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
 pub fn write_stream(
     path: &Path,
     content: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let written = AtomicFile::create(path).and_then(|mut file| {
         content(&mut file)?;
         file.commit()
@@ -211,12 +208,12 @@ pub fn write_stream(
 pub fn write_asked(
     path: Option<&PathBuf>,
     content: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
-) -> Result<(), Failure> {
+) -> Result<()> {
     path.map_or(Ok(()), |path| write_stream(path, content))
 }
 
 /// Make a folder with its parents.
-pub fn make_folder(path: &Path) -> Result<(), Failure> {
+pub fn make_folder(path: &Path) -> Result<()> {
     fs::create_dir_all(path).map_err(|error| {
         Failure::bad_input(format!("cannot make the folder {}: {error}", path.display()))
     })

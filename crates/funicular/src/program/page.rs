@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use funicular::{Page, Simulate, Start};
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -53,11 +53,11 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     end_on_interrupt()?;
     arguments.threads.install()?;
     let Input { problem, files } = arguments.input.read()?;
-    output::check([arguments.out.as_path()], &files)?;
+    output::check([&arguments.out], &files)?;
     let mut page = arguments.vary.iter().try_fold(Page::new(), |page, text| page.vary(text))?;
     if let Some(start) = &arguments.motion {
         let motion = Simulate::new().start(start.clone());

@@ -6,7 +6,7 @@ use clap::Args;
 use funicular::text::printed::{Format, Style, Unit, unit};
 use serde::Serialize;
 
-use crate::exit::Failure;
+use crate::exit::Result;
 use crate::output::{print, print_json};
 
 /// Options of every command that prints tables.
@@ -36,7 +36,7 @@ impl Printed {
     }
 
     /// Print an answer: the object, or the text.
-    pub fn print(&self, answer: &(impl Serialize + Display)) -> Result<(), Failure> {
+    pub fn print(&self, answer: &(impl Serialize + Display)) -> Result<()> {
         if self.is_json() { print_json(answer) } else { print(&answer.to_string()) }
     }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use validate::table::csv;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -26,14 +26,14 @@ pub struct Reproduce {
 }
 
 /// Run the command.
-pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
+pub fn run(arguments: &Reproduce) -> Result<Exit> {
     end_on_interrupt()?;
     threads::install(0)?;
     if let Some(folder) = &arguments.out {
         // Before the work, not after it.
         output::make_folder(folder)?;
         let files = FILES.map(|name| folder.join(name));
-        output::check(files.iter().map(PathBuf::as_path), &[])?;
+        output::check(&files, &[])?;
     }
     let progress = Progress::start();
     let report = funicular::Reproduce::new().run_watched(|what| progress.say(what))?;

@@ -11,7 +11,7 @@ use clap::Args;
 use funicular::live::Ask;
 use model::system_file::{limit_memory, most_file_bytes};
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::foreign_input;
 use crate::input;
 use crate::interrupt::end_on_interrupt;
@@ -58,7 +58,7 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments, [has_work, has_memory]: [bool; 2]) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments, [has_work, has_memory]: [bool; 2]) -> Result<Exit> {
     end_on_interrupt()?;
     if !has_work {
         funicular::limit_work(WORK);
@@ -106,7 +106,7 @@ impl Drop for Place<'_> {
 }
 
 /// The text of a file that is TOML, or as TOML that of another program's.
-fn text(path: &Path) -> Result<String, Failure> {
+fn text(path: &Path) -> Result<String> {
     if foreign_input::is_foreign(path)? {
         return Ok(input::problem(Some(path), None)?.problem.to_toml());
     }

@@ -16,7 +16,7 @@ use model::Vector;
 use model::system::System;
 use motion::MotionError;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::foreign_input;
 use crate::input::{Drawn, Input, places};
 use crate::interrupt::on_interrupt;
@@ -131,7 +131,7 @@ enum Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// By the ending of the file's name.
-    fn create(path: &Path, system: &'a System) -> Result<Self, Failure> {
+    fn create(path: &Path, system: &'a System) -> Result<Self> {
         let is = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
         if is("pvd") {
             let frames = Frames::create(path, system);
@@ -149,14 +149,14 @@ impl<'a> Rows<'a> {
         rows.map(Self::Table).map_err(Failure::undecided)
     }
 
-    fn add(&mut self, now: &motion::Snapshot, path: &Path) -> Result<(), Failure> {
+    fn add(&mut self, now: &motion::Snapshot, path: &Path) -> Result<()> {
         match self {
             Self::Table(rows) => rows.add(now).map_err(Failure::undecided),
             Self::Frames(frames) => frames.add(now).map_err(|error| unwritten(path, &error)),
         }
     }
 
-    fn finish(self, path: &Path) -> Result<(), Failure> {
+    fn finish(self, path: &Path) -> Result<()> {
         match self {
             Self::Table(rows) => rows.finish().map_err(Failure::undecided),
             Self::Frames(frames) => frames.finish().map_err(|error| unwritten(path, &error)),
@@ -173,7 +173,7 @@ struct Kept<'a> {
 }
 
 /// Run the command.
-pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
+pub fn run(arguments: &Simulate) -> Result<Exit> {
     if let Some(seeds) = arguments.ensemble.seeds {
         return ensemble::run(arguments, seeds);
     }
@@ -197,7 +197,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
         files.push(path.clone());
     }
     let outputs = [&arguments.out, &arguments.html];
-    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    output::check(outputs.into_iter().flatten(), &files)?;
     let system = problem.system();
     let mut kept = Kept::begin(arguments, &problem, &system)?;
     let stop = interrupt.keep_what_is_done();
@@ -245,11 +245,7 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
 }
 
 impl<'a> Kept<'a> {
-    fn begin(
-        arguments: &'a Simulate,
-        problem: &Problem,
-        system: &'a System,
-    ) -> Result<Self, Failure> {
+    fn begin(arguments: &'a Simulate, problem: &Problem, system: &'a System) -> Result<Self> {
         let rows = arguments.out.as_deref();
         let rows = rows.map(|path| Ok::<_, Failure>((Rows::create(path, system)?, path)));
         let animated = arguments.html.is_some();
@@ -271,7 +267,7 @@ impl<'a> Kept<'a> {
         }
     }
 
-    fn finish(&mut self, arguments: &Simulate) -> Result<(), Failure> {
+    fn finish(&mut self, arguments: &Simulate) -> Result<()> {
         if let Some(error) = self.failed.take() {
             return Err(error);
         }

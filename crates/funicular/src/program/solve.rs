@@ -16,7 +16,7 @@ use funicular::{Distribution, Error, Lists, Problem, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::case_name::CaseName;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{self, Input, Shape, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -149,7 +149,7 @@ impl Solve {
     }
 
     /// The shape next to which the equilibrium is required, if one was given.
-    fn shape(&self) -> Result<Option<Answer>, Failure> {
+    fn shape(&self) -> Result<Option<Answer>> {
         input::read_once(self.files.iter().chain(&self.batch).chain(&self.shape.near))?;
         self.shape.read()
     }
@@ -190,7 +190,7 @@ impl Solve {
 }
 
 /// Refuse to check what has no strength.
-pub fn checkable(is_checkable: bool) -> Result<(), Failure> {
+pub fn checkable(is_checkable: bool) -> Result<()> {
     if is_checkable {
         return Ok(());
     }
@@ -200,7 +200,7 @@ pub fn checkable(is_checkable: bool) -> Result<(), Failure> {
 }
 
 /// Run the command.
-pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
+pub fn run(arguments: &Solve) -> Result<Exit> {
     arguments.printed.install();
     match (&arguments.batch, arguments.files.as_slice()) {
         (Some(batch), _) => batch::run(arguments, batch),
@@ -209,7 +209,7 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     }
 }
 
-fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
+fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit> {
     end_on_interrupt()?;
     arguments.threads.install()?;
     let progress = Progress::start();
@@ -234,7 +234,7 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
         };
     }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
-    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    output::check(outputs.into_iter().flatten(), &files)?;
     if arguments.tolerances {
         return tolerances::run(arguments, &problem, progress);
     }
@@ -252,11 +252,7 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
 }
 
 /// The files that are asked for besides what is printed.
-fn write_files(
-    arguments: &Solve,
-    answer: &SolveAnswer,
-    progress: &Progress,
-) -> Result<(), Failure> {
+fn write_files(arguments: &Solve, answer: &SolveAnswer, progress: &Progress) -> Result<()> {
     if let Some(path) = &arguments.csv {
         progress.say(&format!("writing {}", path.display()));
         output::write_stream(path, |file| answer.write_csv(file))?;
@@ -274,7 +270,7 @@ fn write_files(
 
 /// Where no solver has an answer, JSON is an object all the same: without equilibria, and with the
 /// refusals.
-fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
+fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T> {
     match &error {
         Error::Unsolved(answer) if arguments.printed.is_json() => output::print_json(answer)?,
         _ => {}

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 use funicular::Study;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -108,7 +108,7 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
     arguments.threads.install()?;
@@ -119,7 +119,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let (paths, points) = (lengths.len(), lengths.iter().sum::<usize>());
     let figures =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
-    output::check(arguments.csv.iter().chain(&figures).map(PathBuf::as_path), &files)?;
+    output::check(arguments.csv.iter().chain(&figures), &files)?;
     let progress = Progress::start();
     let done = AtomicUsize::new(0);
     let found = study.run_watched(&problem, &|| {

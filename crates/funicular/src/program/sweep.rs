@@ -16,7 +16,7 @@ pub use self::arguments::Sweep;
 pub(crate) use self::arguments::{Rows, count};
 use crate::cost::tell_time;
 use crate::diagnostics::tell;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -26,7 +26,7 @@ use crate::tables::short;
 const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
-pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
+pub fn run(arguments: &Sweep) -> Result<Exit> {
     let rows = &arguments.rows;
     let begun = rows.begin()?;
     let problem = arguments.input.read()?.problem;
@@ -61,7 +61,7 @@ impl Folder<'_> {
         &self,
         (threads, interrupt): (usize, Interrupt),
         write: &dyn Fn(&RunSettings<'_>) -> Result<Run, Error>,
-    ) -> Result<Exit, Failure> {
+    ) -> Result<Exit> {
         let manifest = self.manifest;
         tell_cost(manifest);
         let stop = interrupt.keep_what_is_done();

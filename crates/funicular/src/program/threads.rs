@@ -3,7 +3,7 @@
 use clap::Args;
 use funicular::MOST_THREADS;
 
-use crate::exit::Failure;
+use crate::exit::{Failure, Result};
 
 /// The option of commands that say the same whatever it is.
 #[derive(Debug, Clone, Copy, Args)]
@@ -15,12 +15,12 @@ pub struct Threads {
 
 impl Threads {
     /// Start the threads of the program.
-    pub fn install(self) -> Result<(), Failure> {
+    pub fn install(self) -> Result<()> {
         install(self.threads)
     }
 
     /// Their number, never 0.
-    pub fn resolve(self) -> Result<usize, Failure> {
+    pub fn resolve(self) -> Result<usize> {
         resolve(self.threads)
     }
 }
@@ -35,7 +35,7 @@ pub fn parse(text: &str) -> Result<usize, String> {
 
 /// Start the threads of the program: as many as were asked for; for 0 as many as RAYON_NUM_THREADS
 /// says, and one per processor if it says nothing.
-pub fn install(threads: usize) -> Result<(), Failure> {
+pub fn install(threads: usize) -> Result<()> {
     let threads = resolve(threads)?;
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -44,7 +44,7 @@ pub fn install(threads: usize) -> Result<(), Failure> {
 }
 
 /// The number of threads for what was asked, never 0.
-pub fn resolve(threads: usize) -> Result<usize, Failure> {
+pub fn resolve(threads: usize) -> Result<usize> {
     if threads > 0 {
         return Ok(threads);
     }

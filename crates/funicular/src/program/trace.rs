@@ -10,7 +10,7 @@ use funicular::{Error, Problem, Trace, TraceAnswer};
 
 use crate::cost::tell_time;
 use crate::diagnostics::Diagnostic;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
@@ -131,7 +131,7 @@ pub struct Arguments {
 }
 
 /// Run the command.
-pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(arguments: &Arguments) -> Result<Exit> {
     arguments.printed.install();
     end_on_interrupt()?;
     threads::install(0)?;
@@ -154,9 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             "--html shows load paths: over a range alone, as --vary loads=0..1.2".to_owned(),
         ));
     }
-    let outputs = arguments.csv.iter().chain(&arguments.html).chain(&diagrams);
-    let outputs = outputs.map(PathBuf::as_path);
-    output::check(outputs, &files)?;
+    output::check(arguments.csv.iter().chain(&arguments.html).chain(&diagrams), &files)?;
     let progress = Progress::start();
     let watch = |path, branches::Progress { done, total }| {
         let which =
@@ -184,7 +182,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 /// What all equilibria of a chain need: how many paths there are.
-fn all(arguments: &Arguments, trace: &Trace, problem: &Problem) -> Result<usize, Failure> {
+fn all(arguments: &Arguments, trace: &Trace, problem: &Problem) -> Result<usize> {
     let variation = trace.variation(problem)?;
     let bars = variation.base().members().len();
     if !(1..=bars).contains(&arguments.bar) {
@@ -214,7 +212,7 @@ fn refuse(error: Error) -> Failure {
     Failure::bad_input(Diagnostic::from(error).with_help(help))
 }
 
-fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
+fn verdict(found: &TraceAnswer) -> Result<Exit> {
     if let Some(reason) = found.refused_everywhere() {
         return Err(Failure::bad_input(format!(
             "no value of the parameters describes a chain that can hang; the first: {reason}"

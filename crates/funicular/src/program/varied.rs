@@ -4,7 +4,7 @@ use branches::Combine;
 use clap::Args;
 use funicular::Parameters;
 
-use crate::exit::Failure;
+use crate::exit::Result;
 
 /// What a command over parameters varies.
 #[derive(Debug, Args)]
@@ -19,7 +19,7 @@ pub struct Varied {
 
 impl Varied {
     /// The parameters.
-    pub fn parameters(&self) -> Result<Parameters, Failure> {
+    pub fn parameters(&self) -> Result<Parameters> {
         let combine = if self.zip { Combine::Zip } else { Combine::Product };
         let none = Ok(Parameters::new().combine(combine));
         Ok(self.vary.iter().fold(none, |all, text| all?.vary(text))?)

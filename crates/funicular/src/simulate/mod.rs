@@ -139,7 +139,6 @@ impl Simulate {
     /// Follow the motion, and keep all stored times in memory.
     ///
     /// # Errors
-    ///
     /// [`Error::Motion`] when the system cannot be moved or a step is too long, [`Error::Simulate`]
     /// when a setting is out of range or there is no such start, and the errors of
     /// [`Solve`](crate::Solve).
@@ -156,7 +155,6 @@ impl Simulate {
     /// no time is stored.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,

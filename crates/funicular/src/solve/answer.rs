@@ -124,7 +124,6 @@ impl SolveAnswer {
     /// The first equilibrium as a file for another program; no text where there is no equilibrium.
     ///
     /// # Errors
-    ///
     /// [`Error::Export`] for what the format cannot hold.
     ///
     /// ```
@@ -146,7 +145,6 @@ impl SolveAnswer {
     /// What is zero but for rounding is written as 0.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         writeln!(to, "solver,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n")?;
@@ -169,7 +167,6 @@ impl SolveAnswer {
     /// joints that it runs over last.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
         let strong = self.system.has_strengths();

@@ -97,7 +97,6 @@ impl Solve {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::Refused`] when the system has no equilibrium; [`Error::ChainsOnly`] when the
     /// full equations are asked for of another system or next to a drawing; [`Error::Unsolved`] when no
     /// solver has an answer; if one has, [`SolveAnswer::failures`] says why the other has none.
@@ -108,7 +107,6 @@ impl Solve {
     /// The same, with `watch` called with what is being done.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
@@ -130,7 +128,6 @@ impl Solve {
     /// [`Problem::near`]. [`SolveAnswer::near`] says how the answer lies to the shape.
     ///
     /// # Errors
-    ///
     /// As [`Problem::near`] and [`run`](Self::run).
     pub fn near(&self, problem: &Problem, joints_m: &[Vector]) -> Result<SolveAnswer, Error> {
         self.run(&problem.near(joints_m)?)
@@ -149,7 +146,6 @@ impl Solve {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`Error::TooManyThreads`] and [`Error::Threads`]; what becomes of a problem stands in its
     /// place.
     pub fn run_all(&self, problems: &[Problem]) -> Result<Vec<Result<SolveAnswer, Error>>, Error> {
@@ -162,7 +158,6 @@ impl Solve {
     /// census, where one is asked for, uses the threads of the pool.)
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_here(&self, problem: &Problem) -> Result<SolveAnswer, Error> {
         self.on(problem, NonZeroUsize::MIN, &|_| {})

@@ -14,20 +14,8 @@ use crate::csv::{exact, or_empty, quoted};
 use crate::object::{either, head, names};
 
 /// The columns of every study between its parameters and its supports.
-const COLUMNS: [&str; 12] = [
-    "agrees",
-    "evidence",
-    "energy_j",
-    "sag_m",
-    "lowest_joint",
-    "lowest_x_m",
-    "lowest_y_m",
-    "lowest_z_m",
-    "tension_n",
-    "tension_bar",
-    "compression_n",
-    "compression_bar",
-];
+const COLUMNS: &str = "agrees evidence energy_j sag_m lowest_joint lowest_x_m lowest_y_m \
+     lowest_z_m tension_n tension_bar compression_n compression_bar";
 
 /// A point of a study.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -156,14 +144,13 @@ impl StudyAnswer {
     /// empty.
     ///
     /// # Errors
-    ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
         let bars = self.bars();
         let mut columns = vec!["path".to_owned()];
         columns.extend(self.parameters.iter().map(quoted));
         columns.extend(self.spans.then(|| "span_m".to_owned()));
-        columns.extend(COLUMNS.map(str::to_owned));
+        columns.extend(COLUMNS.split(' ').map(str::to_owned));
         let forces = |support| ["x", "y", "z"].map(|axis| quoted(format!("{support}_{axis}_n")));
         columns.extend(self.supports().into_iter().flat_map(forces));
         columns.extend((1..=bars).map(|bar| format!("rise_{bar}_deg")));

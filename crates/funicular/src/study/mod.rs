@@ -68,7 +68,6 @@ impl Study {
     /// combination of all but the last is a path of its own.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] with the place in the text.
     pub fn vary(self, text: &str) -> Result<Self, Error> {
         Ok(Self { parameters: self.parameters.vary(text)?, ..self })
@@ -125,7 +124,6 @@ impl Study {
     /// How many points each path has: each combination of all parameters but the last is a path.
     ///
     /// # Errors
-    ///
     /// [`Error::Parameter`] when a parameter does not fit the problem.
     pub fn points(&self, problem: &Problem) -> Result<Vec<usize>, Error> {
         Ok(self.parameters.over(problem)?.paths().iter().map(Vec::len).collect())
@@ -134,7 +132,6 @@ impl Study {
     /// Solve all points.
     ///
     /// # Errors
-    ///
     /// As [`points`](Self::points), and [`Error::Parameter`] when [`of`](Self::of) names nothing of the
     /// problem. A point that is refused or unsolved is no error: it says
     /// why.
@@ -145,7 +142,6 @@ impl Study {
     /// The same, with `watch` told of each point that is done.
     ///
     /// # Errors
-    ///
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,

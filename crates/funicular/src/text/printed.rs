@@ -59,7 +59,6 @@ const UNITS: [Unit; 18] = [
 /// The unit of this name.
 ///
 /// # Errors
-///
 /// Which are allowed.
 pub fn unit(text: &str) -> Result<Unit, String> {
     UNITS

@@ -1,7 +1,5 @@
 //! Many systems at a time: several files, and a system in every line.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fmt::Write as _;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Output, Stdio};

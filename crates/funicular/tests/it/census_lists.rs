@@ -3,16 +3,13 @@
 use serde_json::Value;
 
 use crate::census::{chain, funicular, thirteen_bars};
-use crate::run::peak;
-use crate::run::{stdout, words};
+use crate::run::{good, json, peak, stdout, words};
 
 /// What is written one by one is what is written from one list.
 #[test]
 fn a_long_list_is_that_of_the_library() {
     let path = thirteen_bars("long-list", 13.0);
-    let output = funicular(&[&path, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    let mut written: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let mut written = json(&funicular(&[&path, "--json"]));
     let problem = funicular::Problem::read(&path).unwrap();
     let answer = funicular::Census::new().run(&problem).unwrap();
     let mut expected = serde_json::to_value(&answer).unwrap();
@@ -52,9 +49,8 @@ fn a_list_is_as_large_as_is_allowed() {
         "{told}"
     );
     // What is not listed takes no room.
-    let output = funicular(&[&path, "--list", "full", "--max-output", "10kB"]);
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    assert!(stdout(&output).contains("Evidence of the first"), "{}", stdout(&output));
+    let text = good(".", &["census", &path, "--list", "full", "--max-output", "10kB"]);
+    assert!(text.contains("Evidence of the first"), "{text}");
 }
 
 /// Equilibria are made while they are written: the list of 170 MB is not in memory. (Whole, these

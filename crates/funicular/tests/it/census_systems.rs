@@ -1,7 +1,5 @@
 //! `funicular census` of systems of joints and members: JSON, tables, drawings, columns, refusals.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::PathBuf;
 
 use serde_json::Value;

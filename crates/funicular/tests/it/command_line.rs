@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::run::{funicular, good, program, refused, says, stderr, stdout};
+use crate::run::{fails, funicular, good, program, refused, says, stderr, stdout};
 
 #[test]
 fn help_version_and_completions() {
@@ -96,19 +96,14 @@ fn numbers_that_are_none_are_explained_in_plain_words() {
         (["basins", "--size", "1e9"], "a whole number is required"),
         (["basins", "--others", "abc"], "a number is required"),
     ] {
-        let output = funicular(&arguments);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains(wanted), "{}", stderr(&output));
+        fails(&funicular(&arguments), 2, wanted);
     }
 }
 
 #[test]
 fn the_nearest_case_is_named() {
     let output = funicular(&["solve", "--case", "three-equal-bar"]);
-    assert_eq!(output.status.code(), Some(2));
-    let said = stderr(&output).replace('\u{2502}', " ");
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("did you mean `three-equal-bars`?"), "{said}");
+    fails(&output, 2, "did you mean `three-equal-bars`?");
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! `funicular derivatives`: by `lagrange`, against differences of answers of `energy`.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::prelude::*;
 use serde_json::Value;
 

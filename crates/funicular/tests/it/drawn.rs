@@ -1,8 +1,6 @@
 //! The equilibrium next to a shape, in every command that takes one: two springs that stand up as a
 //! gable or hang down, in closed forms.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::Path;
 
 use crate::run::{column, fed, program, stdout, words};

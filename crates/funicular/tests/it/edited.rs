@@ -1,7 +1,5 @@
 //! System files with one number changed.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::prelude::*;
 use serde_json::{Value, json};
 

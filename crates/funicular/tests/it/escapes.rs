@@ -1,8 +1,6 @@
 //! Text from files reaches the terminal as text: it steers nothing, and no line of it looks like
 //! the program's.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::process::Output;
 
 use crate::run::{folder, ran};

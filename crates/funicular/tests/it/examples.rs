@@ -1,28 +1,15 @@
 //! The examples, run as their readers run them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 11] = [
-    "batch",
-    "census",
-    "derivatives",
-    "judge",
-    "modes",
-    "simulate",
-    "solve",
-    "study",
-    "sweep",
-    "third_solver",
-    "trace",
-];
+const RUN: &str =
+    "batch census derivatives judge modes simulate solve study sweep third_solver trace";
 
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
-    assert!(RUN.contains(&name), "{name}");
+    assert!(RUN.split(' ').any(|run| run == name), "{name}");
     let tests = std::env::current_exe().unwrap();
     let folder = tests.parent().and_then(Path::parent).unwrap();
     // What these tests are built with builds the examples too, except `--test it` by itself. A package by itself is built with other
@@ -71,7 +58,7 @@ fn examples_are_short_and_all_of_them_are_run() {
         names.push(path.file_stem().unwrap().to_str().unwrap().to_owned());
     }
     names.sort_unstable();
-    assert_eq!(names, RUN, "each is run by a test below");
+    assert_eq!(names.join(" "), RUN, "each is run by a test below");
 }
 
 #[test]
@@ -222,7 +209,7 @@ fn examples_work_in_a_crate_of_others() {
     let library = messages.filter_map(library).next_back().expect("a library");
     let folder = tempfile::tempdir().unwrap();
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    for name in RUN {
+    for name in RUN.split(' ') {
         let copy = folder.path().join(name).with_extension("rs");
         std::fs::copy(examples.join(name).with_extension("rs"), &copy).unwrap();
         let compiled = Command::new(Path::new(env!("CARGO")).with_file_name("rustc"))

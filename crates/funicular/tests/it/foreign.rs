@@ -1,7 +1,5 @@
 //! Systems of other programs, against closed forms.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::Path;
 
 use funicular::{Modes, Problem, Solve, SolveAnswer};

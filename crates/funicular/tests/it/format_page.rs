@@ -1,7 +1,5 @@
 //! The examples of the page of the file format, as its readers try them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use crate::run::{folder, ran};
 use model::system_file::FORMAT;
 

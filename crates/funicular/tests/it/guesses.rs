@@ -72,13 +72,11 @@ fn a_picture_is_written_as_its_name_ends() {
         ("study.png", &["study", "--case", "lamp", "--vary", "loads=1,2", "--svg"], PNG),
         ("trace.png", &["trace", "--case", "lamp", "--vary", "loads=1..2", "--svg"], PNG),
     ] {
-        let output = ran(&folder, &[arguments, &[name]].concat());
-        assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
+        good(&folder, &[arguments, &[name]].concat());
         assert!(std::fs::read(folder.join(name)).unwrap().starts_with(head), "{name}");
     }
     let basins = ["basins", "--case", "two-bars", "--size", "4", "--out", ".", "--format", "png"];
-    let output = ran(&folder, &basins);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    good(&folder, &basins);
     assert!(std::fs::read(folder.join("energy-iterations.png")).unwrap().starts_with(PNG));
 }
 

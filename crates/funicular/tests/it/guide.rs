@@ -1,10 +1,8 @@
 //! The guide: its pictures are what the program draws, and its files are solved.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::{Path, PathBuf};
 
-use crate::run::{holding, run};
+use crate::run::{good, holding, run};
 
 /// The pictures with the commands that draw them, whose last argument is the file.
 const PICTURES: [&[&str]; 10] = [
@@ -65,9 +63,7 @@ fn its_first_structures_are_solved() {
         (&["solve", "--case", "lattice-tower"], &["1884.22", "2954.56"]),
         (&["solve", "--case", "star-dome"], &["joint N1 is 0.00184273 m", "another is lower, by"]),
     ] {
-        let (code, text, _) = run(&folder, arguments);
-        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(code, Some(0));
+        let text = good(&folder, arguments).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.iter().all(|words| text.contains(words.trim())), "{said:?}\n{text}");
     }
     let vary = "joints.N1.force_n.z=-40..-720:18";
@@ -84,8 +80,7 @@ fn its_load_path_is_followed() {
     let command = page.split('`').find_map(|code| code.strip_prefix("funicular trace gable.toml"));
     let arguments = command.unwrap().split_whitespace();
     let arguments: Vec<&str> = ["trace", "gable.toml"].into_iter().chain(arguments).collect();
-    let (code, text, _) = run(&folder, &arguments);
-    assert_eq!(code, Some(0));
+    let text = good(&folder, &arguments);
     let said = page.split_once("```text\n").unwrap().1.split_once("```").unwrap().0;
     let trimmed =
         |text: &str| text.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>();

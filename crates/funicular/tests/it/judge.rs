@@ -1,7 +1,5 @@
 //! `funicular judge`: answers from elsewhere, in all formats, right and wrong.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use formats::system::parse_moordyn;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -27,6 +25,14 @@ fn judge(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     run(folder, &[&["judge"], arguments].concat())
 }
 
+/// What is printed of an answer, and said, where the verdict ends with this code.
+#[track_caller]
+fn judged(code: i32, folder: &Path, arguments: &[&str]) -> [String; 2] {
+    let (found, out, error) = judge(folder, arguments);
+    assert_eq!(found, Some(code), "{out}{error}");
+    [out, error]
+}
+
 fn write(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join(name), text).unwrap();
 }
@@ -40,8 +46,7 @@ fn what_our_own_commands_print_is_confirmed() {
     );
     let solved = { solved }.output().unwrap();
     write(&folder, "answer.json", &String::from_utf8(solved.stdout).unwrap());
-    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "answer.json"]);
-    assert_eq!(code, Some(0), "{out}");
+    let [out, _] = judged(0, &folder, &["lamp.toml", "--answer", "answer.json"]);
     assert_eq!(out.matches("Verdict: confirmed").count(), 2, "{out}");
     let columns = ["lamp.toml", "--answer", "j.csv", "--members", "b.csv", "--tolerance", "1e-11"];
     assert_eq!(judge(&folder, &columns).0, Some(0));
@@ -51,9 +56,8 @@ fn what_our_own_commands_print_is_confirmed() {
         let printed =
             program(&folder, &[&[by], &chain[..], &["--json"]].concat()).output().unwrap();
         write(&folder, "chain.json", &String::from_utf8(printed.stdout).unwrap());
-        let (code, out, _) =
-            judge(&folder, &[&chain[..], &["--answer", "chain.json", "--json"]].concat());
-        assert_eq!(code, Some(0), "{by}: {out}");
+        let [out, _] =
+            judged(0, &folder, &[&chain[..], &["--answer", "chain.json", "--json"]].concat());
         let found: Value = serde_json::from_str(&out).unwrap();
         let found = found.as_array().unwrap();
         assert_eq!(found.len(), if by == "solve" { 2 } else { 4 });
@@ -65,8 +69,7 @@ fn what_our_own_commands_print_is_confirmed() {
 fn the_page_needs_nothing_else_and_tells_the_verdict_first() {
     let folder = folder("judge-page");
     write(&folder, "low.csv", &RIGHT.replace("-4\n", "-4.01\n"));
-    let (code, _, _) = judge(&folder, &["lamp.toml", "--answer", "low.csv", "--html", "page.html"]);
-    assert_eq!(code, Some(1));
+    judged(1, &folder, &["lamp.toml", "--answer", "low.csv", "--html", "page.html"]);
     let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
     for outside in ["http://", "https://", "src=\"", "@import", "url("] {
         let allowed = page.matches("http://www.w3.org/").count();
@@ -82,8 +85,7 @@ fn the_page_needs_nothing_else_and_tells_the_verdict_first() {
     assert!(ends[0] < 0.01 && 0.01 < ends[1] && ends[1] - ends[0] < 2.5e-5, "{ends:?}");
     assert!(place("member 1 (A - P)") < place("<svg"));
     // A page that would overwrite the answer is refused.
-    let (code, _, err) = judge(&folder, &["lamp.toml", "--answer", "low.csv", "--html", "low.csv"]);
-    assert_eq!(code, Some(2), "{err}");
+    judged(2, &folder, &["lamp.toml", "--answer", "low.csv", "--html", "low.csv"]);
 }
 
 /// 1 kg on two cables of 5 m between anchors 4 m apart hangs √21 m deep and draws each with
@@ -195,17 +197,13 @@ fn a_mooring_line_is_judged_and_one_on_the_floor_is_not() {
     let folder = folder("judge-moordyn");
     write(&folder, "line.txt", LINE);
     write(&folder, "answer.csv", &solved_line(LINE));
-    let (code, out, err) = judge(&folder, &["line.txt", "--answer", "answer.csv"]);
-    assert_eq!(code, Some(0), "{out}{err}");
+    let [out, _] = judged(0, &folder, &["line.txt", "--answer", "answer.csv"]);
     assert!(out.contains("line 1: 40 elastic cables of 1.75 m"), "{out}");
     // The same with the floor where the line hangs through it.
     write(&folder, "shallow.txt", &LINE.replace("200 WtrDpth", "20 WtrDpth"));
-    let (code, out, _) = judge(&folder, &["shallow.txt", "--answer", "answer.csv"]);
-    assert_eq!(code, Some(3), "{out}");
+    let [out, _] = judged(3, &folder, &["shallow.txt", "--answer", "answer.csv"]);
     assert!(out.contains("on or below the floor"), "{out}");
-    let (code, _, err) =
-        judge(&folder, &["line.txt", "--answer", "answer.csv", "--format", "compas"]);
-    assert_eq!(code, Some(2), "{err}");
+    judged(2, &folder, &["line.txt", "--answer", "answer.csv", "--format", "compas"]);
 }
 
 /// A plane deck with loads on its supports: answers are wanted as (x, 0, y), and both are said.
@@ -222,8 +220,7 @@ fn a_deck_of_a_plane_says_what_it_wants_and_leaves_out() {
     );
     write(&folder, "plane.tcl", &deck);
     write(&folder, "answer.csv", "joint,x_m,y_m,z_m\n1,0,0,0\n2,6,0,0\n3,3,0,3.9\n");
-    let (code, out, err) = judge(&folder, &["plane.tcl", "--answer", "answer.csv"]);
-    assert_eq!(code, Some(0), "{out}{err}");
+    let [out, _] = judged(0, &folder, &["plane.tcl", "--answer", "answer.csv"]);
     let said = out.split_whitespace().collect::<Vec<_>>().join(" ");
     says(
         &said,
@@ -240,19 +237,16 @@ fn the_net_of_olympia_is_in_balance_and_one_force_changed_is_not() {
     let (nodes, edges) = (text("olympia-nodes.csv"), text("olympia-edges.csv"));
     write(&folder, "nodes.csv", &nodes);
     write(&folder, "edges.csv", &edges);
-    let (code, out, err) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
-    assert_eq!(code, Some(0), "{out}{err}");
+    judged(0, &folder, &["nodes.csv", "--edges", "edges.csv"]);
     // Force density and force of one edge a tenth larger.
     assert!(edges.contains("77,4,5,5,9.086835826"));
     write(&folder, "edges.csv", &edges.replace("77,4,5,5,9.086835826", "77,4,5,5.5,9.9955194086"));
-    let (code, out, _) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
-    assert_eq!(code, Some(1), "{out}");
+    let [out, _] = judged(1, &folder, &["nodes.csv", "--edges", "edges.csv"]);
     // Joint 77 is an anchor, and bears what it is asked to.
     assert!(out.contains("joint 4 ") && !out.contains("joint 77 "), "{out}");
     // A column that the other net has misspelt is named.
     write(&folder, "nodes.csv", &text("stuttgart21-nodes.csv"));
-    let (code, _, err) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
-    assert_eq!(code, Some(2));
+    let [_, err] = judged(2, &folder, &["nodes.csv", "--edges", "edges.csv"]);
     assert!(err.contains("the column \"6\" is not understood"), "{err}");
 }
 
@@ -266,11 +260,9 @@ fn names_from_files_do_not_steer_the_terminal() {
         &LAMP.replace("P = {", "\"\\u001B[2JP\" = {").replace("\"P\"", "\"\\u001B[2JP\""),
     );
     write(&folder, "answer.csv", &RIGHT.replace("P,0,0,-4", &format!("\"{name}\",0,0,-5")));
-    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "answer.csv"]);
-    assert_eq!(code, Some(1), "{out}");
+    let [out, _] = judged(1, &folder, &["lamp.toml", "--answer", "answer.csv"]);
     assert!(!out.contains('\u{1b}'), "{out:?}");
     write(&folder, "answer.csv", &RIGHT.replace("P,0,0,-4", "\"\u{1b}]0;X\u{7}\",0,0,-5"));
-    let (code, _, err) = judge(&folder, &["lamp.toml", "--answer", "answer.csv"]);
-    assert_eq!(code, Some(2));
+    let [_, err] = judged(2, &folder, &["lamp.toml", "--answer", "answer.csv"]);
     assert!(!err.contains('\u{7}') && !err.contains("\u{1b}]"), "{err:?}");
 }

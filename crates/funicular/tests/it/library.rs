@@ -1,7 +1,5 @@
 //! The library as its users meet it.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::prelude::*;
 
 fn cases() -> Vec<Problem> {
@@ -119,12 +117,8 @@ fn errors_are_joined_and_say_what_they_said() {
 
 #[test]
 fn a_system_of_joints_is_the_row_that_it_is() {
-    use model::system::{Joint, Member, System};
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [1.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(1.0),
-    ];
+    use model::system::{Member, System};
+    let joints = samples::joints(&[[0.0; 3], [1.0, 0.0, 0.0]], &[1.0]);
     let bar = Bar::homogeneous(1.0, 1.0).unwrap();
     let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
     let problem = Problem::from(System::new("a lamp", 9.81, joints, members).unwrap());
@@ -136,11 +130,7 @@ fn a_system_of_joints_is_the_row_that_it_is() {
 
 #[test]
 fn a_batch_takes_chains_and_systems_alike() {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(2.0),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[2.0]);
     let cord = Bar::homogeneous(5.0, 0.0).unwrap();
     let members = vec![Member::cable(0, 2, cord), Member::cable(2, 1, cord)];
     let lamp = Problem::from(System::new("lamp", 10.0, joints, members).unwrap());

@@ -1,7 +1,5 @@
 //! A system that is changed while it is looked at (`funicular serve`): the text, and what is shown.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::live::{Ask, Live};
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! Load paths against closed forms: `l` is the length of a bar, `l0` its free length, `a` half the
 //! span and `w` the height of a gable.
 
-#![expect(clippy::unwrap_used, clippy::format_push_string, reason = "helpers of tests")]
+#![expect(clippy::format_push_string, reason = "helpers of tests")]
 
 mod domes;
 mod ropes;

@@ -1,5 +1,7 @@
 //! The program as its users meet it.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod batch;
 mod census;
 mod census_lists;

@@ -1,7 +1,5 @@
 //! What people know of a bar, against the same file written out by hand.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::f64::consts::PI;
 
 use funicular::prelude::*;

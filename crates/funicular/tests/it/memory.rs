@@ -1,7 +1,6 @@
 //! The memory that a solve is said to need, `--max-memory`, is what it takes: never less, and not far more.
 
 #![cfg(target_os = "linux")]
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::fmt::Write as _;
 use std::fs;

@@ -1,7 +1,5 @@
 //! Frequencies enclosed, modes drawn and moving; motions and their ends, the same for any threads.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::io::Read as _;
 use std::path::Path;
 use std::process::Stdio;

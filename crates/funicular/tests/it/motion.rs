@@ -1,7 +1,5 @@
 //! `funicular modes` and `funicular simulate`.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::Path;
 
 use crate::run::{column, files, funicular, good, holding, refused, words};

@@ -1,7 +1,5 @@
 //! `funicular page`: what a page shows is what the solvers say.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::{Page, prelude::*};
 use serde_json::Value;
 

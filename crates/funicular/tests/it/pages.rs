@@ -1,7 +1,5 @@
 //! README and CONTRIBUTING against the files that they name.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::{Path, PathBuf};
 
 /// The folder of the workspace.

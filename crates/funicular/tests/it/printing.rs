@@ -1,8 +1,6 @@
 //! What people read: one answer on one screen, tables to paste, units, characters.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-use crate::run::{fed, funicular, holding, program, ran, says, stderr, stdout};
+use crate::run::{fails, fed, funicular, holding, program, ran, says, stderr, stdout};
 
 /// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
 const WEIGHT_N: f64 = 2.0 * 9.80665;
@@ -149,9 +147,7 @@ fn units_are_those_that_are_asked_for() {
     let text = solve(&["--units", "lbf,ft"]);
     close(numbers(&text, "1 A lamp")[1], 0.8 * 2.0 / 0.453_592_37);
     close(numbers(&text, "lamp")[2], -2.4 / 0.3048);
-    let output = funicular(&["solve", "--case", "lamp", "--units", "kp"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("kgf"));
+    fails(&funicular(&["solve", "--case", "lamp", "--units", "kp"]), 2, "kgf");
 }
 
 #[test]

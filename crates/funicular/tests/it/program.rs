@@ -1,12 +1,10 @@
 //! The program as its users meet it: exit codes, JSON keys, errors, files.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::PathBuf;
 use std::process::Output;
 use std::sync::LazyLock;
 
-use crate::run::{fed, folder, funicular, good, json, program, says, stderr, stdout, words};
+use crate::run::{fails, fed, folder, funicular, good, json, program, says, stderr, stdout};
 use serde_json::Value;
 
 fn file(folder: &str, text: &str) -> String {
@@ -44,16 +42,8 @@ fn reproduce_finds_what_is_expected_and_writes_it() {
 
 #[test]
 fn summary_and_a_single_solver() {
-    let output = funicular(&[
-        "solve",
-        "--case",
-        "hundred-bars",
-        "--json",
-        "--summary",
-        "--solver",
-        "energy",
-    ]);
-    let json = json(&output);
+    let arguments = "solve --case hundred-bars --json --summary --solver energy".split(' ');
+    let json = json(&funicular(&arguments.collect::<Vec<_>>()));
     let equilibrium = &json["equilibria"][0];
     assert!(["joints", "bars", "reactions_n"].iter().all(|key| equilibrium[key].is_null()));
     assert!(json["agreement"].is_null());
@@ -184,11 +174,7 @@ fn weight_on_the_anchors_alone_is_bad_input_for_every_command() {
          { length_m = 1, mass_kg = 1, centre_m = 1 }]\n",
     );
     for command in ["solve", "census"] {
-        let output = funicular(&[command, &path]);
-        assert_eq!(output.status.code(), Some(2), "{command}");
-        let said = stderr(&output).replace('\u{2502}', " ");
-        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains("every position is an equilibrium"), "{command}: {said}");
+        fails(&funicular(&[command, &path]), 2, "every position is an equilibrium");
     }
 }
 
@@ -226,9 +212,7 @@ fn bad_input_ends_with_code_2_and_shows_the_line() {
         "out-of-reach",
         "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -9]\n[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n",
     );
-    let output = funicular(&["solve", &path]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output).contains("6 m are missing"), "{}", words(&output));
+    fails(&funicular(&["solve", &path]), 2, "6 m are missing");
 
     let directory = folder("a-directory");
     for arguments in [
@@ -303,8 +287,6 @@ fn columns_have_the_numbers_of_the_objects() {
 #[test]
 fn the_full_equations_are_refused_for_another_system() {
     let refused = funicular(&["solve", "--case", "bridle", "--equations", "full"]);
-    assert_eq!(refused.status.code(), Some(2));
-    let words = words(&refused);
-    assert!(words.contains("is for chains between two anchors"), "{words}");
+    fails(&refused, 2, "is for chains between two anchors");
     good(".", &["solve", "--case", "five-in-space", "--equations", "full"]);
 }

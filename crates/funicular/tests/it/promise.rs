@@ -3,8 +3,6 @@
 //! Expected forces of overdetermined frames are those of NumPy's `lstsq` at the shape that SciPy's
 //! `least_squares` finds for the lengths: least $\sum t^2 l$ under balance.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fmt::Write as _;
 use std::path::Path;
 

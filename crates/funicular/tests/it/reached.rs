@@ -1,8 +1,6 @@
 //! Sweeps of chains without a census: their lists grow with the seeds, and the folder is the same to
 //! the last byte however it came about.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};

@@ -1,7 +1,5 @@
 //! Ropes over rings and pulleys in modes, motions, derivatives, studies, losses, sweeps and basins.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use funicular::prelude::*;
 use funicular::{DerivativesError, LoadEventKind, Outcome};
 use model::{STANDARD_GRAVITY_M_S2 as G, SolverName};

@@ -1,7 +1,5 @@
 //! The program, as tests start it, and what they look at.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::collections::BTreeMap;
 use std::io::{Read, Write as _};
 use std::panic::Location;
@@ -161,6 +159,14 @@ pub fn refused(folder: impl AsRef<Path>, command: &[&str], table: &[(&[&str], &s
         assert!(output.stdout.is_empty(), "{arguments:?}: {}", stdout(&output));
         assert!(said.contains(wanted), "{arguments:?}: {said}");
     }
+}
+
+/// It ends with this code and says this.
+#[track_caller]
+pub fn fails(output: &Output, code: i32, wanted: &str) {
+    let said = words(output);
+    assert_eq!(output.status.code(), Some(code), "{said}");
+    assert!(said.contains(wanted), "{said}");
 }
 
 /// A text says all of these.

@@ -2,7 +2,6 @@
 //! other, in the order in which they depend on each other.
 
 #![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use crate::run::{Running, files, funicular, stderr, wait_until};
 use std::fs;

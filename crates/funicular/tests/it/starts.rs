@@ -1,8 +1,6 @@
 //! Sweeps over seeds: the same bits however they are cut, every seed accounted for, and the
 //! equilibria those of the census and of the scalar solvers.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use model::{Anchors, Bar, Chain, Problem};
 use sweep::{Axis, Chunk, Comparison, Failure, Settings, Source, Summary, Sweep};
 

@@ -1,6 +1,6 @@
 //! What bars bear, and how much of it they use: against closed forms.
 
-#![expect(clippy::unwrap_used, clippy::format_push_string, reason = "helpers of tests")]
+#![expect(clippy::format_push_string, reason = "helpers of tests")]
 
 use funicular::{Loss, Outcome, Weakest, prelude::*};
 

@@ -1,14 +1,12 @@
 //! `funicular sweep` and `funicular merge` as their users meet them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
 use crate::run::{
-    Running, files, first_line, folder, funicular, good, limited, program, refused, says,
+    Running, fails, files, first_line, folder, funicular, good, limited, program, refused, says,
     wait_until, words,
 };
 use serde_json::{Value, json};
@@ -34,19 +32,11 @@ fn started(out: &Path) -> Running {
 }
 
 fn long<'a>(out: &'a Path, more: &[&'a str]) -> Vec<&'a str> {
-    [&LONG[..], more, &["--out", out.to_str().unwrap()]].concat()
+    let end = ["--out", out.to_str().unwrap()];
+    LONG.split(' ').chain(more.iter().copied()).chain(end).collect()
 }
 
-const LONG: [&str; 8] = [
-    "sweep",
-    "--case",
-    "three-equal-bars",
-    "--seeds",
-    "200_000",
-    "--solver",
-    "lagrange",
-    "--angles",
-];
+const LONG: &str = "sweep --case three-equal-bars --seeds 200_000 --solver lagrange --angles";
 
 #[test]
 fn the_tables_and_the_object_say_the_same() {
@@ -236,12 +226,9 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     running.0.kill().unwrap();
     running.0.wait().unwrap();
     assert!(!cut.join("summary.json").exists(), "it had finished: too few seeds for this machine");
-    let refused = funicular(&long(&cut, &[]));
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(words(&refused).contains("holds a sweep already"), "{}", words(&refused));
+    fails(&funicular(&long(&cut, &[])), 2, "holds a sweep already");
     let other = funicular(&long(&cut, &["--resume", "--seed=2"]));
-    assert_eq!(other.status.code(), Some(2));
-    assert!(words(&other).contains("`seed_number` is 1, not 2"), "{}", words(&other));
+    fails(&other, 2, "`seed_number` is 1, not 2");
     let output = funicular(&long(&cut, &["--resume", "--json"]));
     let object = crate::run::json(&output);
     assert!(object["seeds_before"].as_u64().unwrap() > 0);
@@ -297,9 +284,7 @@ fn bad_usage_is_refused_with_a_reason() {
 
     fs::write(out.join("mine"), "").unwrap();
     for resume in [&[][..], &["--resume"]] {
-        let output = sweep(&out, resume);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(words(&output).contains("is not empty and holds no sweep: there is `mine`"));
+        fails(&sweep(&out, resume), 2, "is not empty and holds no sweep: there is `mine`");
     }
     let output = sweep(&out.join("mine"), &[]);
     assert_eq!(output.status.code(), Some(2), "{}", words(&output));
@@ -316,8 +301,7 @@ fn a_disk_that_fails_is_no_bad_input() {
     let seeds = ["sweep", "--case", "three-equal-bars", "--seeds", SEEDS, "--resume", "--out"];
     let arguments = [&seeds[..], &[out.to_str().unwrap()]].concat();
     let output = limited(Path::new("."), "ulimit -f 16; trap '' XFSZ", &arguments);
-    assert_eq!(output.status.code(), Some(3), "{}", words(&output));
-    assert!(words(&output).contains("--resume"), "{}", words(&output));
+    fails(&output, 3, "--resume");
     let output = sweep(&out, &["--resume"]);
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     let whole = folder("full-whole").join("out");
@@ -388,8 +372,7 @@ fn what_is_for_angles_is_refused_for_places() {
     for more in [&["--spread", "sobol"][..], &["--angles"]] {
         let arguments = ["sweep", "--case", "lamp", "--seeds", "10", "--out"];
         let output = funicular(&[&arguments[..], &[out.to_str().unwrap()], more].concat());
-        assert_eq!(output.status.code(), Some(2));
-        assert!(words(&output).contains("is for chains between two anchors"), "{}", words(&output));
+        fails(&output, 2, "is for chains between two anchors");
     }
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
@@ -405,6 +388,5 @@ fn basins_of_a_system_are_over_the_place_of_a_joint() {
         &["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"],
     );
     let refused = funicular(&["basins", "--case", "tripod", "--joint", "A", "--out", path]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(words(&refused).contains("no joint that can move"), "{}", words(&refused));
+    fails(&refused, 2, "no joint that can move");
 }

@@ -1,7 +1,5 @@
 //! Systems of bars by name, as users meet them: tables, JSON, CSV, pictures, exit codes.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::path::PathBuf;
 
 use crate::run::{column, funicular, good, json, ran, refused, says};

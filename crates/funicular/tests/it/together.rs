@@ -4,7 +4,7 @@
 use funicular::prelude::*;
 use serde_json::Value;
 
-use crate::run::{holding, run};
+use crate::run::{good, holding, run};
 
 fn problem(text: &str) -> Problem {
     Problem::parse(text, "system.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -35,24 +35,21 @@ fn drawn_at(height_m: f64) -> String {
 fn what_is_drawn_above_the_floor_that_it_lies_on_is_judged_as_on_it() {
     let folder = holding([("on.toml", &drawn_at(-1.5)), ("above.toml", &drawn_at(-1.48))]);
     let frequencies = |file: &str| -> Vec<f64> {
-        let (code, out, said) = run(&folder, &["modes", file, "--json"]);
-        assert_eq!(code, Some(0), "{said}");
-        let found: Value = serde_json::from_str(&out).unwrap();
+        let found: Value =
+            serde_json::from_str(&good(&folder, &["modes", file, "--json"])).unwrap();
         let modes = found["equilibria"][0]["modes"].as_array().unwrap().clone();
         modes.iter().map(|mode| mode["omega2_s2"].as_f64().unwrap()).collect()
     };
     let [on, above] = ["on.toml", "above.toml"].map(frequencies);
     assert!(on.len() == 2 && on.iter().zip(&above).all(|(a, b)| near(*a, *b)), "{on:?} {above:?}");
-    let (code, answer, _) = run(&folder, &["solve", "above.toml", "--json"]);
-    assert_eq!(code, Some(0));
+    let answer = good(&folder, &["solve", "above.toml", "--json"]);
     std::fs::write(folder.path().join("answer.json"), answer).unwrap();
     for arguments in [
         &["judge", "above.toml", "--answer", "answer.json"][..],
         &["solve", "above.toml", "--tolerances"],
         &["simulate", "above.toml", "--time", "0.1"],
     ] {
-        let (code, out, said) = run(&folder, arguments);
-        assert_eq!(code, Some(0), "{arguments:?}: {out}{said}");
+        good(&folder, arguments);
     }
     assert!(is_verified(&drawn_at(-1.48)));
 }
@@ -240,9 +237,7 @@ fn what_is_given_a_metre_follows_a_length_that_varies() {
     let folder = holding([("hanging.toml", hanging), ("chain.toml", chain)]);
     let study = |file: &str, of: &str| -> Vec<f64> {
         let arguments = ["study", file, "--vary", "bars.1.length_m=2,3", "--of", of, "--json"];
-        let (code, out, said) = run(&folder, &arguments);
-        assert_eq!(code, Some(0), "{said}");
-        let found: Value = serde_json::from_str(&out).unwrap();
+        let found: Value = serde_json::from_str(&good(&folder, &arguments)).unwrap();
         let points = found["points"].as_array().unwrap();
         points.iter().map(|point| point["of"][0].as_f64().unwrap()).collect()
     };
@@ -284,8 +279,7 @@ fn a_bar_that_rests_on_the_floor_turns_and_does_not_leave() {
              bars = [{{ from = 'A', to = 'P', length_m = {length_m}, mass_kg = 1 }}]"
         );
         let folder = holding([("bar.toml", &text)]);
-        let (code, out, said) = run(&folder, &["modes", "bar.toml"]);
-        assert_eq!(code, Some(0), "{said}");
+        let out = good(&folder, &["modes", "bar.toml"]);
         assert!(out.contains("1 mode, 0 unstable"), "{out}");
     }
 }
@@ -316,23 +310,13 @@ fn cases_move_from_the_first_that_has_an_answer() {
 /// left over at a third one, a third of a metre from its place.
 #[test]
 fn a_slack_tie_without_span_explains_no_force_elsewhere() {
-    let spring = |from: &str, to: &str, length_m: f64| {
-        format!(
-            "{{ from = '{from}', to = '{to}', length_m = {length_m}, mass_kg = 0, stiffness_n = 1000 }}"
-        )
-    };
-    let bars = [
-        spring("A", "P", 1.0),
-        spring("P", "B", 1.0),
-        spring("A", "Q", 1.0),
-        spring("Q", "B", 1.0),
-        spring("A", "R", 0.5),
-    ];
-    let text = format!(
-        "joints = {{ A = {{ at_m = [0, 0, 0] }}, B = {{ at_m = [2, 0, 0] }}, P = {{ mass_kg = 2 }}, Q = {{ mass_kg = 2 }}, R = {{ mass_kg = 2 }} }}\n\
-         bars = [{}, {{ from = 'P', to = 'Q', length_m = 0.5, mass_kg = 0, kind = 'cable' }}]",
-        bars.join(", ")
-    );
+    let text = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0] }, P = { mass_kg = 2 }, Q = { mass_kg = 2 }, R = { mass_kg = 2 } }\n\
+        bars = [{ from = 'A', to = 'P', length_m = 1, mass_kg = 0, stiffness_n = 1000 }, \
+        { from = 'P', to = 'B', length_m = 1, mass_kg = 0, stiffness_n = 1000 }, \
+        { from = 'A', to = 'Q', length_m = 1, mass_kg = 0, stiffness_n = 1000 }, \
+        { from = 'Q', to = 'B', length_m = 1, mass_kg = 0, stiffness_n = 1000 }, \
+        { from = 'A', to = 'R', length_m = 0.5, mass_kg = 0, stiffness_n = 1000 }, \
+        { from = 'P', to = 'Q', length_m = 0.5, mass_kg = 0, kind = 'cable' }]";
     // P and Q by `2 (1000/1) (l - 1) z/l = 2 g`, l^2 = 1 + z^2.
     let answer = |r: &str| {
         format!(
@@ -341,7 +325,7 @@ fn a_slack_tie_without_span_explains_no_force_elsewhere() {
     };
     let right = format!("0,0,{}", -0.5 * (1.0 + 2.0 * 9.80665 / 1000.0));
     let folder = holding([
-        ("lamps.toml", &text),
+        ("lamps.toml", text),
         ("moved.csv", &answer("0.3,0,-0.7")),
         ("right.csv", &answer(&right)),
     ]);
@@ -355,31 +339,15 @@ fn a_slack_tie_without_span_explains_no_force_elsewhere() {
 /// SLSQP, slings no longer than their length) a comes to rest at (-0.99946, -1.62763) with -5055.318 J.
 #[test]
 fn of_slings_that_are_drawn_taut_one_may_be_slack() {
-    let point = |name: &str, x: f64, z: f64, mass: f64| {
-        format!("{name} = {{ mass_kg = {mass}, near_m = [{x}, 0, {z}] }}")
-    };
-    let bar = |from: &str, to: &str| format!("{{ from = '{from}', to = '{to}', mass_kg = 0 }}");
-    let sling = |to: &str, length: f64| {
-        format!(
-            "{{ from = 'hook', to = '{to}', kind = 'cable', length_m = {length}, mass_kg = 0 }}"
-        )
-    };
-    let text = format!(
-        "plane = 'xz'\njoints = {{ hook = {{ at_m = [0, 0, 0] }}, {}, {}, {}, {} }}\nbars = [{}, {}, {}, {}, {}, {}, {}, {}]",
-        point("a", -1.0, -1.6, 100.0),
-        point("b", 1.0, -1.6, 100.0),
-        point("m", 0.0, -1.6, 100.0),
-        point("K", 0.0, -2.0, 10.0),
-        bar("a", "K"),
-        bar("b", "K"),
-        bar("m", "K"),
-        bar("a", "m"),
-        bar("b", "m"),
-        sling("a", 1.91),
-        sling("b", 1.98),
-        sling("m", 1.65)
-    );
-    let answer = Solve::new().run(&problem(&text)).unwrap();
+    let text = "plane = 'xz'\njoints = { hook = { at_m = [0, 0, 0] }, a = { mass_kg = 100, near_m = [-1, 0, -1.6] }, \
+        b = { mass_kg = 100, near_m = [1, 0, -1.6] }, m = { mass_kg = 100, near_m = [0, 0, -1.6] }, \
+        K = { mass_kg = 10, near_m = [0, 0, -2] } }\n\
+        bars = [{ from = 'a', to = 'K', mass_kg = 0 }, { from = 'b', to = 'K', mass_kg = 0 }, \
+        { from = 'm', to = 'K', mass_kg = 0 }, { from = 'a', to = 'm', mass_kg = 0 }, { from = 'b', to = 'm', mass_kg = 0 }, \
+        { from = 'hook', to = 'a', kind = 'cable', length_m = 1.91, mass_kg = 0 }, \
+        { from = 'hook', to = 'b', kind = 'cable', length_m = 1.98, mass_kg = 0 }, \
+        { from = 'hook', to = 'm', kind = 'cable', length_m = 1.65, mass_kg = 0 }]";
+    let answer = Solve::new().run(&problem(text)).unwrap();
     assert!(answer.agrees(), "{:?}", answer.failures());
     for found in answer.equilibria() {
         assert!((found.energy_j + 5055.318).abs() < 1e-3, "{}", found.energy_j);
@@ -392,21 +360,18 @@ fn of_slings_that_are_drawn_taut_one_may_be_slack() {
 /// listed as the support is.
 #[test]
 fn what_the_floor_bears_is_listed_over_all_cases() {
-    let corner = |x: f64, y: f64| format!("[{x}, {y}, 0]");
     let mut joints = vec![
         "F0 = { at_m = [0, 0, 0] }".to_owned(),
         "K = { near_m = [0.5, 0.5, 1], mass_kg = 80 }".to_owned(),
     ];
     let mut bars = Vec::new();
-    for (k, (x, y)) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].into_iter().enumerate() {
+    for (k, corner) in ["[0, 0, 0]", "[1, 0, 0]", "[1, 1, 0]", "[0, 1, 0]"].iter().enumerate() {
         if k > 0 {
-            joints.push(format!("F{k} = {{ near_m = {} }}", corner(x, y)));
+            joints.push(format!("F{k} = {{ near_m = {corner} }}"));
         }
-        bars.push(format!("{{ from = 'F{k}', to = 'K', mass_kg = 0, stiffness_n = 1e6 }}"));
-        bars.push(format!(
-            "{{ from = 'F{k}', to = 'F{}', mass_kg = 0, stiffness_n = 1e6 }}",
-            (k + 1) % 4
-        ));
+        for to in ["K".to_owned(), format!("F{}", (k + 1) % 4)] {
+            bars.push(format!("{{ from = 'F{k}', to = '{to}', mass_kg = 0, stiffness_n = 1e6 }}"));
+        }
     }
     let text = format!(
         "floor_m = 0\njoints = {{ {} }}\nbars = [{}]\nloads = [{{ name = 'more', joint = 'K', force_n = [0, 0, -784.532] }}]\n\
@@ -415,8 +380,7 @@ fn what_the_floor_bears_is_listed_over_all_cases() {
         bars.join(", ")
     );
     let folder = holding([("table.toml", text.as_str())]);
-    let (code, out, said) = run(&folder, &["solve", "table.toml", "--load-case", "each", "--json"]);
-    assert_eq!(code, Some(0), "{said}");
+    let out = good(&folder, &["solve", "table.toml", "--load-case", "each", "--json"]);
     let found: Value = serde_json::from_str(&out).unwrap();
     let supports = found["supports"].as_array().unwrap();
     assert_eq!(supports.len(), 4, "{supports:?}");

@@ -1,7 +1,5 @@
 //! `funicular trace` and `funicular basins` as their users meet them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use crate::run::{first_line, folder, funicular, good, json, refused, says, words};
 use serde_json::Value;
 
@@ -9,19 +7,11 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-const LEVEL: [&str; 7] = [
-    "trace",
-    "--case",
-    "three-equal-bars",
-    "--vary",
-    "anchors.end_m.z=0",
-    "--vary",
-    "anchors.end_m.x=0.3..1.5:13",
-];
-
 #[test]
 fn people_get_a_table() {
-    let said = good(".", &LEVEL);
+    let level = "trace --case three-equal-bars --vary anchors.end_m.z=0 \
+                 --vary anchors.end_m.x=0.3..1.5:13";
+    let said = good(".", &level.split(' ').collect::<Vec<_>>());
     says(&said, &["fold: two branches", "branch point", "1.2247448713916", "each finds exactly"]);
 }
 
@@ -157,15 +147,8 @@ fn basins_are_drawn_for_both_solvers() {
     assert!(energy.contains("minimum") && !energy.contains("no minimum"));
     let lagrange = std::fs::read_to_string(out.join("lagrange.svg")).unwrap();
     assert!(lagrange.contains("no minimum"));
-    let output = funicular(&[
-        "basins",
-        "--case",
-        "two-bars",
-        "--bars",
-        "1,3",
-        "--out",
-        out.to_str().unwrap(),
-    ]);
+    let to = out.to_str().unwrap();
+    let output = funicular(&["basins", "--case", "two-bars", "--bars", "1,3", "--out", to]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("the chain has bars 1 to 2"));
 }

@@ -98,7 +98,6 @@ impl Batch {
         Ok(Self { numbers: Numbers::of(problem), settings })
     }
 
-    /// Number of bars n.
     pub(super) fn bars(&self) -> usize {
         self.numbers.bars.len()
     }
@@ -113,7 +112,6 @@ impl Batch {
     /// assert_eq!(batch.heading(), [0.0, 1.0]);
     /// # Ok::<(), lagrange::SettingsError>(())
     /// ```
-    #[must_use]
     pub fn heading(&self) -> [f64; 2] {
         self.numbers.heading
     }
@@ -280,7 +278,6 @@ impl<const N: usize> pulp::NullaryFnOnce for Widest<'_, N> {
 /// Angles of seeds up to this are taken as they are, rad.
 const FEW_TURNS: f64 = 1000.0;
 
-/// Put a seed into a lane.
 #[inline(always)]
 fn load(states: &mut [State], angles: &[f64], seed: usize, lane: usize) {
     let bars = states.len();

@@ -8,7 +8,6 @@ use super::parallel::{Workers, in_parallel, joined, split};
 use super::sums::{BLOCK, DoubleDouble};
 use super::units::Units;
 
-/// The numbers of all bars.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BarData {
     /// `l_i`.
@@ -30,7 +29,6 @@ pub(super) struct BarData {
 pub(super) struct Block {
     /// Length of the bars before it; while they are read, of its own.
     pub length: f64,
-    /// Its mass.
     mass: f64,
 }
 

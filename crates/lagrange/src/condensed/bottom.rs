@@ -21,7 +21,6 @@ use super::bar_data::BarData;
 use super::sums::{BLOCK, DoubleDouble};
 use crate::thresholds::{NO_LOAD, RECHECKED_GAP};
 
-/// The bars at the bottom.
 #[derive(Debug, Clone)]
 pub(super) struct Bottom {
     /// All bars with the same force.

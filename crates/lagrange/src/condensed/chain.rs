@@ -56,7 +56,6 @@ pub struct Condensed {
 
 impl Condensed {
     /// Prepare a chain: one pass over its bars.
-    #[must_use]
     pub fn new(problem: &Problem) -> Self {
         Self::with_processors(problem, NonZeroUsize::MIN)
     }
@@ -70,7 +69,6 @@ impl Condensed {
 
     /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more
     /// than all computing.
-    #[must_use]
     pub(super) fn again(self, problem: &Problem) -> Self {
         Self::prepare(problem, self.processors, self.bars, self.moments)
     }
@@ -94,7 +92,6 @@ impl Condensed {
         Self::with_units(chain, units, processors, bars, moments)
     }
 
-    /// Number of bars.
     pub(super) fn bars(&self) -> usize {
         self.bars.lengths.len()
     }
@@ -119,7 +116,6 @@ impl Condensed {
         self.bars.loads[0].abs().max(self.bars.loads[self.bars.loads.len() - 1].abs())
     }
 
-    /// All bars.
     pub(super) fn all(&self) -> [Bars<'_>; 2] {
         [Bars { lengths: &self.bars.lengths, loads: &self.bars.loads }, Bars::NONE]
     }

@@ -46,7 +46,6 @@ impl Workers {
     }
 }
 
-/// Consecutive chunks as one range.
 pub(super) fn joined(chunks: &[Range<usize>]) -> Option<Range<usize>> {
     Some(chunks.first()?.start..chunks.last()?.end)
 }

@@ -117,13 +117,11 @@ impl Pull {
 
     /// Force of the ground on bar 1 at joint 0, world frame, N: the paper's λ₁, λ₂, λ₃. The chain
     /// pulls the anchor with the opposite of it.
-    #[must_use]
     pub fn ground_n(&self) -> Vector {
         self.ground_n
     }
 
     /// The compressed bars, numbered from 0.
-    #[must_use]
     pub fn compressed(&self) -> Vec<usize> {
         match &self.signs {
             Signs::Tension | Signs::Unloaded(_) => Vec::new(),
@@ -132,7 +130,6 @@ impl Pull {
     }
 
     /// Passes over all bars that it took.
-    #[must_use]
     pub fn passes(&self) -> usize {
         self.passes
     }

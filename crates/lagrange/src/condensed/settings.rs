@@ -1,5 +1,3 @@
-//! Settings of the condensed solve.
-
 use crate::settings::{SettingsError, within};
 
 /// Settings of [`solve`](super::solve()) and [`Condensed::pull`](super::Condensed::pull).

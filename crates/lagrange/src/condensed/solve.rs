@@ -77,7 +77,6 @@ impl Default for Solver {
 
 impl Solver {
     /// A solver that shares large chains among so many processors; by default there is one.
-    #[must_use]
     pub fn with_processors(processors: NonZeroUsize) -> Self {
         Self { processors, chain: None, spare: Vectors::default() }
     }

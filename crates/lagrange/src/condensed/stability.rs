@@ -11,8 +11,6 @@
 //! divided by the horizontal pull. It is the inertia of the whole stress matrix for the price of
 //! three pivots.
 //!
-//! # References
-//!
 //! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
 
 use model::{InPlane, InSpace, Stability};
@@ -29,7 +27,6 @@ pub(super) struct SecondOrder {
     pub condition: f64,
 }
 
-/// Second order of an equilibrium.
 pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     let compressed = match &pull.signs {
         Signs::Tension => 0,

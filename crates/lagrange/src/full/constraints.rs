@@ -41,13 +41,11 @@ pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector
 /// prints the second bar in (18)-(20) ($C_2, l_2, r_2$ and its angles); the last bar is meant,
 /// since the equations are those of the point $A_3$.
 ///
+/// Paper, eqs. (6)-(20).
+///
 /// # Panics
 ///
 /// When `q` has not 6n entries.
-///
-/// # References
-///
-/// Paper, eqs. (6)-(20).
 ///
 /// ```
 /// use nalgebra::DVector;
@@ -58,7 +56,6 @@ pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector
 /// let f = lagrange::constraint_functions(model::cases::paper().chain(), &q);
 /// assert!(f.rows(0, 11).amax() < 1e-15 && (f[11] + 1.0).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn constraint_functions<T: RealField + Copy>(chain: &Chain, q: &DVector<T>) -> DVector<T> {
     constraint_functions_of(&Mechanism::si(chain), q)
 }
@@ -124,13 +121,11 @@ pub(crate) fn entries(mechanism: &Mechanism, bar: usize) -> [Entry; 2] {
 /// Entries are 1 or −1 in the columns of the centres and metres (per radian) in those of the
 /// angles.
 ///
+/// Paper, eq. (22), and eqs. (xi)-(xxii) for its example.
+///
 /// # Panics
 ///
 /// When `q` has not 6n entries.
-///
-/// # References
-///
-/// Paper, eq. (22), and eqs. (xi)-(xxii) for its example.
 ///
 /// ```
 /// let q = nalgebra::DVector::zeros(18);
@@ -139,7 +134,6 @@ pub(crate) fn entries(mechanism: &Mechanism, bar: usize) -> [Entry; 2] {
 /// assert_eq!(b.shape(), (12, 18));
 /// assert_eq!((b[(0, 0)], b[(0, 6)], b[(3, 6)]), (1.0, 0.0, -1.0));
 /// ```
-#[must_use]
 pub fn constraint_matrix<T: RealField + Copy>(chain: &Chain, q: &DVector<T>) -> DMatrix<T> {
     constraint_matrix_of(&Mechanism::si(chain), q)
 }

@@ -1,5 +1,3 @@
-//! The load vector, eq. (41).
-
 use model::Chain;
 use nalgebra::DVector;
 
@@ -10,15 +8,12 @@ use crate::full::mechanism::Mechanism;
 ///
 /// The paper prints (41) without the entry $-m_2 g$ of the second bar.
 ///
-/// # References
-///
 /// Paper, eqs. (34)-(36) and (41).
 ///
 /// ```
 /// let t = lagrange::load_vector(model::cases::paper().chain());
 /// assert_eq!((t.len(), t[2], t[8], t[14]), (18, -9.80665, -9.80665, -9.80665));
 /// ```
-#[must_use]
 pub fn load_vector(chain: &Chain) -> DVector<f64> {
     load_vector_of(&Mechanism::si(chain))
 }

@@ -4,7 +4,6 @@ use crate::full::reduced::Reduced;
 use crate::settings::Settings;
 use crate::thresholds::EARNED;
 
-/// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// The largest equation is below the tolerance.

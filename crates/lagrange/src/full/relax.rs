@@ -13,8 +13,6 @@
 //! near enough for Newton's method. A step counts if the weights do work, or the gap at the
 //! last anchor closes: an exact penalty function, so that the motion cannot run in circles.
 //!
-//! # References
-//!
 //! T. S. Coffey, C. T. Kelley, D. E. Keyes, SIAM J. Sci. Comput. 25 (2003) 553-569,
 //! doi:10.1137/S106482750241044X; S.-P. Han, J. Optim. Theory Appl. 22 (1977) 297-309,
 //! doi:10.1007/BF00932858

@@ -10,8 +10,6 @@ use nalgebra::{Matrix3, RealField, Vector3};
 /// $s\psi\\,s\varphi$ (printed $s\psi\\,s\theta$), entry (3,3) is $c\psi\\,c\theta$ (printed
 /// $c\psi\\,c\varphi$). The product of (2), (3) and (4) decides, and a test multiplies it out.
 ///
-/// # References
-///
 /// Paper, eqs. (1)-(5).
 ///
 /// ```
@@ -20,7 +18,6 @@ use nalgebra::{Matrix3, RealField, Vector3};
 /// let a = lagrange::rotation(0.0, FRAC_PI_2, 0.0);
 /// assert!((a[(2, 0)] + 1.0_f64).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn rotation<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matrix3<T> {
     Frame::new([psi, theta, phi]).rotation()
 }
@@ -33,7 +30,6 @@ pub fn rotation<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matrix3<T> {
 /// let u = lagrange::direction(0.0, std::f64::consts::FRAC_PI_2, 0.5_f64);
 /// assert!((u.y - 0.5_f64.sin()).abs() < 1e-15 && (u.z + 0.5_f64.cos()).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn direction<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Vector3<T> {
     Frame::new([psi, theta, phi]).direction()
 }
@@ -49,7 +45,6 @@ pub fn direction<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Vector3<T> {
 /// assert_eq!(gradient.column(0).norm(), 0.0);
 /// assert_eq!((gradient[(2, 1)], gradient[(1, 2)]), (-1.0, 1.0));
 /// ```
-#[must_use]
 pub fn direction_gradient<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matrix3<T> {
     let frame = Frame::new([psi, theta, phi]);
     frame.gradient(&frame.direction())
@@ -64,7 +59,6 @@ pub fn direction_gradient<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matr
 /// let h = lagrange::direction_hessian(0.0, 0.0, 0.0, &Vector3::new(2.0_f64, 0.0, 0.0));
 /// assert_eq!(h, nalgebra::Matrix3::from_diagonal(&Vector3::new(0.0, -2.0, -2.0)));
 /// ```
-#[must_use]
 pub fn direction_hessian<T: RealField + Copy>(
     psi: T,
     theta: T,

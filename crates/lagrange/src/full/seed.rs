@@ -30,7 +30,6 @@ impl Seed {
     /// let seed = lagrange::Seed::spatial(vec![[0.1, 1.2, -0.3]; 3]);
     /// assert_eq!(seed.angles()[2], [0.1, 1.2, -0.3]);
     /// ```
-    #[must_use]
     pub fn spatial(angles: Vec<[f64; 3]>) -> Self {
         Self { angles }
     }
@@ -42,7 +41,6 @@ impl Seed {
     /// let seed = lagrange::Seed::planar(&[0.3, 0.7, -1.3]);
     /// assert_eq!(seed.angles()[1], [0.0, std::f64::consts::FRAC_PI_2, 0.7]);
     /// ```
-    #[must_use]
     pub fn planar(phi: &[f64]) -> Self {
         Self { angles: phi.iter().map(|phi| [0.0, FRAC_PI_2, *phi]).collect() }
     }
@@ -59,7 +57,6 @@ impl Seed {
     /// let [psi, theta, phi] = seed.angles()[0];
     /// assert!((lagrange::direction(psi, theta, phi).x - 1.0).abs() < 1e-15);
     /// ```
-    #[must_use]
     pub fn planar_towards(heading: f64, phi: &[f64]) -> Self {
         let (sin, cos) = heading.sin_cos();
         let directions = phi.iter().map(|phi| {
@@ -76,7 +73,6 @@ impl Seed {
     /// let [psi, theta, phi] = seed.angles()[0];
     /// assert!((lagrange::direction(psi, theta, phi).z + 0.8).abs() < 1e-15);
     /// ```
-    #[must_use]
     pub fn directions(directions: &[model::Vector]) -> Self {
         Self { angles: directions.iter().map(|u| regular_angles(&Vector3::from(*u))).collect() }
     }
@@ -90,7 +86,6 @@ impl Seed {
     /// // Three bars of 1 m from anchor to anchor, 2 m straight down, to a few percent.
     /// assert!((ends.sum::<nalgebra::Vector3<f64>>().z + 2.0).abs() < 0.1);
     /// ```
-    #[must_use]
     pub fn arc(problem: &Problem) -> Self {
         let chain = problem.chain();
         let span = Vector3::from(chain.anchors().difference_m());
@@ -116,12 +111,10 @@ impl Seed {
     /// ```
     /// assert_eq!(lagrange::Seed::planar(&[0.3, 0.7]).angles().len(), 2);
     /// ```
-    #[must_use]
     pub fn angles(&self) -> &[[f64; 3]] {
         &self.angles
     }
 
-    /// Check against the number of bars.
     pub(crate) fn check(&self, bars: usize) -> Result<(), Error> {
         if self.angles.len() != bars {
             return Err(Error::SeedLength { of: "bars", expected: bars, got: self.angles.len() });

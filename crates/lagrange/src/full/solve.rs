@@ -256,32 +256,27 @@ impl Converged<'_> {
     /// assert!((found.energy_j() / 9.80665 + 3.664531348000695).abs() < 1e-12);
     /// # Ok::<(), lagrange::Error>(())
     /// ```
-    #[must_use]
     pub fn energy_j(&self) -> f64 {
         energy(&self.solver.reduced) * self.solver.units.weight * self.solver.units.length
     }
 
     /// The largest equation, in the units of [`Settings::tolerance`].
-    #[must_use]
     pub fn residual(&self) -> f64 {
         self.solver.reduced.largest()
     }
 
     /// What it took.
-    #[must_use]
     pub fn effort(&self) -> Effort {
         self.solver.effort
     }
 
     /// Second-order behaviour.
-    #[must_use]
     pub fn stability(&self) -> Stability {
         stability(&self.solver.reduced.mechanism, &self.solver.reduced.here)
     }
 
     /// Horizontal vector from joint 0 to joint 1, m, which tells an equilibrium from its mirror
     /// image.
-    #[must_use]
     pub fn first_offset_m(&self) -> [f64; 2] {
         let offset = first_offset(&self.solver.reduced) * self.solver.units.length;
         [offset.x, offset.y]

@@ -34,7 +34,6 @@ use crate::full::rotation::Frame;
 /// let lost = lagrange::direction_gradient(psi, theta, phi) * lagrange::spin(theta, phi);
 /// assert!(lost.norm() < 1e-15);
 /// ```
-#[must_use]
 pub fn spin(theta: f64, phi: f64) -> Vector3<f64> {
     // The axis does not depend on psi, the first turn.
     Frame::new([0.0, theta, phi]).spin()

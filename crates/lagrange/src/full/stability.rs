@@ -19,8 +19,6 @@
 //! The plane: bar i is parallel to $F_i = p_0 + c_i e_z$, so all bars lie in the plane of $p_0$ and
 //! $e_z$.
 //!
-//! # References
-//!
 //! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
 
 use model::{InPlane, Stability};

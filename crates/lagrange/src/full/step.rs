@@ -24,8 +24,6 @@
 //! the step tends to the minimum-norm Newton step, and the convergence is quadratic also to
 //! solutions that are not isolated.
 //!
-//! # References
-//!
 //! N. Yamashita, M. Fukushima, Computing Suppl. 15 (2001) 239-249,
 //! doi:10.1007/978-3-7091-6217-0_18; J. Fan, Y. Yuan, Computing 74 (2005) 23-39,
 //! doi:10.1007/s00607-004-0083-1; Z. Zeng, arXiv:2101.09180
@@ -55,7 +53,6 @@ struct Block {
     moment: [f64; 2],
     /// Inverse of H + shift: entries 11, 12, 22.
     inverse: [Complex<f64>; 3],
-    /// The step.
     step: [f64; 2],
 }
 
@@ -282,7 +279,6 @@ mod tests {
         (mechanism, point, matrix)
     }
 
-    /// The matrix and the residual written out.
     fn written_out(matrix: &Matrix) -> (DMatrix<f64>, DVector<f64>) {
         let angles = 2 * matrix.blocks.len();
         let mut jacobian = DMatrix::zeros(angles + 3, angles + 3);

@@ -21,13 +21,11 @@ use crate::larger::larger;
 /// For three bars these are the 30 equations of section VII. Rows of the centres are in N, rows of
 /// the angles in N m, rows of the constraints in m.
 ///
+/// Paper, eq. (40) with (7)-(20).
+///
 /// # Panics
 ///
 /// When `q` has not 6n entries or `lambda` not 3(n+1).
-///
-/// # References
-///
-/// Paper, eq. (40) with (7)-(20).
 ///
 /// ```
 /// let problem = model::cases::paper();
@@ -36,7 +34,6 @@ use crate::larger::larger;
 /// assert!(residual.len() == 30 && residual.amax() < 1e-13);
 /// # Ok::<(), lagrange::Error>(())
 /// ```
-#[must_use]
 pub fn residual<T: RealField + Copy>(
     chain: &Chain,
     q: &DVector<T>,
@@ -81,7 +78,6 @@ pub(crate) fn residual_of<T: RealField + Copy>(
 /// assert_eq!(jacobian.shape(), (30, 30));
 /// assert_eq!(jacobian[(18, 0)], -jacobian[(0, 18)]);
 /// ```
-#[must_use]
 pub fn jacobian(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>) -> DMatrix<f64> {
     jacobian_of(&Mechanism::si(chain), q, lambda)
 }
@@ -126,7 +122,6 @@ pub(crate) fn jacobian_of(
 /// let at_rest = lagrange::relative_residual(problem.chain(), &q, &lambda);
 /// assert!(at_rest >= 1.0 && at_rest < 3.0);
 /// ```
-#[must_use]
 pub fn relative_residual(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>) -> f64 {
     let units = Units::mean(chain);
     let residual = residual(chain, q, lambda);

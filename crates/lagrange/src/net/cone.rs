@@ -9,14 +9,11 @@
 //!
 //! $$ W^{-2} = \rho\\,(2 \bar v \bar v^T - J), \qquad W^{-2} s = z . $$
 //!
-//! # References
-//!
 //! Yu. E. Nesterov, M. J. Todd, Math. Oper. Res. 22 (1997) 1-42, doi:10.1287/moor.22.1.1 (the
 //! matrix $W$).
 
 use nalgebra::{Matrix3, Vector3};
 
-/// A number and a vector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pair {
     pub head: f64,

@@ -237,9 +237,7 @@ mod tests {
         let members = vec![bar(0, 1, 1.0), cable, bar(1, 2, 0.4), bar(1, 3, 0.7)];
         let system = System::new("", 10.0, joints, members).unwrap();
         let framework = Framework::new(&system);
-        let place = |[x_m, z_m]: [f64; 2]| {
-            (Vector3::new(x_m, 0.0, z_m) - framework.units.origin_m) / framework.units.length_m
-        };
+        let place = |[x_m, z_m]: [f64; 2]| framework.units.place([x_m, 0.0, z_m]);
         let places =
             [[0.0, 0.0], [0.0, -1.0], [0.4, -1.0], [0.0, -1.7], [0.5, 0.0]].map(place).to_vec();
         let state = State::new(places, vec![0.0; 4], vec![true, false, true, true]);

@@ -42,44 +42,23 @@ const SOLVED: f64 = 1e-8;
 
 /// A parameter of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the name of a field says what it is")]
 pub enum Parameter {
     /// Length of a member as it was given, m: its unstretched length, or that under its prestress.
     /// All other numbers given stay; a centre that was not given and loads in the middle stay in
     /// the middle.
-    Length {
-        /// Number of the member.
-        member: usize,
-    },
+    Length { member: usize },
     /// Stiffness EA of an elastic member, N. An inextensible one has the derivative zero.
-    Stiffness {
-        /// Number of the member.
-        member: usize,
-    },
+    Stiffness { member: usize },
     /// Prestress of an elastic member, N: the axial force at the length given. Without one it is 0.
-    Prestress {
-        /// Number of the member.
-        member: usize,
-    },
+    Prestress { member: usize },
     /// Mass of a member, kg. A rope, which has none, has the derivative zero.
-    Mass {
-        /// Number of the member.
-        member: usize,
-    },
+    Mass { member: usize },
     /// Force on a joint, N: along the axis 0, 1 or 2. The derivative by its mass is -g times that
     /// along axis 2.
-    Force {
-        /// Number of the joint.
-        joint: usize,
-        /// X, Y or Z.
-        axis: usize,
-    },
+    Force { joint: usize, axis: usize },
     /// Place of an anchor, m.
-    Anchor {
-        /// Number of the joint.
-        joint: usize,
-        /// X, Y or Z.
-        axis: usize,
-    },
+    Anchor { joint: usize, axis: usize },
 }
 
 /// Derivatives of an answer by one parameter: each per unit of the parameter.

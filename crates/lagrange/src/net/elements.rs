@@ -190,7 +190,6 @@ impl<'a> Shape<'a> {
         Self { runs, skeleton, state, pulls: start.pulls, laws }
     }
 
-    /// One Newton step.
     fn step(&mut self, stiffness: &mut Stiffness) {
         let gaps = self.gaps();
         stiffness.assemble(&self.skeleton, self.laws.iter().map(|law| law.stiffness));

@@ -97,7 +97,6 @@ impl Equations {
 
     /// The loads of the joints of the system that was last [`set`](Self::set), three coordinates each:
     /// those of $G$, which has no others.
-    #[must_use]
     pub fn loads(&self) -> Vec<f64> {
         self.bare.nodes.iter().flat_map(|node| [node.load.x, node.load.y, node.load.z]).collect()
     }
@@ -112,7 +111,6 @@ impl Equations {
     }
 
     /// What loads are of $G$.
-    #[must_use]
     pub fn of_loads(&self, loads: &[f64]) -> Vec<f64> {
         let loads: Vec<_> = loads.chunks_exact(3).map(Vector3::from_column_slice).collect();
         self.flat(&loads, &vec![0.0; self.taut.len()])
@@ -143,11 +141,8 @@ impl Equations {
 
     /// The unknowns of a drawing: its places, m, with what elastic members bear at their lengths;
     /// cables and struts that bear nothing there are slack from now on.
-    #[must_use]
     pub fn drawn(&mut self, joints_m: &[Vector]) -> Vec<f64> {
-        let units = self.units;
-        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-        let places: Vec<_> = joints_m.iter().map(place).collect();
+        let places: Vec<_> = joints_m.iter().map(|at_m| self.units.place(*at_m)).collect();
         let mut y: Vec<f64> = places.iter().flat_map(|place| [place.x, place.y, place.z]).collect();
         let links = &self.framework.links;
         for (k, link) in links.iter().enumerate().take(self.taut.len()) {
@@ -162,7 +157,6 @@ impl Equations {
     }
 
     /// The cables and struts that have just their length and bear nothing at these unknowns.
-    #[must_use]
     pub fn just_taut(&self, y: &[f64]) -> Vec<usize> {
         // Without loads all forces may be rounding: the unit is that of loads elsewhere.
         let mut state = self.state(y);
@@ -194,7 +188,6 @@ impl Equations {
     }
 
     /// Places moved onto their supports, slack members without force.
-    #[must_use]
     pub fn onto(&self, y: &[f64]) -> Vec<f64> {
         let state = with_held(&self.framework, self.state(y));
         let members = state.axial.iter().zip(&state.taut).take(self.taut.len());
@@ -204,7 +197,6 @@ impl Equations {
 
     /// $G(y)$, and its largest entry: forces over the largest force or the unit, lengths over
     /// themselves.
-    #[must_use]
     pub fn residual(&self, y: &[f64]) -> (Vec<f64>, f64) {
         let residual = Residual::new(&self.framework, &self.state(y));
         let rows = self.flat(&residual.forces, &residual.lengths);
@@ -244,7 +236,6 @@ impl Equations {
 
     /// The solution of $J y = r$ by the last factor: exact for elastic members, a preconditioner
     /// where lengths are kept.
-    #[must_use]
     pub fn solve(&mut self, right: &[f64]) -> Vec<f64> {
         let none = Step {
             places: vec![Vector3::zeros(); self.framework.nodes.len()],
@@ -262,7 +253,6 @@ impl Equations {
 
     /// What $G$ changes by when the length given of a member becomes longer, along $\phi$: $\phi \cdot \partial G/\partial l$
     /// for each member of the system that was last [`set`](Self::set), in units of $\phi$ a unit of length.
-    #[must_use]
     pub fn by_length(&self, system: &System, y: &[f64], phi: &[f64]) -> Vec<f64> {
         let state = self.state(y);
         let (places, along) = phi.split_at(3 * self.framework.nodes.len());
@@ -277,7 +267,6 @@ impl Equations {
 
     /// The same when the place of a support moves: three numbers for each joint, 0 for free ones and
     /// along free directions.
-    #[must_use]
     pub fn by_place(&self, y: &[f64], phi: &[f64]) -> Vec<Vector3<f64>> {
         let state = self.state(y);
         let (places, along) = phi.split_at(3 * self.framework.nodes.len());
@@ -300,16 +289,14 @@ impl Equations {
     }
 
     /// The unknowns of an equilibrium.
-    #[must_use]
     pub fn unknowns(&self, equilibrium: &SystemEquilibrium) -> Vec<f64> {
         let units = self.units;
-        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-        let places = equilibrium.joints_m.iter().map(place).flat_map(|at| [at.x, at.y, at.z]);
+        let places = equilibrium.joints_m.iter().map(|at_m| units.place(*at_m));
+        let places = places.flat_map(|at| [at.x, at.y, at.z]);
         places.chain(equilibrium.axial_n.iter().map(|n| n / units.force_n)).collect()
     }
 
     /// $J y$ where it was last factorised.
-    #[must_use]
     pub fn apply(&self, y: &[f64]) -> Vec<f64> {
         let Some(derivative) = &self.derivative else { return vec![0.0; y.len()] };
         let zero = (vec![Vector3::zeros(); self.lies.len()], vec![0.0; self.framework.links.len()]);
@@ -320,7 +307,6 @@ impl Equations {
     /// All one-sided conditions with their values, which are not negative as long as a member stays
     /// taut or slack, and a joint on the floor or above it: forces in the unit of forces, lengths
     /// and heights in that of lengths.
-    #[must_use]
     pub fn sides(&self, y: &[f64]) -> Vec<(Side, f64)> {
         let state = self.state(y);
         let directions = state.directions(&self.framework);
@@ -371,7 +357,6 @@ impl Equations {
 
     /// The unknowns as an answer for the system that was last [`set`](Self::set), with the number of
     /// directions in which the energy falls.
-    #[must_use]
     pub fn solution(&self, system: &System, y: &[f64], index: usize) -> Solution {
         let mut state = with_held(&self.framework, self.state(y));
         // Where it becomes slack a member bears nothing, whatever rounding leaves.
@@ -396,7 +381,6 @@ impl Equations {
     }
 
     /// The unit of length, m, and of force, N.
-    #[must_use]
     pub fn units(&self) -> [f64; 2] {
         [self.units.length_m, self.units.force_n]
     }

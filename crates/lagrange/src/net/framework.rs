@@ -111,6 +111,13 @@ pub(super) struct Units {
     pub origin_m: Vector3<f64>,
 }
 
+impl Units {
+    /// A place, m, in these units.
+    pub fn place(&self, at_m: impl Into<Vector3<f64>>) -> Vector3<f64> {
+        (at_m.into() - self.origin_m) / self.length_m
+    }
+}
+
 /// A system as the solver sees it, in [`Units`].
 #[derive(Debug, Clone)]
 pub(super) struct Framework {
@@ -156,7 +163,7 @@ impl Framework {
         // In place: memory that is touched for the first time costs more than what is done with it.
         for node in &mut nodes {
             if !matches!(node.free, Directions::All) {
-                node.base = (node.base - units.origin_m) / units.length_m;
+                node.base = units.place(node.base);
             }
             node.load /= units.force_n;
         }

@@ -21,8 +21,6 @@
 //!
 //! It starts from force densities (module `densities`).
 //!
-//! # References
-//!
 //! S. Mehrotra, SIAM J. Optim. 2 (1992) 575-601, doi:10.1137/0802028 (predictor and corrector); E.
 //! D. Andersen, C. Roos, T. Terlaky, Math. Program. 95 (2003) 249-277,
 //! doi:10.1007/s10107-002-0349-3 (cones of second order).

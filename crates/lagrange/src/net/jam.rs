@@ -84,9 +84,7 @@ fn apart(
 ) -> Option<Solution> {
     let units = framework.units;
     let answer = &solution.equilibrium;
-    let place = |number: &usize| {
-        (Vector3::from(answer.joints_m[*number]) - units.origin_m) / units.length_m
-    };
+    let place = |number: &usize| units.place(answer.joints_m[*number]);
     let axial = answer.axial_n.iter().map(|axial_n| axial_n / units.force_n).collect();
     let axial = framework.by_link(axial);
     let taut = vec![true; axial.len()];

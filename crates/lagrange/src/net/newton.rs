@@ -445,8 +445,7 @@ mod tests {
         let bar = |from, length| Member::bar(from, 2, Bar::homogeneous(length, 0.0).unwrap());
         let system = System::new("a lamp", 9.81, joints, vec![bar(0, 2.0), bar(1, 1.0)]).unwrap();
         let framework = Framework::new(&system);
-        let units = framework.units;
-        let place = |z: f64| (Vector3::new(0.0, 0.0, z) - units.origin_m) / units.length_m;
+        let place = |z: f64| framework.units.place([0.0, 0.0, z]);
         let places = [2.0, 1.0, 0.0].map(place).to_vec();
         let state = State::new(places, vec![0.5; 2], vec![true; 2]);
         let mut stiffness = Stiffness::new(&framework, false).unwrap();

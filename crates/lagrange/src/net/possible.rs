@@ -1,6 +1,6 @@
 //! What can be said before, or instead of, an answer.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use matrices::dense::eigen_of_three;
@@ -188,39 +188,21 @@ pub(super) fn too_short(system: &System, framework: &Framework) -> Option<Error>
     })
 }
 
-/// A joint on the way, nearest first.
-struct Reached(f64, usize);
-
-impl PartialEq for Reached {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Reached {}
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Reached {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.0.total_cmp(&self.0)
-    }
-}
-
 /// Length of the shortest path to each joint (Dijkstra).
 fn shortest(neighbours: &[Vec<(usize, f64)>], from: usize) -> Vec<f64> {
     let mut reach = vec![f64::INFINITY; neighbours.len()];
     reach[from] = 0.0;
-    let mut queue = BinaryHeap::from([Reached(0.0, from)]);
-    while let Some(Reached(length, joint)) = queue.pop() {
+    // Of numbers that are not negative the bits are in order.
+    let mut queue = BinaryHeap::from([Reverse((0, from))]);
+    while let Some(Reverse((bits, joint))) = queue.pop() {
+        let length = f64::from_bits(bits);
         if length > reach[joint] {
             continue;
         }
         for &(next, step) in &neighbours[joint] {
             if length + step < reach[next] {
                 reach[next] = length + step;
-                queue.push(Reached(reach[next], next));
+                queue.push(Reverse((reach[next].to_bits(), next)));
             }
         }
     }

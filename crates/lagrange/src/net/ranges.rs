@@ -39,7 +39,6 @@ struct Table {
     values: Vec<f64>,
     rows: Vec<Vec<f64>>,
     free: Vec<bool>,
-    /// The unit of forces, N.
     unit_n: f64,
     unique: Vec<bool>,
 }

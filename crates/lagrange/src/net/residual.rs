@@ -157,10 +157,9 @@ mod tests {
         ];
         let system = System::new("bent", 10.0, joints, members).unwrap();
         let framework = Framework::new(&system);
-        let place = |at_m: [f64; 3]| {
-            (Vector3::from(at_m) - framework.units.origin_m) / framework.units.length_m
-        };
-        let places = [[0.0; 3], [3.03, 0.0, 0.0], [3.03, 0.0, -1.5]].map(place).to_vec();
+        let places = [[0.0; 3], [3.03, 0.0, 0.0], [3.03, 0.0, -1.5]]
+            .map(|at_m| framework.units.place(at_m))
+            .to_vec();
         let axial = [4.0, 25.0].map(|force_n| force_n / framework.units.force_n).to_vec();
         let state = State::new(places, axial, vec![true; 2]);
         (system, framework, state)

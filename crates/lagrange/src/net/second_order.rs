@@ -28,7 +28,6 @@ const RIGID: f64 = 1e6;
 /// Steps towards self-stresses that stiffen mechanisms; each at least halves what is left of one.
 const STIFFENING_STEPS: usize = 100;
 
-/// What the second order says.
 #[derive(Default)]
 pub(super) struct SecondOrder {
     /// Directions in which the energy falls.

@@ -21,13 +21,11 @@ pub struct Seed {
 
 impl Seed {
     /// Places alone.
-    #[must_use]
     pub fn at(joints_m: Vec<Vector>) -> Self {
         Self { joints_m, axial_n: None, at_rest: false }
     }
 
     /// The places of an equilibrium that is known.
-    #[must_use]
     pub fn at_rest(joints_m: Vec<Vector>) -> Self {
         Self { at_rest: true, ..Self::at(joints_m) }
     }

@@ -1,5 +1,3 @@
-//! Settings of the solve of a system.
-
 use crate::settings::{SettingsError, within};
 
 /// Settings of [`solve`](super::solve()) and [`solve_from`](super::solve_from()).

@@ -140,7 +140,6 @@ impl Penalty {
         (link.compliance + self.rho.recip()).recip()
     }
 
-    /// Axial force at a length.
     fn force(&self, link: &Link, length: f64, offset: f64) -> f64 {
         let force = (length - link.length + offset / self.rho) * self.stiffness(link);
         if link.kind == Kind::Bar || link.bears(force) { force } else { 0.0 }

@@ -1,5 +1,3 @@
-//! The answer for a system.
-
 use model::system::{Joint, Kind, System, SystemEquilibrium, SystemStability};
 use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -302,7 +300,7 @@ impl Answer<'_> {
         let Self { system, framework, mut state, directions, left } = self;
         let units = framework.units;
         // Units of another system of the same joints have another origin.
-        let from = (Vector3::from(system.reference_m()) - units.origin_m) / units.length_m;
+        let from = units.place(system.reference_m());
         let energy_j = state.energy(framework, &from) * units.force_n * units.length_m;
         let members = system.members();
         let (mut start_forces_n, mut end_forces_n) =

@@ -450,11 +450,10 @@ impl<'a> Solver<'a> {
         self.start(&Seed::at(places.iter().map(to_m).collect()))
     }
 
-    /// The state of a seed.
     fn start(&mut self, seed: &Seed) -> State {
         let units = self.framework.units;
         let places = self.framework.nodes.iter().zip(&seed.joints_m).map(|(node, at_m)| {
-            let given = (Vector3::from(*at_m) - units.origin_m) / units.length_m;
+            let given = units.place(*at_m);
             node.base + node.free.part(&(given - node.base))
         });
         let members = self.framework.links.len();

@@ -1,6 +1,5 @@
 //! What the solver improves step by step.
 
-use model::Vector;
 use nalgebra::Vector3;
 
 use super::framework::Framework;
@@ -27,12 +26,11 @@ impl State {
     /// The state of an answer.
     pub fn of(framework: &Framework, solution: &Solution) -> Self {
         let (units, answer) = (framework.units, &solution.equilibrium);
-        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
         let mut taut = vec![true; framework.members()];
         for &member in &solution.slack {
             taut[member] = false;
         }
-        let places = answer.joints_m.iter().map(place).collect();
+        let places = answer.joints_m.iter().map(|at_m| units.place(*at_m)).collect();
         let axial = answer.axial_n.iter().map(|axial| axial / units.force_n).collect();
         Self::new(places, framework.by_link(axial), framework.by_link(taut))
     }

@@ -278,11 +278,7 @@ fn answers_are_where_nothing_is_left() {
 /// Ropes over P, 3 m right of A and 4 m below B: drawn 7 m long, of 80 N and of 60 N a length of 6.4 and of 7.5 m.
 #[test]
 fn drawn_ropes_are_as_long_as_their_spans() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [3.0, 0.0, 4.0]),
-        Joint::free("P").with_mass(1.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [3.0, 0.0, 4.0]], &[1.0]);
     let rope = |length_m, stiffness_n| {
         let body = Bar::homogeneous(length_m, 0.0).unwrap();
         Member::cable(0, 1, body).over(vec![2]).with_stiffness(stiffness_n)

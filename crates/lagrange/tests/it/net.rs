@@ -106,11 +106,7 @@ pub(crate) fn faults(system: &System, solution: &Solution) -> Vec<String> {
 /// A lamp on two bars: the weights of the bars go half to the lamp.
 #[test]
 fn v_hanger_with_a_lamp() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [1.0, 0.0, 0.0]),
-        Joint::free("lamp").with_mass(5.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [1.0, 0.0, 0.0]], &[5.0]);
     let system = system(joints, vec![bar(0, 2, 1.0, 1.0), bar(2, 1, 1.0, 1.0)]);
     let answer = hang(&system).equilibrium;
     let height = 3.0_f64.sqrt() / 2.0;
@@ -129,11 +125,7 @@ fn v_hanger_with_a_lamp() {
 /// Lengths 3 and 4 over a span of 5 meet at a right angle.
 #[test]
 fn two_bars_at_a_right_angle() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [5.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(10.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [5.0, 0.0, 0.0]], &[10.0]);
     let solution = hang(&system(joints, vec![bar(0, 2, 3.0, 0.0), bar(1, 2, 4.0, 0.0)]));
     near(solution.equilibrium.joints_m[2], [1.8, 0.0, -2.4]);
     close(solution.equilibrium.axial_n[0], 8.0);

@@ -19,11 +19,7 @@ const AGREE: f64 = 1e-6;
 /// two anchors; a spring with a load, a cable and the spring between the anchors are given by what
 /// they bear at a length. Centres that are given and such that are not; no two terms of one size.
 fn bridle() -> System {
-    let mut joints = vec![
-        Joint::anchor("A", [-2.0, -1.0, 0.3]),
-        Joint::anchor("B", [2.0, -0.5, 0.0]),
-        Joint::anchor("C", [0.2, 2.0, -0.2]),
-    ];
+    let mut joints = samples::joints(&[[-2.0, -1.0, 0.3], [2.0, -0.5, 0.0], [0.2, 2.0, -0.2]], &[]);
     let line = Support::Line { at_m: [0.0, -2.0, -1.0], direction: [0.0, 0.6, -0.8] };
     joints.push(Joint::free("S").with_mass(0.5).held_by(line));
     joints.push(Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]));
@@ -204,13 +200,8 @@ fn the_gradient_is_the_adjoint_of_the_changes() {
 fn anchors_as_springs() {
     /// The largest entry is less, N/m.
     const LARGEST: f64 = 100.0;
-    let joints = vec![
-        Joint::anchor("A", [-2.0, -1.0, 0.3]),
-        Joint::anchor("B", [2.0, -0.5, 0.0]),
-        Joint::anchor("C", [0.2, 2.0, -0.2]),
-        Joint::free("P").with_mass(2.0),
-        Joint::free("Q").with_mass(1.0),
-    ];
+    let joints =
+        samples::joints(&[[-2.0, -1.0, 0.3], [2.0, -0.5, 0.0], [0.2, 2.0, -0.2]], &[2.0, 1.0]);
     let members = vec![
         bar(0, 4, 1.5, 0.8),
         bar(4, 3, 1.4, 0.5).with_stiffness(300.0),
@@ -251,11 +242,7 @@ fn anchors_as_springs() {
 /// differentiable where nothing holds it; a bar between two anchors does not let them move.
 #[test]
 fn refusals() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [1.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(1.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [1.0, 0.0, 0.0]], &[1.0]);
     let members = vec![bar(0, 1, 1.0, 1.0), bar(0, 2, 2.0, 0.0)];
     let system = System::new("held", 9.80665, joints.clone(), members).unwrap();
     let solution = hang(&system);

@@ -13,11 +13,7 @@ fn elastic_v_hanger() {
     let axial = weight / (2.0 * angle.sin());
     let length = half / angle.cos() / (1.0 + axial / stiffness);
     let spring = |from, to| bar(from, to, length, 0.0).with_stiffness(stiffness);
-    let joints = vec![
-        Joint::anchor("A", [-half, 0.0, 0.0]),
-        Joint::anchor("B", [half, 0.0, 0.0]),
-        Joint::free("P").with_mass(weight),
-    ];
+    let joints = samples::joints(&[[-half, 0.0, 0.0], [half, 0.0, 0.0]], &[weight]);
     let solution = hang(&system(joints, vec![spring(0, 2), spring(2, 1)]));
     let answer = &solution.equilibrium;
     near(answer.joints_m[2], [0.0, 0.0, -half * angle.tan()]);
@@ -62,12 +58,7 @@ fn elastic_catenary_as_limit() {
 /// A cable that is longer than needed is slack; one that just reaches bears nothing.
 #[test]
 fn slack_and_just_taut_cables() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [5.0, 0.0, 0.0]),
-        Joint::anchor("C", [1.8, 3.0, -2.4]),
-        Joint::free("P").with_mass(10.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [5.0, 0.0, 0.0], [1.8, 3.0, -2.4]], &[10.0]);
     let with = |length| {
         let members = vec![cable(0, 3, 3.0, 0.0), bar(1, 3, 4.0, 0.0), cable(2, 3, length, 0.0)];
         hang(&system(joints.clone(), members))
@@ -125,12 +116,7 @@ fn indeterminate_forces() {
 #[test]
 fn load_at_a_quarter() {
     let load = PointLoad { at_m: 0.5, force_n: [0.0, 0.0, -8.0], is_spread: false };
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [2.0, 0.0, 0.0]),
-        Joint::free("P"),
-        Joint::free("Q"),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [2.0, 0.0, 0.0]], &[0.0, 0.0]);
     let loaded = bar(2, 3, 2.0, 0.0).with_loads(vec![load]);
     let system = system(joints, vec![bar(0, 2, 1.0, 0.0), bar(1, 3, 1.0, 0.0), loaded]);
     let solution = hang(&system);
@@ -146,11 +132,7 @@ fn load_at_a_quarter() {
 /// nothing decides, and one that does not fit is refused.
 #[test]
 fn members_between_anchors() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [2.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [2.0, 0.0, 0.0]], &[3.0]);
     let with = |member: Member| system(joints.clone(), vec![bar(0, 2, 1.0, 0.0), member]);
     let spring = bar(0, 1, 1.6, 0.0).with_stiffness(10.0);
     let solution = hang(&with(spring));
@@ -173,12 +155,7 @@ fn members_between_anchors() {
 /// the cables would have to end 2 m apart.
 #[test]
 fn spreader() {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(4.0),
-        Joint::free("Q").with_mass(4.0),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[4.0, 4.0]);
     let with = |length: f64| {
         let strut = bar(2, 3, length, 0.0).of_kind(Kind::Strut);
         hang(&system(joints.clone(), vec![cable(0, 2, 5.0, 0.0), cable(1, 3, 5.0, 0.0), strut]))
@@ -216,13 +193,7 @@ fn limp_members() {
 /// in the plane of a V of sides 3, 4, 5 is one bar too many.
 #[test]
 fn nullity_counts_free_turns_and_self_stresses() {
-    let joints = |second: Vector| {
-        vec![
-            Joint::anchor("A", [-3.0, 0.0, 0.0]),
-            Joint::anchor("B", second),
-            Joint::free("P").with_mass(2.0),
-        ]
-    };
+    let joints = |second: Vector| samples::joints(&[[-3.0, 0.0, 0.0], second], &[2.0]);
     let two = |second| vec![bar(0, 2, 5.0, 0.0), bar(1, 2, second, 0.0)];
     let nullity = |joints, members| hang(&system(joints, members)).equilibrium.evidence.nullity;
     assert_eq!(nullity(joints([3.0, 0.0, 0.0]), two(5.0)), 0);
@@ -279,11 +250,7 @@ fn self_stresses_stiffen_what_the_least_forces_let_fall() {
 #[test]
 fn a_line_that_is_nearly_taut_bears_its_weight_as_it_is() {
     let half: f64 = 1.0 - 5e-11;
-    let joints = vec![
-        Joint::anchor("A", [-half, 0.0, 0.0]),
-        Joint::anchor("B", [half, 0.0, 0.0]),
-        Joint::free("P").with_mass(1.0),
-    ];
+    let joints = samples::joints(&[[-half, 0.0, 0.0], [half, 0.0, 0.0]], &[1.0]);
     let found = solve(
         &system(joints, vec![bar(0, 2, 1.0, 0.0), bar(2, 1, 1.0, 0.0)]),
         &Settings::default(),

@@ -1,7 +1,7 @@
 //! The work of the solver of systems, frozen as that of chains in `work`.
 
 use lagrange::net::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
-use model::system::{Joint, Kind, Member, System};
+use model::system::{Kind, Member, System};
 use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -175,12 +175,7 @@ fn work_on_exhibits() {
 /// what one round of its loops does, and one that may do more gives the same answer as ever.
 #[test]
 fn a_solve_ends_with_its_work() {
-    let joints = vec![
-        Joint::anchor("A", [0.0, 0.0, 0.0]),
-        Joint::anchor("B", [2.0, 0.0, 0.5]),
-        Joint::anchor("C", [1.0, 1.5, -0.3]),
-        Joint::free("P").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.5], [1.0, 1.5, -0.3]], &[3.0]);
     let cable = |from| Member::cable(from, 3, Bar::homogeneous(2.0, 1.0).unwrap());
     let system = System::new("a lamp", 9.81, joints, (0..3).map(cable).collect()).unwrap();
     let found = solve(&system, &Settings::default()).unwrap();

@@ -96,13 +96,7 @@ fn what_is_stretched_between_anchors_bears_it() {
 /// the whole load in its lowest point.
 #[test]
 fn three_rings_run_together() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [4.0, 0.0, 1.0]),
-        Joint::free("P").with_mass(1.0),
-        Joint::free("Q").with_mass(2.0),
-        Joint::free("R").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [4.0, 0.0, 1.0]], &[1.0, 2.0, 3.0]);
     let body = Bar::homogeneous(5.0, 0.0).unwrap();
     let system =
         System::new("rings", 10.0, joints, vec![Member::cable(0, 1, body).over(vec![2, 3, 4])]);

@@ -29,15 +29,18 @@ fn times(vector: Vector, factor: f64) -> Vector {
     vector.map(|x| x * factor)
 }
 
+#[track_caller]
+fn assert_vectors(one: &[Vector], other: &[Vector], factor: f64) {
+    for (a, b) in one.iter().zip(other) {
+        assert_eq!(bits(*a, factor), bits(*b, 1.0));
+    }
+}
+
 fn assert_scaled(one: &model::Equilibrium, other: &model::Equilibrium, factors: [f64; 3]) {
     let [length, mass, gravity] = factors;
     let force = mass * gravity;
-    for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
-        assert_eq!(bits(*a, length), bits(*b, 1.0));
-    }
-    for (a, b) in one.multipliers_n.iter().zip(&other.multipliers_n) {
-        assert_eq!(bits(*a, force), bits(*b, 1.0));
-    }
+    assert_vectors(&one.joints_m, &other.joints_m, length);
+    assert_vectors(&one.multipliers_n, &other.multipliers_n, force);
     for (a, b) in one.axial_n.iter().zip(&other.axial_n) {
         assert_eq!((a * force).to_bits(), b.to_bits());
     }
@@ -120,12 +123,8 @@ fn assert_system_scaled(one: &Solution, other: &Solution, [length, mass, gravity
     assert_eq!((&one.slack, &one.limp, one.forces), (&other.slack, &other.limp, other.forces));
     assert_eq!(one.mechanisms, other.mechanisms);
     let (one, other) = (&one.equilibrium, &other.equilibrium);
-    for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
-        assert_eq!(bits(*a, length), bits(*b, 1.0));
-    }
-    for (a, b) in one.reactions_n.iter().zip(&other.reactions_n) {
-        assert_eq!(bits(*a, force), bits(*b, 1.0));
-    }
+    assert_vectors(&one.joints_m, &other.joints_m, length);
+    assert_vectors(&one.reactions_n, &other.reactions_n, force);
     for (a, b) in one.axial_n.iter().zip(&other.axial_n) {
         assert_eq!((a * force).to_bits(), b.to_bits());
     }

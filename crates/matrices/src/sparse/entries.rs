@@ -17,7 +17,6 @@ impl Entries {
     /// # Panics
     ///
     /// When a column is not below `size`.
-    #[must_use]
     pub fn new(size: usize, entries: &[(usize, usize, f64)]) -> Self {
         let numbered = entries.iter().enumerate().map(|(k, (_, column, _))| (k, *column));
         let (starts, order) = compressed(size, numbered);

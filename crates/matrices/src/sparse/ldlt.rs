@@ -1,5 +1,3 @@
-//! The factorisation.
-
 #![expect(
     clippy::inline_always,
     reason = "what is inlined is compiled for the registers of its caller"
@@ -98,7 +96,6 @@ impl Ldlt {
     /// # Panics
     ///
     /// When the order is no permutation of the columns.
-    #[must_use]
     pub fn new(starts: &[usize], rows: &[usize], order: &[usize]) -> Option<Self> {
         let size = order.len();
         let mut turned = vec![0; size];
@@ -120,19 +117,16 @@ impl Ldlt {
     }
 
     /// Rows and columns of the matrix.
-    #[must_use]
     pub fn size(&self) -> usize {
         self.places.len()
     }
 
     /// Entries of the factor, the diagonal included: the measure of its memory and work.
-    #[must_use]
     pub fn entries(&self) -> usize {
         self.pattern.entries()
     }
 
     /// The diagonal of $D$, in the order of elimination; not numbers from where the factorisation ended.
-    #[must_use]
     pub fn pivots(&self) -> &[f64] {
         &self.pivots
     }

@@ -27,7 +27,6 @@ pub use ldlt::{Ldlt, Pivots};
 ///
 /// Of the pattern the entries of either triangle, or of both, are given by columns. `None` where the pattern is none
 /// or there is no memory.
-#[must_use]
 pub fn minimum_degree(starts: &[usize], rows: &[usize]) -> Option<Vec<usize>> {
     let size = starts.len() - 1;
     let (starts, rows) = clean(starts, rows);

@@ -1,5 +1,3 @@
-//! Solutions with the factor.
-
 #![expect(
     clippy::inline_always,
     reason = "what is inlined is compiled for the registers of its caller"

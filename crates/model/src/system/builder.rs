@@ -105,7 +105,6 @@ impl SystemBuilder {
     /// The system.
     ///
     /// # Errors
-    ///
     /// As [`System::new`], and [`SystemError::UnknownJoint`].
     pub fn build(self) -> Result<System, SystemError> {
         let Self { name, gravity_m_s2, joints, members } = self;

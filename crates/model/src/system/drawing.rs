@@ -33,11 +33,9 @@ impl System {
     /// can.
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when two joints are drawn at one place, or a coordinate is not finite.
     ///
     /// # Panics
-    ///
     /// When there are more or fewer places than joints.
     pub fn drawn_at(mut self, places_m: &[Vector]) -> Result<Self, SystemError> {
         assert_eq!(places_m.len(), self.joints.len(), "a place for every joint");
@@ -53,7 +51,6 @@ impl System {
     /// supports may know nothing.
     ///
     /// # Errors
-    ///
     /// As [`new`](Self::new).
     pub fn on_supports(
         &self,
@@ -69,7 +66,6 @@ impl System {
     /// where they may rise.
     ///
     /// # Errors
-    ///
     /// As [`new`](Self::new).
     pub fn laid(
         &self,

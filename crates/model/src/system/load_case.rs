@@ -140,7 +140,6 @@ impl System {
     /// ([`in_case`](Self::in_case)).
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when a number is out of range, a joint or member is not there, two cases have one
     /// name or a case names a load that is none.
     ///
@@ -355,7 +354,6 @@ impl System {
     /// The system in one of its [`load_cases`](Self::load_cases), its name that of both.
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when there is no case of this name, or its factors bring a number out of range.
     pub fn in_case(&self, name: &str) -> Result<Self, SystemError> {
         let case = self.load_cases().iter().find(|case| case.name == name).ok_or_else(|| {

@@ -94,7 +94,6 @@ impl System {
     /// A system of the given joints and members.
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when a number is out of range, or a member names a joint that is not there.
     pub fn new(
         name: impl Into<String>,
@@ -136,7 +135,6 @@ impl System {
     /// are above the floor all of them is.
     ///
     /// # Errors
-    ///
     /// [`SystemError`] when the height is not finite, or a support holds a joint below it.
     ///
     /// ```
@@ -158,7 +156,6 @@ impl System {
     /// anchor or a joint without load that no member meets any more is gone too.
     ///
     /// # Panics
-    ///
     /// If there is no such member.
     ///
     /// ```

@@ -82,7 +82,6 @@ impl Member {
     /// The member as it was is kept in [`prestress`](super::MemberProperties::prestress); give the stiffness before.
     ///
     /// # Errors
-    ///
     /// [`PrestressError`]: no stiffness, a cable that would push, a strut that would pull, a
     /// pressure from the stiffness on.
     ///

@@ -182,7 +182,6 @@ impl System {
     /// million): conditions that are necessary, and for chains sufficient.
     ///
     /// # Errors
-    ///
     /// [`Refusal`] with the numbers it rests on.
     ///
     /// ```

@@ -43,7 +43,6 @@ impl Strength {
     /// they are known, and the safety wanted: strength over force, at least; 1 where none is.
     ///
     /// # Errors
-    ///
     /// [`StrengthError`] for a number that is not positive and finite.
     pub fn new(
         tension_n: Option<f64>,

@@ -112,7 +112,6 @@ impl Member {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`ToleranceError`] for a number that is not positive, and where a stiffness or mass could vanish.
     pub fn with_tolerances(
         mut self,
@@ -165,7 +164,6 @@ impl Joint {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`ToleranceError`] for a number that is not positive and finite, where a mass could become negative,
     /// and for the place of a joint that no support holds, or the force on one that none moves.
     pub fn with_tolerances(
@@ -243,7 +241,6 @@ impl System {
     /// ```
     ///
     /// # Errors
-    ///
     /// [`SystemError`] for numbers that no system has.
     pub fn with_uncertain(&self, values: &[f64]) -> Result<Self, SystemError> {
         let (mut joints, mut members) = (self.joints().to_vec(), self.members().to_vec());

@@ -7,7 +7,7 @@ use toml::de::{DeArray, DeTable};
 
 use super::described::Described;
 use super::duplicate;
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::{most_bars, most_bars_of_file};
 use super::loads;
@@ -23,42 +23,18 @@ use super::tolerance;
 use crate::system::{Refusal, SystemError};
 use crate::{Anchors, Bar, BarError, Chain, Problem, STANDARD_GRAVITY_M_S2};
 
-const ROOT_KEYS: &[&str] = &[
-    "name",
-    "gravity_m_s2",
-    "floor_m",
-    "plane",
-    "safety",
-    "tolerances",
-    "anchors",
-    "bars",
-    "bars_file",
-    "loads",
-    "cases",
-    "joints",
-    "joints_file",
-];
+const ROOT_KEYS: &[&str] = names! {
+    name gravity_m_s2 floor_m plane safety tolerances anchors bars bars_file loads cases joints
+    joints_file
+};
 /// What a chain may have in a file and a [`Chain`] has not.
 const BEYOND_CHAINS: &[&str] = &["loads", "cases", "floor_m"];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
-const BAR_KEYS: &[&str] = &[
-    "length_m",
-    "mass_kg",
-    "mass_kg_per_m",
-    "diameter_m",
-    "density_kg_m3",
-    "temperature_k",
-    "expansion_per_k",
-    "centre_m",
-    "inertia_kg_m2",
-    "count",
-    "strength_n",
-    "compression_n",
-    "bending_n_m2",
-    "safety",
-    "length_tolerance_m",
-    "mass_tolerance_kg",
-];
+const BAR_KEYS: &[&str] = names! {
+    length_m mass_kg mass_kg_per_m diameter_m density_kg_m3 temperature_k expansion_per_k centre_m
+    inertia_kg_m2 count strength_n compression_n bending_n_m2 safety length_tolerance_m
+    mass_tolerance_kg
+};
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
 
@@ -86,7 +62,7 @@ struct BarsPlace {
 
 impl Source<'_> {
     /// Whatever the text describes, accepted as an equilibrium problem.
-    pub(super) fn described(&self) -> Result<Described, SystemFileError> {
+    pub(super) fn described(&self) -> Result<Described> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
@@ -125,7 +101,7 @@ impl Source<'_> {
     }
 
     /// The text as a tree with places; every number of it is still text.
-    fn tree(&self) -> Result<Spanned<DeTable<'_>>, SystemFileError> {
+    fn tree(&self) -> Result<Spanned<DeTable<'_>>> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
         if tree.get_ref().is_empty() {
             return Err(self.error(Kind::Empty, None, None));
@@ -148,7 +124,7 @@ impl Source<'_> {
 }
 
 /// A chain, and where its parts stand.
-fn chain_of(root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
+fn chain_of(root: &Table<'_>) -> Result<(Chain, Places)> {
     let name = root.text("name")?.unwrap_or("unnamed");
     let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
     let table =
@@ -175,7 +151,7 @@ fn chain_of(root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
 }
 
 /// The bars of a chain, in its file or in one of their own.
-fn chain_bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
+fn chain_bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin)> {
     if root.get("bars").is_some() && root.get("bars_file").is_some() {
         let kind = Kind::Conflict { key: "bars_file", other: "bars" };
         return Err(root.error(kind, "bars_file"));
@@ -222,14 +198,14 @@ fn refusal(root: &Table<'_>, refusal: Refusal, places: &Places) -> SystemFileErr
     }
 }
 
-fn anchors(table: &Table<'_>) -> Result<Anchors, SystemFileError> {
+fn anchors(table: &Table<'_>) -> Result<Anchors> {
     const WANTED: &str = "three coordinates in metres, [x, y, z]";
     table.only(ANCHOR_KEYS)?;
     let vector = |key| table.vector(key, table.require(key, WANTED)?);
     Ok(Anchors { start_m: vector("start_m")?, end_m: vector("end_m")? })
 }
 
-fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
+fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin)> {
     let (mut bars, mut places) = (Vec::new(), Vec::new());
     for (k, value) in tables.iter().enumerate() {
         let table = root.table(&format!("bars[{}]", k + 1), value)?;
@@ -249,7 +225,7 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
 }
 
 /// The body of one bar: length, mass, centre, moments; of the length that the file gives, and then after a change of temperature.
-pub(super) fn bar(table: &Table<'_>, given_m: f64) -> Result<Bar, SystemFileError> {
+pub(super) fn bar(table: &Table<'_>, given_m: f64) -> Result<Bar> {
     let (mass_kg, mass_key) = material::mass_kg(table, given_m)?;
     let expansion = material::expansion(table)?;
     let centre_m = table.number("centre_m")?;

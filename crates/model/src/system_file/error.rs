@@ -6,6 +6,9 @@ use std::ops::Range;
 use super::kind::SystemFileErrorKind;
 use super::location::Position;
 
+/// What is read of a system file, or what is wrong there.
+pub type Result<T, E = SystemFileError> = std::result::Result<T, E>;
+
 /// An error in a system file: which file, which line, which key, what is wrong, what is allowed.
 ///
 /// Shown as `file:line:column: key: what is wrong`. With [`text`](Self::text), [`span`](Self::span)

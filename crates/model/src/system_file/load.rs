@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use crate::open_input;
 
@@ -21,7 +21,7 @@ pub(super) struct Loaded {
 /// too long or no text.
 ///
 /// The length is counted while reading: pipes and devices do not know theirs.
-pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded, SystemFileError>> {
+pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded>> {
     let file = path.display().to_string();
     let source = open_input(path)?;
     let length = source.metadata()?.len();

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use toml::de::DeArray;
 
-use super::error::SystemFileError;
+use super::error::Result;
 use super::kind::SystemFileErrorKind as Kind;
 use super::material;
 use super::network::unknown_joint;
@@ -24,11 +24,11 @@ const WANTED_FORCE: &str = "the force on each metre of the bar, N/m, [x, y, z]";
 const ALL: &str = "each";
 
 /// The joint that a value of a load names.
-type JointOf<'a> = &'a dyn Fn(&Table<'_>, &Value<'_>) -> Result<usize, SystemFileError>;
+type JointOf<'a> = &'a dyn Fn(&Table<'_>, &Value<'_>) -> Result<usize>;
 
 /// The chain as a system with the loads of the file at its joints, the strengths of its bars and the
 /// tolerances of its numbers, above its floor.
-pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
+pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System> {
     let system = material::put(root, strength::put(root, System::from(chain))?)?;
     let last = system.joints().len() - 1;
     let system = put(root, system, &|table, value| numbered(table, value, last))?;
@@ -42,7 +42,7 @@ pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System, System
 }
 
 /// The number of a joint between the anchors of a chain.
-fn numbered(table: &Table<'_>, value: &Value<'_>, last: usize) -> Result<usize, SystemFileError> {
+fn numbered(table: &Table<'_>, value: &Value<'_>, last: usize) -> Result<usize> {
     let number = table.count_of("joint", value, "the number of a joint, 1 or more")?;
     if number < last {
         return Ok(number);
@@ -59,7 +59,7 @@ fn numbered(table: &Table<'_>, value: &Value<'_>, last: usize) -> Result<usize, 
 }
 
 /// The system, whose joints have names, with the loads and the cases of the file.
-pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System> {
     if root.get("loads").is_none() && root.get("cases").is_none() {
         return Ok(system);
     }
@@ -79,7 +79,7 @@ pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System, System
 }
 
 /// The system with the loads and the cases of the file.
-fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System, SystemFileError> {
+fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System> {
     let load_tables = tables(root, "loads", WANTED)?;
     let case_tables = tables(root, "cases", WANTED_CASES)?;
     if load_tables.is_empty() && case_tables.is_empty() {
@@ -103,11 +103,7 @@ fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System, S
 }
 
 /// The tables under a key.
-fn tables<'a>(
-    root: &'a Table<'a>,
-    key: &str,
-    wanted: &'static str,
-) -> Result<Vec<Table<'a>>, SystemFileError> {
+fn tables<'a>(root: &'a Table<'a>, key: &str, wanted: &'static str) -> Result<Vec<Table<'a>>> {
     let Some(value) = root.get(key) else { return Ok(vec![]) };
     let tables = value.get_ref().as_array();
     let tables: &DeArray<'_> = tables.ok_or_else(|| root.wrong_type(key, value, wanted))?;
@@ -115,11 +111,7 @@ fn tables<'a>(
     numbered.map(|(k, value)| root.table(&format!("{key}[{}]", k + 1), value)).collect()
 }
 
-fn load(
-    table: &Table<'_>,
-    system: &System,
-    joint: JointOf<'_>,
-) -> Result<NamedLoad, SystemFileError> {
+fn load(table: &Table<'_>, system: &System, joint: JointOf<'_>) -> Result<NamedLoad> {
     table.only(LOAD_KEYS)?;
     let name = table.text("name")?.unwrap_or(PERMANENT).to_owned();
     let on_bars = table.get("bar").is_some();
@@ -158,8 +150,8 @@ fn several(
     table: &Table<'_>,
     key: &'static str,
     wanted: &'static str,
-    one: &dyn Fn(&Value<'_>) -> Result<usize, SystemFileError>,
-) -> Result<Vec<usize>, SystemFileError> {
+    one: &dyn Fn(&Value<'_>) -> Result<usize>,
+) -> Result<Vec<usize>> {
     let value = table.require(key, wanted)?;
     let Some(items) = value.get_ref().as_array() else { return Ok(vec![one(value)?]) };
     if items.is_empty() {
@@ -171,7 +163,7 @@ fn several(
 }
 
 /// The member of a number from 1.
-fn bar(table: &Table<'_>, value: &Value<'_>, system: &System) -> Result<usize, SystemFileError> {
+fn bar(table: &Table<'_>, value: &Value<'_>, system: &System) -> Result<usize> {
     let number = table.count_of("bar", value, "the number of a bar, from 1")?;
     if number <= system.members().len() {
         return Ok(number - 1);
@@ -180,7 +172,7 @@ fn bar(table: &Table<'_>, value: &Value<'_>, system: &System) -> Result<usize, S
     Err(table.error(Kind::OutOfRange { found, wanted }, "bar"))
 }
 
-fn case(table: &Table<'_>) -> Result<LoadCase, SystemFileError> {
+fn case(table: &Table<'_>) -> Result<LoadCase> {
     table.only(CASE_KEYS)?;
     table.require("name", "what the case is called")?;
     let name = table.text("name")?.unwrap_or_default().to_owned();
@@ -194,7 +186,6 @@ fn case(table: &Table<'_>) -> Result<LoadCase, SystemFileError> {
     let factors = table.table("factors", table.require("factors", WANTED_FACTORS)?)?;
     let factor =
         |(load, value): (&str, &Value<'_>)| Ok((load.to_owned(), factors.number_of(load, value)?));
-    let factors =
-        factors.in_order().into_iter().map(factor).collect::<Result<_, SystemFileError>>()?;
+    let factors = factors.in_order().into_iter().map(factor).collect::<Result<_>>()?;
     Ok(LoadCase { name, factors })
 }

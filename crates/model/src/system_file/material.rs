@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::strength::{first_of, with_bars};
 use super::table::Table;
@@ -16,16 +16,13 @@ const WANTED_MASS: &str =
 const WANTED_SIZE: &str = "positive and finite";
 
 /// How much longer a bar is after a change of temperature: `1 + expansion_per_k temperature_k`.
-pub(super) fn expansion(table: &Table<'_>) -> Result<f64, SystemFileError> {
+pub(super) fn expansion(table: &Table<'_>) -> Result<f64> {
     let both = both(table, ["temperature_k", "expansion_per_k"])?;
     Ok(both.map_or(1.0, |[change_k, expansion_per_k]| 1.0 + expansion_per_k * change_k))
 }
 
 /// The mass of a bar of this length, kg, and the key that gives it.
-pub(super) fn mass_kg(
-    table: &Table<'_>,
-    length_m: f64,
-) -> Result<(f64, &'static str), SystemFileError> {
+pub(super) fn mass_kg(table: &Table<'_>, length_m: f64) -> Result<(f64, &'static str)> {
     one_of(table, &MASS)?;
     if let Some(mass_kg) = table.number("mass_kg")? {
         return Ok((mass_kg, "mass_kg"));
@@ -44,7 +41,7 @@ pub(super) fn mass_kg(
 }
 
 /// The axial stiffness EA, N, if there is one: `young_pa pi diameter_m^2 / 4`.
-pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>, SystemFileError> {
+pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>> {
     one_of(table, &["stiffness_n", "young_pa"])?;
     match table.number("young_pa")? {
         Some(young_pa) if young_pa > 0.0 && young_pa.is_finite() => {
@@ -56,11 +53,7 @@ pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>, SystemFileEr
 }
 
 /// A load a metre, spread over a bar: `given_m` long as the file has it, `length_m` now.
-pub(super) fn spread(
-    table: &Table<'_>,
-    given_m: f64,
-    length_m: f64,
-) -> Result<Option<PointLoad>, SystemFileError> {
+pub(super) fn spread(table: &Table<'_>, given_m: f64, length_m: f64) -> Result<Option<PointLoad>> {
     let Some(value) = table.get("force_n_per_m") else { return Ok(None) };
     let per_m = table.vector("force_n_per_m", value)?;
     let force_n = per_m.map(|x| x * given_m);
@@ -72,7 +65,7 @@ pub(super) fn spread(
 }
 
 /// What follows the length of a bar.
-pub(super) fn by_length(table: &Table<'_>) -> Result<ByLength, SystemFileError> {
+pub(super) fn by_length(table: &Table<'_>) -> Result<ByLength> {
     let force = table.get("force_n_per_m");
     let force = force.map(|value| table.vector("force_n_per_m", value)).transpose()?;
     Ok(ByLength {
@@ -88,7 +81,7 @@ pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
 }
 
 /// The bars of a chain, as a system, with what follows their lengths.
-pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+pub(super) fn put(root: &Table<'_>, system: System) -> Result<System> {
     if given(root).is_none() {
         return Ok(system);
     }
@@ -99,7 +92,7 @@ pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFile
 }
 
 /// Refuse a diameter of which nothing is made.
-pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<(), SystemFileError> {
+pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<()> {
     let used = makers.iter().any(|key| table.get(key).is_some());
     match table.get("diameter_m") {
         Some(_) if !used => {
@@ -113,7 +106,7 @@ pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<(), S
 }
 
 /// The area of a round section.
-fn area_m2(table: &Table<'_>) -> Result<f64, SystemFileError> {
+fn area_m2(table: &Table<'_>) -> Result<f64> {
     let value = table.require("diameter_m", "the diameter in metres")?;
     let diameter_m = table.number_of("diameter_m", value)?;
     if diameter_m > 0.0 && diameter_m.is_finite() {
@@ -128,7 +121,7 @@ fn out_of_range(table: &Table<'_>, key: &str, found: f64) -> SystemFileError {
 }
 
 /// Two numbers that mean something together alone.
-fn both(table: &Table<'_>, keys: [&'static str; 2]) -> Result<Option<[f64; 2]>, SystemFileError> {
+fn both(table: &Table<'_>, keys: [&'static str; 2]) -> Result<Option<[f64; 2]>> {
     const WANTED: [&str; 2] =
         ["the change of temperature in kelvin", "the part of the length that it grows by a kelvin"];
     match [table.number(keys[0])?, table.number(keys[1])?] {
@@ -143,7 +136,7 @@ fn both(table: &Table<'_>, keys: [&'static str; 2]) -> Result<Option<[f64; 2]>, 
 }
 
 /// Refuse two keys that give the same number.
-fn one_of(table: &Table<'_>, keys: &[&'static str]) -> Result<(), SystemFileError> {
+fn one_of(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
     let mut given = keys.iter().filter(|key| table.get(key).is_some());
     match (given.next(), given.next()) {
         (Some(other), Some(key)) => Err(table.error(Kind::Conflict { key, other }, key)),

@@ -73,6 +73,11 @@
 //! assert!(help.starts_with("did you mean `mass_kg`? allowed here: length_m, mass_kg, mass_kg_per_m, "));
 //! ```
 
+/// Words as texts.
+macro_rules! names {
+    ($($name:ident)*) => { &[$(stringify!($name)),*] };
+}
+
 mod csv;
 mod described;
 mod document;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::most_bars_file_bytes;
 use super::load::{Loaded, load, without_mark};
@@ -18,7 +18,7 @@ pub(super) fn text(
     key: &'static str,
     path: PathBuf,
     columns: &'static [&'static str],
-) -> Result<Loaded, SystemFileError> {
+) -> Result<Loaded> {
     let loaded = match load(&path, most_bars_file_bytes()) {
         Ok(loaded) => loaded,
         Err(error) => return Err(root.error(Kind::UnreadableBars { path, error }, key)),

@@ -8,7 +8,7 @@ use toml::de::DeArray;
 
 use super::document::bar;
 use super::drawing;
-use super::error::SystemFileError;
+use super::error::Result;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_BARS;
 use super::loads;
@@ -27,60 +27,20 @@ use crate::system::{
     UNIT_TOLERANCE,
 };
 
-const ROOT_KEYS: &[&str] = &[
-    "name",
-    "gravity_m_s2",
-    "floor_m",
-    "plane",
-    "safety",
-    "tolerances",
-    "joints",
-    "joints_file",
-    "bars",
-    "bars_file",
-    "loads",
-    "cases",
-];
-const JOINT_KEYS: &[&str] = &[
-    "at_m",
-    "near_m",
-    "free",
-    "along",
-    "normal",
-    "mass_kg",
-    "force_n",
-    "mass_tolerance_kg",
-    "at_tolerance_m",
-    "force_tolerance_n",
-];
-const MEMBER_KEYS: &[&str] = &[
-    "from",
-    "to",
-    "via",
-    "length_m",
-    "mass_kg",
-    "mass_kg_per_m",
-    "diameter_m",
-    "density_kg_m3",
-    "temperature_k",
-    "expansion_per_k",
-    "centre_m",
-    "inertia_kg_m2",
-    "count",
-    "kind",
-    "stiffness_n",
-    "young_pa",
-    "force_n_per_m",
-    "prestress_n",
-    "length_tolerance_m",
-    "stiffness_tolerance",
-    "mass_tolerance_kg",
-    "strength_n",
-    "compression_n",
-    "bending_n_m2",
-    "safety",
-    "forces",
-];
+const ROOT_KEYS: &[&str] = names! {
+    name gravity_m_s2 floor_m plane safety tolerances joints joints_file bars bars_file loads
+    cases
+};
+const JOINT_KEYS: &[&str] = names! {
+    at_m near_m free along normal mass_kg force_n mass_tolerance_kg at_tolerance_m
+    force_tolerance_n
+};
+const MEMBER_KEYS: &[&str] = names! {
+    from to via length_m mass_kg mass_kg_per_m diameter_m density_kg_m3 temperature_k
+    expansion_per_k centre_m inertia_kg_m2 count kind stiffness_n young_pa force_n_per_m
+    prestress_n length_tolerance_m stiffness_tolerance mass_tolerance_kg strength_n compression_n
+    bending_n_m2 safety forces
+};
 const FORCE_KEYS: &[&str] = &["force_n", "at_m", "spread"];
 const WANTED_JOINTS: &str = "a table of joints, such as A = { at_m = [0, 0, 0] }";
 const WANTED_BARS: &str = "one or more tables [[bars]] with from, to, length_m and mass_kg";
@@ -120,7 +80,7 @@ struct Reading<'a> {
 }
 
 /// The system of a file with `[joints]`.
-pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
+pub(super) fn read(root: &Table<'_>) -> Result<System> {
     if root.get("anchors").is_some() {
         let keys = ["joints", "joints_file"];
         let key = keys.into_iter().find(|key| root.get(key).is_some()).unwrap_or("joints");
@@ -153,7 +113,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
 }
 
 impl Reading<'_> {
-    fn joints(&mut self) -> Result<(), SystemFileError> {
+    fn joints(&mut self) -> Result<()> {
         if self.root.get("joints").is_none() && self.root.get("joints_file").is_some() {
             return Ok(());
         }
@@ -170,7 +130,7 @@ impl Reading<'_> {
     }
 
     /// The joints of a file, behind those of the table.
-    fn joints_of_file(&mut self) -> Result<(), SystemFileError> {
+    fn joints_of_file(&mut self) -> Result<()> {
         let Self { root, joints, numbers, tolerances, .. } = self;
         let before = joints.len();
         let mut take = |row: &Row<'_>| {
@@ -190,7 +150,7 @@ impl Reading<'_> {
     }
 
     /// The bars of a file, a row for each.
-    fn bars_of_file(&mut self) -> Result<(), SystemFileError> {
+    fn bars_of_file(&mut self) -> Result<()> {
         if self.root.get("bars").is_some() {
             let kind = Kind::Conflict { key: "bars_file", other: "bars" };
             return Err(self.root.error(kind, "bars_file"));
@@ -213,7 +173,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    fn bars(&mut self) -> Result<(), SystemFileError> {
+    fn bars(&mut self) -> Result<()> {
         if self.root.get("bars_file").is_some() {
             return self.bars_of_file();
         }
@@ -230,7 +190,7 @@ impl Reading<'_> {
     }
 
     /// The members of one `[[bars]]` table: one, or `count` in a row with joints between them.
-    fn run(&mut self, table: &Table<'_>) -> Result<(), SystemFileError> {
+    fn run(&mut self, table: &Table<'_>) -> Result<()> {
         table.only(MEMBER_KEYS)?;
         let (from, from_name) = self.joint(table, "from")?;
         let (to, to_name) = self.joint(table, "to")?;
@@ -285,7 +245,7 @@ impl Reading<'_> {
     }
 
     /// The joints that a rope runs over.
-    fn via(&self, table: &Table<'_>) -> Result<Vec<usize>, SystemFileError> {
+    fn via(&self, table: &Table<'_>) -> Result<Vec<usize>> {
         const WANTED: &str = "one or more names of joints, such as [\"P\"]";
         let Some(value) = table.get("via") else { return Ok(Vec::new()) };
         if table.get("count").is_some() {
@@ -330,11 +290,7 @@ impl Reading<'_> {
     }
 
     /// The joint that `from` or `to` names.
-    fn joint<'t>(
-        &self,
-        table: &'t Table<'_>,
-        key: &'static str,
-    ) -> Result<(usize, &'t str), SystemFileError> {
+    fn joint<'t>(&self, table: &'t Table<'_>, key: &'static str) -> Result<(usize, &'t str)> {
         let value = table.require(key, "the name of a joint")?;
         let Some(name) = value.get_ref().as_str() else {
             return Err(table.wrong_type(key, value, "the name of a joint"));
@@ -350,7 +306,7 @@ impl Reading<'_> {
         named.ok_or_else(|| unknown_joint(name, &self.joints))
     }
 
-    fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
+    fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System> {
         let Self { root, mut joints, joint_spans, members, tables, joints_file, bars_file, .. } =
             self;
         let names: Vec<Name> =
@@ -444,7 +400,7 @@ pub(super) fn unknown_joint(name: &str, joints: &[Joint]) -> Kind {
     Kind::UnknownJoint { joint: name.to_owned(), suggestion }
 }
 
-fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
+fn joint(name: &str, table: &Table<'_>) -> Result<Joint> {
     table.only(JOINT_KEYS)?;
     let vector = |key: &str| table.get(key).map(|value| table.vector(key, value)).transpose();
     let mass = table.number("mass_kg")?;
@@ -464,7 +420,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
     Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).drawn(near_m))
 }
 
-fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
+fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support> {
     const SLIDES: [&str; 3] = ["free", "along", "normal"];
     const WANTED: &str = "a point where the joint may be, [x, y, z]";
     let mut given = SLIDES.into_iter().filter(|key| table.get(key).is_some());
@@ -493,7 +449,7 @@ fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFil
 }
 
 /// `free = "x"` and the like.
-fn free(table: &Table<'_>, at_m: Vector) -> Result<Support, SystemFileError> {
+fn free(table: &Table<'_>, at_m: Vector) -> Result<Support> {
     let word = table.text("free")?.unwrap_or_default();
     network_rows::sliding(word, at_m).ok_or_else(|| {
         let found = format!("{word:?}");
@@ -502,7 +458,7 @@ fn free(table: &Table<'_>, at_m: Vector) -> Result<Support, SystemFileError> {
 }
 
 /// A direction of any length, made one of unit length.
-fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError> {
+fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector> {
     let value = table.require(key, "a direction [x, y, z]")?;
     let vector = table.vector(key, value)?;
     if (vector[0].hypot(vector[1]).hypot(vector[2]) - 1.0).abs() <= UNIT_TOLERANCE {
@@ -524,9 +480,9 @@ fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError>
 /// given, is that of the drawing.
 fn member(
     table: &Table<'_>,
-    drawn: &dyn Fn() -> Result<Option<f64>, SystemFileError>,
+    drawn: &dyn Fn() -> Result<Option<f64>>,
     safety: f64,
-) -> Result<Member, SystemFileError> {
+) -> Result<Member> {
     const WANTED: &str = "a length in metres, or places near_m of the joints";
     let length_m = match table.number("length_m")? {
         Some(length_m) => length_m,
@@ -562,7 +518,7 @@ fn member(
 }
 
 /// A force on a bar; in the middle if no place is given.
-fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad, SystemFileError> {
+fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad> {
     table.only(FORCE_KEYS)?;
     let value: &Value<'_> = table.require("force_n", "a force in newtons, [x, y, z]")?;
     let force_n = table.vector("force_n", value)?;

@@ -13,24 +13,10 @@ const FORCE: [&str; 3] = ["force_x_n", "force_y_n", "force_z_n"];
 
 /// The columns of joints.
 pub(super) const JOINTS: Known = Known {
-    columns: &[
-        "name",
-        "x_m",
-        "y_m",
-        "z_m",
-        "fixed",
-        "free",
-        "mass_kg",
-        "force_x_n",
-        "force_y_n",
-        "force_z_n",
-        "near_x_m",
-        "near_y_m",
-        "near_z_m",
-        "mass_tolerance_kg",
-        "at_tolerance_m",
-        "force_tolerance_n",
-    ],
+    columns: names! {
+        name x_m y_m z_m fixed free mass_kg force_x_n force_y_n force_z_n near_x_m near_y_m
+        near_z_m mass_tolerance_kg at_tolerance_m force_tolerance_n
+    },
     needed: &[],
 };
 
@@ -45,27 +31,11 @@ pub(super) const CHAIN: Known = Known {
 
 /// The columns of bars.
 pub(super) const BARS: Known = Known {
-    columns: &[
-        "from",
-        "via",
-        "to",
-        "length_m",
-        "mass_kg",
-        "centre_m",
-        "kind",
-        "stiffness_n",
-        "prestress_n",
-        "length_tolerance_m",
-        "stiffness_tolerance",
-        "mass_tolerance_kg",
-        "strength_n",
-        "compression_n",
-        "safety",
-        "force_x_n",
-        "force_y_n",
-        "force_z_n",
-        "force_at_m",
-    ],
+    columns: names! {
+        from via to length_m mass_kg centre_m kind stiffness_n prestress_n length_tolerance_m
+        stiffness_tolerance mass_tolerance_kg strength_n compression_n safety force_x_n force_y_n
+        force_z_n force_at_m
+    },
     needed: NEEDED,
 };
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::described::Described;
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::json;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::most_file_bytes;
@@ -15,10 +15,9 @@ use super::source::Source;
 /// with the same keys.
 ///
 /// # Errors
-///
 /// [`SystemFileError`] with the place and the reason; why something is no equilibrium problem
 /// points at the number that it rests on.
-pub fn read(path: impl AsRef<Path>) -> Result<Described, SystemFileError> {
+pub fn read(path: impl AsRef<Path>) -> Result<Described> {
     read_with(path, &|_, _| None)
 }
 
@@ -26,12 +25,8 @@ pub fn read(path: impl AsRef<Path>) -> Result<Described, SystemFileError> {
 /// `rows` is asked first for what `bars_file` and `joints_file` name.
 ///
 /// # Errors
-///
 /// Those of [`read()`]; an error of a reader is placed at the key.
-pub fn read_with(
-    path: impl AsRef<Path>,
-    rows: RowsReader<'_>,
-) -> Result<Described, SystemFileError> {
+pub fn read_with(path: impl AsRef<Path>, rows: RowsReader<'_>) -> Result<Described> {
     let path = path.as_ref();
     let unreadable = |error| {
         let file = path.display().to_string();
@@ -45,7 +40,6 @@ pub fn read_with(
 /// in the text: no file is opened.
 ///
 /// # Errors
-///
 /// [`SystemFileError`] with the place and the reason.
 ///
 /// ```
@@ -73,7 +67,7 @@ pub fn read_with(
 /// assert_eq!((system.joints().len(), system.members().len()), (4, 3));
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
-pub fn parse(text: &str, file: &str) -> Result<Described, SystemFileError> {
+pub fn parse(text: &str, file: &str) -> Result<Described> {
     described(file, without_mark(text), None, None)
 }
 
@@ -83,7 +77,7 @@ fn described(
     text: &str,
     folder: Option<&Path>,
     rows: Option<RowsReader<'_>>,
-) -> Result<Described, SystemFileError> {
+) -> Result<Described> {
     if !json::is_json(text) {
         return Source { folder, rows, ..Source::of(file, text) }.described();
     }

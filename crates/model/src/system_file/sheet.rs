@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::csv;
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::load::{Loaded, without_mark};
 use super::named;
@@ -25,7 +25,7 @@ impl SheetFile {
         key: &'static str,
         known: &'static Known,
         take: &mut dyn FnMut(&Row<'_>) -> Result<(), Wrong>,
-    ) -> Result<Option<Self>, SystemFileError> {
+    ) -> Result<Option<Self>> {
         let Some(file) = root.text(key)? else { return Ok(None) };
         let source = root.source();
         let Some(folder) = source.folder else {

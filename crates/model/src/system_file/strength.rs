@@ -2,7 +2,7 @@
 
 use toml::de::DeTable;
 
-use super::error::SystemFileError;
+use super::error::Result;
 use super::kind::SystemFileErrorKind as Kind;
 use super::table::Table;
 use super::tolerance::Numbers;
@@ -23,7 +23,7 @@ fn wrong(error: StrengthError) -> (&'static str, Kind) {
 }
 
 /// The safety that is required of all bars that say nothing else; 1 where the file has none.
-pub(super) fn safety(root: &Table<'_>) -> Result<f64, SystemFileError> {
+pub(super) fn safety(root: &Table<'_>) -> Result<f64> {
     let safety = root.number("safety")?.unwrap_or(1.0);
     let checked = Strength::new(None, None, safety).map_err(|error| {
         let (key, kind) = wrong(error);
@@ -64,7 +64,7 @@ pub(super) fn of<N: Numbers>(
 }
 
 /// Refuse a safety for all bars where none has a strength.
-pub(super) fn check(root: &Table<'_>, system: &System) -> Result<(), SystemFileError> {
+pub(super) fn check(root: &Table<'_>, system: &System) -> Result<()> {
     let of_none = system.members().iter().all(|member| member.strength.is_none());
     let is_wanted = root.get("safety").is_some();
     if is_wanted && of_none { Err(root.error(OF_NOTHING, "safety")) } else { Ok(()) }
@@ -83,7 +83,7 @@ pub(super) fn first_of(root: &Table<'_>, keys: &[&'static str]) -> Option<&'stat
 }
 
 /// The bars of a chain, as a system, with what they bear.
-pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+pub(super) fn put(root: &Table<'_>, system: System) -> Result<System> {
     if given(root).is_none() {
         return Ok(system);
     }
@@ -100,8 +100,8 @@ pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFile
 pub(super) fn with_bars(
     root: &Table<'_>,
     system: &System,
-    set: impl Fn(&Table<'_>, &mut Member) -> Result<(), SystemFileError>,
-) -> Result<System, SystemFileError> {
+    set: impl Fn(&Table<'_>, &mut Member) -> Result<()>,
+) -> Result<System> {
     let mut members = system.members().to_vec();
     let mut left = members.iter_mut();
     for table in tables(root)? {
@@ -113,7 +113,7 @@ pub(super) fn with_bars(
 }
 
 /// The `[[bars]]` of a chain; none where they are in a file of their own.
-pub(super) fn tables<'a>(root: &'a Table<'a>) -> Result<Vec<Table<'a>>, SystemFileError> {
+pub(super) fn tables<'a>(root: &'a Table<'a>) -> Result<Vec<Table<'a>>> {
     let tables = root.get("bars").and_then(|value| value.get_ref().as_array());
     let tables = tables.into_iter().flat_map(|tables| tables.iter().enumerate());
     tables.map(|(k, value)| root.table(&format!("bars[{}]", k + 1), value)).collect()

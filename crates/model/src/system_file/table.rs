@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::{NOT_MODELLED, SystemFileErrorKind as Kind};
 use super::source::Source;
 use super::suggest::nearest;
@@ -72,7 +72,7 @@ impl<'a> Table<'a> {
     }
 
     /// Refuse keys that are not allowed here: the first in the order of the file.
-    pub(super) fn only(&self, allowed: &'static [&'static str]) -> Result<(), SystemFileError> {
+    pub(super) fn only(&self, allowed: &'static [&'static str]) -> Result<()> {
         let unknown = self.entries.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
         match unknown.min_by_key(|key| key.span().start) {
             None => Ok(()),
@@ -89,11 +89,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    pub(super) fn require(
-        &self,
-        key: &'static str,
-        wanted: &'static str,
-    ) -> Result<&'a Value<'a>, SystemFileError> {
+    pub(super) fn require(&self, key: &'static str, wanted: &'static str) -> Result<&'a Value<'a>> {
         self.get(key).ok_or_else(|| self.error(Kind::MissingKey { key, wanted }, key))
     }
 
@@ -116,11 +112,7 @@ impl<'a> Table<'a> {
     }
 
     /// The table under a key of this one; `key` may be one of an array of tables, as `bars[2]`.
-    pub(super) fn table(
-        &self,
-        key: &str,
-        value: &'a Value<'a>,
-    ) -> Result<Table<'a>, SystemFileError> {
+    pub(super) fn table(&self, key: &str, value: &'a Value<'a>) -> Result<Table<'a>> {
         match value.get_ref().as_table() {
             Some(entries) => {
                 Ok(Table { source: self.source, path: self.key(key), entries, span: value.span() })
@@ -129,7 +121,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>, SystemFileError> {
+    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>> {
         let Some(value) = self.get(key) else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) => Ok(Some(text)),
@@ -137,7 +129,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    pub(super) fn boolean(&self, key: &str) -> Result<Option<bool>, SystemFileError> {
+    pub(super) fn boolean(&self, key: &str) -> Result<Option<bool>> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let DeValue::Boolean(is) = value.get_ref() else {
             return Err(self.wrong_type(key, value, "true or false"));
@@ -145,20 +137,16 @@ impl<'a> Table<'a> {
         Ok(Some(*is))
     }
 
-    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, SystemFileError> {
+    pub(super) fn number(&self, key: &str) -> Result<Option<f64>> {
         self.get(key).map(|value| self.number_of(key, value)).transpose()
     }
 
     /// A number; integers count as numbers. Whether it is finite is for the constructors to say.
-    pub(super) fn number_of(&self, key: &str, value: &Value<'_>) -> Result<f64, SystemFileError> {
+    pub(super) fn number_of(&self, key: &str, value: &Value<'_>) -> Result<f64> {
         number(value).ok_or_else(|| self.wrong_type(key, value, "a number"))
     }
 
-    pub(super) fn vector(
-        &self,
-        key: &str,
-        value: &'a Value<'a>,
-    ) -> Result<Vector, SystemFileError> {
+    pub(super) fn vector(&self, key: &str, value: &'a Value<'a>) -> Result<Vector> {
         let Some(items) = value.get_ref().as_array() else {
             return Err(self.wrong_type(key, value, "three numbers [x, y, z]"));
         };
@@ -173,7 +161,7 @@ impl<'a> Table<'a> {
     }
 
     /// A whole number of at least 1; 1 if the key is not there.
-    pub(super) fn count(&self, key: &str) -> Result<usize, SystemFileError> {
+    pub(super) fn count(&self, key: &str) -> Result<usize> {
         match self.get(key) {
             Some(value) => self.count_of(key, value, "a whole number of bars, 1 or more"),
             None => Ok(1),
@@ -186,7 +174,7 @@ impl<'a> Table<'a> {
         key: &str,
         value: &Value<'_>,
         wanted: &'static str,
-    ) -> Result<usize, SystemFileError> {
+    ) -> Result<usize> {
         let Some(integer) = value.get_ref().as_integer() else {
             return Err(self.wrong_type(key, value, wanted));
         };
@@ -205,7 +193,7 @@ impl<'a> Table<'a> {
         mass_kg: Option<f64>,
         force_n: Option<Vector>,
         force_key: &str,
-    ) -> Result<(), SystemFileError> {
+    ) -> Result<()> {
         if mass_kg.is_some_and(|mass| !(mass.is_finite() && mass >= 0.0)) {
             return Err(self.error(Kind::Mass { mass_kg: mass_kg.unwrap_or(f64::NAN) }, "mass_kg"));
         }

@@ -1,6 +1,6 @@
 //! How far numbers may be off: keys of bars and joints, and a table `[tolerances]` for all.
 
-use super::error::SystemFileError;
+use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::row_table::{Row, Wrong};
 use super::strength::{first_of, tables};
@@ -39,7 +39,7 @@ pub(super) trait Numbers {
 
 impl Numbers for Table<'_> {
     type Error = SystemFileError;
-    fn get(&self, key: &'static str) -> Result<Option<f64>, SystemFileError> {
+    fn get(&self, key: &'static str) -> Result<Option<f64>> {
         self.number(key)
     }
     fn wrong(&self, kind: Kind, key: &'static str) -> SystemFileError {
@@ -58,7 +58,7 @@ impl Numbers for Row<'_> {
 }
 
 /// The table `[tolerances]` of a file.
-pub(super) fn all(root: &Table<'_>) -> Result<Tolerances, SystemFileError> {
+pub(super) fn all(root: &Table<'_>) -> Result<Tolerances> {
     let Some(value) = root.get("tolerances") else { return Ok(Tolerances::default()) };
     let table = root.table("tolerances", value)?;
     table.only(KEYS)?;
@@ -105,7 +105,7 @@ impl Tolerances {
 }
 
 /// The tolerances of all for masses and forces that came by `[[loads]]`.
-pub(super) fn of_loads(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+pub(super) fn of_loads(root: &Table<'_>, system: System) -> Result<System> {
     if root.get("tolerances").is_none() || root.get("loads").is_none() {
         return Ok(system);
     }
@@ -131,7 +131,7 @@ pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
 }
 
 /// The chain as a system, with how far its numbers may be off.
-pub(super) fn put(root: &Table<'_>, system: System) -> Result<System, SystemFileError> {
+pub(super) fn put(root: &Table<'_>, system: System) -> Result<System> {
     if given(root).is_none() {
         return Ok(system);
     }

@@ -19,7 +19,6 @@ mod mutations;
 mod network_columns;
 mod numbers;
 mod parts;
-mod refused;
 mod ropes;
 mod round_trip;
 mod slips;

@@ -8,7 +8,7 @@ use model::Bar;
 use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use model::system_file::{Cell, Described, Rows, SystemFileError, read, read_with};
 
-use crate::support::Folder;
+use crate::support::{Folder, rows};
 
 const JOINTS: &str = "name,x_m,y_m,z_m,fixed,free,mass_kg,force_x_n,force_y_n,force_z_n\n\
                       A,0,0,0,,,,,,\n\
@@ -141,76 +141,16 @@ fn joints_may_stand_in_both_places_and_have_numbers_for_names() {
 
 #[test]
 fn errors_name_file_row_and_column() {
-    let bars = |from: &str, to: &str| BARS.replacen(from, to, 1);
-    let joints = |from: &str, to: &str| JOINTS.replacen(from, to, 1);
-    check(JOINTS, &bars("4,C", "5,C"), "bars.csv:4:1: to: there is no joint \"5\"");
-    check(
-        JOINTS,
-        &bars("A,1.5", "A,-1"),
-        "bars.csv:2:15: length_m: the length of a bar must be positive and finite, got -1 m",
-    );
-    check(JOINTS, &bars("A,1.5", "A,"), "bars.csv:2:15: length_m: the cell is empty");
-    check(
-        JOINTS,
-        &bars("cable", "rope"),
-        "bars.csv:3:22: kind: there is no member of the kind \"rope\"",
-    );
-    check(
-        &joints("0,12,0", "0,1o,0"),
-        BARS,
-        "joints.csv:3:26: force_y_n: expected a number, found \"1o\"",
-    );
-    check(&joints("mass_kg", "mass"), BARS, "joints.csv:1:29: mass: unknown key `mass`");
-    check(JOINTS, "from,to,length_m\nA,C,1\n", "bars.csv:1:1: the key `mass_kg` is missing");
-    check(
-        &joints("A,0,0,0,,,", "A,0,0,0,,,7"),
-        BARS,
-        "joints.csv:2:11: mass_kg: joint \"A\" is an anchor: a load there goes straight into the ground",
-    );
-    check(&joints("A,0,0,0", "A,0,,0"), BARS, "joints.csv:2:5: y_m: the cell is empty");
-    check(&joints(",xz,", ",up,"), BARS, "joints.csv:4:12: free: the value \"up\" is out of range");
-    check(
-        &joints(",0.5,,xz", ",0.5,1,xz"),
-        BARS,
-        "joints.csv:4:13: free: `free` and `fixed` cannot stand together",
-    );
-    check(
-        &(JOINTS.to_owned() + "C,,,,,,,,,\n"),
-        BARS,
-        "joints.csv:6:1: two joints are called \"C\"",
-    );
-    check(
-        JOINTS,
-        &(BARS.to_owned() + "A,\"lamp, old\",1,1,,,,,,,,\n"),
-        "bars.csv:5:1: two members connect joint \"lamp, old\" with joint \"A\" (numbers 1 and 4): how they share a \
-         force is indeterminate",
-    );
-    check(JOINTS, "from,to,length_m,mass_kg\n", "bars.csv:1:1: there are columns but no bars");
-    check(
-        &(JOINTS.to_owned() + "E,,,,,,,,,\n"),
-        BARS,
-        "joints.csv:6:1: no member meets joint \"E\"",
-    );
-}
-
-#[test]
-fn a_prestress_needs_a_stiffness_and_the_sign_of_its_member() {
-    for (cells, wanted) in [
-        (
-            "1e5,-1",
-            "bars.csv:3:32: prestress_n: a cable cannot push, as it would under a prestress of -1 N",
-        ),
-        (
-            ",25000",
-            "bars.csv:3:29: prestress_n: a prestress needs a stiffness: an inextensible member has its length \
-             whatever it bears",
-        ),
-        (
-            "0,25000",
-            "bars.csv:3:28: stiffness_n: the stiffness EA of a member must be positive and finite, got 0 N",
-        ),
-    ] {
-        check(JOINTS, &BARS.replacen("1e5,25000", cells, 1), wanted);
+    for [file, old, new, message] in rows("columns") {
+        let changed = |text: &str| match old.as_str() {
+            "" => new.clone(),
+            "+" => text.to_owned() + &new,
+            _ => text.replacen(&old, &new, 1),
+        };
+        match file.as_str() {
+            "joints" => check(&changed(JOINTS), BARS, &message),
+            _ => check(JOINTS, &changed(BARS), &message),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use model::Bar;
 use model::system::{Joint, Kind, Member, PointLoad, Refusal, Support, System, SystemError};
 use model::system_file::{parse, write_network};
 
-use crate::support::system;
+use crate::support::{rows, system};
 
 /// A ring on a rope between two anchors, with more keys of the rope.
 fn ring(more: &str) -> String {
@@ -36,59 +36,9 @@ fn drawn_ropes_have_the_length_of_their_spans() {
 
 #[test]
 fn what_is_no_rope_is_refused_where_it_stands() {
-    for (more, wanted) in [
-        ("via = [\"Q\"]", "f:8:8: bars[1].via: there is no joint \"Q\""),
-        (
-            "via = \"P\"",
-            "f:8:7: bars[1].via: expected one or more names of joints, such as [\"P\"], found a string",
-        ),
-        (
-            "via = []",
-            "f:8:7: bars[1].via: expected one or more names of joints, such as [\"P\"], found an array",
-        ),
-        (
-            "via = [3]",
-            "f:8:8: bars[1].via: expected one or more names of joints, such as [\"P\"], found an integer",
-        ),
-        (
-            "via = [\"P\"]\ncount = 2",
-            "f:9:9: bars[1].count: `count` and `via` cannot stand together",
-        ),
-        (
-            "via = [\"P\", \"P\"]\nkind = \"cable\"",
-            "f:8:7: bars[1].via: a rope runs from joint \"P\" to itself: a span has two joints",
-        ),
-        (
-            "via = [\"P\"]",
-            "f:5:1: bars[1].kind: only a cable runs over rings or pulleys: a bar or a strut cannot bend around a joint",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"strut\"",
-            "f:9:8: bars[1].kind: only a cable runs over rings or pulleys: a bar or a strut cannot bend around a joint",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"cable\"\nmass_kg = 1",
-            "f:10:11: bars[1].mass_kg: a rope over rings or pulleys has no mass here: its weight would slide with the rope",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"cable\"\ncentre_m = 1",
-            "f:10:12: bars[1].centre_m: a rope over rings or pulleys has no mass here, and so no centre_m",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"cable\"\ninertia_kg_m2 = [0, 1, 1]",
-            "f:10:17: bars[1].inertia_kg_m2: a rope over rings or pulleys has no mass here, and so no inertia_kg_m2",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"cable\"\nforces = [{ force_n = [0, 1, 0] }]",
-            "f:10:10: bars[1].forces: no force acts on a rope over rings or pulleys: it would slide with the rope",
-        ),
-        (
-            "via = [\"P\"]\nkind = \"cable\"\nstiffness_n = 10\nprestress_n = 1",
-            "f:11:15: bars[1].prestress_n: a rope over rings or pulleys has no prestress here: its unstretched length says what it bears",
-        ),
-    ] {
+    for [more, message] in rows("rope") {
         let error = parse(&ring(&format!("{more}\nlength_m = 5")), "f").unwrap_err();
-        assert_eq!(error.to_string(), wanted);
+        assert_eq!(error.to_string(), message);
     }
 }
 

@@ -73,3 +73,11 @@ pub fn refused_at(text: &str, key: &str, words: &str) {
     let said = format!("{error} {}", error.help().unwrap_or_default());
     assert!(said.contains(words), "{said}");
 }
+
+/// The rows of a part of `refused.txt`.
+pub fn rows<const N: usize>(part: &str) -> impl Iterator<Item = [String; N]> {
+    let mut parts = include_str!("refused.txt").split("\n## ").skip(1);
+    let rows = parts.find_map(|text| text.strip_prefix(part)?.strip_prefix('\n')).expect(part);
+    let row = |row| serde_json::from_str::<Vec<String>>(row).unwrap().try_into().unwrap();
+    rows.lines().filter(|line| line.starts_with('[')).map(row)
+}

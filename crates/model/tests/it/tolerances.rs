@@ -105,33 +105,24 @@ fn rows_of_a_file_have_them_too() {
 
 #[test]
 fn what_is_no_tolerance_is_refused_where_it_stands() {
+    let root = |text: &str| net(text, "", "");
+    let joint = |text: &str| net("", &format!(", {text}"), "");
+    let bar = |text: &str| net("", "", &format!(", {text}"));
     for (text, key, words) in [
-        (net("", "", ", stiffness_tolerance = 0"), "bars[1].stiffness_tolerance", "less than 1"),
-        (net("", "", ", stiffness_tolerance = 1"), "bars[1].stiffness_tolerance", "less than 1"),
-        (net("", "", ", stiffness_tolerance = nan"), "bars[1].stiffness_tolerance", "less than 1"),
-        (net("", "", ", mass_tolerance_kg = 1.5"), "bars[1].mass_tolerance_kg", "not more than"),
-        (net("", "", ", mass_tolerance_kg = -1"), "bars[1].mass_tolerance_kg", "positive"),
-        (
-            net("", "", ", length_tolerance_m = 2"),
-            "bars[1].length_tolerance_m",
-            "less than the length",
-        ),
-        (
-            net("", "", ", length_tolerence_m = 1"),
-            "bars[1].length_tolerence_m",
-            "length_tolerance_m",
-        ),
-        (net("", ", mass_tolerance_kg = 6", ""), "joints.P.mass_tolerance_kg", "not more than"),
-        (net("", ", force_tolerance_n = inf", ""), "joints.P.force_tolerance_n", "positive"),
-        (net("", ", force_tolerance_n = 'much'", ""), "joints.P.force_tolerance_n", "number"),
-        (net("", ", at_tolerance_m = 1", ""), "joints.P.at_tolerance_m", "with at_m"),
-        (net("tolerances = 1", "", ""), "tolerances", "table"),
-        (net("tolerances = { at_m = 1 }", "", ""), "tolerances.at_m", "at_tolerance_m"),
-        (
-            net("tolerances = { at_tolerance_m = 0 }", "", ""),
-            "tolerances.at_tolerance_m",
-            "positive",
-        ),
+        (bar("stiffness_tolerance = 0"), "bars[1].stiffness_tolerance", "less than 1"),
+        (bar("stiffness_tolerance = 1"), "bars[1].stiffness_tolerance", "less than 1"),
+        (bar("stiffness_tolerance = nan"), "bars[1].stiffness_tolerance", "less than 1"),
+        (bar("mass_tolerance_kg = 1.5"), "bars[1].mass_tolerance_kg", "not more than"),
+        (bar("mass_tolerance_kg = -1"), "bars[1].mass_tolerance_kg", "positive"),
+        (bar("length_tolerance_m = 2"), "bars[1].length_tolerance_m", "less than the length"),
+        (bar("length_tolerence_m = 1"), "bars[1].length_tolerence_m", "length_tolerance_m"),
+        (joint("mass_tolerance_kg = 6"), "joints.P.mass_tolerance_kg", "not more than"),
+        (joint("force_tolerance_n = inf"), "joints.P.force_tolerance_n", "positive"),
+        (joint("force_tolerance_n = 'much'"), "joints.P.force_tolerance_n", "number"),
+        (joint("at_tolerance_m = 1"), "joints.P.at_tolerance_m", "with at_m"),
+        (root("tolerances = 1"), "tolerances", "table"),
+        (root("tolerances = { at_m = 1 }"), "tolerances.at_m", "at_tolerance_m"),
+        (root("tolerances = { at_tolerance_m = 0 }"), "tolerances.at_tolerance_m", "positive"),
         (chain("", ", mass_tolerance_kg = 2", ""), "bars[1].mass_tolerance_kg", "not more than"),
         (
             chain("", "", ", stiffness_tolerance = 0.1"),

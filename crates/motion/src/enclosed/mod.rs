@@ -60,36 +60,24 @@ pub struct Enclosures {
     pub inertia: Option<[usize; 3]>,
 }
 
-/// Why the `ω²` of an equilibrium are not enclosed.
+/// Why the `ω²` of an equilibrium are not enclosed. Numbers count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum NotEnclosed {
     /// Occurs when the system cannot be moved.
     #[error(transparent)]
     Motion(#[from] MotionError),
     /// Occurs when the box has not one place for each joint and one force for each member.
     #[error("the box is not one of this system: {places} places and {forces} forces")]
-    OtherSystem {
-        /// Places given.
-        places: usize,
-        /// Forces given.
-        forces: usize,
-    },
+    OtherSystem { places: usize, forces: usize },
     /// Occurs when more joints move than are enclosed.
     #[error("{joints} joints move, and at most {most} are enclosed")]
-    TooLarge {
-        /// Number of joints that move.
-        joints: usize,
-        /// Most of them.
-        most: usize,
-    },
+    TooLarge { joints: usize, most: usize },
     /// Occurs when a cable or strut is not proved to bear a force, nor to be slack: its stiffness
     /// is undecided.
     #[error("member {member} is not proved to be taut, nor to be slack")]
-    Undecided {
-        /// Number of the member, from 1.
-        member: usize,
-    },
+    Undecided { member: usize },
     /// Occurs when the constraints are not proved to be independent.
     #[error(
         "the constraints are not proved to be independent (norm {norm}, below 1 is wanted)",
@@ -106,9 +94,7 @@ pub enum NotEnclosed {
         norm = Brief(*norm)
     )]
     NoBasis {
-        /// Number of modes.
         found: usize,
-        /// Dimension of the space.
         wanted: usize,
         /// Norm of `B − I`.
         norm: f64,

@@ -274,7 +274,6 @@ impl Pencil {
     }
 }
 
-/// Length of a vector.
 fn size(d: Vector) -> Interval {
     dot(d, d).sqrt()
 }

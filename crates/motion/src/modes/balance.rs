@@ -44,9 +44,6 @@ impl LeftOver {
     }
 
     /// Largest force that no support bears, relative to the largest force.
-    ///
-    /// # Errors
-    ///
     /// [`MotionError::NotInBalance`] where it is more than rounding.
     pub(super) fn off(&self, mechanism: &Mechanism) -> Result<f64, MotionError> {
         let mut left = self.forces.clone();

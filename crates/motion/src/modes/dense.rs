@@ -19,9 +19,6 @@ const INDEPENDENT: f64 = 1e-10;
 const WORK: f64 = 1e-9;
 
 /// All modes whose displacements are along the axes of a sector.
-///
-/// # Errors
-///
 /// [`MotionError::Massless`] where the inertia is not positive definite.
 pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved, MotionError> {
     let entries = stiffness.entries(sector);
@@ -68,9 +65,6 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved
 /// The motions, by slot, that keep lengths to first order and not to second: those across the kernel of a sum of
 /// self-stresses. Where panels are apart, each with a stress that works in one sense, the sum that weighs each stress
 /// with its trace is positive on all of them.
-///
-/// # Errors
-///
 /// [`MotionError::Singular`] where that sum is not positive, another stress works along its kernel, or one that works has a
 /// part in a cable or strut, which a motion may slacken.
 pub(super) fn bound<'a>(

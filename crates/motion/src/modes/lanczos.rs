@@ -103,14 +103,12 @@ fn start(size: usize, known: usize) -> Vec<f64> {
     (0..size).map(|k| at(k) - at(k).floor() - 0.5).collect()
 }
 
-/// Divide a vector.
 pub(super) fn divide(w: &mut [f64], by: f64) {
     for x in w {
         *x /= by;
     }
 }
 
-/// The length of a vector.
 pub(crate) fn length(v: &[f64]) -> f64 {
     dot(v, v).sqrt()
 }

@@ -106,13 +106,11 @@ pub enum What {
 
 impl Mode {
     /// Frequency of an oscillation, Hz.
-    #[must_use]
     pub fn frequency_hz(&self) -> Option<f64> {
         (self.what == What::Oscillation).then(|| self.omega2_s2.sqrt() / std::f64::consts::TAU)
     }
 
     /// Rate at which the system leaves the equilibrium, 1/s.
-    #[must_use]
     pub fn rate_1_s(&self) -> Option<f64> {
         (self.what == What::Leaving).then(|| (-self.omega2_s2).sqrt())
     }
@@ -120,14 +118,12 @@ impl Mode {
 
 impl Modes {
     /// Number of modes in which the energy falls (the Morse index).
-    #[must_use]
     pub fn index(&self) -> usize {
         self.negative
     }
 
     /// Number of the modes that are given without any change of the energy to second order, spins
     /// left aside.
-    #[must_use]
     pub fn neutral(&self) -> usize {
         let zero = |what: &What| matches!(what, What::Turn { .. } | What::Neutral);
         self.modes.iter().filter(|mode| zero(&mode.what)).count()

@@ -14,7 +14,6 @@ use numerics::vector::{add_times, dot, norm, times};
 /// Part of a turn that may lie outside of the modes of `ω² = 0`, relative.
 const IS_A_TURN: f64 = 1e-6;
 
-/// The modes of a sector.
 pub(super) fn modes(
     stiffness: &Stiffness<'_>,
     state: &State,

@@ -23,7 +23,6 @@ const LIFT: f64 = 10.0;
 /// Corrections of a solution by what is left over.
 const REFINEMENTS: usize = 2;
 
-/// A factorised shift.
 pub(super) struct Shifted {
     /// Places of the coordinates and of the rows in the order of elimination.
     coordinate_at: Vec<usize>,

@@ -1,5 +1,3 @@
-//! Stiffness, inertia and constraints about an equilibrium, as entries of sparse matrices.
-
 use model::Vector;
 
 use super::planes::{Direction, FLAT, Sector};

@@ -83,7 +83,6 @@ impl Layout {
         found
     }
 
-    /// Number of rows.
     fn rows(&self) -> usize {
         let of_edges = self.edges.iter().filter_map(|edge| edge.row);
         let rows = of_edges.chain(self.own.iter().map(|own| own.row));
@@ -100,9 +99,6 @@ pub(crate) enum Saddle {
 
 impl Saddle {
     /// Prepare the elimination of a mechanism.
-    ///
-    /// # Errors
-    ///
     /// [`MotionError::Massless`] where `M` itself is singular, [`MotionError::Memory`].
     pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
         // Without rows the same elimination tells whether every joint has inertia of its own.
@@ -111,9 +107,6 @@ impl Saddle {
     }
 
     /// The matrix `M` alone, factorised.
-    ///
-    /// # Errors
-    ///
     /// [`MotionError::Massless`] where it is singular, [`MotionError::Memory`].
     pub(crate) fn inertia(mechanism: &Mechanism) -> Result<Self, MotionError> {
         let Layout { mass, mut edges, .. } = Layout::new(mechanism);

@@ -13,12 +13,7 @@ fn near(found: f64, told: f64, tolerance: f64) {
 /// A weight of 2 kg at the end of two members to anchors 6 m apart, 4 m below them, and of a third
 /// straight up to an anchor above.
 fn lamp(kind: Kind, third_m: f64) -> System {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::anchor("C", [0.0, 0.0, 1.0]),
-        Joint::free("P").with_mass(2.0),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0]], &[2.0]);
     let body = |l| Bar::homogeneous(l, 0.0).unwrap();
     let member = |a, l| Member::bar(a, 3, body(l)).of_kind(kind);
     let mut members = vec![member(0, 5.0), member(1, 5.0)];

@@ -42,11 +42,7 @@ fn near(found: &[f64], told: &[f64], tolerance: f64) {
 fn moments_of_a_prestressed_member_are_those_at_the_length_given() {
     let (m, mass_kg, prestress_n, stiffness_n) = (12.0, 1.0, 500.0, 1000.0);
     // As good as no gravity: the members stay in line.
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [2.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(mass_kg),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [2.0, 0.0, 0.0]], &[mass_kg]);
     for (centre_m, inertia, moment) in [
         (None, None, 1.0),
         (None, Some([0.0, 1.0, 1.0]), 1.0),
@@ -74,11 +70,7 @@ fn moments_of_a_prestressed_member_are_those_at_the_length_given() {
 #[test]
 fn a_slack_elastic_cable_is_no_spring() {
     let (mass_kg, stiffness_n) = (2.0, 30.0);
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [1.5, 0.0, -1.0]),
-        Joint::free("P").with_mass(mass_kg),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [1.5, 0.0, -1.0]], &[mass_kg]);
     let link = Member::bar(0, 2, Bar::homogeneous(1.0, 0.0).unwrap());
     let at = [[0.0; 3], [1.5, 0.0, -1.0], [0.0, 0.0, -1.0]];
     let omega2 = |length_m: f64| {

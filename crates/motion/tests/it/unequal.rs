@@ -74,12 +74,7 @@ fn a_double_pendulum_of_unlike_bars_has_the_roots_of_its_two_quadratics() {
 /// A bar level on two equal threads (massless bars, or cables) of `length_m`, along OX.
 fn bifilar(length_m: f64, bar: Bar, cables: bool) -> (System, Vec<[f64; 3]>) {
     let at = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, -length_m], [1.0, 0.0, -length_m]];
-    let joints = vec![
-        Joint::anchor("A", at[0]),
-        Joint::anchor("B", at[1]),
-        Joint::free("P"),
-        Joint::free("Q"),
-    ];
+    let joints = samples::joints(&[at[0], at[1]], &[0.0, 0.0]);
     let thread = Bar::homogeneous(length_m, 0.0).unwrap();
     let thread =
         |a, b| if cables { Member::cable(a, b, thread) } else { Member::bar(a, b, thread) };
@@ -134,12 +129,7 @@ fn hanging_from_a_v(azimuth: f64) -> (System, Vec<[f64; 3]>) {
     let (sin, cos) = azimuth.sin_cos();
     let at = |x: f64, z: f64| [x * cos, x * sin, z];
     let at = vec![at(0.0, 0.0), at(1.2, 0.0), at(0.6, -0.8), at(0.6, -1.8)];
-    let joints = vec![
-        Joint::anchor("A", at[0]),
-        Joint::anchor("B", at[1]),
-        Joint::free("P"),
-        Joint::free("Q"),
-    ];
+    let joints = samples::joints(&[at[0], at[1]], &[0.0, 0.0]);
     let members = [(0, 2), (1, 2), (2, 3)].map(|(a, b)| Member::bar(a, b, flat(1.0, 0.5)));
     (System::new("V", G, joints, members.to_vec()).unwrap(), at)
 }

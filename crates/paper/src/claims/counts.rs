@@ -29,7 +29,7 @@ pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     let counted = |found: usize, what: &str| {
         let found = found as f64;
         let missing = (found - printed.value()).abs();
-        let verdict = if missing < 0.5 { Assessment::Confirmed } else { Assessment::Corrected };
+        let verdict = Assessment::Corrected.unless(missing < 0.5);
         Some(Finding::new(verdict, missing, what).lagrange(found))
     };
     match printed.id.as_str() {

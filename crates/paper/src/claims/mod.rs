@@ -92,7 +92,6 @@ struct Facts<'a> {
 }
 
 /// Judge every claim of the paper.
-#[must_use]
 pub fn claims(paper: &Paper, example: &Example, surveys: &[Survey]) -> Vec<Claim> {
     let completeness = Completeness::new(paper, example);
     let facts = Facts { paper, example, surveys, completeness };

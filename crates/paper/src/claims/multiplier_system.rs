@@ -27,7 +27,6 @@ const RANK: f64 = 1e-12;
 /// # References
 ///
 /// Paper, eqs. (40), (41) with the entry of the second bar.
-#[must_use]
 pub fn misfit(problem: &Problem, units: PaperUnits, phi: &[f64; 3]) -> Misfit {
     let chain = problem.chain();
     let q = coordinates(&Seed::planar(phi));

@@ -44,7 +44,7 @@ fn symmetric(facts: &Facts) -> Finding {
     let lagrange = apart(&example.by_lagrange(&example.lagrange.e1_mirrored), &e1, -1.0);
     let energy = apart(&example.by_energy_in_plane(&example.energy.e1_mirrored), &e1, -1.0);
     let off = largest([lagrange, energy]);
-    let verdict = if off <= ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(off <= ANGLE_RAD);
     Finding::new(verdict, off, "rad: largest difference of an angle to minus that of E1")
         .lagrange(lagrange)
         .energy(energy)
@@ -64,11 +64,7 @@ fn four(facts: &Facts, printed: &Printed) -> Finding {
         && largest((0..2).map(|k| roots[k] - cosines[k])) <= ANGLE_RAD
         && (found - exact).abs() < 0.5
         && facts.completeness.is_closed();
-    let verdict = if (exact - printed.value()).abs() < 0.5 {
-        Assessment::Confirmed
-    } else {
-        Assessment::Corrected
-    };
+    let verdict = Assessment::Corrected.unless((exact - printed.value()).abs() < 0.5);
     let proof = &facts.completeness;
     let what = Sentence::filled(
         "equilibria, proved: the census encloses {} and excludes all others (indices {}, Euler characteristic {}), \
@@ -125,7 +121,7 @@ fn cosine(facts: &Facts) -> Finding {
         smallest(all.iter().map(|found| facts.example.by_lagrange(found).angles_rad[0].cos()));
     // Zero is no root of the sextic, and the smallest root is the reference's.
     let root = (smallest - facts.paper.reference("e2-cosine")).abs() <= ANGLE_RAD;
-    let verdict = if smallest > ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(smallest > ANGLE_RAD);
     Finding::new(
         verdict.if_shown(root),
         smallest,
@@ -141,7 +137,7 @@ fn across(facts: &Facts) -> Finding {
     let lagrange = size(&facts.example.by_lagrange(&facts.example.lagrange.e1));
     let energy = size(&facts.example.by_energy_e1());
     let most = largest([lagrange, energy]);
-    let verdict = if most <= FORCE_MG { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(most <= FORCE_MG);
     Finding::new(verdict, most, "mg: the largest of the four, by either solver")
         .lagrange(lagrange)
         .energy(energy)
@@ -151,7 +147,7 @@ fn same(facts: &Facts) -> Finding {
     let e1 = facts.example.by_lagrange(&facts.example.lagrange.e1);
     let other = facts.example.by_energy_e1();
     let off = apart(&e1, &other, 1.0);
-    let verdict = if off <= ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(off <= ANGLE_RAD);
     Finding::new(
         verdict,
         off,
@@ -172,7 +168,7 @@ fn reaction(facts: &Facts, joint: usize, axis: usize, number: usize) -> Finding 
     let reference = facts.paper.reference(&format!("lambda-{number}"));
     let off =
         largest([lagrange - energy, lagrange - work, lagrange - reference, energy - reference]);
-    let verdict = if off <= FORCE_MG { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(off <= FORCE_MG);
     let what = if last {
         "mg: largest difference of multiplier, virtual work, difference quotient of V* and reference"
     } else {

@@ -52,7 +52,7 @@ fn scanned(paper: &Paper, position: &str, found: &ScanMinimum) -> Finding {
     let numbers = numbers(paper, position, found);
     let same = numbers.iter().filter(|(claim, value)| claim.is_some_and(|c| c.rounds_to(*value)));
     let same = same.count();
-    let verdict = if same == numbers.len() { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(same == numbers.len());
     let what = Sentence::filled(
         "of the four printed numbers to the last digit; point {} of {}, theta = {} rad",
         [found.point.into(), found.points.into(), Number::decimals(found.theta_rad, 3).into()],
@@ -102,7 +102,7 @@ fn energy(facts: &Facts, printed: &Printed) -> Finding {
     let spread = largest([lagrange, energy, curve].map(|value| value - reference));
     let agreed = spread <= ENERGY_MGL && (lagrange - energy).abs() <= ENERGY_MGL;
     let all = [lagrange, energy, curve].into_iter().all(|value| printed.rounds_to(value));
-    let verdict = if all { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(all);
     let what = "printed less true, mgl: within half a unit of the last digit";
     Finding::new(verdict.if_shown(agreed), printed.value() - lagrange, what)
         .lagrange(lagrange)
@@ -164,8 +164,7 @@ fn vertical(facts: &Facts) -> Finding {
         .into_owned()
         .normalize();
     let [from_x, from_down] = [weight.x, -weight.z].map(|cos| cos.acos().to_degrees());
-    let verdict =
-        if from_x <= f64::EPSILON { Assessment::Confirmed } else { Assessment::Corrected };
+    let verdict = Assessment::Corrected.unless(from_x <= f64::EPSILON);
     let what =
         "deg between Ox and the weights, which (35) has along -Z: the angles are from the axis -OZ";
     Finding::new(verdict.if_shown(from_down <= f64::EPSILON), from_x, what).lagrange(from_x)
@@ -193,11 +192,7 @@ fn solutions(facts: &Facts, printed: &Printed) -> Finding {
         ],
     );
     let count = all.len() as f64;
-    let verdict = if (count - printed.value()).abs() < 0.5 {
-        Assessment::Confirmed
-    } else {
-        Assessment::Corrected
-    };
+    let verdict = Assessment::Corrected.unless((count - printed.value()).abs() < 0.5);
     Finding::new(verdict.if_shown(shown), count, what).energy(count)
 }
 

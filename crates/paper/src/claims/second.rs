@@ -74,11 +74,7 @@ fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
 fn energy(facts: &Facts, printed: &Printed) -> Finding {
     let truth = planar_equilibria(facts).map(|found| found.v_mgl);
     let nearest = smallest(truth.map(|v| v - printed.value()));
-    let verdict = if truth.iter().any(|v| printed.rounds_to(*v)) {
-        Assessment::Confirmed
-    } else {
-        Assessment::Refuted
-    };
+    let verdict = Assessment::Refuted.unless(truth.iter().any(|v| printed.rounds_to(*v)));
     let what = "mgl to the nearest of the four equilibria; lagrange's value is that of E2";
     Finding::new(verdict, nearest, what).lagrange(truth[2])
 }
@@ -94,7 +90,7 @@ fn slope_at_x(facts: &Facts) -> Finding {
     // The same slope vanishes where there is an equilibrium.
     let minimum = &facts.example.energy.minimum;
     let control = slope(minimum.theta_rad, Branch::FirstQuadrant).abs() <= FLAT;
-    let verdict = if found.abs() <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(found.abs() <= FLAT);
     let what = Sentence::filled(
         "mgl/rad ({} at theta = 0): V falls on through theta < 0 (at E1 the slope is zero)",
         [Number::decimals(at_zero, 4).into()],
@@ -110,7 +106,7 @@ fn multipliers(facts: &Facts) -> Finding {
     // The same misfit vanishes at an equilibrium.
     let e1 = planar_equilibria(facts)[0].angles_rad;
     let control = misfit(&facts.example.problem, facts.example.units, &e1).norm <= ANGLE_RAD;
-    let verdict = if found.norm <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(found.norm <= FLAT);
     let what = Sentence::filled(
         "mg: what the best multipliers leave of (40), norm; the largest component is {} (at E1 nothing is left)",
         [Number::decimals(found.largest, 4).into()],
@@ -170,8 +166,7 @@ fn second(facts: &Facts, printed: &Printed) -> Finding {
     let left = facts.example.by_energy_in_plane(&facts.example.energy.from_e2).v_mgl;
     let falls = e2.v_mgl - left;
     let lower = (left - facts.paper.reference("e1-energy")).abs() <= ENERGY_MGL;
-    let verdict =
-        if printed.rounds_to(e2.v_mgl) { Assessment::Confirmed } else { Assessment::Corrected };
+    let verdict = Assessment::Corrected.unless(printed.rounds_to(e2.v_mgl));
     let what = "mgl: what a minimiser loses that starts exactly at E2 (a maximum in the plane) and ends at E1";
     Finding::new(verdict.if_shown(found && maximum && lower), falls, what)
         .lagrange(e2.v_mgl)
@@ -181,7 +176,7 @@ fn second(facts: &Facts, printed: &Printed) -> Finding {
 /// The mirror image of (x) is no equilibrium either.
 fn symmetric(facts: &Facts) -> Finding {
     let found = misfit_at_x(facts, -1.0).norm;
-    let verdict = if found <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(found <= FLAT);
     let what = "mg: what the best multipliers leave of (40) at the mirror image of (x)";
     Finding::new(verdict, found, what).lagrange(found)
 }
@@ -192,11 +187,7 @@ fn same(facts: &Facts) -> Finding {
     let distance =
         |found: &Planar| largest((0..3).map(|k| found.angles_rad[k] - x[k])).to_degrees();
     let nearest = smallest(planar_equilibria(facts).iter().map(distance));
-    let verdict = if nearest.to_radians() < PAPER_STEP_RAD {
-        Assessment::Confirmed
-    } else {
-        Assessment::Refuted
-    };
+    let verdict = Assessment::Refuted.unless(nearest.to_radians() < PAPER_STEP_RAD);
     let what = "deg: the largest angle between (x) and the nearest equilibrium of Solution 2";
     Finding::new(verdict, nearest, what).lagrange(nearest)
 }

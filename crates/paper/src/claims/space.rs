@@ -25,7 +25,7 @@ fn initial_conditions(facts: &Facts) -> Option<Finding> {
         |solver| facts.surveys.iter().find(|s| s.solver == solver && s.kind == Kind::Planar);
     let lagrange = survey(SolverName::LAGRANGE)?.distinct() as f64;
     let energy = survey(SolverName::ENERGY)?.distinct() as f64;
-    let verdict = if lagrange > 1.5 { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(lagrange > 1.5);
     let what = "different equilibria that the same random planar seeds lead to";
     Some(Finding::new(verdict, lagrange, what).lagrange(lagrange).energy(energy))
 }
@@ -64,7 +64,7 @@ fn turned(facts: &Facts) -> Finding {
         gradient = largest([gradient, second.map_or(f64::NAN, |s| largest([s.residual, s.gap]))]);
     }
     let most = largest([multipliers, gradient, newton]);
-    let verdict = if most <= ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
+    let verdict = Assessment::Refuted.unless(most <= ANGLE_RAD);
     let what = Sentence::filled(
         "largest residual of E1 turned by {} angles: the 30 equations (lagrange), the gradient of the energy \
          (energy), Newton's laws",

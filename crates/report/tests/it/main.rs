@@ -220,16 +220,9 @@ fn every_package_has_a_version_and_the_command_no_folder() {
     let here =
         Environment::here(["/some/where/funicular", "reproduce"].map(String::from).into_iter());
     assert_eq!(here.command, "funicular reproduce");
-    for name in [
-        "argmin ",
-        "argmin-math ",
-        "clarabel ",
-        "nalgebra ",
-        "pulldown-latex ",
-        "rand ",
-        "rand_chacha ",
-        "rayon ",
-    ] {
+    let packages =
+        "argmin |argmin-math |clarabel |nalgebra |pulldown-latex |rand |rand_chacha |rayon ";
+    for name in packages.split('|') {
         assert!(here.packages.iter().any(|p| p.starts_with(name)), "{name}");
     }
     assert!(here.compiler.starts_with("rustc "), "{}", here.compiler);

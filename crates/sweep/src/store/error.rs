@@ -10,15 +10,11 @@ use crate::store::shard::{MOST_PARTS, MOST_SEEDS, Shard};
 /// Why a sweep cannot be written, continued or joined.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum StoreError {
     /// Occurs when the file system refuses.
     #[error("{}: {error}", path.display())]
-    File {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        error: std::io::Error,
-    },
+    File { path: PathBuf, error: std::io::Error },
     /// Occurs when a part cannot be written or read.
     #[error(transparent)]
     Columns(#[from] ColumnsError),
@@ -27,149 +23,63 @@ pub enum StoreError {
     NoSeeds,
     /// Occurs when the output folder holds a sweep, and it was not asked to go on with it.
     #[error("{} holds a sweep already", path.display())]
-    Present {
-        /// The folder.
-        path: PathBuf,
-    },
+    Present { path: PathBuf },
     /// Occurs when the output folder holds other things.
     #[error("{} is not empty and holds no sweep: there is `{found}`", path.display())]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-        /// Something in it.
-        found: String,
-    },
+    NotEmpty { path: PathBuf, found: String },
     /// Occurs when a folder holds no sweep.
     #[error("{} holds no sweep: there is no {missing}", path.display())]
-    NoSweep {
-        /// The folder.
-        path: PathBuf,
-        /// The file that would be there.
-        missing: &'static str,
-    },
+    NoSweep { path: PathBuf, missing: &'static str },
     /// Occurs when a sweep was not finished.
     #[error("the sweep in {} is not finished", path.display())]
-    Unfinished {
-        /// The folder.
-        path: PathBuf,
-    },
+    Unfinished { path: PathBuf },
     /// Occurs when another process is writing the folder.
     #[error("another process is writing {}", path.display())]
-    Busy {
-        /// The folder.
-        path: PathBuf,
-    },
+    Busy { path: PathBuf },
     /// Occurs when two sweeps that should be one are not.
     #[error("{} holds another sweep: `{key}` is {found}, not {wanted}", path.display())]
-    Differs {
-        /// The folder.
-        path: PathBuf,
-        /// In what it differs: a key of the manifest.
-        key: String,
-        /// What is wanted.
-        wanted: String,
-        /// What stands in the manifest.
-        found: String,
-    },
+    Differs { path: PathBuf, key: String, wanted: String, found: String },
     /// Occurs when a manifest or a summary cannot be read.
     #[error("{}: {reason}", path.display())]
-    Description {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
+    Description { path: PathBuf, reason: String },
     /// Occurs when a part does not hold what it should.
     #[error("{}: {reason}", path.display())]
-    Part {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: String,
-    },
+    Part { path: PathBuf, reason: String },
     /// Occurs when a part of a finished sweep is missing.
     #[error("{}: it is not there", path.display())]
-    NoPart {
-        /// The file.
-        path: PathBuf,
-    },
+    NoPart { path: PathBuf },
     /// Occurs when a pipe, a device or a folder stands where a file of the sweep should.
     #[error("{} is no regular file", path.display())]
-    NotRegular {
-        /// What is there.
-        path: PathBuf,
-    },
+    NotRegular { path: PathBuf },
     /// Occurs when a sweep has more seeds than its summary can list parts of.
     #[error(
         "{seeds} seeds are {parts} parts, and a summary lists at most {MOST_PARTS}: {MOST_SEEDS} seeds"
     )]
-    TooManySeeds {
-        /// Seeds asked for.
-        seeds: u64,
-        /// Parts that they would be.
-        parts: u64,
-    },
+    TooManySeeds { seeds: u64, parts: u64 },
     /// Occurs when shards of different cuts are joined.
     #[error("{} is shard {found}, and the others are of {wanted}", path.display())]
-    OtherCut {
-        /// The folder.
-        path: PathBuf,
-        /// The shard there.
-        found: Shard,
-        /// How many shards the others are of.
-        wanted: u64,
-    },
+    OtherCut { path: PathBuf, found: Shard, wanted: u64 },
     /// Occurs when so many shards cannot be joined to shards of fewer.
     #[error("{of} shards do not make shard {wanted}: their number must be a multiple of {}", wanted.of)]
-    Uneven {
-        /// How many shards there are.
-        of: u64,
-        /// The shard to be made.
-        wanted: Shard,
-    },
+    Uneven { of: u64, wanted: Shard },
     /// Occurs when a shard is no part of the one to be made.
     #[error("{} is shard {found}, which is no part of shard {wanted}", path.display())]
-    Outside {
-        /// The folder.
-        path: PathBuf,
-        /// The shard there.
-        found: Shard,
-        /// The shard to be made.
-        wanted: Shard,
-    },
+    Outside { path: PathBuf, found: Shard, wanted: Shard },
     /// Occurs when a shard is given twice.
     #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]
-    Double {
-        /// The shard.
-        shard: Shard,
-        /// One folder.
-        first: PathBuf,
-        /// The other folder.
-        second: PathBuf,
-    },
+    Double { shard: Shard, first: PathBuf, second: PathBuf },
     /// Occurs when shards are not given.
     #[error("of {of} shards these are missing: {}", list(missing))]
-    Missing {
-        /// Which; the first few.
-        missing: Vec<u64>,
-        /// Of how many.
-        of: u64,
-    },
+    Missing { missing: Vec<u64>, of: u64 },
     /// Occurs when nothing is given to join.
     #[error("there is nothing to merge")]
     Nothing,
     /// Occurs when the folder to write is one of the folders to read.
     #[error("{} is to be read and written", path.display())]
-    SameFolder {
-        /// The folder.
-        path: PathBuf,
-    },
+    SameFolder { path: PathBuf },
     /// Occurs when the system gives no threads.
     #[error("the threads cannot be started: {reason}")]
-    Threads {
-        /// Why.
-        reason: String,
-    },
+    Threads { reason: String },
 }
 
 /// Most numbers named one by one in an error.
@@ -203,7 +113,6 @@ impl StoreError {
     /// Whether it is not the user's to mend: the disk is full or out of reach, the system gives no
     /// threads, or another process has the folder. The same call may succeed later. A path that
     /// leads to no place to write is bad input.
-    #[must_use]
     pub fn may_pass(&self) -> bool {
         match self {
             Self::File { error, .. } | Self::Columns(ColumnsError::File { error, .. }) => {
@@ -224,7 +133,6 @@ impl StoreError {
     }
 
     /// What to do about it, if that is not plain from the message.
-    #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         Some(match self {
             Self::Present { .. } => "--resume goes on with it; or choose another folder",

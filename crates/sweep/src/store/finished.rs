@@ -68,13 +68,11 @@ impl StoreSummary {
     }
 
     /// The equilibrium that an outcome stands for; none of a failure.
-    #[must_use]
     pub fn equilibrium<'a>(&'a self, manifest: &'a Manifest, outcome: i16) -> Option<&'a Member> {
         self.equilibria(manifest).nth(usize::try_from(outcome).ok()?)
     }
 
     /// Energy, J, from which on equilibria that were reached are in no list; none where all are.
-    #[must_use]
     pub fn listed_below_j(&self) -> Option<f64> {
         self.discovered.as_ref().and_then(|discovered| discovered.below_j)
     }
@@ -82,7 +80,6 @@ impl StoreSummary {
     /// Whether a check failed: a start converged to what is in no complete list, or the solvers
     /// contradict each other. Failures to converge are results, and so is what a list that is not
     /// complete lacks.
-    #[must_use]
     pub fn check_failed(&self, manifest: &Manifest) -> bool {
         let wrong = self.outcomes.comparisons().any(|(comparison, count)| {
             count > 0 && comparison.should_not_be() && !manifest.explains(comparison)

@@ -125,13 +125,11 @@ impl Manifest {
 
     /// Whether a comparison says something of the list of equilibria rather than of the solvers: an
     /// equilibrium that a list lacks which is not complete.
-    #[must_use]
     pub fn explains(&self, comparison: Comparison) -> bool {
         comparison == Comparison::NotListed && !self.equilibria_complete
     }
 
     /// Bytes of all files of this shard, the fewest and the most to be expected.
-    #[must_use]
     pub fn expected_bytes(&self) -> [u64; 2] {
         let rows = (self.range.end - self.range.start) * self.solvers.len() as u64;
         ROW_BYTES.map(|bytes| rows.saturating_mul(bytes))
@@ -151,20 +149,17 @@ impl Manifest {
     }
 
     /// How many parts the whole sweep has.
-    #[must_use]
     pub fn parts(&self) -> u64 {
         self.seeds.div_ceil(self.part_seeds.max(1))
     }
 
     /// The seeds of a part.
-    #[must_use]
     pub fn seeds_of(&self, part: u64) -> Range<u64> {
         let at = |part: u64| part.saturating_mul(self.part_seeds).min(self.seeds);
         at(part)..at(part + 1)
     }
 
     /// The name of the file of a part.
-    #[must_use]
     pub fn file_of(&self, part: u64) -> String {
         format!("part-{part:06}.{}", self.format)
     }

@@ -30,7 +30,6 @@ pub(crate) fn files_of(manifest: &Manifest, part: u64) -> [String; 2] {
     [manifest.format.as_str(), "json"].map(|form| format!("{BEFORE}{part:06}.{form}"))
 }
 
-/// The list of a part.
 #[derive(Serialize, Deserialize)]
 struct PartList {
     schema_version: u32,
@@ -74,7 +73,6 @@ pub(crate) fn run(
     Ok(run)
 }
 
-/// The parts of a folder.
 struct Parts<'a> {
     folder: &'a Path,
     manifest: &'a Manifest,

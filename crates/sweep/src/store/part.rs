@@ -48,7 +48,6 @@ fn abouts(manifest: &Manifest) -> [String; 4] {
 }
 
 /// The columns of a sweep.
-#[must_use]
 pub fn schema(manifest: &Manifest) -> Schema {
     let mut columns = vec![Column::new(
         "seed",

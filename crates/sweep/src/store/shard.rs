@@ -29,7 +29,6 @@ const LARGEST_PART: u64 = 1 << 24;
 /// assert_eq!(sweep::part_seeds(100_000_000), 1 << 20);
 /// assert_eq!(sweep::part_seeds(1_000_000_000_000), 1 << 24); // in 59,605 parts
 /// ```
-#[must_use]
 pub fn part_seeds(seeds: u64) -> u64 {
     let wanted = (seeds / PARTS).clamp(PART_SEEDS.start, PART_SEEDS.end);
     let part = wanted.next_power_of_two().min(PART_SEEDS.end);
@@ -61,21 +60,14 @@ pub struct Shard {
 /// Why a shard cannot be what it is said to be.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum ShardError {
     /// Occurs when the text is not two whole numbers with a slash between.
     #[error("a shard is K/N, as 2/7 is the second of seven, not `{text}`")]
-    Form {
-        /// The text.
-        text: String,
-    },
+    Form { text: String },
     /// Occurs when there is no such shard.
     #[error("there is no shard {number} of {of}: the first is 1, the last {of}")]
-    Range {
-        /// Which.
-        number: u64,
-        /// Of how many.
-        of: u64,
-    },
+    Range { number: u64, of: u64 },
 }
 
 impl Shard {
@@ -90,7 +82,6 @@ impl Shard {
     /// let shard = |number| sweep::Shard { number, of: 3 }.parts(7);
     /// assert_eq!([shard(1), shard(2), shard(3)], [0..2, 2..4, 4..7]);
     /// ```
-    #[must_use]
     pub fn parts(self, parts: u64) -> Range<u64> {
         let at = |number: u64| {
             let exact = u128::from(parts) * u128::from(number) / u128::from(self.of.max(1));

@@ -11,7 +11,6 @@ use super::{Certificate, certify};
 /// their sense, and the weights stay what they are.
 ///
 /// # Errors
-///
 /// [`NoCertificate`], as [`certify`] of the chain upside down.
 ///
 /// ```

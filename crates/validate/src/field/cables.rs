@@ -23,7 +23,6 @@ const MEMBERS: usize = 100;
 /// The table of MoorPy's tests.
 ///
 /// # Panics
-///
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn moorpy() -> Vec<Entry> {
@@ -105,7 +104,6 @@ fn by_both(cable: &ElasticCatenary, closed: &EndForces, on_floor: bool) -> Optio
 /// The two tests of code_aster.
 ///
 /// # Panics
-///
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn code_aster() -> Vec<Entry> {

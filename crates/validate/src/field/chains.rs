@@ -12,7 +12,6 @@ const COPS: &str = "E. D. Dolan, J. J. More, T. S. Munson, COPS 3.0, ANL/MCS-TM-
 /// The optima of CATENA, each half of a chain between level anchors.
 ///
 /// # Panics
-///
 /// Never: a test reads the file that is compiled in.
 #[must_use]
 pub fn cutest() -> Vec<Entry> {

@@ -261,16 +261,20 @@ impl EndForces {
 mod tests {
     use super::{ElasticCatenary, EndForces, asinh_difference, bisect, root_difference};
 
+    fn cable([x_m, z_m, length_m, stiffness_n, weight_n_m]: [f64; 5]) -> ElasticCatenary {
+        ElasticCatenary { x_m, z_m, length_m, stiffness_n, weight_n_m }
+    }
+
     /// The near-taut line of MoorPy's table, to the digits of an evaluation in extended precision.
     #[test]
     fn a_nearly_taut_line_to_its_digits() {
-        let cable = ElasticCatenary {
-            x_m: 246.224_209_400_329_47,
-            z_m: 263.557_663_308_431_64,
-            length_m: 360.635_662_623_969_27,
-            stiffness_n: 700e6,
-            weight_n_m: 3.087_35,
-        };
+        let cable = cable([
+            246.224_209_400_329_47,
+            263.557_663_308_431_64,
+            360.635_662_623_969_27,
+            700e6,
+            3.087_35,
+        ]);
         let found = cable.solve().unwrap();
         // The inputs are rounded to 17 digits, and the force of a nearly taut line has lost seven
         // of them.
@@ -304,13 +308,7 @@ mod tests {
     /// Irvine's parabola: `λ² = 3 ((L² - z²)/x² - 1)`, `H = w x/2λ`, `V = w (z coth λ + L)/2`.
     #[test]
     fn the_start_is_that_of_the_parabola() {
-        let cable = ElasticCatenary {
-            x_m: 2.0,
-            z_m: 3.0,
-            length_m: 5.0,
-            stiffness_n: 1e9,
-            weight_n_m: 6.0,
-        };
+        let cable = cable([2.0, 3.0, 5.0, 1e9, 6.0]);
         let [h, v] = cable.start();
         assert!((h - 2.0).abs() < 1e-14, "{h}");
         let (up, down) = (3.0_f64.exp(), (-3.0_f64).exp());
@@ -344,13 +342,7 @@ mod tests {
 
     #[test]
     fn what_is_no_cable_has_no_forces() {
-        let cable = ElasticCatenary {
-            x_m: 1.0,
-            z_m: 0.0,
-            length_m: 2.0,
-            stiffness_n: 1.0,
-            weight_n_m: 1.0,
-        };
+        let cable = cable([1.0, 0.0, 2.0, 1.0, 1.0]);
         assert!(cable.solve().is_some());
         for wrong in [
             ElasticCatenary { x_m: 0.0, ..cable },
@@ -380,13 +372,7 @@ mod tests {
             assert!((found.lies_m - (length_m - v)).abs() < 1e-12, "{found:?}");
         }
         // Too short to reach the floor.
-        let short = ElasticCatenary {
-            x_m: 1.0,
-            z_m: 5.0,
-            length_m: 3.0,
-            stiffness_n: 1e9,
-            weight_n_m: 1.0,
-        };
+        let short = cable([1.0, 5.0, 3.0, 1e9, 1.0]);
         assert_eq!(short.solve_on_floor(), None);
         let fine = ElasticCatenary { z_m: 1.0, x_m: 2.5, ..short };
         assert!(fine.solve_on_floor().is_some());
@@ -460,13 +446,7 @@ mod tests {
     /// stretch and `6 (5/4 - 1)` hang.
     #[test]
     fn the_sag_is_that_of_what_the_lower_end_bears() {
-        let cable = ElasticCatenary {
-            x_m: 1.0,
-            z_m: 0.0,
-            length_m: 10.0,
-            stiffness_n: 27.0,
-            weight_n_m: 2.0,
-        };
+        let cable = cable([1.0, 0.0, 10.0, 27.0, 2.0]);
         let sag =
             |lower_n: f64| EndForces { horizontal_n: 12.0, upper_n: 1.0, lower_n }.sag_m(&cable);
         assert!((sag(9.0) - (0.75 + 1.5)).abs() < 1e-15);

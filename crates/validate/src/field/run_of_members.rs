@@ -12,7 +12,6 @@ use super::elastic_catenary::ElasticCatenary;
 /// and masses such that the weight is the cable's.
 ///
 /// # Errors
-///
 /// [`SystemError`] when a number is out of range.
 pub fn run_of_members(cable: &ElasticCatenary, members: usize) -> Result<System, SystemError> {
     const GRAVITY: f64 = 10.0;
@@ -42,7 +41,6 @@ pub fn end_forces(answer: &SystemEquilibrium) -> Option<[f64; 3]> {
 /// The same run with its lower end on a level floor without friction.
 ///
 /// # Errors
-///
 /// [`SystemError`] when a number is out of range.
 pub fn run_on_floor(cable: &ElasticCatenary, members: usize) -> Result<System, SystemError> {
     run_of_members(cable, members)?.with_floor(0.0)

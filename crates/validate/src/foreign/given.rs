@@ -109,7 +109,6 @@ impl ForeignAnswer {
     /// move; an anchor that is not named is where the system has it.
     ///
     /// # Errors
-    ///
     /// [`GivenError`]: names that the system has not, or that are missing or repeated; numbers that
     /// are not finite.
     ///
@@ -148,7 +147,6 @@ impl ForeignAnswer {
     /// for each member, or one for each span of each member.
     ///
     /// # Errors
-    ///
     /// [`GivenError::Count`] when they are not as long, [`GivenError::NotFinite`].
     pub fn in_order(
         system: &System,
@@ -207,7 +205,6 @@ impl ForeignAnswer {
     /// between the same two joints are in the order of the system.
     ///
     /// # Errors
-    ///
     /// [`GivenError`]: members that the system has not, or that are missing or repeated; numbers
     /// that are not finite.
     pub fn with_forces(
@@ -247,7 +244,6 @@ impl ForeignAnswer {
     /// The same with forces of the ground by the names of joints; those not named are zero.
     ///
     /// # Errors
-    ///
     /// [`GivenError`]: names that the system has not, or that are repeated; numbers that are not
     /// finite.
     pub fn with_reactions(

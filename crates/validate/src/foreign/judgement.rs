@@ -149,7 +149,6 @@ const POWERS: [f64; 12] =
 /// Judge an answer. `watch` is told what is being done.
 ///
 /// # Errors
-///
 /// [`ToleranceError`] when the tolerance is out of range.
 ///
 /// ```

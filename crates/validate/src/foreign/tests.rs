@@ -14,11 +14,7 @@ use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, ju
 /// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
 /// 5/4 N.
 pub(super) fn lamp() -> System {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.2]);
     let body = Bar::homogeneous(5.0, 0.0).unwrap();
     System::new("lamp", 10.0, joints, vec![Member::cable(0, 2, body), Member::cable(2, 1, body)])
         .unwrap()

@@ -106,7 +106,6 @@ fn on_the_floor() -> (System, SystemEquilibrium) {
     let cable = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap());
     let system = System::new("on the floor", 10.0, joints, vec![cable]).unwrap();
     let pull = [-8.0, 0.0, 6.0];
-    let (_, like) = lamp();
     let answer = SystemEquilibrium {
         energy_j: -32.0 - 48.0,
         joints_m: vec![[0.0, 0.0, 3.0], [4.0, 0.0, 0.0]],
@@ -114,7 +113,7 @@ fn on_the_floor() -> (System, SystemEquilibrium) {
         end_forces_n: vec![pull.map(|x| -x)],
         axial_n: vec![10.0],
         reactions_n: vec![pull, [0.0, 0.0, 10.0]],
-        ..like
+        ..lamp().1
     };
     (system.with_floor(0.0).unwrap(), answer)
 }
@@ -130,12 +129,7 @@ fn solved(joints: Vec<Joint>, members: Vec<Member>) -> (System, SystemEquilibriu
 
 /// Three cables of different lengths from different heights.
 fn bridle() -> (System, SystemEquilibrium) {
-    let joints = vec![
-        Joint::anchor("A", [0.0, 0.0, 0.0]),
-        Joint::anchor("B", [4.0, 0.0, 1.0]),
-        Joint::anchor("C", [1.0, 3.0, 0.5]),
-        Joint::free("P").with_mass(2.0),
-    ];
+    let joints = samples::joints(&[[0.0, 0.0, 0.0], [4.0, 0.0, 1.0], [1.0, 3.0, 0.5]], &[2.0]);
     let cable = |from, length_m| Member::cable(from, 3, Bar::homogeneous(length_m, 0.3).unwrap());
     solved(joints, vec![cable(0, 2.6), cable(1, 3.4), cable(2, 2.7)])
 }
@@ -172,15 +166,10 @@ fn net(stiffness_n: Option<f64>) -> (System, SystemEquilibrium) {
 fn nearly_taut() -> (System, SystemEquilibrium) {
     let tiny = 2.0_f64.powi(-40);
     let (half_m, length_m, sag_m) = (1.0 - tiny, 1.0 + tiny, 2.0_f64.powi(-19));
-    let joints = vec![
-        Joint::anchor("A", [-half_m, 0.0, 0.0]),
-        Joint::anchor("B", [half_m, 0.0, 0.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[-half_m, 0.0, 0.0], [half_m, 0.0, 0.0]], &[0.2]);
     let cable = |from, to| Member::cable(from, to, Bar::homogeneous(length_m, 0.0).unwrap());
     let system = System::new("taut", 10.0, joints, vec![cable(0, 2), cable(2, 1)]).unwrap();
     let (left, right) = ([-half_m / sag_m, 0.0, 1.0], [half_m / sag_m, 0.0, 1.0]);
-    let (_, like) = lamp();
     let answer = SystemEquilibrium {
         energy_j: -2.0 * sag_m,
         joints_m: vec![[-half_m, 0.0, 0.0], [half_m, 0.0, 0.0], [0.0, 0.0, -sag_m]],
@@ -188,7 +177,7 @@ fn nearly_taut() -> (System, SystemEquilibrium) {
         end_forces_n: vec![left.map(|x| -x), right],
         axial_n: vec![length_m / sag_m; 2],
         reactions_n: vec![left, right, [0.0; 3]],
-        ..like
+        ..lamp().1
     };
     (system, answer)
 }

@@ -49,7 +49,6 @@ struct Place {
 /// Hang the system with a cable in the place of every bar.
 ///
 /// # Errors
-///
 /// [`ConeError`]: a strut, or a programme that clarabel does not solve (a system without any load, or one that falls).
 ///
 /// ```

@@ -65,7 +65,6 @@ pub(super) fn largest_force_n(answer: &SystemEquilibrium) -> f64 {
 /// Prove that no configuration of the system has less energy than this answer.
 ///
 /// # Errors
-///
 /// [`NoCertificate`]: compressed members that the others do not outweigh, a gap that is too large,
 /// or an answer that is incomplete.
 pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, NoCertificate> {

@@ -92,7 +92,6 @@ const NO_FORCE: f64 = 1e-9;
 /// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
 ///
 /// # Panics
-///
 /// When there are fewer than two answers: one alone is judged by [`judge_alone`].
 #[must_use]
 pub fn compare(

@@ -24,7 +24,6 @@ const PLACED: f64 = 1e-12;
 /// The census of a system, if that is a matter of a second.
 ///
 /// # Errors
-///
 /// [`NoCensus`]; of a large system, that it was not asked for.
 pub fn quick_census(system: &System) -> Result<SystemCensus, NoCensus> {
     let quick = Settings {
@@ -42,7 +41,6 @@ pub fn quick_census(system: &System) -> Result<SystemCensus, NoCensus> {
 /// The census that is wanted.
 ///
 /// # Errors
-///
 /// [`NoCensus`]; also that it was not asked for.
 pub fn wanted_census(system: &System, census: UseCensus) -> Result<SystemCensus, NoCensus> {
     match census {

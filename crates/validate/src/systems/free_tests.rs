@@ -5,7 +5,7 @@ use model::{Bar, SolverName, Vector};
 
 use super::compare;
 use super::compare::SystemAgreement;
-use super::tests::lamp;
+use super::tests::{joined, lamp};
 use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
 use numerics::vector::{minus, norm};
@@ -34,13 +34,7 @@ fn with_link(mass_kg: f64, to: &[usize], at_m: [Vector; 2]) -> (System, [SystemE
     let system = System::new("link", 10.0, joints, members).unwrap();
     let answers = at_m.map(|at_m| {
         let mut answer = answer.clone();
-        answer.joints_m.push(at_m);
-        answer.reactions_n.push([0.0; 3]);
-        for _ in to {
-            answer.start_forces_n.push([0.0; 3]);
-            answer.end_forces_n.push([0.0; 3]);
-            answer.axial_n.push(0.0);
-        }
+        joined(&mut answer, at_m, [0.0; 3], to.len());
         answer
     });
     (system, answers)
@@ -100,11 +94,8 @@ fn joints_without_force_are_free_together() {
     };
     let place = |way: Vector| {
         let mut answer = answer.clone();
-        answer.joints_m.extend([at(1.5, way), at(3.5, way)]);
-        answer.reactions_n.extend([[0.0; 3]; 2]);
-        answer.start_forces_n.extend([[0.0; 3]; 3]);
-        answer.end_forces_n.extend([[0.0; 3]; 3]);
-        answer.axial_n.extend([0.0; 3]);
+        joined(&mut answer, at(1.5, way), [0.0; 3], 1);
+        joined(&mut answer, at(3.5, way), [0.0; 3], 2);
         answer
     };
     let found = compared(&system, place([0.0, 1.0, 0.0]), place([0.8, 0.0, -0.6]));
@@ -153,7 +144,6 @@ fn weighted_hoops(angle: f64, weights_n: [f64; 4]) -> (System, SystemEquilibrium
         along.map(|x| x * axial_n[k] / norm(along))
     };
     let end_forces_n: Vec<Vector> = (0..axial_n.len()).map(pull).collect();
-    let (_, like) = lamp();
     let mut reactions_n = vec![[0.0; 3]; 7];
     reactions_n[0] = [0.0, 0.0, whole_n];
     let answer = SystemEquilibrium {
@@ -163,7 +153,7 @@ fn weighted_hoops(angle: f64, weights_n: [f64; 4]) -> (System, SystemEquilibrium
         joints_m,
         axial_n,
         reactions_n,
-        ..like
+        ..lamp().1
     };
     (system, answer)
 }

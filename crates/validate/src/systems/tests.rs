@@ -3,7 +3,7 @@
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium, SystemStability};
 use model::{
     Bar, Evidence, Excess, ForceChoice, InSpace, NoAnswer, NoCertificate, Place, Quantity, Reason,
-    Rigidity, SelfStresses, SolverName,
+    Rigidity, SelfStresses, SolverName, Vector,
 };
 
 use super::compare::{judge_alone, judge_without};
@@ -13,11 +13,7 @@ use crate::tolerances::Tolerances;
 /// A lamp of 2 N on two massless bars of 5 m between anchors 6 m apart (3, 4, 5): each bar pulls
 /// with 5/4 N.
 pub(super) fn lamp() -> (System, SystemEquilibrium) {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.2]);
     let bar = Bar::homogeneous(5.0, 0.0).unwrap();
     let members = vec![Member::bar(0, 2, bar), Member::cable(2, 1, bar)];
     let system = System::new("lamp", 10.0, joints, members).unwrap();
@@ -39,6 +35,15 @@ pub(super) fn lamp() -> (System, SystemEquilibrium) {
         evidence: Evidence::new("closed form", 0.0, 0.0, 0),
     };
     (system, answer)
+}
+
+/// The answer with another joint, and members without force to it.
+pub(super) fn joined(answer: &mut SystemEquilibrium, at_m: Vector, held_n: Vector, members: usize) {
+    answer.joints_m.push(at_m);
+    answer.reactions_n.push(held_n);
+    answer.start_forces_n.extend(vec![[0.0; 3]; members]);
+    answer.end_forces_n.extend(vec![[0.0; 3]; members]);
+    answer.axial_n.extend(vec![0.0; members]);
 }
 
 /// The largest violation with its place, of the lamp with one number changed.
@@ -175,15 +180,10 @@ fn answers_that_differ_do_not_agree() {
 /// A weight on a bar of 5 m, drawn aside by nothing: it hangs where it likes on a circle about the
 /// vertical through (1, 2), here held up by another bar from 6 m below.
 pub(super) fn propped(cos: f64, sin: f64) -> (System, SystemEquilibrium) {
-    let joints = vec![
-        Joint::anchor("A", [1.0, 2.0, 0.0]),
-        Joint::anchor("B", [1.0, 2.0, -6.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[1.0, 2.0, 0.0], [1.0, 2.0, -6.0]], &[0.2]);
     let bar = Bar::homogeneous(5.0, 0.0).unwrap();
     let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
     let system = System::new("propped", 10.0, joints, members).unwrap();
-    let (_, like) = lamp();
     // The upper bar pulls, the lower pushes, each with 5/3 N along (4, 3)/5.
     let out = [4.0 * cos, 4.0 * sin];
     let upper = [-out[0] / 3.0, -out[1] / 3.0, 1.0];
@@ -195,7 +195,7 @@ pub(super) fn propped(cos: f64, sin: f64) -> (System, SystemEquilibrium) {
         end_forces_n: vec![upper.map(|x| -x), lower],
         axial_n: vec![5.0 / 3.0, -5.0 / 3.0],
         reactions_n: vec![upper, lower, [0.0; 3]],
-        ..like
+        ..lamp().1
     };
     (system, answer)
 }
@@ -235,7 +235,6 @@ pub(super) fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
     reactions_n.push([0.0; 3]);
     let mut joints_m = corners.to_vec();
     joints_m.push([0.0, 0.0, -4.0]);
-    let (_, like) = lamp();
     let answer = SystemEquilibrium {
         energy_j: -64.0,
         joints_m,
@@ -243,7 +242,7 @@ pub(super) fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
         end_forces_n: end,
         axial_n,
         reactions_n,
-        ..like
+        ..lamp().1
     };
     (system, answer)
 }

@@ -215,13 +215,7 @@ fn who_ends_above_the_lowest_of_a_complete_list_is_asked_again_next_to_it() {
     let bar = |from, to, length_m, mass_kg| {
         Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
     };
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", b.into()),
-        Joint::anchor("T", t.into()),
-        Joint::free("P").with_mass(1.64),
-        Joint::free("Q").with_mass(3.49),
-    ];
+    let joints = samples::joints(&[[0.0; 3], b.into(), t.into()], &[1.64, 3.49]);
     let members = vec![
         bar(0, 3, 1.9, 0.69),
         bar(1, 3, 1.71, 0.6),

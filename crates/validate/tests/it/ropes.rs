@@ -344,11 +344,10 @@ impl OverAPulley {
         let element_m = 0.5 * self.free_length_m / f64::from(n);
         let mass_kg = self.weight_n_m * element_m / STANDARD_GRAVITY_M_S2;
         let body = Bar::homogeneous(element_m, mass_kg).unwrap();
-        let mut joints = vec![
-            Joint::anchor("O", [0.0; 3]),
-            Joint::anchor("P1", [self.span_m, 0.0, 0.0]),
-            Joint::anchor("P2", [2.0 * self.span_m, 0.0, 0.0]),
-        ];
+        let mut joints = samples::joints(
+            &[[0.0; 3], [self.span_m, 0.0, 0.0], [2.0 * self.span_m, 0.0, 0.0]],
+            &[],
+        );
         let mut members = Vec::new();
         let mut ends = [0, 2];
         for end in &mut ends {

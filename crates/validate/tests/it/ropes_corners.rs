@@ -350,12 +350,8 @@ fn random_rings_with_bars_cables_and_floors_are_agreed_upon() {
 fn parts_turn_beside_what_is_slack() {
     let body = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
     for via in [vec![], vec![4]] {
-        let mut joints = vec![
-            Joint::anchor("A", [0.82, -1.38, -2.75]),
-            Joint::anchor("B", [-2.9, 1.88, 2.48]),
-            Joint::free("P").with_mass(20.0),
-            Joint::free("Q").with_mass(30.0),
-        ];
+        let mut joints =
+            samples::joints(&[[0.82, -1.38, -2.75], [-2.9, 1.88, 2.48]], &[20.0, 30.0]);
         if !via.is_empty() {
             joints.push(Joint::anchor("C", [0.0, 0.0, -1.0]));
         }

@@ -145,7 +145,6 @@ impl Corner {
 }
 
 impl Leaf {
-    /// Prove it.
     pub(super) fn new(
         cover: &Cover<'_>,
         parts: Vec<Interval>,
@@ -256,7 +255,6 @@ impl Leaf {
         Failure { reason: NoBox::NotContracting, halves }
     }
 
-    /// A point of the plane.
     fn on_plane(&self, numbers: &[f64]) -> Vec<Interval> {
         let mut at = self.at.clone();
         for ((step, middle), x) in self.steps.iter().zip(&self.middle).zip(numbers) {
@@ -268,7 +266,6 @@ impl Leaf {
         at
     }
 
-    /// Whether numbers are in its box.
     pub(super) fn contains(&self, numbers: &[f64]) -> bool {
         self.parts.iter().zip(numbers).all(|(part, x)| part.contains(*x))
     }
@@ -357,7 +354,6 @@ impl Leaf {
         }))
     }
 
-    /// The numbers of a corner.
     fn ends(&self, corner: &[i8]) -> Vec<f64> {
         corner.iter().zip(&self.parts).map(end).collect()
     }
@@ -399,7 +395,6 @@ impl Leaf {
         Some(inner.map_or(bound, |inner| bound.and(inner)))
     }
 
-    /// The derivative of an output by a number.
     #[cfg(test)]
     pub(super) fn slope(&self, output: usize, number: usize) -> Interval {
         self.slopes[output][number]
@@ -423,7 +418,6 @@ fn end((end, part): (&i8, &Interval)) -> f64 {
 }
 
 impl Cover<'_> {
-    /// The equations at these numbers.
     fn at(&self, numbers: &[f64]) -> Equations {
         let parts: Vec<Interval> = numbers.iter().copied().map(Interval::point).collect();
         within(&self.posed.equations, self.system, self.numbers, &parts)

@@ -20,8 +20,6 @@
 //!
 //! Where the test fails $C$ is halved; the equilibria of two halves are proved to be the same where they meet.
 //!
-//! # References
-//!
 //! R. Krawczyk, Computing 4 (1969) 187-201, doi:10.1007/BF02234767; A. Neumaier, Interval Methods for
 //! Systems of Equations (1990), doi:10.1017/CBO9780511526473, chapter 5 (systems with parameters).
 
@@ -99,56 +97,38 @@ pub struct ToleranceRanges {
     pub free_turns: usize,
 }
 
-/// Why nothing is proved for all values.
+/// Why nothing is proved for all values. Numbers count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum NoRanges {
     /// Occurs when no number has a tolerance.
     #[error("no number of the system has a tolerance")]
     NothingUncertain,
     /// Occurs when joints may come to lie on the floor, or rise from it.
     #[error("within the tolerances joints may come to lie on the floor or rise from it: {}", listed(.joints))]
-    Floor {
-        /// The joints, from 0.
-        joints: Vec<usize>,
-    },
+    Floor { joints: Vec<usize> },
     /// Occurs when rigid members are more than the shape needs.
     #[error(
         "lengths of rigid members overdetermine the shape {dimension}-fold: with tolerances no shape fits them all, and only a stiffness says how they would share the misfit"
     )]
-    Overdetermined {
-        /// How many lengths are more than needed.
-        dimension: usize,
-    },
+    Overdetermined { dimension: usize },
     /// Occurs when a part that turns freely about a vertical would be turned.
     #[error("a part turns freely about a vertical, and tolerances of places or forces turn it")]
     Turns,
     /// Occurs when a joint is held by slack members alone: no place is its own.
     #[error("joint {} is held by slack members alone, and may be anywhere that they reach", .joint + 1)]
-    Loose {
-        /// The joint, from 0.
-        joint: usize,
-    },
+    Loose { joint: usize },
     /// Occurs when cables or struts may change between slack and taut.
     #[error("within the tolerances members may change between slack and taut: {}", listed(.members))]
-    MayChange {
-        /// The members, from 0.
-        members: Vec<usize>,
-    },
+    MayChange { members: Vec<usize> },
     /// Occurs when there is no proof that one equilibrium is near for all values.
     #[error(
         "one equilibrium near for all of them is not proved in {} of the uncertain numbers ({reason}){}",
         in_boxes(*boxes),
         .part.map_or_else(String::new, |part| format!("; for {part} times the tolerances it is proved"))
     )]
-    NoBox {
-        /// Why for one of the boxes.
-        reason: NoBox,
-        /// How many were tried.
-        boxes: usize,
-        /// For which part of all tolerances there is one.
-        part: Option<f64>,
-    },
+    NoBox { reason: NoBox, boxes: usize, part: Option<f64> },
 }
 
 fn in_boxes(count: usize) -> String {
@@ -482,14 +462,12 @@ impl Range {
     }
 
     /// How much wider it may be than the hull: what is guaranteed less what is reached.
-    #[must_use]
     pub fn excess(&self) -> f64 {
         let [[least, most], [from, to]] = [self.guaranteed, self.reached];
         (from - least).max(0.0) + (most - to).max(0.0)
     }
 
     /// Whether a value is in it.
-    #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         (self.guaranteed[0]..=self.guaranteed[1]).contains(&value)
     }

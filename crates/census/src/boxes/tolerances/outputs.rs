@@ -69,7 +69,6 @@ impl Over<'_> {
         }
     }
 
-    /// The value of an output.
     pub(super) fn value(&self, output: Output) -> Interval {
         match output {
             Output::Place(joint, axis) => self.region.places[joint][axis],

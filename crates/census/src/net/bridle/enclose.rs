@@ -21,7 +21,6 @@ use crate::run::plane::face::Face;
 /// An equilibrium of the bridle, enclosed.
 pub(super) struct Enclosed {
     pub(super) choice: Choice,
-    /// Places of all joints.
     places: Vec<Vector>,
     /// Axial forces of all members.
     axial: Vec<Interval>,
@@ -93,16 +92,16 @@ pub(super) fn enclosed(core: &Core, bridle: &Bridle, found: &Found) -> Option<En
     let start = equations.start(&joints_m, &axial_n);
     let refined = refine(&equations, &start).ok()?;
     let zero = prove_zero(&equations, &refined).ok()?;
-    let places = equations.places(&zero.tight);
+    let places = equations.places(&zero);
     let mut axial = vec![Interval::ZERO; core.system.members().len()];
     let mut choice = Choice::default();
     choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
     for acting in &equations.acting {
-        let force = acting.axial(zero.tight[acting.force]);
+        let force = acting.axial(zero[acting.force]);
         axial[acting.member] = force;
         choice.axial.push((acting.member, force));
     }
-    choice.index = [index(&equations, &zero.tight)?, 0];
+    choice.index = [index(&equations, &zero)?, 0];
     let enclosed = Enclosed { choice, places, axial };
     enclosed.is(bridle, found).then_some(enclosed)
 }

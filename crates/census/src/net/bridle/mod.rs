@@ -58,7 +58,6 @@ const MOST_STRANDS: usize = 3;
 /// let [nine, ten] = [9, 10].map(census::net::bridle_seconds);
 /// assert!(nine < 60.0 && ten > nine);
 /// ```
-#[must_use]
 pub fn bridle_seconds(bars: usize) -> f64 {
     const NINE_BARS_S: f64 = 3.0;
     // Beyond this the number overflows.

@@ -10,7 +10,7 @@ use numerics::Interval;
 use super::pulls::density;
 use super::strand::{Bridle, Span, Strand};
 use crate::boxes::arithmetic::squared;
-use crate::net::knots::dense::Dense;
+use crate::net::knots::dense::{add, zeros};
 use crate::net::knots::newton::{Linear, Newton, around, step, zero};
 use crate::run::closure::bar::BarTerm;
 use crate::run::closure::{Pattern, signed};
@@ -80,7 +80,7 @@ pub(super) fn cell(bridle: &Bridle, charts: &Charts, at: &[Interval], strand: us
 fn equations(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Linear> {
     let size = at.len();
     let knot = [at[0], at[1], at[2]];
-    let mut all = (vec![Interval::ZERO; size], Dense::filled(size, size, Interval::ZERO));
+    let mut all = (vec![Interval::ZERO; size], zeros(size, size));
     for k in 0..3 {
         all.0[size - 3 + k] = -bridle.load[k];
     }
@@ -114,10 +114,10 @@ fn rod(
     let by = if w == Interval::ONE { Interval::ONE } else { -(tau / w) };
     value[row] = (squared(span.arm) - strand.length[0].square()).scale(0.5);
     for (k, arm) in span.arm.into_iter().enumerate() {
-        slope.set(row, k, arm);
+        slope[(row, k)] = arm;
         value[balance + k] = value[balance + k] + tau * arm;
-        slope.add(balance + k, k, tau);
-        slope.set(balance + k, own, by * arm);
+        add(slope, (balance + k, k), tau);
+        slope[(balance + k, own)] = by * arm;
     }
     Some(())
 }
@@ -142,15 +142,15 @@ fn several(
         for (part, gap) in gap.iter_mut().enumerate() {
             *gap = *gap + signed(sign, term.value[part]);
             for (coordinate, by) in term.slope[part].into_iter().enumerate() {
-                slope.add(row + part, own + coordinate, signed(sign, by));
+                add(slope, (row + part, own + coordinate), signed(sign, by));
             }
         }
     }
     value[row] = gap[0];
     value[row + 1] = gap[1];
-    slope.set(row, 0, -toward[0]);
-    slope.set(row, 1, -toward[1]);
-    slope.set(row + 1, 2, -Interval::ONE);
+    slope[(row, 0)] = -toward[0];
+    slope[(row, 1)] = -toward[1];
+    slope[(row + 1, 2)] = -Interval::ONE;
     let ([along, up], by) = force(cell, strand.weight[bars - 1])?;
     for (k, part) in span.world([along, up]).into_iter().enumerate() {
         value[balance + k] = value[balance + k] + part;
@@ -158,16 +158,16 @@ fn several(
     for (coordinate, by) in by.into_iter().enumerate() {
         let part = span.world(by);
         for (k, part) in part.into_iter().enumerate() {
-            slope.set(balance + k, own + coordinate, part);
+            slope[(balance + k, own + coordinate)] = part;
         }
     }
     // The horizontal direction turns with the knot.
     let turning = along / distance;
     let [x, y] = toward;
-    slope.add(balance, 0, turning * y.square());
-    slope.add(balance, 1, -(turning * x * y));
-    slope.add(balance + 1, 0, -(turning * x * y));
-    slope.add(balance + 1, 1, turning * x.square());
+    add(slope, (balance, 0), turning * y.square());
+    add(slope, (balance, 1), -(turning * x * y));
+    add(slope, (balance + 1, 0), -(turning * x * y));
+    add(slope, (balance + 1, 1), turning * x.square());
     Some(())
 }
 
@@ -299,7 +299,7 @@ mod tests {
                 };
                 for row in 0..AT.len() {
                     let expected = (4.0 * quotient(1e-4, row) - quotient(2e-4, row)) / 3.0;
-                    let found = slope.at(row, column).mid();
+                    let found = slope[(row, column)].mid();
                     assert!((found - expected).abs() < 1e-9, "{charts:?}: {found} {expected}");
                 }
             }

@@ -53,7 +53,6 @@ impl Bridle {
         Some(Self { knot, load: core.loads[knot], strands: strands.collect::<Option<_>>()? })
     }
 
-    /// The number of bars of all strands.
     pub(super) fn bars(&self) -> usize {
         self.strands.iter().map(|strand| strand.length.len()).sum()
     }

@@ -50,7 +50,6 @@ impl<'a, const N: usize> Examined<'a, N> {
         Some(Self { cell, columns, rough, middle: middle.filter(Cell::smooth) })
     }
 
-    /// What is known for one pattern.
     pub(super) fn pattern(&self, pattern: Pattern) -> Verdict<N> {
         if self.swing_is_impossible(pattern) {
             return Verdict::Empty;

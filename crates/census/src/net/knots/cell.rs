@@ -13,7 +13,7 @@ use std::array::from_fn;
 
 use numerics::Interval;
 
-use super::dense::Dense;
+use super::dense::{Dense, add, add_to_column, zeros};
 use super::jet::Jets;
 use super::layout::{End, Layout};
 use super::reach::span;
@@ -76,7 +76,6 @@ impl<'a, const N: usize> Cell<'a, N> {
             .any(|(_, spans)| spans.iter().any(|span| squared(*span).lo() <= 0.0))
     }
 
-    /// The places among the unknowns.
     pub(super) fn places(&self, unknowns: &[Interval]) -> [Interval; N] {
         let coordinates = self.layout.coordinates();
         from_fn(|k| if k < coordinates { unknowns[k] } else { self.at[k] })
@@ -97,7 +96,6 @@ impl<'a, const N: usize> Cell<'a, N> {
         }
     }
 
-    /// Loads of the knots.
     pub(super) fn loads(&self) -> Vec<Interval> {
         let dim = self.layout.dim;
         self.layout.loads.iter().flat_map(|load| load[..dim].to_vec()).collect()
@@ -125,7 +123,6 @@ impl<'a, const N: usize> Cell<'a, N> {
         all
     }
 
-    /// Add what a link pulls with.
     fn pull(&self, forces: &mut [Interval], link: usize, force: Interval) {
         for (ends, along) in self.layout.links[link].ends.iter().zip(&self.along[link]) {
             let pull = times(force, *along);
@@ -135,10 +132,10 @@ impl<'a, const N: usize> Cell<'a, N> {
     }
 
     /// Their derivative by places and densities; all swings must be smooth.
-    pub(super) fn derivative(&self, pattern: Pattern, densities: &[Interval]) -> Dense<Interval> {
+    pub(super) fn derivative(&self, pattern: Pattern, densities: &[Interval]) -> Dense {
         let places = self.layout.coordinates();
         let size = places + densities.len();
-        let mut slope = Dense::filled(size, size, Interval::ZERO);
+        let mut slope = zeros(size, size);
         for (s, (swing, swung)) in self.layout.swings.iter().zip(&self.swung).enumerate() {
             let Some([base, taken]) = &swung.smooth else { continue };
             let turn = sign(pattern, s);
@@ -147,7 +144,7 @@ impl<'a, const N: usize> Cell<'a, N> {
                 let pull: Vector = from_fn(|k| sum(part(base, k), -signed(turn, part(taken, k))));
                 for (end, pull) in [(1, pull), (0, pull.map(|part| -part))] {
                     if let Some(row) = self.rows(swing.ends[end]) {
-                        slope.add_to_column([row, column], pull[..self.layout.dim].iter().copied());
+                        add_to_column(&mut slope, (row, column), &pull[..self.layout.dim]);
                     }
                 }
             }
@@ -158,7 +155,7 @@ impl<'a, const N: usize> Cell<'a, N> {
         slope
     }
 
-    fn slope_of_link(&self, slope: &mut Dense<Interval>, number: usize, force: Interval) {
+    fn slope_of_link(&self, slope: &mut Dense, number: usize, force: Interval) {
         const AXES: [Vector; 3] = [
             [Interval::ONE, Interval::ZERO, Interval::ZERO],
             [Interval::ZERO, Interval::ONE, Interval::ZERO],
@@ -172,21 +169,20 @@ impl<'a, const N: usize> Cell<'a, N> {
             for (here, there, along) in [(a, b, *along), (b, a, along.map(|part| -part))] {
                 let Some(row) = self.rows(*here) else { continue };
                 for (k, part) in along[..dim].iter().enumerate() {
-                    slope.add(row + k, extra, *part);
+                    add(slope, (row + k, extra), *part);
                     if link.hanging.is_none() {
-                        slope.add(extra, row + k, -*part);
+                        add(slope, (extra, row + k), -*part);
                     }
                     let turned = direction.turned(force, AXES[k]);
-                    let turned = turned[..dim].iter().copied();
                     if let Some(other) = self.rows(*there) {
-                        slope.add_to_column([row, other + k], turned.clone());
+                        add_to_column(slope, (row, other + k), &turned[..dim]);
                     }
-                    slope.add_to_column([row, row + k], turned.map(|part| -part));
+                    add_to_column(slope, (row, row + k), &turned.map(|part| -part)[..dim]);
                 }
             }
         }
-        let compliance = link.acting.compliance;
-        slope.add(extra, extra, if link.hanging.is_some() { -Interval::ONE } else { -compliance });
+        let by_own = if link.hanging.is_some() { Interval::ONE } else { link.acting.compliance };
+        add(slope, (extra, extra), -by_own);
     }
 
     /// Of each swing whose ends are apart what it pulls at its second end with σ = 0, and what it
@@ -305,7 +301,7 @@ mod tests {
                 let (more, less) = (moved(1e-5), moved(-1e-5));
                 for row in 0..unknowns.len() {
                     let quotient = (more[row].mid() - less[row].mid()) / 2e-5;
-                    let found = slope.at(row, column).mid();
+                    let found = slope[(row, column)].mid();
                     assert!((found - quotient).abs() < 1e-8, "{row} {column}: {found} {quotient}");
                 }
             }

@@ -39,7 +39,7 @@ pub(super) fn enclosed<const N: usize>(
     let start = equations.start(&joints_m, &axial_n);
     let refined = refine(&equations, &start).ok()?;
     let zero = prove_zero(&equations, &refined).ok()?;
-    let places = equations.places(&zero.tight);
+    let places = equations.places(&zero);
     let knots: Vec<Interval> = layout
         .knots
         .iter()
@@ -57,7 +57,7 @@ pub(super) fn enclosed<const N: usize>(
             dot([-span[1], span[0], Interval::ZERO], arm).sign()
         } else {
             let of = |member: usize| equations.acting.iter().find(|acting| acting.member == member);
-            let densities = swing.members.map(|member| of(member).map(|a| zero.tight[a.force]));
+            let densities = swing.members.map(|member| of(member).map(|a| zero[a.force]));
             densities.into_iter().flatten().fold(Interval::ZERO, sum).sign()
         };
         if f64::from(sign?) * cell::sign(found.pattern, s) < 0.5 {
@@ -74,9 +74,9 @@ pub(super) fn enclosed<const N: usize>(
     let mut choice = Choice { circle: turn.is_some(), ..Choice::default() };
     choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
     for acting in &equations.acting {
-        choice.axial.push((acting.member, acting.axial(zero.tight[acting.force])));
+        choice.axial.push((acting.member, acting.axial(zero[acting.force])));
     }
-    choice.index = [index(&equations, &zero.tight)?, 0];
+    choice.index = [index(&equations, &zero)?, 0];
     Some(Enclosed { choice, knots })
 }
 

@@ -10,53 +10,38 @@
 //! Gershgorin's circles tell the signs of its eigenvalues, which are those of K by Sylvester's law
 //! (Q is regular because $Q^T K Q$ is).
 //!
-//! # References
-//!
 //! R. A. Horn, C. R. Johnson, "Matrix Analysis", 2nd ed. (2013), theorems 4.5.8 and 6.1.1; N. I. M.
 //! Gould, "On practical conditions for the existence and uniqueness of solutions to the general
 //! equality quadratic programming problem", Math. Programming 32 (1985) 90-99,
 //! doi:10.1007/BF01585660
 
 use matrices::dense::eigen;
-use nalgebra::DMatrix;
 use numerics::Interval;
 
-use super::dense::Dense;
+use super::dense::{add, times_matrix, zeros};
 use crate::boxes::equations::Equations;
 
 /// Directions in which the energy falls; nothing if that is not proved.
 pub(in crate::net) fn index(equations: &Equations, tight: &[Interval]) -> Option<usize> {
     let size = equations.size;
     let lengths: Vec<usize> = equations.acting.iter().map(|acting| acting.force).collect();
-    let mut matrix = Dense::filled(size, size, Interval::ZERO);
+    let mut matrix = zeros(size, size);
     for (row, column, value) in equations.slope(tight) {
         // Balance is minus the gradient of the Lagrangian.
-        matrix.add(row, column, if lengths.contains(&row) { value } else { -value });
+        add(&mut matrix, (row, column), if lengths.contains(&row) { value } else { -value });
     }
-    let middle = matrix.middle();
-    let symmetric = DMatrix::from_fn(size, size, |i, j| 0.5 * (middle.at(i, j) + middle.at(j, i)));
-    let (_, vectors) = eigen(&symmetric)?;
-    let mut transposed = Dense::filled(size, size, 0.0);
-    for i in 0..size {
-        for j in 0..size {
-            transposed.set(i, j, vectors[(j, i)]);
-        }
-    }
+    let middle = matrix.map(Interval::mid);
+    let (_, vectors) = eigen(&(0.5 * (&middle + middle.transpose())))?;
+    let transposed = vectors.transpose();
     // Q^T K, and then Q^T (Q^T K)^T, which is Q^T K Q as K is symmetric.
-    let half = transposed.times_matrix(&matrix);
-    let mut turned = Dense::filled(size, size, Interval::ZERO);
-    for i in 0..size {
-        for j in 0..size {
-            turned.set(i, j, half.at(j, i));
-        }
-    }
-    let diagonal = transposed.times_matrix(&turned);
+    let half = times_matrix(&transposed, &matrix);
+    let diagonal = times_matrix(&transposed, &half.transpose());
     let mut negative = 0_usize;
     for row in 0..size {
         let others = (0..size).filter(|column| *column != row);
         let radius: Interval =
-            others.map(|column| Interval::point(diagonal.at(row, column).mag())).sum();
-        let circle = diagonal.at(row, row) + Interval::new(-radius.hi(), radius.hi());
+            others.map(|column| Interval::point(diagonal[(row, column)].mag())).sum();
+        let circle = diagonal[(row, row)] + Interval::new(-radius.hi(), radius.hi());
         match circle.sign()? {
             1 => {}
             -1 => negative += 1,

@@ -17,10 +17,8 @@ pub(super) struct Jet<const N: usize> {
 }
 
 impl<const N: usize> Jet<N> {
-    /// 0.
     pub(super) const ZERO: Self = Self { value: Interval::ZERO, slope: [Interval::ZERO; N] };
 
-    /// A constant.
     pub(super) fn constant(value: Interval) -> Self {
         Self { value, slope: [Interval::ZERO; N] }
     }
@@ -134,7 +132,6 @@ pub(super) fn cross<const N: usize>(a: Jets<N>, b: Jets<N>) -> Jets<N> {
     })
 }
 
-/// The values alone.
 pub(super) fn values<const N: usize>(a: Jets<N>) -> [Interval; 3] {
     a.map(|part| part.value)
 }

@@ -64,7 +64,6 @@ pub(super) struct Layout {
     pub(super) axis: Option<usize>,
     /// The joints whose places are unknown.
     pub(super) knots: Vec<usize>,
-    /// Their loads.
     pub(super) loads: Vec<Vector>,
     pub(super) swings: Vec<Swing>,
     pub(super) links: Vec<Link>,
@@ -190,7 +189,6 @@ impl Layout {
         std::array::from_fn(|k| if k < self.dim { world[self.axes[k]] } else { Interval::ZERO })
     }
 
-    /// Number of unknown coordinates.
     pub(super) fn coordinates(&self) -> usize {
         self.dim * self.knots.len()
     }

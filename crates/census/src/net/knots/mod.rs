@@ -22,8 +22,6 @@
 //! equations of the system (`enclose`), which share nothing with the search, and its index by the
 //! inertia of the bordered second derivative (`inertia`).
 //!
-//! # References
-//!
 //! R. B. Kearfott, "Rigorous Global Search: Continuous Problems" (1996),
 //! doi:10.1007/978-1-4757-2495-0; A. Neumaier, "Interval Methods for Systems of Equations" (1990),
 //! doi:10.1017/CBO9780511526473, sections 4.1 (linear equations) and 5.1 (Newton's method); the use
@@ -110,30 +108,21 @@ pub struct UndecidedPlaces {
 }
 
 /// Why places of knots are undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Open {
     /// The box is as small as boxes get: a degenerate equilibrium, straight bars, or nearly so.
+    #[error("as small as boxes get: a degenerate equilibrium, straight bars, or nearly so")]
     Degenerate,
     /// The budget of tests was spent.
+    #[error("the budget of tests was spent")]
     Budget,
     /// One equilibrium at most lies there, and it or its index is not proved.
+    #[error("one equilibrium at most, which or whose index is not proved")]
     Unproved,
     /// A span of a rope may have no length there: a joint has run to its end, if there is such an equilibrium.
+    #[error("a joint may have run to the end of a span of a rope")]
     Jam,
-}
-
-impl std::fmt::Display for Open {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Degenerate => {
-                "as small as boxes get: a degenerate equilibrium, straight bars, or nearly so"
-            }
-            Self::Budget => "the budget of tests was spent",
-            Self::Unproved => "one equilibrium at most, which or whose index is not proved",
-            Self::Jam => "a joint may have run to the end of a span of a rope",
-        })
-    }
 }
 
 /// Equilibria of a net.

@@ -2,7 +2,7 @@
 
 use numerics::Interval;
 
-use super::dense::Dense;
+use super::dense::{Dense, inverse_of_middle, times, times_matrix};
 use crate::boxes::arithmetic::sum;
 
 /// Steps of Newton's method in double precision to a zero.
@@ -21,7 +21,7 @@ const ROOM: f64 = 0.125;
 const LEAST_ROOM: f64 = 1e-9;
 
 /// Left-hand sides and their derivative.
-pub(in crate::net) type Linear = (Vec<Interval>, Dense<Interval>);
+pub(in crate::net) type Linear = (Vec<Interval>, Dense);
 
 /// Newton's method in double precision, from a point on.
 pub(in crate::net) fn zero(
@@ -31,7 +31,7 @@ pub(in crate::net) fn zero(
     for _ in 0..STEPS {
         let points: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
         let (value, slope) = equations(&points)?;
-        let step = slope.middle().inverse()?.times(&value);
+        let step = times(&inverse_of_middle(&slope)?, &value);
         let mut size = 0.0_f64;
         for (x, step) in at.iter_mut().zip(step) {
             *x -= step.mid();
@@ -71,12 +71,12 @@ pub(in crate::net) struct Newton {
 /// and an approximate inverse of the derivative: nothing where there is no inverse.
 pub(in crate::net) fn step(
     whole: &[Interval],
-    slope: &Dense<Interval>,
+    slope: &Dense,
     value: &[Interval],
 ) -> Option<Newton> {
-    let inverse = slope.middle().inverse()?;
-    let value = inverse.times(value);
-    let slope = inverse.times_matrix(slope);
+    let inverse = inverse_of_middle(slope)?;
+    let value = times(&inverse, value);
+    let slope = times_matrix(&inverse, slope);
     let mut off: Vec<Interval> =
         whole.iter().map(|part| *part - Interval::point(part.mid())).collect();
     let radius: Vec<f64> = off.iter().map(|part| part.mag()).collect();
@@ -84,16 +84,16 @@ pub(in crate::net) fn step(
         let mut moved = Interval::ZERO;
         for (column, radius) in radius.iter().enumerate() {
             let unit = if row == column { Interval::ONE } else { Interval::ZERO };
-            let part = sum(unit, -slope.at(row, column));
+            let part = sum(unit, -slope[(row, column)]);
             moved = moved + Interval::point(part.mag()) * Interval::point(*radius);
         }
         moved.hi() < radius[row]
     });
     for row in 0..whole.len() {
         let others = (0..whole.len()).filter(|column| *column != row);
-        let terms = others.map(|column| slope.at(row, column) * off[column]);
+        let terms = others.map(|column| slope[(row, column)] * off[column]);
         let rest = terms.fold(value[row], sum);
-        let own = slope.at(row, row);
+        let own = slope[(row, row)];
         if own.contains(0.0) {
             if !(rest + own * off[row]).contains(0.0) {
                 return Some(Newton { left: None, single });

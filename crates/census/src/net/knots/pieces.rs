@@ -1,5 +1,3 @@
-//! What a net is made of.
-
 use model::Vector as Point;
 use model::system::System;
 use numerics::Interval;
@@ -36,7 +34,6 @@ impl Core<'_> {
         self.system.joints()[joint].support.is_fixed()
     }
 
-    /// The length of a member in units.
     pub(in crate::net) fn length(&self, member: usize) -> Interval {
         let body = &self.system.members()[member].body;
         self.frame.length(Interval::point(body.length_m()))
@@ -63,7 +60,6 @@ impl Core<'_> {
         [[0, 2, 1], [1, 2, 0]].into_iter().find(|axes| holds(axes[2]))
     }
 
-    /// The place of an anchor, m.
     pub(in crate::net) fn anchor_m(&self) -> Option<Point> {
         self.system.joints()[*self.anchors().first()?].support.at_m()
     }

@@ -9,10 +9,11 @@
 use std::ops::Range;
 use std::slice::from_ref;
 
+use nalgebra::DMatrix;
 use numerics::Interval;
 
 use super::cell::{Cell, Pattern};
-use super::dense::Dense;
+use super::dense::{Dense, add_to_column, complement, left_inverse, times, times_matrix, zeros};
 use super::layout::{End, Link, Swing};
 use super::swing::Swung;
 use crate::boxes::arithmetic::{Vector, norm, sum};
@@ -31,19 +32,19 @@ const NARROW: usize = 3;
 pub(super) struct Columns {
     /// Swings whose tension is an unknown, behind those of the bars.
     pub(super) unbounded: Vec<bool>,
-    matrix: Dense<Interval>,
+    matrix: Dense,
     solver: Option<Solver>,
 }
 
 struct Solver {
-    inverse: Dense<f64>,
+    inverse: DMatrix<f64>,
     /// `I − Y C`.
-    rest: Dense<Interval>,
+    rest: Dense,
     /// Its norm, less than 1.
     norm: f64,
-    complement: Dense<f64>,
+    complement: DMatrix<f64>,
     /// The complement of C: next to nothing.
-    left: Dense<Interval>,
+    left: Dense,
 }
 
 /// What the unknown forces can be.
@@ -74,13 +75,12 @@ impl Columns {
         let swings =
             swings.map(|((swing, swung), _)| (from_ref(&swing.ends), from_ref(&swung.span)));
         let columns: Vec<(&[[End; 2]], &[Vector])> = links.chain(swings).collect();
-        let mut matrix = Dense::filled(cell.layout.coordinates(), columns.len(), Interval::ZERO);
+        let mut matrix = zeros(cell.layout.coordinates(), columns.len());
         for (column, (ends, spans)) in columns.into_iter().enumerate() {
             for ([a, b], span) in ends.iter().zip(spans) {
                 for (end, pull) in [(a, *span), (b, span.map(|part| -part))] {
                     if let Some(row) = cell.rows(*end) {
-                        let pull = pull[..cell.layout.dim].iter().copied();
-                        matrix.add_to_column([row, column], pull);
+                        add_to_column(&mut matrix, (row, column), &pull[..cell.layout.dim]);
                     }
                 }
             }
@@ -91,12 +91,12 @@ impl Columns {
 
     /// Whether no column touches these rows but that of one swing.
     pub(super) fn free_but_of(&self, swing: usize, rows: Range<usize>) -> bool {
-        let bars = self.matrix.columns - self.unbounded.iter().filter(|wide| **wide).count();
+        let bars = self.matrix.ncols() - self.unbounded.iter().filter(|wide| **wide).count();
         let own = self.unbounded[swing]
             .then(|| bars + self.unbounded[..swing].iter().filter(|wide| **wide).count());
         let free = |row: usize| {
-            let mut entries = self.matrix.row(row).iter().enumerate();
-            entries.all(|(column, entry)| Some(column) == own || *entry == Interval::ZERO)
+            let free = |column| Some(column) == own || self.matrix[(row, column)] == Interval::ZERO;
+            (0..self.matrix.ncols()).all(free)
         };
         rows.into_iter().all(free)
     }
@@ -116,7 +116,7 @@ impl Columns {
         if loads.iter().enumerate().any(|(row, g)| !g.contains(0.0) && self.free_row(row)) {
             return Forces::Impossible;
         }
-        if self.matrix.columns == 0 {
+        if self.matrix.ncols() == 0 {
             return Forces::Within(cell.known.iter().copied().flatten().collect());
         }
         let Some(solver) = &self.solver else { return Forces::Unknown };
@@ -124,9 +124,10 @@ impl Columns {
         if found.iter().any(|force| !force.mag().is_finite()) {
             return Forces::Unknown;
         }
-        let missing = solver.complement.times(loads);
+        let missing = times(&solver.complement, loads);
         for (row, missing) in missing.into_iter().enumerate() {
-            let terms = solver.left.row(row).iter().zip(&found).map(|(c, t)| *c * *t);
+            let left = solver.left.row(row);
+            let terms = left.iter().zip(&found).map(|(c, t)| *c * *t);
             if !terms.fold(missing, sum).contains(0.0) {
                 return Forces::Impossible;
             }
@@ -148,20 +149,20 @@ impl Columns {
 }
 
 impl Solver {
-    fn new(matrix: &Dense<Interval>) -> Option<Self> {
-        if matrix.columns == 0 || matrix.columns > matrix.rows {
+    fn new(matrix: &Dense) -> Option<Self> {
+        if matrix.is_empty() || matrix.ncols() > matrix.nrows() {
             return None;
         }
-        let middle = matrix.middle();
-        let inverse = middle.left_inverse()?;
-        let mut rest = inverse.times_matrix(matrix);
+        let middle = matrix.map(Interval::mid);
+        let inverse = left_inverse(&middle)?;
+        let mut rest = times_matrix(&inverse, matrix);
         let mut norm = 0.0_f64;
-        for row in 0..rest.rows {
+        for row in 0..rest.nrows() {
             let mut size = Interval::ZERO;
-            for column in 0..rest.columns {
+            for column in 0..rest.ncols() {
                 let unit = if row == column { Interval::ONE } else { Interval::ZERO };
-                let entry = sum(unit, -rest.at(row, column));
-                rest.set(row, column, entry);
+                let entry = sum(unit, -rest[(row, column)]);
+                rest[(row, column)] = entry;
                 size = size + Interval::point(entry.mag());
             }
             norm = norm.max(size.hi());
@@ -169,13 +170,13 @@ impl Solver {
         if norm.is_nan() || norm >= 1.0 {
             return None;
         }
-        let complement = middle.complement(&inverse);
-        let left = complement.times_matrix(matrix);
+        let complement = complement(&middle, &inverse);
+        let left = times_matrix(&complement, matrix);
         Some(Self { inverse, rest, norm, complement, left })
     }
 
     fn forces(&self, loads: &[Interval]) -> Option<Vec<Interval>> {
-        let first: Vec<Interval> = self.inverse.times(loads).into_iter().map(|t| -t).collect();
+        let first: Vec<Interval> = times(&self.inverse, loads).into_iter().map(|t| -t).collect();
         let largest = first.iter().map(|t| t.mag()).fold(0.0, f64::max);
         let room = Interval::ONE - Interval::point(self.norm);
         let bound = (Interval::point(largest) / room).hi();
@@ -186,7 +187,8 @@ impl Solver {
         for _ in 0..NARROW {
             let next: Vec<Interval> = (0..first.len())
                 .map(|row| {
-                    let terms = self.rest.row(row).iter().zip(&found).map(|(c, t)| *c * *t);
+                    let rest = self.rest.row(row);
+                    let terms = rest.iter().zip(&found).map(|(c, t)| *c * *t);
                     terms.fold(first[row], sum)
                 })
                 .collect();

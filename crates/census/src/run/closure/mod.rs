@@ -15,23 +15,19 @@ use crate::run::plane::system::System;
 pub(crate) struct Pattern(pub(crate) u32);
 
 impl Pattern {
-    /// The bit of bar i.
     pub(crate) fn bit(bars: usize, bar: usize) -> u32 {
         1 << (bars - 1 - bar)
     }
 
-    /// Whether bar i is compressed.
     pub(crate) fn compressed(self, bars: usize, bar: usize) -> bool {
         self.0 & Self::bit(bars, bar) != 0
     }
 
-    /// The signs of all bars.
     pub(crate) fn signs(self, bars: usize) -> impl Iterator<Item = i8> {
         (0..bars).map(move |bar| if self.compressed(bars, bar) { -1 } else { 1 })
     }
 }
 
-/// `x` with a sign.
 pub(crate) fn signed(sign: i8, x: Interval) -> Interval {
     if sign < 0 { -x } else { x }
 }

@@ -8,8 +8,6 @@
 //! across which its second derivative is regular counts with its own Betti numbers, raised by its
 //! index.
 //!
-//! # References
-//!
 //! M. Morse, Trans. Amer. Math. Soc. 27 (1925) 345-396, doi:10.1090/S0002-9947-1925-1501318-X;
 //! R. Bott, Ann. of Math. 60 (1954) 248-261, doi:10.2307/1969631
 
@@ -18,31 +16,17 @@ use crate::run::count::topology::Topology;
 /// How the Morse inequalities fail.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum MorseError {
     /// Occurs when an index is larger than the dimension.
     #[error("an equilibrium of index {index} on a manifold of dimension {dimension}")]
-    Index {
-        /// The index.
-        index: usize,
-        /// The dimension.
-        dimension: usize,
-    },
+    Index { index: usize, dimension: usize },
     /// Occurs when Σ (−1)^index is not the Euler characteristic.
     #[error("the sum of (-1)^index is {found}, the Euler characteristic is {expected}")]
-    Euler {
-        /// The sum.
-        found: i64,
-        /// The Euler characteristic.
-        expected: i64,
-    },
+    Euler { found: i64, expected: i64 },
     /// Occurs when there are too few equilibria up to an index: a strong inequality fails.
     #[error("too few equilibria of index up to {index}: the Morse inequality fails by {missing}")]
-    TooFew {
-        /// The index.
-        index: usize,
-        /// By how much.
-        missing: i64,
-    },
+    TooFew { index: usize, missing: i64 },
 }
 
 /// Check critical points, counted by index, against Betti numbers: all strong inequalities, which

@@ -7,8 +7,6 @@
 //!
 //! and Sturm's theorem counts its real roots between two integers.
 //!
-//! # References
-//!
 //! C. Sturm, Bull. Sci. Math. Ferussac 11 (1829) 419-422; S. Basu, R. Pollack, M.-F. Roy,
 //! "Algorithms in Real Algebraic Geometry" (2006), section 2.2, doi:10.1007/3-540-33099-2
 
@@ -26,7 +24,6 @@ pub const SEXTIC: [i128; 7] = [-1189, 7120, -11348, 2080, 9472, -8192, 2048];
 /// // (x² − 2)(x − 3)
 /// assert_eq!(count_roots(&[6, -2, -3, 1], 0, 3), Some(2));
 /// ```
-#[must_use]
 pub fn count_roots(coefficients: &[i128], low: i128, high: i128) -> Option<usize> {
     let first = primitive(coefficients.to_vec())?;
     let mut sequence = vec![first.clone()];

@@ -16,8 +16,6 @@
 //! If both anchors are one point there is no side |D|, and nothing is held: the space is the one of
 //! the n bars times a circle, the direction of the first bar.
 //!
-//! # References
-//!
 //! M. Farber, D. Schütz, "Homology of planar polygon spaces", Geometriae Dedicata 125 (2007) 75-92,
 //! doi:10.1007/s10711-007-9139-7, Theorem 1
 
@@ -37,6 +35,7 @@ pub struct Topology {
 /// Why the topology is not known.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "a field is what the message says of it")]
 pub enum TopologyError {
     /// Occurs when some bars and perhaps the span are together exactly as long as the others, or so
     /// nearly that rounding hides the difference: a straight position exists, and the configuration
@@ -52,16 +51,10 @@ pub enum TopologyError {
     },
     /// Occurs when there are fewer than three sides.
     #[error("{sides} sides make no polygon")]
-    TooFewSides {
-        /// Number of sides.
-        sides: usize,
-    },
+    TooFewSides { sides: usize },
     /// Occurs when there are too many subsets of sides to count.
     #[error("{sides} sides have too many subsets to count")]
-    TooManySides {
-        /// Number of sides.
-        sides: usize,
-    },
+    TooManySides { sides: usize },
 }
 
 /// More subsets than those of so many sides are not counted: 2²⁵ take a second.
@@ -69,9 +62,6 @@ const MAX_SIDES: usize = 26;
 
 impl Topology {
     /// The planar configuration space of a chain.
-    ///
-    /// # Errors
-    ///
     /// [`TopologyError`] when a straight position exists (or may exist), or the chain is too long.
     pub(crate) fn of_system(system: &System) -> Result<Self, TopologyError> {
         let [x, z] = system.span;

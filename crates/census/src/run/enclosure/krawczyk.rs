@@ -7,8 +7,6 @@
 //!
 //! holds every zero of Φ in X; if K(X) lies inside X, there is exactly one.
 //!
-//! # References
-//!
 //! R. Krawczyk, "Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken", Computing
 //! 4 (1969) 187-201, doi:10.1007/BF02234767; R. E. Moore, SIAM J. Numer. Anal. 14 (1977) 611-615,
 //! doi:10.1137/0714040

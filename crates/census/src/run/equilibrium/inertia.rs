@@ -15,8 +15,6 @@
 //! sign of σ is that of H, and for anchors on one vertical σ = 0 exactly: the turn of the whole
 //! chain about that vertical, which costs nothing, and the only such motion.
 //!
-//! # References
-//!
 //! Y. Chabrillac, J.-P. Crouzeix, "Definiteness and semidefiniteness of quadratic forms revisited",
 //! Linear Algebra Appl. 63 (1984) 283-292, doi:10.1016/0024-3795(84)90150-2
 

@@ -1,5 +1,3 @@
-//! One equilibrium with everything that is proved about it.
-
 pub(crate) mod inertia;
 pub(crate) mod stress;
 
@@ -75,7 +73,6 @@ impl ProvenEquilibrium {
     /// assert_eq!(highest.index_in_space(), 2);
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn index_in_space(&self) -> usize {
         self.index_in_plane + self.index_out_of_plane
     }
@@ -89,7 +86,6 @@ impl ProvenEquilibrium {
     /// assert!(census.equilibria.iter().all(|equilibrium| equilibrium.width() < 1e-14));
     /// # Ok::<(), census::CensusError>(())
     /// ```
-    #[must_use]
     pub fn width(&self) -> f64 {
         let [h, v] = self.pull_n;
         let pull = h.width().max(v.width()) / h.mag().max(v.mag());
@@ -133,7 +129,6 @@ impl Proof {
         Some(Self { shown, observed, indices, optimal })
     }
 
-    /// The equilibrium.
     pub(crate) fn assemble(self, system: &System, signs: &[i8]) -> ProvenEquilibrium {
         let Self { shown: Zero { alone_in, .. }, observed, indices, optimal } = self;
         let Indices { in_plane, out_of_plane, condition } = indices;
@@ -193,14 +188,9 @@ impl Observed {
         self.directions.iter().map(|[x, z]| atan2(*x, -*z)).collect()
     }
 
-    /// Potential energy above the height of joint 0, J.
-    pub(crate) fn energy_j(&self, system: &System) -> Interval {
-        self.energy(system) * system.force_unit_n() * Interval::point(system.length_unit_m)
-    }
-
-    /// V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights; M is what hangs
+    /// Potential energy above the height of joint 0, J: V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights; M is what hangs
     /// behind joint 0, at whose height weight has no energy.
-    fn energy(&self, system: &System) -> Interval {
+    pub(crate) fn energy_j(&self, system: &System) -> Interval {
         let total: Interval = system.added.iter().copied().sum();
         let hanging: Interval = self
             .directions
@@ -209,7 +199,8 @@ impl Observed {
             .zip(&system.weight)
             .map(|((u, length), weight)| *weight * (*length * u[1]))
             .sum();
-        (total - Interval::point(system.offset)) * system.span[1] - hanging
+        let energy = (total - Interval::point(system.offset)) * system.span[1] - hanging;
+        energy * system.force_unit_n() * Interval::point(system.length_unit_m)
     }
 
     fn joints(&self, system: &System) -> Vec<[Interval; 3]> {

@@ -11,8 +11,6 @@
 //! balance the same way; it is exactly singular, and positive semidefinite if its leading minor of
 //! order n − 2 is positive definite, by interlacing.
 //!
-//! # References
-//!
 //! R. Connelly, "Rigidity and energy", Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753
 
 use numerics::Interval;

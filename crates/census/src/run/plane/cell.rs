@@ -184,17 +184,14 @@ impl Cell {
         }
     }
 
-    /// Middle.
     pub(crate) fn middle(&self) -> [f64; 2] {
         self.at.map(Interval::mid)
     }
 
-    /// Half widths.
     pub(crate) fn half(&self) -> [f64; 2] {
         self.at.map(Interval::rad)
     }
 
-    /// The point at these coordinates of the face.
     pub(crate) fn point(face: Face, at: [f64; 2]) -> Self {
         Self { face, at: at.map(Interval::point) }
     }

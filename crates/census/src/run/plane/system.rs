@@ -142,7 +142,6 @@ impl System {
         system
     }
 
-    /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.length.len()
     }
@@ -163,7 +162,6 @@ impl System {
         }
     }
 
-    /// The centred weight of a group.
     pub(crate) fn group_weight(&self, group: u8) -> Interval {
         self.weight[self.groups[usize::from(group)].start]
     }

@@ -5,7 +5,6 @@ use crate::run::enclosure::krawczyk::Zero;
 use crate::run::plane::cell::Cell;
 use crate::run::plane::system::System;
 
-/// Zeros with their patterns.
 pub(crate) type Zeros = Vec<(Pattern, Zero)>;
 
 /// Each zero once, sorted by pattern and then by the order of discovery; pairs that can neither be

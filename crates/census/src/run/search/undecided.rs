@@ -42,43 +42,32 @@ pub struct Undecided {
 }
 
 /// Why a cell is undecided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, thiserror::Error)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Reason {
     /// The cell is as small as cells get, or rounding errors hide what is in it: a degenerate
     /// equilibrium, a straight position, or nearly so.
+    #[error("as small as cells get: a degenerate equilibrium, a straight position, or nearly so")]
     Degenerate,
     /// The force of a bar vanishes in the cell, and the bar, pointing anywhere, may just bridge the
     /// gap that the others leave.
+    #[error(
+        "the force of a bar vanishes here, and the bar may just bridge the gap that the others leave"
+    )]
     Unloaded,
     /// The budget of tests was spent.
+    #[error("the budget of tests was spent")]
     Budget,
     /// Two enclosures overlap that cannot be proved to hold the same equilibrium.
+    #[error("two enclosures overlap that may or may not hold the same equilibrium")]
     Unclear,
     /// Exactly one equilibrium lies there, but its index or its finite pull is not proved.
+    #[error("one equilibrium lies here, but its index or its finite pull is not proved")]
     Index,
     /// Bars that carry nothing may or may not bridge the gap that the others leave.
+    #[error("bars without force may or may not bridge the gap that the others leave")]
     Slack,
-}
-
-impl std::fmt::Display for Reason {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Degenerate => {
-                "as small as cells get: a degenerate equilibrium, a straight position, or nearly so"
-            }
-            Self::Unloaded => {
-                "the force of a bar vanishes here, and the bar may just bridge the gap that the others leave"
-            }
-            Self::Budget => "the budget of tests was spent",
-            Self::Unclear => "two enclosures overlap that may or may not hold the same equilibrium",
-            Self::Index => "one equilibrium lies here, but its index or its finite pull is not proved",
-            Self::Slack => {
-                "bars without force may or may not bridge the gap that the others leave"
-            }
-        })
-    }
 }
 
 /// More cells than this are first gathered on a grid: merging them takes the square of their

@@ -74,7 +74,6 @@ pub struct SlackFamily {
 impl SlackFamily {
     /// Directions in space, across the family, in which the energy falls: each compressed bar can
     /// fall in the plane and out of it.
-    #[must_use]
     pub fn index_in_space(&self) -> usize {
         2 * self.index_in_plane
     }
@@ -82,7 +81,6 @@ impl SlackFamily {
     /// Angle of each bar from the descending vertical, rad: 0 or π, and none for the slack bars.
     /// Without a horizontal pull the bars in force stand upright; bar i points the way of its
     /// force, the pull and the weight before it, times its sign.
-    #[must_use]
     pub fn angles_rad(&self, problem: &Problem) -> Vec<Option<f64>> {
         let chain = problem.chain();
         let gravity = Interval::point(chain.gravity_m_s2());

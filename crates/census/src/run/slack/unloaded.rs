@@ -93,7 +93,6 @@ impl Unloaded {
     }
 }
 
-/// All of them.
 pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
     let mut all = Unloaded::default();
     let bars = system.bars();

@@ -78,6 +78,13 @@ fn shifts_follow_the_part_of_a_step_that_was_made() {
 }
 
 #[test]
+fn places_that_are_no_numbers_are_refused() {
+    let frame = newton().frame;
+    assert!(frame.finite_slope(&places(1.0, 0.5)).is_ok());
+    assert!(frame.finite_slope(&places(f64::NAN, 0.5)).is_err());
+}
+
+#[test]
 fn absurd_forces_name_the_member_with_the_largest() {
     let frame = newton().frame;
     for (force, named) in [([-1e14, 1.0], 1), ([1.0, -1e14], 2)] {

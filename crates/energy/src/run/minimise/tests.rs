@@ -40,21 +40,3 @@ fn a_chain_that_is_too_short_by_a_rounding_does_not_close() {
         assert!(gap > 0.0 && gap < 1e-14, "{gap}");
     }
 }
-
-/// Only one of the reasons to stop is a success.
-#[test]
-fn a_run_that_ends_otherwise_is_an_error() {
-    let run = |status| verdict(&status, None, Some);
-    let reason = |reason| run(TerminationStatus::Terminated(reason));
-    assert_eq!(reason(TerminationReason::SolverConverged), Ok(()));
-    assert_eq!(reason(TerminationReason::MaxItersReached), Err(None));
-    for other in [
-        TerminationReason::TargetCostReached,
-        TerminationReason::Interrupt,
-        TerminationReason::Timeout,
-        TerminationReason::SolverExit("tired".to_owned()),
-    ] {
-        assert!(matches!(reason(other), Err(Some(_))));
-    }
-    assert!(matches!(run(TerminationStatus::NotTerminated), Err(Some(_))));
-}

@@ -19,11 +19,29 @@ fn hanging() -> Curvature {
     Curvature { links: Arc::new(links), shape: Arc::new(shape), slope: Arc::new(slope) }
 }
 
+/// Two bars of 0.5 and 1.5, straight down and straight up, that lift 0.4 and -0.4: the energy is -0.8.
+#[test]
+fn what_is_no_number_is_no_place() {
+    let (length, carried) = (vec![0.5, 1.5], vec![0.4, -0.4]);
+    let links = Arc::new(ScaledChain { length, carried, ..(*hanging().links).clone() });
+    let u = vec![[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
+    let shape = Shape { moments: links.measure(&u), u };
+    assert!((shape.moments.value + 0.8).abs() < 1e-15);
+    let Curvature { links, shape, .. } = hanging();
+    let run = |shape| FeasibleNewton::new(Arc::clone(&links), Settings::default()).run(shape, 0);
+    assert!(run((*shape).clone()).is_ok());
+    for value in [f64::NAN, f64::INFINITY] {
+        let [mut energy, mut place] = [(*shape).clone(), (*shape).clone()];
+        (energy.moments.value, place.u[0][0]) = (value, value);
+        assert!(run(energy).is_err() && run(place).is_err());
+    }
+}
+
 /// A chain that is closed need not be at rest, nor one whose gradient is rounding closed.
 #[test]
 fn a_place_that_is_no_rest_is_not_taken_for_one() {
-    let solver = FeasibleNewton::new(Settings::default());
     let sloping = hanging();
+    let solver = FeasibleNewton::new(Arc::clone(&sloping.links), Settings::default());
     assert!(sloping.slope.residual() > 1e-3 && sloping.index(sloping.slope.zero) == 0);
     assert!(!solver.at_rounding(&sloping));
     let mut open = sloping.clone();

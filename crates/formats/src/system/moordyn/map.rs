@@ -18,8 +18,8 @@ use model::{STANDARD_GRAVITY_M_S2, Vector};
 use super::options::{Options, SEA_WATER};
 use super::sections::{Row, Section, Sections};
 use super::{HELD, LINE_COLUMNS, Line, POINT_COLUMNS};
-use crate::error::{FormatError, Wrong, number, shortened};
-use crate::system::ForeignSystem;
+use crate::error::{FormatError, Result, Wrong, number, shortened};
+use crate::system::{ForeignSystem, among};
 
 /// Cables of one line: against the catenary the forces at its ends are then wrong by a part of some 1e-4.
 const SEGMENTS: usize = 50;
@@ -30,64 +30,19 @@ const NO_CONTACT: &str = "OMIT_CONTACT";
 /// A line that does not weigh, and may push.
 const SPRING: &str = "LINEAR_SPRING";
 /// Flags that ask for output alone.
-const OUTPUTS: &[&str] = &[
-    "plot",
-    "gx_pos",
-    "gy_pos",
-    "gz_pos",
-    "gx_a_pos",
-    "gy_a_pos",
-    "gz_a_pos",
-    "gx_force",
-    "gy_force",
-    "gz_force",
-    "h_fair",
-    "v_fair",
-    "h_anch",
-    "v_anch",
-    "tension_fair",
-    "tension_anch",
-    "x_excursion",
-    "z_excursion",
-    "azimuth",
-    "altitude",
-    "altitude_a",
-    "altitude_anch",
-    "line_tension",
-    "lay_length",
-];
+const OUTPUTS: &str = "plot gx_pos gy_pos gz_pos gx_a_pos gy_a_pos gz_a_pos gx_force gy_force \
+    gz_force h_fair v_fair h_anch v_anch tension_fair tension_anch x_excursion z_excursion azimuth \
+    altitude altitude_a altitude_anch line_tension lay_length";
 /// The head of the table of options, and what its solver does.
-const NO_BEARING: &[&str] = &[
-    "option",
-    "options",
-    "(-)",
-    "[-]",
-    "help",
-    "inner_ftol",
-    "inner_gtol",
-    "inner_xtol",
-    "inner_max_its",
-    "outer_tol",
-    "outer_max_its",
-    "outer_fd",
-    "outer_bd",
-    "outer_cd",
-    "integration_dt",
-    "kb_default",
-    "cb_default",
-    "wave_kinematics",
-    "ref_position",
-    "krylov_accelerator",
-    "pg_cooked",
-    "lm_model",
-];
+const NO_BEARING: &str = "option options (-) [-] help inner_ftol inner_gtol inner_xtol \
+    inner_max_its outer_tol outer_max_its outer_fd outer_bd outer_cd integration_dt kb_default \
+    cb_default wave_kinematics ref_position krylov_accelerator pg_cooked lm_model";
 
 /// Read a MAP++ input file.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
-pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
     let sections = Sections::parse(text, file, COMMENTS)?;
     let (gravity_m_s2, density_kg_m3) = (STANDARD_GRAVITY_M_S2, SEA_WATER);
     let options = Options { gravity_m_s2, density_kg_m3, floor_m: None };
@@ -140,12 +95,12 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
 }
 
 /// The name of a row, or in a copy its number: copies are numbered on.
-fn numbered(row: &Row<'_>, copy: usize, count: usize, k: usize) -> Result<String, FormatError> {
+fn numbered(row: &Row<'_>, copy: usize, count: usize, k: usize) -> Result<String> {
     Ok(if copy == 0 { row.text("id")?.to_owned() } else { (copy * count + k + 1).to_string() })
 }
 
 /// The angles of all copies, rad: that of the file itself is 0.
-fn angles(sections: &Sections<'_>) -> Result<Vec<f64>, FormatError> {
+fn angles(sections: &Sections<'_>) -> Result<Vec<f64>> {
     let mut angles = vec![0.0];
     let options = sections.lines(Section::Options).iter();
     for (line, text) in options.filter(|(_, text)| !text.starts_with([' ', '#'])) {
@@ -156,7 +111,7 @@ fn angles(sections: &Sections<'_>) -> Result<Vec<f64>, FormatError> {
                 let angle_deg = number(sections.file, Some(*line), "an angle of repeat", angle)?;
                 angles.push(angle_deg.to_radians());
             }
-        } else if !NO_BEARING.contains(&word.as_str()) {
+        } else if !among(NO_BEARING, &word) {
             let what = format!("the option {:?}", shortened(text));
             return Err(FormatError::new(sections.file, Some(*line), Wrong::Unknown { what }));
         }
@@ -171,12 +126,12 @@ fn node(
     angle: f64,
     options: &Options,
     held_n: &mut Vec<Vector>,
-) -> Result<Joint, FormatError> {
+) -> Result<Joint> {
     let (sin, cos) = angle.sin_cos();
     let turned = |[x, y, z]: Vector| [cos * x + sin * y, cos * y - sin * x, z];
     let kind = row.text("type")?.to_lowercase();
     let at_m = turned([place(row, "x")?, place(row, "y")?, place(row, "z")?]);
-    if HELD.contains(&kind.as_str()) {
+    if among(HELD, &kind) {
         // What is no number there is looked for.
         let mut load = super::load(row, options).unwrap_or_default();
         for (column, force_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
@@ -203,20 +158,20 @@ fn node(
 }
 
 /// Refuse a line with a flag that has a bearing on statics and is not read.
-fn flags(row: &Row<'_>) -> Result<(), FormatError> {
-    let read = |flag: &str| OUTPUTS.contains(&flag.to_lowercase().as_str());
+fn flags(row: &Row<'_>) -> Result<()> {
+    let read = |flag: &str| among(OUTPUTS, &flag.to_lowercase());
     let known = |flag: &str| read(flag) || flag.eq_ignore_ascii_case(NO_CONTACT);
     let Some(flag) = row.flags().iter().find(|flag| !known(flag)) else { return Ok(()) };
     let error = row.error(Wrong::Unknown { what: format!("the flag {:?}", shortened(flag)) });
     Err(if flag.eq_ignore_ascii_case(SPRING) {
         error.with_help("a spring without weight is an elastic member: write it into a system file")
     } else {
-        error.with_help(format!("known are: {NO_CONTACT}, {}", OUTPUTS.join(", ")))
+        error.with_help(format!("known are: {NO_CONTACT}, {}", OUTPUTS.replace(' ', ", ")))
     })
 }
 
 /// A coordinate; where it is a first guess it has a `#` before it.
-fn place(row: &Row<'_>, column: &str) -> Result<f64, FormatError> {
+fn place(row: &Row<'_>, column: &str) -> Result<f64> {
     let text = row.text(column)?;
     if text.eq_ignore_ascii_case("depth") {
         let error = row.error(Wrong::Missing { what: "depth of the water".to_owned() });
@@ -226,7 +181,7 @@ fn place(row: &Row<'_>, column: &str) -> Result<f64, FormatError> {
 }
 
 /// The bottom of the sea: that of the lowest fixed node, where lines may lie on it.
-fn floor_m(lines: &[Row<'_>], joints: &[Joint]) -> Result<Option<f64>, FormatError> {
+fn floor_m(lines: &[Row<'_>], joints: &[Joint]) -> Result<Option<f64>> {
     let free = lines.iter().filter(|row| row.has_flag(NO_CONTACT)).count();
     if free == lines.len() {
         return Ok(None);

@@ -23,8 +23,8 @@ use model::budget::{BYTES_PER_MEMBER, Budget};
 use model::system::{Joint, Member, PointLoad, System};
 use model::{Bar, Vector};
 
-use crate::error::{FormatError, Wrong, as_count};
-use crate::system::ForeignSystem;
+use crate::error::{FormatError, Result, Wrong, as_count};
+use crate::system::{ForeignSystem, among};
 pub use map::parse_map;
 use options::Options;
 use sections::{COMMENTS, Row, Section, Sections};
@@ -80,17 +80,7 @@ const BODY_COLUMNS: &[(&str, &[&str])] = &[
     ("", &["mass", "m", "cg*", "cg", "i*", "i", "volume", "v", "cda*", "cda", "ca*", "ca"]),
 ];
 /// Words for a point that does not move.
-const HELD: &[&str] = &[
-    "fixed",
-    "fix",
-    "anchor",
-    "vessel",
-    "ves",
-    "coupled",
-    "cpld",
-    "vesselpinned",
-    "coupledpinned",
-];
+const HELD: &str = "fixed fix anchor vessel ves coupled cpld vesselpinned coupledpinned";
 /// Words for a point that is free.
 const FREE: &[&str] = &["free", "connect", "point", "con"];
 /// Segments of one line.
@@ -112,9 +102,8 @@ struct LineType {
 /// Read a MoorDyn input file.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
-pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
     let sections = Sections::parse(text, file, COMMENTS)?;
     let options = Options::read(&sections)?;
     let types = line_types(&sections, &options)?;
@@ -162,7 +151,7 @@ fn foreign(
     gravity_m_s2: f64,
     (joints, members): (Vec<Joint>, Vec<Member>),
     (mut notes, floor_m): (Vec<String>, Option<f64>),
-) -> Result<ForeignSystem, FormatError> {
+) -> Result<ForeignSystem> {
     notes.push(MOTION.to_owned());
     let system = System::new(sections.title(), gravity_m_s2, joints, members).map_err(|error| {
         FormatError::new(sections.file, None, Wrong::NoSystem { reason: error.to_string() })
@@ -170,10 +159,7 @@ fn foreign(
     Ok(ForeignSystem { system, notes, floor_m })
 }
 
-fn line_types(
-    sections: &Sections<'_>,
-    options: &Options,
-) -> Result<HashMap<String, LineType>, FormatError> {
+fn line_types(sections: &Sections<'_>, options: &Options) -> Result<HashMap<String, LineType>> {
     let mut types = HashMap::new();
     for row in sections.need(Section::LineTypes)?.rows(TYPE_COLUMNS)? {
         let name = row.text("name")?.to_owned();
@@ -198,12 +184,12 @@ fn line_types(
 }
 
 /// Where the bodies are that do not move.
-fn bodies(sections: &Sections<'_>) -> Result<HashMap<String, Vector>, FormatError> {
+fn bodies(sections: &Sections<'_>) -> Result<HashMap<String, Vector>> {
     let mut bodies = HashMap::new();
     let Some(section) = sections.get(Section::Bodies) else { return Ok(bodies) };
     for row in section.rows(BODY_COLUMNS)? {
         let (id, kind) = (row.text("id")?.to_owned(), row.text("type")?.to_lowercase());
-        if !HELD.contains(&kind.as_str()) {
+        if !among(HELD, &kind) {
             let what = format!("body {id}, which is {kind:?} and not fixed,");
             return Err(row.error(Wrong::OutOfScope { what }));
         }
@@ -221,11 +207,7 @@ fn bodies(sections: &Sections<'_>) -> Result<HashMap<String, Vector>, FormatErro
     Ok(bodies)
 }
 
-fn point(
-    row: &Row<'_>,
-    bodies: &HashMap<String, Vector>,
-    options: &Options,
-) -> Result<Joint, FormatError> {
+fn point(row: &Row<'_>, bodies: &HashMap<String, Vector>, options: &Options) -> Result<Joint> {
     let name = row.text("id")?;
     let kind = row.text("type")?.to_lowercase();
     let at_m = [row.number("x")?, row.number("y")?, row.number("z")?];
@@ -236,7 +218,7 @@ fn point(
             return Err(row.error(Wrong::Unknown { what }));
         }
     }
-    if HELD.contains(&kind.as_str()) {
+    if among(HELD, &kind) {
         return Ok(Joint::anchor(name, at_m));
     }
     if let Some(body) = kind.strip_prefix("body") {
@@ -271,7 +253,7 @@ impl Load {
 }
 
 /// Mass and buoyancy of a point; a negative mass is lift alone.
-fn load(row: &Row<'_>, options: &Options) -> Result<Load, FormatError> {
+fn load(row: &Row<'_>, options: &Options) -> Result<Load> {
     let mass_kg = row.optional("mass")?.unwrap_or_default();
     let displaced_kg = row.optional("volume")?.unwrap_or_default() * options.density_kg_m3;
     let lift_n = (displaced_kg - mass_kg.min(0.0)) * options.gravity_m_s2;
@@ -279,7 +261,7 @@ fn load(row: &Row<'_>, options: &Options) -> Result<Load, FormatError> {
 }
 
 /// Segments of a line.
-fn segments(row: &Row<'_>) -> Result<usize, FormatError> {
+fn segments(row: &Row<'_>) -> Result<usize> {
     let segments = row.positive("segments")?;
     if segments.fract() > 0.0 || segments > MOST_SEGMENTS {
         let (what, found) = ("NumSegs".to_owned(), segments.to_string());
@@ -298,16 +280,13 @@ struct Line<'a> {
 }
 
 /// The type of a line.
-fn line_type<'a>(
-    row: &Row<'_>,
-    types: &'a HashMap<String, LineType>,
-) -> Result<&'a LineType, FormatError> {
+fn line_type<'a>(row: &Row<'_>, types: &'a HashMap<String, LineType>) -> Result<&'a LineType> {
     let kind = row.text("type")?;
     types.get(kind).ok_or_else(|| row.error(Wrong::Missing { what: format!("line type {kind:?}") }))
 }
 
 /// The points at the ends of a line.
-fn ends(row: &Row<'_>, numbers: &HashMap<String, usize>) -> Result<[usize; 2], FormatError> {
+fn ends(row: &Row<'_>, numbers: &HashMap<String, usize>) -> Result<[usize; 2]> {
     let end = |column: &str| {
         let name = row.text(column)?;
         let bare = name.to_lowercase();
@@ -326,7 +305,7 @@ impl Line<'_> {
         gravity_m_s2: f64,
         budget: &Budget,
         (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
-    ) -> Result<String, FormatError> {
+    ) -> Result<String> {
         let Self { id, kind, ends: [from, to], length_m, count } = self;
         let asked =
             budget.take_members(*count).and_then(|()| budget.take_names(*count, id.len() + DIGITS));

@@ -3,7 +3,8 @@
 use model::STANDARD_GRAVITY_M_S2;
 
 use super::sections::{Section, Sections};
-use crate::error::{FormatError, Wrong, number, positive, shortened};
+use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
+use crate::system::among;
 
 /// Gravity, water and floor.
 pub(super) struct Options {
@@ -17,38 +18,15 @@ pub(super) const SEA_WATER: f64 = 1025.0;
 
 /// Time steps, tolerances of the dynamic relaxation, contact with the floor, output: nothing of
 /// them at rest above it.
-const NO_BEARING: &[&str] = &[
-    "dtm",
-    "cfl",
-    "tscheme",
-    "kbot",
-    "kb",
-    "cbot",
-    "cb",
-    "dtic",
-    "tmaxic",
-    "cdscaleic",
-    "threshic",
-    "icdfac",
-    "icthresh",
-    "ictmax",
-    "writelog",
-    "writeunits",
-    "dtout",
-    "disableoutput",
-    "disableouttime",
-    "frictioncoefficient",
-    "frictiondamping",
-    "statdynfricscale",
-    "icgendynamic",
-    "dtwave",
-];
+const NO_BEARING: &str = "dtm cfl tscheme kbot kb cbot cb dtic tmaxic cdscaleic threshic icdfac \
+    icthresh ictmax writelog writeunits dtout disableoutput disableouttime frictioncoefficient \
+    frictiondamping statdynfricscale icgendynamic dtwave";
 /// Anything but zero is out of scope.
 const ZERO: &[&str] = &["wavekin", "currents", "waterkin"];
 
 impl Options {
     /// Read them; what is not known is refused.
-    pub(super) fn read(sections: &Sections<'_>) -> Result<Self, FormatError> {
+    pub(super) fn read(sections: &Sections<'_>) -> Result<Self> {
         let file = sections.file;
         let mut options =
             Self { gravity_m_s2: STANDARD_GRAVITY_M_S2, density_kg_m3: SEA_WATER, floor_m: None };
@@ -69,7 +47,7 @@ impl Options {
                     }
                     options.floor_m = Some(-positive(file, at, name, value)?);
                 }
-                known if NO_BEARING.contains(&known) => {}
+                known if among(NO_BEARING, known) => {}
                 known if ZERO.contains(&known) => {
                     if value.parse::<f64>().map_or(true, |value| value.abs() > 0.0) {
                         let what = format!("{name} = {value}");

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{FormatError, Wrong, number, positive, shortened};
+use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
 
 /// The sections that are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -69,11 +69,7 @@ pub(super) struct Row<'a> {
 }
 
 impl<'a> Sections<'a> {
-    pub(super) fn parse(
-        text: &'a str,
-        file: &'a str,
-        comments: &[char],
-    ) -> Result<Self, FormatError> {
+    pub(super) fn parse(text: &'a str, file: &'a str, comments: &[char]) -> Result<Self> {
         let mut sections = Self { file, title: None, tables: HashMap::new() };
         let mut current = Section::Frame;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -127,7 +123,7 @@ impl<'a> Sections<'a> {
         self.tables.get(&section)
     }
 
-    pub(super) fn need(&self, section: Section) -> Result<&Table<'a>, FormatError> {
+    pub(super) fn need(&self, section: Section) -> Result<&Table<'a>> {
         self.get(section).ok_or_else(|| {
             let what = format!(
                 "section {}",
@@ -143,7 +139,7 @@ impl<'a> Sections<'a> {
     }
 }
 
-fn heading(line: &str, file: &str, number: usize) -> Result<Section, FormatError> {
+fn heading(line: &str, file: &str, number: usize) -> Result<Section> {
     let text = line.trim_matches(|c: char| c == '-' || c.is_whitespace()).to_uppercase();
     if text.is_empty() {
         return Ok(Section::Frame);
@@ -158,10 +154,7 @@ fn heading(line: &str, file: &str, number: usize) -> Result<Section, FormatError
 impl<'a> Table<'a> {
     /// The rows under the names and units of the columns. `known` has for each column that is read
     /// the names that it goes by; those without a name are known and have no bearing on statics.
-    pub(super) fn rows(
-        &self,
-        known: &[(&'static str, &[&str])],
-    ) -> Result<Vec<Row<'a>>, FormatError> {
+    pub(super) fn rows(&self, known: &[(&'static str, &[&str])]) -> Result<Vec<Row<'a>>> {
         let Some((line, names)) = self.lines.first() else {
             let what = "line with the names of the columns".to_owned();
             return Err(FormatError::new(self.file, Some(self.heading), Wrong::Missing { what }));
@@ -202,7 +195,7 @@ impl Row<'_> {
         FormatError::new(self.file, Some(self.line), wrong)
     }
 
-    pub(super) fn text(&self, column: &str) -> Result<&str, FormatError> {
+    pub(super) fn text(&self, column: &str) -> Result<&str> {
         let place = self.columns.get(column).copied();
         let place = place
             .ok_or_else(|| self.error(Wrong::Missing { what: format!("column for {column}") }))?;
@@ -227,21 +220,21 @@ impl Row<'_> {
         unit.unwrap_or_default().trim_matches(['(', ')', '[', ']'])
     }
 
-    pub(super) fn number(&self, column: &str) -> Result<f64, FormatError> {
+    pub(super) fn number(&self, column: &str) -> Result<f64> {
         self.as_number(column, self.text(column)?)
     }
 
     /// A part of a column as a number.
-    pub(super) fn as_number(&self, column: &str, text: &str) -> Result<f64, FormatError> {
+    pub(super) fn as_number(&self, column: &str, text: &str) -> Result<f64> {
         number(self.file, Some(self.line), column, text)
     }
 
     /// The number of a column that need not be there.
-    pub(super) fn optional(&self, column: &str) -> Result<Option<f64>, FormatError> {
+    pub(super) fn optional(&self, column: &str) -> Result<Option<f64>> {
         if self.columns.contains_key(column) { self.number(column).map(Some) } else { Ok(None) }
     }
 
-    pub(super) fn positive(&self, column: &str) -> Result<f64, FormatError> {
+    pub(super) fn positive(&self, column: &str) -> Result<f64> {
         positive(self.file, Some(self.line), column, self.text(column)?)
     }
 }

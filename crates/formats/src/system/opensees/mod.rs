@@ -23,43 +23,15 @@ use model::system::{Joint, Member, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 use numerics::vector::{minus, norm};
 
-use crate::error::{FormatError, Wrong, number, positive, shortened};
-use crate::system::ForeignSystem;
+use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
 use crate::system::drawing::support;
+use crate::system::{ForeignSystem, among};
 use tcl::{Command, Script, Variables};
 
 /// Commands of analysis and output, which say nothing of the structure.
-const SKIPPED: &[&str] = &[
-    "wipe",
-    "wipeAnalysis",
-    "constraints",
-    "numberer",
-    "system",
-    "test",
-    "algorithm",
-    "integrator",
-    "analysis",
-    "analyze",
-    "recorder",
-    "puts",
-    "print",
-    "loadConst",
-    "eigen",
-    "reactions",
-    "setTime",
-    "getTime",
-    "record",
-    "logFile",
-    "exit",
-    "initialize",
-    "rayleigh",
-    "flush",
-    "close",
-    "start",
-    "stop",
-    "printA",
-    "printB",
-];
+const SKIPPED: &str = "wipe wipeAnalysis constraints numberer system test algorithm integrator \
+    analysis analyze recorder puts print loadConst eigen reactions setTime getTime record logFile \
+    exit initialize rayleigh flush close start stop printA printB";
 
 /// A node, m, kg, N.
 struct Node {
@@ -91,9 +63,8 @@ struct Deck<'a> {
 /// Read a deck.
 ///
 /// # Errors
-///
 /// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
-pub fn parse_opensees(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+pub fn parse_opensees(text: &str, file: &str) -> Result<ForeignSystem> {
     let mut deck = Deck {
         file,
         variables: Variables::new(),
@@ -133,28 +104,28 @@ impl<'a> Words<'a> {
         self.error(Wrong::Missing { what })
     }
 
-    fn get(&self, k: usize) -> Result<&'a str, FormatError> {
+    fn get(&self, k: usize) -> Result<&'a str> {
         let words = &self.command.words;
         let wrong = Wrong::Count { wanted: k + 1, found: words.len() };
         words.get(k).map(String::as_str).ok_or_else(|| self.error(wrong))
     }
 
-    fn number(&self, k: usize, what: &str) -> Result<f64, FormatError> {
+    fn number(&self, k: usize, what: &str) -> Result<f64> {
         number(self.file, Some(self.command.line), what, self.get(k)?)
     }
 
-    fn positive(&self, k: usize, what: &str) -> Result<f64, FormatError> {
+    fn positive(&self, k: usize, what: &str) -> Result<f64> {
         positive(self.file, Some(self.command.line), what, self.get(k)?)
     }
 
     /// The number behind an option, from the word `first` on.
-    fn option(&self, first: usize, name: &str) -> Result<Option<f64>, FormatError> {
+    fn option(&self, first: usize, name: &str) -> Result<Option<f64>> {
         let place = self.command.words.iter().skip(first).position(|word| word == name);
         place.map(|k| self.number(first + k + 1, name)).transpose()
     }
 
     /// Refuse options other than these, each with a number.
-    fn options(&self, first: usize, known: &[&str]) -> Result<(), FormatError> {
+    fn options(&self, first: usize, known: &[&str]) -> Result<()> {
         let words = self.command.words.iter().skip(first).step_by(2);
         match words.into_iter().find(|word| !known.contains(&word.as_str())) {
             Some(word) => Err(self.unknown(format!("the word {:?}", shortened(word)))),
@@ -164,9 +135,9 @@ impl<'a> Words<'a> {
 }
 
 impl Deck<'_> {
-    fn read(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn read(&mut self, words: &Words<'_>) -> Result<()> {
         let name = words.get(0)?;
-        if SKIPPED.contains(&name) {
+        if among(SKIPPED, name) {
             self.skipped.insert(name.to_owned());
             return Ok(());
         }
@@ -186,7 +157,7 @@ impl Deck<'_> {
         }
     }
 
-    fn model(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn model(&mut self, words: &Words<'_>) -> Result<()> {
         words.options(2, &["-ndm", "-ndf"])?;
         let dimensions = words.option(2, "-ndm")?;
         let is = |known: f64| dimensions.is_some_and(|n| (n - known).abs() <= 0.0);
@@ -198,7 +169,7 @@ impl Deck<'_> {
     }
 
     /// As many numbers as there are dimensions, in the world: of two the second is up.
-    fn vector(&self, words: &Words<'_>, first: usize, what: &str) -> Result<Vector, FormatError> {
+    fn vector(&self, words: &Words<'_>, first: usize, what: &str) -> Result<Vector> {
         let one = |k: usize| words.number(first + k, what);
         match self.dimensions {
             0 => Err(words.missing("model before it".to_owned())),
@@ -208,12 +179,12 @@ impl Deck<'_> {
     }
 
     /// The number of a node.
-    fn known(&self, words: &Words<'_>, tag: &str) -> Result<usize, FormatError> {
+    fn known(&self, words: &Words<'_>, tag: &str) -> Result<usize> {
         let number = self.numbers.get(tag).copied();
         number.ok_or_else(|| words.missing(format!("node {:?}", shortened(tag))))
     }
 
-    fn node(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn node(&mut self, words: &Words<'_>) -> Result<()> {
         let room = self.budget.fits_members(self.nodes.len() + 1, BYTES_PER_MEMBER);
         room.map_err(|error| words.error(Wrong::Memory(error)))?;
         let (name, at_m) = (words.get(1)?.to_owned(), self.vector(words, 2, "a coordinate")?);
@@ -229,7 +200,7 @@ impl Deck<'_> {
         }
     }
 
-    fn fix(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn fix(&mut self, words: &Words<'_>) -> Result<()> {
         let node = self.known(words, words.get(1)?)?;
         let fixed = self.vector(words, 2, "what is fixed")?;
         for (free, fixed) in self.nodes[node].free.iter_mut().zip(fixed) {
@@ -238,7 +209,7 @@ impl Deck<'_> {
         Ok(())
     }
 
-    fn mass(&mut self, words: &Words<'_>, tag: &str, first: usize) -> Result<(), FormatError> {
+    fn mass(&mut self, words: &Words<'_>, tag: &str, first: usize) -> Result<()> {
         let node = self.known(words, tag)?;
         let masses = self.vector(words, first, "a mass")?;
         let mass_kg = masses[0];
@@ -252,7 +223,7 @@ impl Deck<'_> {
         Ok(())
     }
 
-    fn material(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn material(&mut self, words: &Words<'_>) -> Result<()> {
         let kind = words.get(1)?;
         // What follows is damping, and another modulus in compression.
         if kind != "Elastic" || words.command.words.len() > 5 {
@@ -266,7 +237,7 @@ impl Deck<'_> {
         Ok(())
     }
 
-    fn element(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn element(&mut self, words: &Words<'_>) -> Result<()> {
         let kind = words.get(1)?.to_lowercase();
         if kind != "truss" && kind != "corottruss" {
             return Err(words.unknown(format!("the element {:?}", shortened(words.get(1)?))));
@@ -295,7 +266,7 @@ impl Deck<'_> {
         Ok(())
     }
 
-    fn series(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn series(&mut self, words: &Words<'_>) -> Result<()> {
         let kind = words.get(1)?;
         if kind != "Linear" && kind != "Constant" {
             return Err(words.unknown(format!("the time series {:?}", shortened(kind))));
@@ -307,7 +278,7 @@ impl Deck<'_> {
     }
 
     /// Loads within braces.
-    fn pattern(&mut self, words: &Words<'_>) -> Result<(), FormatError> {
+    fn pattern(&mut self, words: &Words<'_>) -> Result<()> {
         let all = &words.command.words;
         let (kind, series) = (words.get(1)?, words.get(3)?);
         let (Some(line), Some(body)) = (words.command.body, all.last()) else {
@@ -351,7 +322,7 @@ impl Deck<'_> {
         Ok(())
     }
 
-    fn system(self) -> Result<ForeignSystem, FormatError> {
+    fn system(self) -> Result<ForeignSystem> {
         let missing = |what: &str| {
             Err(FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() }))
         };

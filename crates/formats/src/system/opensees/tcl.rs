@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::expr;
-use crate::error::{FormatError, Wrong, shortened};
+use crate::error::{FormatError, Result, Wrong, shortened};
 
 /// Letters of one word, with the values of its variables: no number has more.
 const MOST_LETTERS: usize = 1000;
@@ -36,10 +36,7 @@ impl<'a> Script<'a> {
     }
 
     /// The next command that sets no variable.
-    pub(super) fn next(
-        &mut self,
-        variables: &mut Variables,
-    ) -> Result<Option<Command>, FormatError> {
+    pub(super) fn next(&mut self, variables: &mut Variables) -> Result<Option<Command>> {
         loop {
             let Some(command) = self.command(variables)? else { return Ok(None) };
             match &command.words[..] {
@@ -56,7 +53,7 @@ impl<'a> Script<'a> {
         }
     }
 
-    fn command(&mut self, variables: &Variables) -> Result<Option<Command>, FormatError> {
+    fn command(&mut self, variables: &Variables) -> Result<Option<Command>> {
         loop {
             self.skip(|c| c.is_whitespace() || c == ';');
             match self.rest.chars().next() {
@@ -91,11 +88,7 @@ impl<'a> Script<'a> {
     }
 
     /// A word, or one in quotes, with the values of its variables.
-    fn word(
-        &mut self,
-        variables: &Variables,
-        executed: &mut Option<String>,
-    ) -> Result<String, FormatError> {
+    fn word(&mut self, variables: &Variables, executed: &mut Option<String>) -> Result<String> {
         let (quoted, begun) = (self.rest.starts_with('"'), self.line);
         let mut word = String::new();
         if quoted {
@@ -129,7 +122,7 @@ impl<'a> Script<'a> {
     }
 
     /// The value of a variable, `$name` or `${name}`.
-    fn variable<'v>(&mut self, variables: &'v Variables) -> Result<&'v str, FormatError> {
+    fn variable<'v>(&mut self, variables: &'v Variables) -> Result<&'v str> {
         self.take(1);
         let name = if self.rest.starts_with('{') {
             self.enclosed('{', '}')?
@@ -145,11 +138,7 @@ impl<'a> Script<'a> {
     }
 
     /// The value of `[expr ...]`; of any other command nothing, and what it is.
-    fn bracket(
-        &mut self,
-        variables: &Variables,
-        executed: &mut Option<String>,
-    ) -> Result<String, FormatError> {
+    fn bracket(&mut self, variables: &Variables, executed: &mut Option<String>) -> Result<String> {
         let line = self.line;
         let inner = self.enclosed('[', ']')?;
         let Some(arithmetic) = inner.trim_start().strip_prefix("expr ") else {
@@ -179,7 +168,7 @@ impl<'a> Script<'a> {
     }
 
     /// What stands between two signs, in which these may stand in pairs.
-    fn enclosed(&mut self, open: char, close: char) -> Result<&'a str, FormatError> {
+    fn enclosed(&mut self, open: char, close: char) -> Result<&'a str> {
         let (mut depth, mut escaped) = (0_usize, false);
         for (k, c) in self.rest.char_indices() {
             if !escaped && c == open {

@@ -7,7 +7,7 @@ use funicular::census::List;
 
 use crate::census::{Census, SHAPES, how_far, refuse as refuse_census};
 use crate::diagnostics::{Diagnostic, tell};
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::output;
 use crate::progress::Progress;
 
@@ -39,7 +39,7 @@ impl What {
 }
 
 /// Refuse what would fill a disk.
-pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<(), Failure> {
+pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<()> {
     if !arguments.printed.is_json() && arguments.csv.is_none() {
         return Ok(());
     }
@@ -91,7 +91,7 @@ pub fn of_many(
     settings: Settings,
     problem: &funicular::Problem,
     progress: Progress,
-) -> Result<Exit, Failure> {
+) -> Result<Exit> {
     let answer = funicular::Census::new()
         .settings(settings)
         .run_large(problem, SHAPES, &|now| progress.say(&how_far(now)))

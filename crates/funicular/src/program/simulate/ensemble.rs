@@ -4,7 +4,7 @@ use clap::Args;
 use funicular::Ensemble;
 
 use super::{Simulate, simulate};
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::input::Input;
 use crate::progress::Progress;
 use crate::sweep::{Folder, Rows, count};
@@ -42,7 +42,7 @@ pub struct Arguments {
 }
 
 /// Release so many positions.
-pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
+pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit> {
     let rows = &arguments.ensemble.rows;
     let begun = rows.begin()?;
     let Some(out) = &arguments.out else {

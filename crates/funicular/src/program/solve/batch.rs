@@ -13,7 +13,7 @@ use validate::UseCensus;
 use super::lines::{Line, Lines};
 use super::object::{self, Origin, Unanswered};
 use crate::diagnostics::tell;
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::in_order::in_order;
 use crate::input::next_to;
 use crate::interrupt::{end_between_lines, whole_line};
@@ -21,7 +21,7 @@ use crate::output;
 use crate::progress::Progress;
 
 /// Run the batch: every line is answered, whatever becomes of the others.
-pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
+pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit> {
     end_between_lines()?;
     arguments.threads.install()?;
     let lines = open(path)?;
@@ -59,7 +59,7 @@ pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
     }
 }
 
-fn open(path: &Path) -> Result<Lines, Failure> {
+fn open(path: &Path) -> Result<Lines> {
     if path == Path::new("-") {
         return Ok(Lines::of(BufReader::new(io::stdin())));
     }

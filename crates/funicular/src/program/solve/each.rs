@@ -5,15 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use funicular::Problem;
 use validate::UseCensus;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Result};
 use crate::progress::Progress;
 
 /// Lose each member of a system in turn.
-pub fn loss(
-    arguments: &super::Solve,
-    problem: &Problem,
-    progress: Progress,
-) -> Result<Exit, Failure> {
+pub fn loss(arguments: &super::Solve, problem: &Problem, progress: Progress) -> Result<Exit> {
     let members = problem.system().members().len();
     let solve = arguments.question(UseCensus::Never);
     let watch = counter(&progress, members, "losses");
@@ -26,11 +22,7 @@ pub fn loss(
 }
 
 /// Take each load case.
-pub fn load_case(
-    arguments: &super::Solve,
-    problem: &Problem,
-    progress: Progress,
-) -> Result<Exit, Failure> {
+pub fn load_case(arguments: &super::Solve, problem: &Problem, progress: Progress) -> Result<Exit> {
     let solve = arguments.question(UseCensus::Never);
     let watch = counter(&progress, problem.load_cases().len(), "load cases");
     let found = solve.load_cases_watched(problem, &watch)?;

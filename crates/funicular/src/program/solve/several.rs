@@ -8,7 +8,7 @@ use funicular::{SolveAnswer, text};
 use validate::UseCensus;
 
 use super::object::{self, Origin, Unanswered};
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::in_order::in_order;
 use crate::input::{self, next_to};
 use crate::interrupt::end_on_interrupt;
@@ -24,7 +24,7 @@ struct Said {
 }
 
 /// Run the command for several files.
-pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
+pub fn run(arguments: &super::Solve) -> Result<Exit> {
     let alone =
         [("--without", arguments.without.is_some()), ("--tolerances", arguments.tolerances)];
     if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given) {

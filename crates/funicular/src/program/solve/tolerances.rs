@@ -3,16 +3,12 @@
 use funicular::Problem;
 use validate::UseCensus;
 
-use crate::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure, Result};
 use crate::output;
 use crate::progress::Progress;
 
 /// Run the command for a system.
-pub fn run(
-    arguments: &super::Solve,
-    problem: &Problem,
-    progress: Progress,
-) -> Result<Exit, Failure> {
+pub fn run(arguments: &super::Solve, problem: &Problem, progress: Progress) -> Result<Exit> {
     if problem.system().uncertain().is_empty() {
         return Err(Failure::bad_input(
             "--tolerances: no number of this system has a tolerance, such as length_tolerance_m",

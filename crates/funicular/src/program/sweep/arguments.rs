@@ -7,7 +7,7 @@ use clap::Args;
 use funicular::{Format, Spread};
 use validate::Solvers;
 
-use crate::exit::Failure;
+use crate::exit::Result;
 use crate::input::Source;
 use crate::interrupt::{Interrupt, on_interrupt};
 use crate::threads;
@@ -94,7 +94,7 @@ pub struct Rows {
 
 impl Rows {
     /// Start the threads, of which this is the number, and watch for Ctrl-C.
-    pub(crate) fn begin(&self) -> Result<(usize, Interrupt), Failure> {
+    pub(crate) fn begin(&self) -> Result<(usize, Interrupt)> {
         let threads = threads::resolve(self.threads)?;
         threads::install(threads)?;
         Ok((threads, on_interrupt()?))

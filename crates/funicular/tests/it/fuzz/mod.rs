@@ -4,8 +4,6 @@
 //! tried for so long, with other inputs each time; `.ci/fuzz` does that. What fails is kept in the
 //! target folder, and its name is in the message.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 mod columns;
 mod command_line;
 mod foreign;

@@ -50,8 +50,7 @@ pub fn agreement(output: &mut Output, statics: &[&str]) {
     for law in statics {
         output.within(&format!("agreement.statics[].{law}"), 0.0..=NOTHING);
     }
-    output.is("agreement.free_joints", 0);
-    output.is("agreement.verdict", "agreed");
+    output.are(json!({ "agreement.free_joints": 0, "agreement.verdict": "agreed" }));
     for none in ["agreement.reasons[]", "agreement.excesses[]"] {
         output.is(none, json!([]));
     }

@@ -19,19 +19,13 @@ fn columns_of_answers() {
     let solvers = |count: usize| json!([vec!["lagrange"; count], vec!["energy"; count]]);
     let mut output = Output::csv("solve --csv", test, &read("lamp.csv"));
     output.is("solver", solvers(3));
-    output.each("joint", json!(["A", "B", "P"]));
-    output.each("x_m", json!([0.0, 5.0, 1.8]));
-    output.each("y_m", 0.0);
-    output.each("z_m", json!([0.0, 0.0, -2.4]));
-    output.each("reaction_x_n", json!([-9.6, 9.6, 0.0]));
-    output.each("reaction_y_n", 0.0);
-    output.each("reaction_z_n", json!([12.8, 7.2, 0.0]));
-    output.done();
+    output.repeat(json!({
+        "joint": ["A", "B", "P"], "x_m": [0.0, 5.0, 1.8], "y_m": 0.0, "z_m": [0.0, 0.0, -2.4],
+        "reaction_x_n": [-9.6, 9.6, 0.0], "reaction_y_n": 0.0, "reaction_z_n": [12.8, 7.2, 0.0],
+    }));
     let mut output = Output::csv("solve --bars-csv", test, &read("lamp-bars.csv"));
     output.is("solver", solvers(2));
-    output.each("bar", json!([1, 2]));
-    output.each("from", json!(["A", "P"]));
-    output.each("to", json!(["P", "B"]));
+    output.repeat(json!({ "bar": [1, 2], "from": ["A", "P"], "to": ["P", "B"] }));
     for force in ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"] {
         output.each(force, json!([16.0, 12.0]));
     }
@@ -40,7 +34,6 @@ fn columns_of_answers() {
         output.each(&format!("{end}_y_n"), 0.0);
         output.each(&format!("{end}_z_n"), json!([12.8 * sign, -7.2 * sign]));
     }
-    output.done();
 }
 
 /// The level V in one line, a misspelt one, and one that cannot hang.
@@ -63,7 +56,6 @@ fn lines_of_a_batch() {
     output.is("column", wrong.find("\"masskg\"").unwrap() + 1);
     output.says("help", &["did you mean `mass_kg`?"]);
     refusals_of_a_fall(&mut output);
-    output.done();
 }
 
 /// An answer among others is the object of one answer, with the place of its system before it.
@@ -79,7 +71,6 @@ fn answered(text: &str, origin: &str, place: &Value, test: &'static str) {
         // A batch looks nothing up in a census unless it is told to.
         output.each("equilibria[].evidence.ladder[].reason.because", "not_asked");
     }
-    output.done();
 }
 
 /// The same of files, each with its name.
@@ -106,5 +97,4 @@ fn several_files() {
         &["moves on without end", "4 m apart and the members between them reach only 2 m"],
     );
     output.is("help", "move the anchors together or lengthen the bars");
-    output.done();
 }

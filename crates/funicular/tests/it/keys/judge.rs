@@ -58,9 +58,7 @@ fn too_low() {
         let at = |key: &str| format!("{list}[].{key}");
         output.is(&at("place.member"), json!([1, 2]));
         output.each(&at("law"), "length");
-        output.is(&at("length_m"), json!([3.0, 4.0]));
-        output.is(&at("distance_m"), json!(lengths));
-        output.is(&at("value"), json!(more));
+        output.are_at(at, json!({ "length_m": [3.0, 4.0], "distance_m": lengths, "value": more }));
         // Both ends as far off as the answer may be.
         output.near(&at("allowed"), 1e-9, json!([1e-5, 1e-5]));
     }
@@ -77,8 +75,7 @@ fn too_low() {
     output.is("up_to_n", 200.0);
     output.within("least_n", 0.0..=NOTHING);
     // 0.1 m of 5 m.
-    output.is("confirmed_at", 0.1);
-    output.is("statics.length", more[0] / 3.0);
+    output.are(json!({ "confirmed_at": 0.1, "statics.length": more[0] / 3.0 }));
     for law in ["support", "law", "force", "moment", "joint", "balance", "derived"] {
         output.within(&format!("statics.{law}"), 0.0..=NOTHING);
     }
@@ -93,25 +90,20 @@ fn too_low() {
     output.is("bars[].axial_n", json!(forces));
     nearest_of_too_low(&mut output, forces);
     ladder_of_too_low(&mut output, more[0] / 1e-5);
-    output.done();
 }
 
 /// 0.1 m higher, with 2 J more.
 fn nearest_of_too_low(output: &mut Output, forces: [f64; 2]) {
     let at = |key: &str| format!("nearest.equilibria[].{key}");
     output.is(&at("solver"), json!(["energy", "lagrange"]));
-    output.each(&at("index_in_space"), 0);
-    output.each(&at("joints_m"), 0.1);
-    output.each(&at("joint"), 2);
-    output.each(&at("forces_n"), 12.0 - forces[1]);
-    output.each(&at("member"), 2);
-    output.each(&at("energy_j"), -2.0);
-    output.each(&at("forces_unique"), true);
+    output.repeat_at(at, json!({
+        "index_in_space": 0, "joints_m": 0.1, "joint": 2, "forces_n": 12.0 - forces[1], "member": 2,
+        "energy_j": -2.0, "forces_unique": true,
+    }));
     // The first one is proved.
     output.encloses(&at("proved.joints_m[]"), json!([0.1]));
     output.encloses(&at("proved.forces_n[]"), json!([12.0 - forces[1]]));
-    output.is("nearest.failures[]", json!([]));
-    output.is("nearest.without_guess", false);
+    output.are(json!({ "nearest.failures[]": [], "nearest.without_guess": false }));
     output.each(&at("evidence.rung"), "optimal");
     let residuals = ["largest unbalanced force", "balance of joints"];
     evidence::converged(output, "nearest.equilibria[]", &residuals, &[1e-12, 1e-12]);
@@ -147,11 +139,11 @@ fn ladder_of_too_low(output: &mut Output, largest: f64) {
     output.near(&at("reason.gap"), 1e-3, -0.02);
     output.says(&at("reason.residual_of"), &["largest violation of a law"]);
     output.near(&at("reason.residual"), 1e-8, largest);
-    output.is(&at("reason.tolerance"), 1.0);
-    output.is(&at("reason.iterations"), 0);
-    output.is(&at("reason.excesses[].what"), "statics");
-    output.is(&at("reason.excesses[].solver"), "places.csv");
-    output.is(&at("reason.excesses[].place.member"), 1);
+    let wanted = json!({
+        "reason.tolerance": 1.0, "reason.iterations": 0, "reason.excesses[].what": "statics",
+        "reason.excesses[].solver": "places.csv", "reason.excesses[].place.member": 1,
+    });
+    output.are_at(at, wanted);
     output.near(&at("reason.excesses[].value"), 1e-8, largest);
     output.is(&at("reason.excesses[].budget"), 1.0);
 }
@@ -173,9 +165,7 @@ fn too_low_with_forces() {
     output.is("broken[].left_n[]", json!([left_x, 0.0, left_z]));
     // Over the load at the joint; and over all forces from outside together: 16, 12 and 20 N.
     let left = left_x.hypot(left_z);
-    output.is("statics.joint", left / 20.0);
-    output.is("statics.balance", left / 48.0);
-    output.done();
+    output.are(json!({ "statics.joint": left / 20.0, "statics.balance": left / 48.0 }));
 }
 
 #[test]
@@ -183,9 +173,7 @@ fn right() {
     let mut output = lamp("right", "-2.4", Some(FORCES), 0);
     output.is("finding", "confirmed");
     output.says("says", &["confirmed: an equilibrium is within the tolerance"]);
-    output.is("broken[]", json!([]));
-    output.is("violations[]", json!([]));
-    output.is("forces", "given");
+    output.are(json!({ "broken[]": [], "violations[]": [], "forces": "given" }));
     output.within("largest", 0.0..=1e-6);
     output.is("statics.worst", "whole");
     output.is("confirmed_at", json!(null));
@@ -196,16 +184,13 @@ fn right() {
     let at = |key: &str| format!("ladder[].proof.{key}");
     output.says(&at("residual_of"), &["largest violation of a law"]);
     output.within(&at("residual"), 0.0..=1e-6);
-    output.is(&at("tolerance"), 1.0);
-    output.is(&at("iterations"), 0);
+    output.are_at(at, json!({ "tolerance": 1.0, "iterations": 0 }));
     for difference in ["joints_m", "forces_n", "energy_j", "statics"] {
         output.within(&at(difference), 0.0..=NOTHING);
     }
-    output.is(&at("shape_only"), false);
-    output.is(&at("forces_found.proved"), "rank_and_stability");
+    output.are_at(at, json!({ "shape_only": false, "forces_found.proved": "rank_and_stability" }));
     output.within(&at("gap"), 0.0..=NOTHING);
     output.is(&at("singular"), false);
-    output.done();
 }
 
 /// 16 N of 20 N, and 12 N of 40 N where four times as much is required: the second is the weaker one.
@@ -219,7 +204,6 @@ fn two_strengths() {
         "bars[].utilisation": [0.8, 0.3], "weakest.bar": 2, "weakest.utilisation": 0.3,
         "weakest.safety": 10.0 / 3.0, "weakest.safety_wanted": 4.0,
     }));
-    output.done();
     let folder = holding([("lamp.toml", &strong[..]), ("places.csv", places)]);
     let check = ["judge", "lamp.toml", "--answer", "places.csv", "--check"];
     assert_eq!(run(folder, &check).0, Some(1));

@@ -87,17 +87,15 @@ fn every_law_broken() {
         // 1000 N for each stretch by the length, 0.5 m of 2 m; D bears 130 N, the floor -30 N; and
         // of 280 N up and 340 N down 60 N are left.
         let values = [150.0, 40.0, 1.5, 0.5, 10.0, 80.0, 30.0, 60.0, 0.5, 30.0];
-        output.is(&at("value"), values.as_slice());
-        output.is(&at("elastic_n"), json!([250.0]));
-        output.is(&at("force_n"), json!([100.0, -40.0, 30.0]));
-        output.is(&at("length_m"), json!([5.0, 5.5]));
-        output.is(&at("distance_m"), json!([6.5, 6.0]));
-        output.is(&at("given_n[]"), json!([0.0, 0.0, 120.0, 0.0, 0.0, 0.0]));
-        output.is(&at("wanted_n[]"), json!([0.0, 0.0, 130.0, 0.0, 0.0, -30.0]));
-        output.is(&at("left_n[]"), json!([0.0, 0.0, -80.0, 0.0, 0.0, -60.0]));
-        output.is(&at("place.member"), json!([1, 2, 3, 4]));
-        output.is(&at("place.joint"), json!([4, 6, 8, 7, 8]));
-        output.is(&at("place"), "whole");
+        let wanted = json!({
+            "value": values.as_slice(), "elastic_n": [250.0], "force_n": [100.0, -40.0, 30.0],
+            "length_m": [5.0, 5.5], "distance_m": [6.5, 6.0],
+            "given_n[]": [0.0, 0.0, 120.0, 0.0, 0.0, 0.0],
+            "wanted_n[]": [0.0, 0.0, 130.0, 0.0, 0.0, -30.0],
+            "left_n[]": [0.0, 0.0, -80.0, 0.0, 0.0, -60.0], "place.member": [1, 2, 3, 4],
+            "place.joint": [4, 6, 8, 7, 8], "place": "whole",
+        });
+        output.are_at(at, wanted);
     }
     let says = [
         "carries 100 N, and its elongation gives 250 N",
@@ -113,8 +111,7 @@ fn every_law_broken() {
     ];
     output.says("broken[].says", &says);
     // 80 N are left over on Q, whose load is 40 N.
-    output.is("statics.joint", 2.0);
-    output.is("statics.worst.joint", 6);
+    output.are(json!({ "statics.joint": 2.0, "statics.worst.joint": 6 }));
     nearest(&mut output);
     let kinds = ["above_tolerance", "judge_refuses", "not_tried", "not_tried", "no_certificate"];
     output.is("ladder[].reason.kind", kinds.as_slice());
@@ -124,18 +121,14 @@ fn every_law_broken() {
     output.is("ladder[].reason.because", "not_definite");
     // No bar is pressed.
     output.is("ladder[].reason.compressed", 0);
-    output.done();
 }
 
 /// P hangs 0.2 m below its length, as 100 N stretch 2 m of 1000 N; R is 1.5 m further up.
 fn nearest(output: &mut Output) {
     let at = |key: &str| format!("nearest.equilibria[].{key}");
-    output.is(&at("solver"), "energy");
-    output.is(&at("joints_m"), 1.5);
-    output.is(&at("joint"), 6);
+    output.are_at(at, json!({ "solver": "energy", "joints_m": 1.5, "joint": 6 }));
     // The cable pulls with 40 N instead of pushing.
-    output.is(&at("forces_n"), 80.0);
-    output.is(&at("member"), 2);
+    output.are_at(at, json!({ "forces_n": 80.0, "member": 2 }));
     // -250 J and 62.5 J of the stretched bar for -220 and 10 J, -650 J for -500 J, -600 J for -550 J.
     output.is(&at("energy_j"), 22.5 - 150.0 - 50.0);
     output.is(&at("evidence.ladder[].reason.solver"), "energy");
@@ -177,7 +170,6 @@ fn too_flat_to_tell() {
     output.is("ladder[].reason.excesses[].between[]", json!(["places.csv", "energy"]));
     output.near("ladder[].reason.excesses[].value", 1e-9, 1e-4);
     output.near("ladder[].reason.excesses[].budget", 1e-12, 2e-6);
-    output.done();
 }
 
 /// Each bar bears 10 N over its slope; 0.02 N more balance to 0.0004 N, which is allowed.
@@ -191,7 +183,6 @@ fn forces_of_another() {
     // A millionth of the largest, and its rounding.
     output.near("allowed_n", 1e-11, 1e-6 * (own + 0.02));
     output.is("ladder[].reason.excesses[].what", "forces");
-    output.done();
 }
 
 /// 20 N on four bars of 5 m, 6.25 N in each, and a self-stress beside which they vanish.
@@ -227,8 +218,7 @@ fn loads_hidden() {
     let stresses = |key: &str| format!("nearest.equilibria[].evidence.self_stresses.{key}");
     output.each(&stresses("choice"), "equally_stiff");
     // Four bars on a joint that moves in a plane.
-    output.each(&stresses("dimension"), 2);
-    output.each(&stresses("ranges[].kind"), "free");
+    output.repeat_at(stresses, json!({ "dimension": 2, "ranges[].kind": "free" }));
     output.within(&stresses("misfit_m"), 0.0..=1e-15);
     // Bars that are opposite to each other pull alike.
     for basis in output.numbers(&stresses("basis[][]")).chunks(4) {
@@ -239,9 +229,7 @@ fn loads_hidden() {
         assert!(basis.iter().any(|x| x.abs() > 0.1), "{basis:?}");
     }
     let reason = |key: &str| format!("nearest.equilibria[].evidence.ladder[].reason.{key}");
-    output.each(&reason("because"), "not_definite");
-    output.each(&reason("compressed"), 2);
-    output.done();
+    output.repeat_at(reason, json!({ "because": "not_definite", "compressed": 2 }));
 }
 
 /// A ring of 12 N on a rope of 5 m between anchors 4 m apart, 1.5 m below them: 10 N on both sides, not 9 N and 11 N.
@@ -255,11 +243,9 @@ fn two_tensions() {
     let mut output = judged("two_tensions", 1, ring, places, Some(forces));
     for list in ["broken", "violations"] {
         let at = |key: &str| format!("{list}[].{key}");
-        output.is(&at("law"), "tension");
-        output.is(&at("member"), 1);
-        output.is(&at("place.joint"), 3);
-        output.is(&at("sides_n[]"), json!([9.0, 11.0]));
-        output.is(&at("value"), 2.0);
+        output.are_at(at, json!({
+            "law": "tension", "member": 1, "place.joint": 3, "sides_n[]": [9.0, 11.0], "value": 2.0,
+        }));
     }
     output.says(
         "broken[].says",
@@ -268,5 +254,4 @@ fn two_tensions() {
     output.is("ladder[].reason.excesses[].place.joint", 3);
     output.is("bars[].via[]", json!(["P"]));
     output.is("bars[].axial_n", 10.0);
-    output.done();
 }

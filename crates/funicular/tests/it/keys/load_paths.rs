@@ -22,16 +22,14 @@ fn load_path_of_a_gable() {
     output.is("schema_version", 3);
     let l0 = 1.25_f64.sqrt();
     output.system("gable", [3, 2], [2.0 * l0, 0.0, 9.806_65]);
-    output.is("parameters[]", "loads");
-    output.is("units[]", "1");
-    output.is("of[]", "joints.P.z");
+    output.are(json!({ "parameters[]": "loads", "units[]": "1", "of[]": "joints.P.z" }));
     let at = |key: &str| format!("load_paths[].events[].{key}");
     let l = l0.cbrt();
     let [w, limit] = [(l * l - 1.0).sqrt(), 2.0 * (l * l - 1.0).sqrt() / l * (l0 - l) / l0];
-    output.is(&at("kind"), "limit-point");
-    output.is(&at("values[]"), limit);
-    output.is(&at("index[]"), json!([0, 1]));
-    output.is(&at("turns"), true);
+    let wanted = json!({
+        "kind": "limit-point", "values[]": limit, "index[]": [0, 1], "turns": true,
+    });
+    output.are_at(at, wanted);
     output.encloses(&at("enclosed[]"), limit);
     output.is(&at("mode[][]"), json!([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]));
     for none in ["slack[]", "taut[]", "lands[]", "leaves[]"] {
@@ -81,7 +79,6 @@ fn load_path_of_a_gable() {
     let [tried, found] = ["minimised", "minima"].map(|key| output.numbers(&at(key))[0]);
     assert!(tried > 2.5 && (tried - found).abs() < 0.5, "{tried} {found}");
     output.within(&at("statics"), 0.0..=1e-10);
-    output.done();
     let mut output =
         Output::file("load paths --csv", "load_path_of_a_gable", folder.path().join("gable.csv"));
     output.each("path", 1);
@@ -93,8 +90,7 @@ fn load_path_of_a_gable() {
     };
     output.is("event", (0..heights.len()).map(on(json!(0))).collect::<Vec<_>>());
     let unstable = (0..heights.len()).map(|k| i32::from(k as f64 > point + 0.5));
-    output.is("index", unstable.collect::<Vec<_>>());
-    output.is("joints.P.z", heights.clone());
+    output.are(json!({ "index": unstable.collect::<Vec<_>>(), "joints.P.z": heights.clone() }));
     for (name, wanted) in [("A_x_m", -1.0), ("B_x_m", 1.0), ("P_x_m", 0.0)] {
         output.each(name, wanted);
     }
@@ -103,7 +99,6 @@ fn load_path_of_a_gable() {
     }
     output.is("P_z_m", heights.clone());
     output.is("axial_#_n", each(&|_, l| json!([(l - l0) / l0, (l - l0) / l0])));
-    output.done();
 }
 
 /// A joint at -1 m + F/20 N/m as long as the cable above it is taut, and -1 m + F/10 N/m where it is not;
@@ -122,27 +117,19 @@ fn kinks_of_a_cable_and_a_floor() {
     };
     let at = |key: &str| format!("load_paths[].events[].{key}");
     let mut down = of("joints.P.force_n.z=4..-15", "-0.7");
-    down.is(&at("kind"), json!(["kink", "kink"]));
-    down.is(&at("values[]"), json!([0.0, -10.0]));
-    down.is(&at("taut[]"), json!([1]));
-    down.is(&at("lands[]"), json!(["P"]));
-    down.is(&at("mode[]"), json!([]));
-    down.is(&at("slack[]"), json!([]));
-    down.is(&at("leaves[]"), json!([]));
-    down.is(&at("turns"), json!([false, false]));
+    let wanted = json!({
+        "kind": ["kink", "kink"], "values[]": [0.0, -10.0], "taut[]": [1], "lands[]": ["P"],
+        "mode[]": [], "slack[]": [], "leaves[]": [], "turns": [false, false],
+    });
+    down.are_at(at, wanted);
     down.is("load_paths[].proved.because", "the system has a floor");
-    down.done();
     let mut up = of("joints.P.force_n.z=-15..4", "-1.4");
-    up.is(&at("kind"), json!(["kink", "kink"]));
-    up.is(&at("values[]"), json!([-10.0, 0.0]));
-    up.is(&at("slack[]"), json!([1]));
-    up.is(&at("leaves[]"), json!(["P"]));
-    up.is(&at("mode[]"), json!([]));
-    up.is(&at("taut[]"), json!([]));
-    up.is(&at("lands[]"), json!([]));
-    up.is(&at("turns"), json!([false, false]));
+    let wanted = json!({
+        "kind": ["kink", "kink"], "values[]": [-10.0, 0.0], "slack[]": [1], "leaves[]": ["P"],
+        "mode[]": [], "taut[]": [], "lands[]": [], "turns": [false, false],
+    });
+    up.are_at(at, wanted);
     up.is("load_paths[].proved.because", "the system has a floor");
-    up.done();
 }
 
 /// A bar between two springs, which falls to a side and goes round.
@@ -157,7 +144,6 @@ fn paths_that_branch_off() {
         output.is(&format!("load_paths[].{key}.event"), 0);
     }
     output.near("load_paths[].linear_buckling", 1e-6, vec![2000.0 / 101_f64.powf(1.5)]);
-    output.done();
 }
 
 /// Two rigid bars of 1 m between anchors 1 m apart hang or stand.
@@ -170,7 +156,6 @@ fn load_path_of_rigid_bars() {
         Output::alone("load_path_of_rigid_bars", file, "trace system.toml --vary loads=1..2")
             .of("load paths");
     output.is("load_paths[].equilibria_at_every_load", 2);
-    output.done();
 }
 
 #[test]
@@ -184,9 +169,7 @@ fn why_load_paths_end() {
     let ends = |arguments: &[&str], why: &str| {
         let all = [&["trace"], arguments, &["--json"]].concat();
         let mut output = Output::json("load paths", "why_load_paths_end", &good(&folder, &all));
-        output.is("load_paths[].end", why);
-        output.is("load_paths[].events[]", json!([]));
-        output.done();
+        output.are(json!({ "load_paths[].end": why, "load_paths[].events[]": [] }));
     };
     ends(&["gable.toml", "--vary", "loads=0..1", "--max-points", "5"], "max-points");
     ends(&["heavy.toml", "--vary", "loads=0.1,0,-1"], "numbers");

@@ -8,8 +8,6 @@
 //! that can be written as JSON and that no run of these tests brings forth: `fields.rs` reads them
 //! from the sources.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 mod census;
 mod evidence;
 

@@ -17,8 +17,7 @@ fn swinging_and_falling() {
     let mut output = Output::alone("swinging_and_falling", LEVEL_V, "modes system.toml");
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
-    output.is("complete", true);
-    output.is("is_neighbour", true);
+    output.are(json!({ "complete": true, "is_neighbour": true }));
     let at = |key: &str| format!("equilibria[].{key}");
     output.is(&at("label"), json!(["1", "2"]));
     output.each(&at("solver"), "census");
@@ -33,8 +32,7 @@ fn swinging_and_falling() {
     output.each(&at("enclosed.inertia.zero"), 0);
     output.within(&at("out_of_balance"), 0.0..=NOTHING);
     // Three coordinates of a joint less two lengths.
-    output.each(&at("modes_in_all"), 1);
-    output.each(&at("enclosed.status"), "reached");
+    output.repeat_at(at, json!({ "modes_in_all": 1, "enclosed.status": "reached" }));
     output.within(&at("enclosed.width_m"), f64::EPSILON / 4.0..=NOTHING);
     output.is(&at("modes[].omega2_s2"), json!([OMEGA2, -OMEGA2]));
     output.within(&at("modes[].residual_s2"), 0.0..=NOTHING);
@@ -44,7 +42,6 @@ fn swinging_and_falling() {
     output.is(&at("modes[].what"), what.as_slice());
     output.is(&at("modes[].frequency_hz"), OMEGA2.sqrt() / std::f64::consts::TAU);
     output.is(&at("modes[].rate_1_s"), OMEGA2.sqrt());
-    output.done();
 }
 
 /// More joints than are enclosed say so; the length of a rope's joints is counted by hand.
@@ -54,13 +51,11 @@ fn too_many_joints_to_enclose() {
                 bars = [{ length_m = 0.02, mass_kg = 0.01, count = 70 }]\n";
     let mut output =
         Output::alone("too_many_joints_to_enclose", text, "modes system.toml --modes 2");
-    output.is("complete", false);
-    output.is("equilibria[].enclosed.status", "open");
+    output.are(json!({ "complete": false, "equilibria[].enclosed.status": "open" }));
     let because = "69 joints move, and at most 60 are enclosed";
     output.is("equilibria[].enclosed.because", because);
     // 207 coordinates, 70 lengths.
     output.is("equilibria[].modes_in_all", 137);
-    output.done();
 }
 
 /// Angle and rate of the pendulum after the time, by Runge and Kutta's steps of a tenth of a
@@ -127,7 +122,6 @@ fn columns_of_a_motion() {
     // At the joint in the middle, which has no mass of its own, the force is along x: half of the
     // bar's length lies along it.
     output.near("bar#_axial_n", CLOSE, both(&|phi, w| [level(phi, w) / 0.5; 2]));
-    output.done();
 }
 
 #[test]
@@ -144,5 +138,4 @@ fn a_throw_that_a_cable_ends() {
     );
     // Thrown up at 2 m/s it is back after 0.4 s, and loses what it was given, 4 J.
     output.near("lost_j", 1e-9, json!([0.0, 0.0, 4.0, 4.0, 4.0]));
-    output.done();
 }

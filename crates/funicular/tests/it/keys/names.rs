@@ -131,11 +131,9 @@ fn uncertain_forces() {
     let mut output: Output = output("uncertain forces", "uncertain_forces", &objects);
     output.each("residual_of", "closure");
     output.is("residual", json!([0.125, 0.25]));
-    output.each("tolerance", 0.5);
-    output.each("iterations", 3);
+    output.repeat(json!({ "tolerance": 0.5, "iterations": 3 }));
     output.is("force_uncertainty.relative", json!([3e-5, 4e-6]));
     output.is("force_uncertainty.cause", json!(["weak_closure", "parallel_bars"]));
-    output.done();
     assert_eq!(name(&ForceChoice::Unknown), "unknown");
     assert_eq!(name(&ForceRange::Free), json!({ "kind": "free" }));
 }

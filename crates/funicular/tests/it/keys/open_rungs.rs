@@ -56,7 +56,6 @@ fn reasons_of_a_chain() {
         "distance": [0.125, 0.375, 0.875], "cells": [3, 4], "listed": [1, 9], "sides[]": [6, 7],
         "sides": 8,
     }));
-    output.done();
 }
 
 #[test]
@@ -98,7 +97,6 @@ fn reasons_without_a_census() {
         "closures": [3, 8], "motions": 4, "limit": [5, 14, 15], "boxes": 6, "joint": [7, 9, 13, 16],
         "member": [10, 12],
     }));
-    output.done();
 }
 
 #[test]
@@ -148,7 +146,6 @@ fn reasons_without_a_box() {
         "unknowns": 3, "limit": 4, "dimension": [5, 6], "member": [7, 8, 9, 10, 12], "joint": 11,
         "distance_m": 0.125, "distance_n": 0.375,
     }));
-    output.done();
 }
 
 #[test]
@@ -180,7 +177,6 @@ fn reasons_without_a_certificate() {
         "bars": 3, "bar": 4, "excess": 0.125, "gap": 0.375, "gap_m": 0.5, "slack_m": 0.25,
         "directions": 5, "compressed": 6, "members": 7,
     }));
-    output.done();
 }
 
 #[test]
@@ -224,7 +220,6 @@ fn reasons_of_solvers_that_disagree() {
     output.is("excesses[].member", 16);
     output.is("excesses[].value", json!([3, 4, 5, 6, 7, 8, 11, 12, 13]));
     output.each("excesses[].budget", 0.125);
-    output.done();
 }
 
 /// What is found of forces besides their difference. Which findings a comparison has is asserted in
@@ -259,5 +254,4 @@ fn findings_of_forces() {
         "choices.choices[]": ["equally_stiff", "unknown"], "choices.member": 4,
         "choices.forces_n[]": [0.25, 12.5], "proved": ["rank", "stability", "rank_and_stability"],
     }));
-    output.done();
 }

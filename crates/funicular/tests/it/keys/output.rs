@@ -25,7 +25,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Of text in JSON, as the named test looks at it.
+    /// Of text in JSON, as the named test looks at it; without a name it may look at a part.
     pub fn json(kind: &'static str, test: &'static str, text: &str) -> Self {
         Self::with(kind, test, [serde_json::from_str(text).unwrap()])
     }
@@ -54,8 +54,9 @@ impl Output {
     }
 
     /// As another kind than the name of its command.
-    pub fn of(self, kind: &'static str) -> Self {
-        Self { kind, ..self }
+    pub fn of(mut self, kind: &'static str) -> Self {
+        self.kind = kind;
+        self
     }
 
     /// Of lines of JSON.
@@ -110,8 +111,22 @@ impl Output {
 
     /// Assert the values at several paths, an object of these.
     pub fn are(&mut self, wanted: Value) {
-        let Value::Object(wanted) = wanted else { panic!("{wanted} for paths") };
-        wanted.into_iter().for_each(|(path, wanted)| self.is(&path, wanted));
+        self.are_at(str::to_owned, wanted);
+    }
+
+    /// The same by what the paths are called for short.
+    pub fn are_at(&mut self, at: impl Fn(&str) -> String, wanted: Value) {
+        by_path(at, wanted).for_each(|(path, wanted)| self.is(&path, wanted));
+    }
+
+    /// The same of values that repeat themselves.
+    pub fn repeat(&mut self, wanted: Value) {
+        self.repeat_at(str::to_owned, wanted);
+    }
+
+    /// The same by what the paths are called for short.
+    pub fn repeat_at(&mut self, at: impl Fn(&str) -> String, wanted: Value) {
+        by_path(at, wanted).for_each(|(path, wanted)| self.each(&path, wanted));
     }
 
     /// What a system is: its name, how many joints and bars, total length, total mass and gravity.
@@ -195,8 +210,19 @@ impl Output {
         self.found(path)
     }
 
-    /// Compare what was asserted with the table, and what there is besides.
-    pub fn done(self) {
+    /// The paths that the table has not.
+    pub fn unlisted(&self) -> Vec<String> {
+        let table = table::of(self.kind);
+        self.values.keys().filter(|path| !table.contains_key(*path)).cloned().collect()
+    }
+}
+
+impl Drop for Output {
+    /// Compare what the named test asserted with the table, and what there is besides.
+    fn drop(&mut self) {
+        if self.test.is_empty() || std::thread::panicking() {
+            return;
+        }
         let table = table::of(self.kind);
         let named: BTreeSet<String> = table
             .iter()
@@ -218,12 +244,11 @@ impl Output {
         let unlisted = self.unlisted();
         assert!(unlisted.is_empty(), "[{}]\nasserted nowhere:\n{}", self.kind, unlisted.join("\n"));
     }
+}
 
-    /// The paths that the table has not.
-    pub fn unlisted(&self) -> Vec<String> {
-        let table = table::of(self.kind);
-        self.values.keys().filter(|path| !table.contains_key(*path)).cloned().collect()
-    }
+fn by_path(at: impl Fn(&str) -> String, wanted: Value) -> impl Iterator<Item = (String, Value)> {
+    let Value::Object(wanted) = wanted else { panic!("{wanted} for paths") };
+    wanted.into_iter().map(move |(key, wanted)| (at(&key), wanted))
 }
 
 /// A column's name with `#` for the numbers of joints, bars and anchors in it, and for the name of a

@@ -27,7 +27,6 @@ fn a_cross_of_struts() {
     output.each(&at("because"), json!(["slider", "not_definite"]));
     output.each(&at("joint"), 3);
     output.each(&at("compressed"), 2);
-    output.done();
 }
 
 /// What a chain's census takes by itself, and where it is asked for.
@@ -39,16 +38,12 @@ fn too_many_bars() {
     output.each(&at("because"), "bridle");
     // Three strands of eight bars.
     output.is("system.bars", 24);
-    output.each(&at("bars"), 24);
-    output.each(&at("limit"), 8);
-    output.done();
+    output.repeat_at(at, json!({ "bars": 24, "limit": 8 }));
     let arguments = ["solve", "--case", "thirty-bars", "--census=always", "--json"];
     let mut output = case("solve", "too_many_bars", &arguments);
     output.each(&at("because"), "too_many_bars");
     output.is("system.bars", 30);
-    output.each(&at("bars"), 30);
-    output.each(&at("limit"), 16);
-    output.done();
+    output.repeat_at(at, json!({ "bars": 30, "limit": 16 }));
 }
 
 /// A beam with its hook at the height c is pressed by m g a/c less 0.5 N: 3 kg, 0.4 over 0.3 m.
@@ -59,7 +54,6 @@ fn a_pressed_beam() {
     // The fourth bar; the second one pulls 30 N times 5/3.
     output.near("points[].compression_n[]", 1e-9, json!([4, 39.5]));
     output.near("points[].tension_n[]", 1e-9, json!([2, 50.0]));
-    output.done();
 }
 
 /// A tripod is rigid.
@@ -69,7 +63,6 @@ fn no_modes() {
     output.is("equilibria[].modes[]", json!([]));
     // Hanging and standing.
     output.is("equilibria[].modes_in_all", json!([0, 0]));
-    output.done();
 }
 
 /// Six orders of magnitude are too many to prove the number of signs.
@@ -78,5 +71,4 @@ fn no_signs() {
     let arguments = ["modes", "--case", "six-orders", "--json"];
     let mut output = case("modes", "no_signs", &arguments);
     output.each("equilibria[].enclosed.inertia", json!(null));
-    output.done();
 }

@@ -68,7 +68,6 @@ fn refusals_of_energy_for_chains() {
         "gap": [0.125, 0.0625], "iterations": [7, 8, 9], "gradient": [0.375, 0.625],
         "directions": 2, "across": 3e-8,
     }));
-    output.done();
 }
 
 #[test]
@@ -138,7 +137,6 @@ fn refusals_of_energy_for_systems() {
         "max_work": 15, "index": 10, "quantity": "energy", "coordinates": 13,
         "reason": "in its words",
     }));
-    output.done();
 }
 
 #[test]
@@ -164,7 +162,6 @@ fn refusals_of_lagrange_for_chains() {
         "kind": kinds, "bar": 9, "residual": 0.125, "iterations": 7, "relaxations": 8,
         "moment": 0.25, "size": 12, "closure": 0.375, "passes": 13,
     }));
-    output.done();
 }
 
 #[test]
@@ -226,7 +223,6 @@ fn refusals_of_lagrange_for_systems() {
         "misfit_m": 0.25, "rounds": 13, "index": 14, "unknowns": 15,
     }));
     output.each("joint", "P");
-    output.done();
 }
 
 /// Where no derivative exists.
@@ -256,7 +252,6 @@ fn refusals_of_lagrange_for_derivatives() {
     }));
     output.each("joint", "P");
     output.is("left", 0.375);
-    output.done();
 }
 
 /// Lengths that do not fit each other, and forces that nothing decides.
@@ -286,7 +281,6 @@ fn refusals_of_lagrange_for_frames() {
         "misfits[].within_m": 0.125, "member": [2, 3], "force_n": 3.5, "ratio": 4.5, "from": "P",
         "to": "D",
     }));
-    output.done();
 }
 
 /// The same of the other solver.
@@ -310,5 +304,4 @@ fn refusals_of_energy_for_frames() {
         "misfits[].misfit_m": 0.25, "misfits[].within_m": 0.125, "member": [2, 6], "span": 7,
         "ratio": 4.5, "joint": "U", "unbalance": 0.5,
     }));
-    output.done();
 }

@@ -59,7 +59,6 @@ fn the_paper_judged() {
     field(&mut output);
     figures(&mut output);
     environment(&mut output);
-    output.done();
 }
 
 fn equilibria(output: &mut Output) {
@@ -68,8 +67,7 @@ fn equilibria(output: &mut Output) {
     let [a, b, c] = E1;
     let second = [-c, -b, -a];
     let all = [E1, E1.map(|x: f64| -x), second, second.map(|x: f64| -x)];
-    output.is(&at("lagrange_deg[]"), json!(all));
-    output.is(&at("energy_deg[]"), json!(all[..2]));
+    output.are_at(at, json!({ "lagrange_deg[]": all, "energy_deg[]": all[..2] }));
     output.each(&at("energy_deg"), json!(null));
     let [low, high] = ENERGIES;
     output.is(&at("lagrange_mgl"), json!([low, low, high, high]));
@@ -127,10 +125,10 @@ fn ladder(output: &mut Output) {
     output.each(&proof("forces_found.proved"), "rank");
     output.within(&proof("box_width"), f64::EPSILON / 2.0..=NOTHING);
     output.within(&proof("distance"), 0.0..=NOTHING);
-    output.each(&proof("circle"), true);
-    output.each(&proof("in_plane"), 4);
-    output.each(&proof("families"), 0);
-    output.each(&proof("patterns"), 8);
+    let wanted = json!({
+        "circle": true, "in_plane": 4, "families": 0, "patterns": 8,
+    });
+    output.repeat_at(proof, wanted);
     output.within(&proof("cells"), 8.0..=1000.0);
     output.within(&proof("gap"), 0.0..=NOTHING);
     output.each(&proof("singular"), true);
@@ -144,15 +142,13 @@ fn ladder(output: &mut Output) {
 
 fn completeness(output: &mut Output) {
     let at = |key: &str| format!("completeness.{key}");
-    output.is(&at("complete"), true);
-    output.is(&at("planar"), 4);
-    output.is(&at("circles"), 2);
-    output.is(&at("by_index[]"), json!([2, 2]));
-    output.is(&at("alternating_sum"), 0);
-    output.is(&at("euler"), 0);
+    let wanted = json!({
+        "complete": true, "planar": 4, "circles": 2, "by_index[]": [2, 2], "alternating_sum": 0,
+        "euler": 0,
+    });
+    output.are_at(at, wanted);
     // cos θ of E1 and E2 are all the roots of the sextic in [-1, 1].
-    output.is(&at("sextic_roots"), 2);
-    output.is(&at("patterns"), 8);
+    output.are_at(at, json!({ "sextic_roots": 2, "patterns": 8 }));
     output.within(&at("cells"), 8.0..=1000.0);
     output.within(&at("width"), f64::EPSILON / 2.0..=NOTHING);
     output.within(&at("lagrange"), 0.0..=NOTHING);
@@ -168,8 +164,7 @@ fn completeness(output: &mut Output) {
     output.near(&at("first.nearest_deg"), 1e-10, E1[1] - 38.583_065);
     output.near(&at("second.nearest_deg"), 1e-10, (360.0 - 299.942_74) - E1[1] - 0.000_005);
     let [low, high] = ENERGIES;
-    output.is("bounds.lower_mgl", low);
-    output.is("bounds.upper_mgl", high);
+    output.are(json!({ "bounds.lower_mgl": low, "bounds.upper_mgl": high }));
     output.within("bounds.gap_to_e1_mgl", 0.0..=NOTHING);
     output.within("bounds.gap_to_e2_mgl", 0.0..=NOTHING);
     // As cables, the last one slack: two hang straight down 2 l, 1/2 + 3/2 below, and the third
@@ -307,8 +302,7 @@ fn cases(output: &mut Output) {
     }
     output.says(&at("rung"), &["optimal"]);
     output.each(&at("failure"), json!(null));
-    output.is("summary.cases", all.len());
-    output.is("summary.cases_agreed", all.len());
+    output.are(json!({ "summary.cases": all.len(), "summary.cases_agreed": all.len() }));
     let rows = |key: &str| at(&format!("rows[].{key}"));
     assert_eq!(output.values(&rows("case"))[0], "three-equal-bars");
     assert_eq!(output.values(&rows("observable"))[0], "energy_j");
@@ -332,9 +326,7 @@ fn seeds(output: &mut Output) {
     let at = |key: &str| format!("seeds[].{key}");
     output.is(&at("solver"), json!(["lagrange", "energy", "lagrange", "energy"]));
     output.is(&at("kind"), json!(["planar", "planar", "spatial", "spatial"]));
-    output.each(&at("seeds"), 10_000);
-    output.each(&at("converged"), 10_000);
-    output.each(&at("elsewhere"), 0);
+    output.repeat_at(at, json!({ "seeds": 10_000, "converged": 10_000, "elsewhere": 0 }));
     output.is(&at("lost[]"), json!([]));
     let planar = ["E1", "E1'", "E2", "E2'"];
     let names = [&planar[..], &planar, &["E1", "E2"], &["E1", "E2"]].concat();
@@ -407,8 +399,7 @@ fn field(output: &mut Output) {
     // Chains have less energy than the published ones that are not converged.
     output.within(&solvers("apart_j"), 0.0..=1e-9);
     output.within(&solvers("below_j"), 0.0..=0.01);
-    output.each(&at("by_hand"), json!(null));
-    output.each(&at("solvers"), json!(null));
+    output.repeat_at(at, json!({ "by_hand": null, "solvers": null }));
     output.is(&at("numbers[]"), json!([]));
 }
 

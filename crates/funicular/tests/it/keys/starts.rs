@@ -65,8 +65,7 @@ impl Rows {
         output.is(&at("outcome"), found.iter().map(|(outcome, _)| *outcome).collect::<Vec<_>>());
         let meaning: Vec<String> =
             found.iter().map(|(outcome, _)| format!("equilibrium {}", outcome + 1.0)).collect();
-        output.is(&at("meaning"), meaning);
-        output.is(&at("count"), counts.clone());
+        output.are_at(at, json!({ "meaning": meaning, "count": counts.clone() }));
         let rates: Vec<f64> = counts.iter().map(|count| count / all).collect();
         output.is(&at("rate"), rates);
         let intervals: Vec<[f64; 2]> = counts.iter().map(|count| wilson(*count, all)).collect();
@@ -109,8 +108,7 @@ fn equilibria(output: &mut Output, angles: bool) {
         output.is("equilibria[].angles_rad[]", json!([low, high, high, low]));
     } else {
         let joints = [-DEPTH, DEPTH].map(|z| [0.0, 0.0, 0.0, 0.5, 0.0, z, 1.0, 0.0, 0.0]);
-        output.is("equilibria[].joints_m[][]", json!(joints));
-        output.is("equilibria[].angles_rad[]", json!([]));
+        output.are(json!({ "equilibria[].joints_m[][]": joints, "equilibria[].angles_rad[]": [] }));
         // It hangs, or stands on a line that it may fall off to both sides.
         output.is("equilibria[].index_in_space", json!([0, 1]));
     }
@@ -134,8 +132,7 @@ fn comparisons(lagrange: &Rows, energy: &Rows) -> [usize; 2] {
 
 fn assert_comparisons(output: &mut Output, lagrange: &Rows, energy: &Rows) {
     let [same, other] = comparisons(lagrange, energy);
-    output.is("comparisons.same", same);
-    output.is("comparisons.other_basin", other);
+    output.are(json!({ "comparisons.same": same, "comparisons.other_basin": other }));
     // No minimum but these two, which nothing in their plane can leave.
     let none = ["energies_differ", "energy_at_no_minimum", "failed", "no_minimum", "not_listed"];
     for none in none.iter().chain(&["unclassified"]) {
@@ -165,7 +162,6 @@ fn a_grid_of_starts() {
     lagrange.assert(&mut output, "lagrange");
     energy.assert(&mut output, "energy");
     assert_comparisons(&mut output, &lagrange, &energy);
-    output.done();
     columns_of_a_grid(&rows, &lagrange, &energy);
     summary_of_a_grid(folder.path(), &lagrange, &energy);
     manifest_of_a_grid(folder.path());
@@ -189,15 +185,13 @@ fn columns_of_a_grid(rows: &str, lagrange: &Rows, energy: &Rows) {
             rows.outcomes.iter().map(|outcome| (20.0 * outcome - 10.0) * DEPTH).collect();
         output.near(&at("energy_j"), 1e-9, json!(energies));
     }
-    output.done();
 }
 
 fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
     let part = folder.join("out/part-000000.csv");
     let text = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
     let mut output = Output::json("summary.json of a sweep", "a_grid_of_starts", &text);
-    output.is("schema_version", 2);
-    output.is("outcomes.tally.seeds", SEEDS);
+    output.are(json!({ "schema_version": 2, "outcomes.tally.seeds": SEEDS }));
     lagrange.assert_tally(&mut output, "lagrange");
     energy.assert_tally(&mut output, "energy");
     let both = |a: f64, b: f64| {
@@ -215,7 +209,6 @@ fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
         "parts[].seeds.start": 0, "parts[].seeds.end": SEEDS,
         "parts[].bytes": std::fs::metadata(&part).unwrap().len(), "parts[].sha256": sha256(&part),
     }));
-    output.done();
 }
 
 fn manifest_of_a_grid(folder: &Path) {
@@ -226,7 +219,6 @@ fn manifest_of_a_grid(folder: &Path) {
     output.is("solvers[]", json!(["lagrange", "energy"]));
     output.is("angles[]", json!(["theta_1_rad", "theta_2_rad"]));
     output.is("source", "grid");
-    output.done();
 }
 
 /// What every manifest says.
@@ -277,9 +269,7 @@ fn eighteen_on_a_parabola() {
     let angles: Vec<f64> =
         tangents.iter().map(|t| std::f64::consts::FRAC_PI_2 + t.atan()).collect();
     output.near(&at("angles_rad[]"), 1e-7, json!(angles));
-    output.is(&at("index_in_plane"), 0);
-    output.is(&at("mirrored"), false);
-    output.is(&at("origin"), "discovered");
+    output.are_at(at, json!({ "index_in_plane": 0, "mirrored": false, "origin": "discovered" }));
     output.is("discovered.below_j", json!(null));
     output.is("schema_version", 2);
     output.is("outcomes.tally.seeds", 20);
@@ -305,7 +295,6 @@ fn eighteen_on_a_parabola() {
     output.is("parts[].seeds.end", 20);
     output.is("parts[].bytes", rows.len());
     output.is("parts[].sha256", sha256(&folder.path().join("out/part-000000.csv")));
-    output.done();
 }
 
 /// Two halves joined say what the whole says.
@@ -331,7 +320,6 @@ fn halves_joined() {
     lagrange.assert(&mut output, "lagrange");
     energy.assert(&mut output, "energy");
     assert_comparisons(&mut output, &lagrange, &energy);
-    output.done();
 }
 
 /// Released with damping all come to rest where they hang: nothing rests standing.
@@ -350,7 +338,6 @@ fn releases() {
     output.is("seeds_before", 0);
     output.within("seconds", 1e-6..=60.0);
     motion.assert(&mut output, "motion");
-    output.done();
     let mut output = Output::csv("columns of releases", "releases", &rows);
     output.is("seed", (0..20).collect::<Vec<_>>());
     output.each("motion_outcome", 0);
@@ -359,11 +346,9 @@ fn releases() {
     output.within("motion_residual", 0.0..=1e-7);
     let rest = json!(vec![-10.0 * DEPTH; 20]);
     output.near("motion_energy_j", 1e-9, rest);
-    output.done();
     let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
     let mut output = Output::json("summary.json of releases", "releases", &text);
-    output.is("schema_version", 2);
-    output.is("outcomes.tally.seeds", 20);
+    output.are(json!({ "schema_version": 2, "outcomes.tally.seeds": 20 }));
     motion.assert_tally(&mut output, "motion");
     for none in ["lagrange", "energy", "both"] {
         output.is(&format!("outcomes.tally.{none}"), json!(null));
@@ -375,7 +360,6 @@ fn releases() {
         "parts[].bytes": rows.len(),
         "parts[].sha256": sha256(&folder.path().join("out/part-000000.csv")),
     }));
-    output.done();
     let text = std::fs::read_to_string(folder.path().join("out/manifest.json")).unwrap();
     let mut output = Output::json("manifest.json of releases", "releases", &text);
     manifest(&mut output, folder.path(), &text, 20);
@@ -387,5 +371,4 @@ fn releases() {
         "release.span_s": 0.08, "release.damping_1_s": 3.0, "release.friction_n_m_s": 0.0,
         "release.order": 2, "release.rest": 1e-7,
     }));
-    output.done();
 }

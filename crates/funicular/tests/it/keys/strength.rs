@@ -24,11 +24,9 @@ fn strength_of_level_v() {
     output.each("equilibria[].weakest.utilisation", largest / 10.0);
     output.each("equilibria[].weakest.safety", 10.0 / largest);
     output.each("equilibria[].weakest.safety_wanted", 2.0);
-    output.done();
     let mut output =
         Output::file("solve --bars-csv", "strength_of_level_v", folder.path().join("v.csv"));
     output.each("utilisation", used);
-    output.done();
 }
 
 /// 300 N on two ropes of 5 m from anchors 6 m apart, 187.5 N in each, by a hanger of 1 m. Without one of
@@ -59,7 +57,6 @@ fn losses_of_two_ropes_and_a_hanger() {
     }));
     output.says("losses[].outcome", &["falls"]);
     output.says("losses[].reason", &["no member meets joint \"Q\""]);
-    output.done();
 }
 
 /// 100 N between two ropes of 5 m from anchors 6 m apart, 3-4-5, and 30 N of wind along them: each rope takes
@@ -103,7 +100,6 @@ fn load_cases_of_two_ropes() {
         "bars[].utilisation.case": ["east", "west"], "supports[].joint": ["A", "B"],
         "supports[].most_n.value": [87.5, 103.125], "supports[].most_n.case": ["east", "west"],
     }));
-    output.done();
 }
 
 /// A triangle on a roller folds without any of its bars; a bar that weighs leaves nothing behind.
@@ -122,6 +118,5 @@ fn losses_after_which_nothing_hangs() {
         let mut output =
             Output::told("losses_after_which_nothing_hangs", &folder, command).of("losses");
         output.says("losses[].outcome", &[outcome]);
-        output.done();
     }
 }

@@ -21,8 +21,7 @@ fn study_of_a_chain() {
     let mut output = Output::told("study_of_a_chain", &folder, command);
     output.is("schema_version", 3);
     system_of_level_v(&mut output);
-    output.is("parameters[]", "gravity_m_s2");
-    output.is("units[]", "m/s^2");
+    output.are(json!({ "parameters[]": "gravity_m_s2", "units[]": "m/s^2" }));
     let at = |key: &str| format!("points[].{key}");
     output.each(&at("path"), 1);
     output.is(&at("values[]"), json!([10.0, 20.0]));
@@ -37,16 +36,15 @@ fn study_of_a_chain() {
     for (pair, wanted) in found.chunks(2).zip([anchor, 2.0 * anchor]) {
         assert!([1.0, 2.0].contains(&pair[0]) && (pair[1] - wanted).abs() < 1e-11, "{pair:?}");
     }
-    output.each(&at("compression_n"), json!(null));
-    output.each(&at("rises_deg[]"), json!([-60.0, 60.0]));
-    output.each(&at("rung"), "optimal");
-    output.each(&at("agrees"), true);
-    output.each(&at("check_failed"), false);
+    let wanted = json!({
+        "compression_n": null, "rises_deg[]": [-60.0, 60.0], "rung": "optimal", "agrees": true,
+        "check_failed": false,
+    });
+    output.repeat_at(at, wanted);
     output.within(&at("joints_differ_m"), 0.0..=NOTHING);
     output.within(&at("forces_differ_n"), 0.0..=NOTHING);
     let ends = |h: f64, w: f64| [[-h, 0.0, w], [h, 0.0, w]];
     output.is(&at("reactions_n.*[]"), json!([ends(H, 10.0), ends(2.0 * H, 20.0)]));
-    output.done();
     let mut output = Output::file("study --csv", "study_of_a_chain", folder.path().join("v.csv"));
     output.is("gravity_m_s2", json!([10.0, 20.0]));
     output.each("span_m", 1.0);
@@ -55,26 +53,21 @@ fn study_of_a_chain() {
     output.each("#_y_n", 0.0);
     output.is("#_z_n", json!([10.0, 10.0, 20.0, 20.0]));
     output.is("energy_j", json!([-10.0 * DEPTH, -20.0 * DEPTH]));
-    output.each("sag_m", DEPTH);
-    output.each("lowest_joint", 1);
-    output.each("lowest_x_m", 0.5);
-    output.each("lowest_z_m", -DEPTH);
+    output.repeat(json!({
+        "sag_m": DEPTH, "lowest_joint": 1, "lowest_x_m": 0.5, "lowest_z_m": -DEPTH,
+    }));
     output.is("tension_n", json!([anchor, 2.0 * anchor]));
     output.within("tension_bar", 1.0..=2.0);
     output.each("rise_#_deg", json!([-60.0, 60.0]));
     columns_of_every_study(&mut output);
-    output.done();
 }
 
 /// What is alike for both systems.
 fn columns_of_every_study(output: &mut Output) {
-    output.each("path", 1);
-    output.each("agrees", true);
-    output.each("evidence", "optimal");
-    output.each("lowest_y_m", 0.0);
-    output.each("compression_n", "");
-    output.each("compression_bar", "");
-    output.each("refused", "");
+    output.repeat(json!({
+        "path": 1, "agrees": true, "evidence": "optimal", "lowest_y_m": 0.0, "compression_n": "",
+        "compression_bar": "", "refused": "",
+    }));
 }
 
 /// The paper's chain, whose third bar is pushed.
@@ -87,12 +80,9 @@ fn study_of_the_paper() {
     let (sine, cosine) = 73.920_588_792_231_34_f64.to_radians().sin_cos();
     let pushed = 10.0 * (0.648_944_835_933_933_6 * sine + 0.687_055_707_758_162_4 * cosine);
     output.is("points[].compression_n[]", json!([3, pushed]));
-    output.done();
     let mut output =
         Output::file("study --csv", "study_of_the_paper", folder.path().join("paper.csv"));
-    output.is("compression_n", pushed);
-    output.is("compression_bar", 3);
-    output.done();
+    output.are(json!({ "compression_n": pushed, "compression_bar": 3 }));
 }
 
 /// Anchors further apart than the bars reach.
@@ -104,7 +94,6 @@ fn study_of_too_few_bars() {
     output.is("points[].refused", true);
     let reason = "the anchors \"0\" and \"2\" are 3 m apart and the members between them reach only 2 m: 1 m are missing";
     output.is("points[].reason", reason);
-    output.done();
 }
 
 /// The lamp with 2 and 4 kg.
@@ -118,12 +107,10 @@ fn study_of_a_system() {
     output.is("parameters[]", "joints.P.mass_kg");
     output.is("units[]", "kg");
     output.is("of[]", "joints.P.z");
-    output.each("points[].of[]", -2.4);
-    output.each("points[].span_m", 5.0);
+    output.repeat(json!({ "points[].of[]": -2.4, "points[].span_m": 5.0 }));
     let at = |key: &str| format!("points[].{key}");
     output.each(&at("path"), 1);
-    output.is(&at("values[]"), json!([2.0, 4.0]));
-    output.is(&at("energy_j"), json!([-48.0, -96.0]));
+    output.are_at(at, json!({ "values[]": [2.0, 4.0], "energy_j": [-48.0, -96.0] }));
     output.each(&at("lowest_joint"), "P");
     output.each(&at("lowest_m[]"), json!([1.8, 0.0, -2.4]));
     output.each(&at("sag_m"), 2.4);
@@ -131,25 +118,23 @@ fn study_of_a_system() {
     output.each(&at("compression_n"), json!(null));
     // Bar by bar in their directions: (1.8, -2.4) and (3.2, 2.4).
     let rises = [-0.8_f64, 0.6].map(|sin| sin.asin().to_degrees());
-    output.each(&at("rises_deg[]"), json!(rises));
-    output.each(&at("rung"), "optimal");
-    output.each(&at("agrees"), true);
-    output.each(&at("check_failed"), false);
+    let wanted = json!({
+        "rises_deg[]": rises, "rung": "optimal", "agrees": true, "check_failed": false,
+    });
+    output.repeat_at(at, wanted);
     output.within(&at("joints_differ_m"), 0.0..=NOTHING);
     output.within(&at("forces_differ_n"), 0.0..=NOTHING);
     let forces = [1.0, 2.0].map(|k| [-9.6, 0.0, 12.8, 9.6, 0.0, 7.2].map(|n: f64| k * n));
     output.is(&at("reactions_n.*[]"), json!(forces));
-    output.done();
     let mut output =
         Output::file("study --csv", "study_of_a_system", folder.path().join("lamp.csv"));
     output.is("joints.P.mass_kg", json!([2.0, 4.0]));
     output.each("span_m", 5.0);
     output.is("energy_j", json!([-48.0, -96.0]));
-    output.each("sag_m", 2.4);
-    output.each("joints.P.z", -2.4);
-    output.each("lowest_joint", "P");
-    output.each("lowest_x_m", 1.8);
-    output.each("lowest_z_m", -2.4);
+    output.repeat(json!({
+        "sag_m": 2.4, "joints.P.z": -2.4, "lowest_joint": "P", "lowest_x_m": 1.8,
+        "lowest_z_m": -2.4,
+    }));
     output.is("tension_n", json!([16.0, 32.0]));
     output.each("tension_bar", 1);
     for (anchor, x, z) in [("A", -9.6, 12.8), ("B", 9.6, 7.2)] {
@@ -159,7 +144,6 @@ fn study_of_a_system() {
     }
     output.each("rise_#_deg", json!(rises));
     columns_of_every_study(&mut output);
-    output.done();
 }
 
 /// What every kind of derivatives says of the lamp.
@@ -185,7 +169,6 @@ fn stiffness_of_anchors() {
     let stiffness = [1.0, -1.0, -1.0, 1.0]
         .map(|s| [[s * xx, 0.0, s * xz], [0.0, s * yy, 0.0], [s * xz, 0.0, s * zz]]);
     output.is("anchors[].stiffness_n_m[][]", json!(stiffness));
-    output.done();
 }
 
 /// From `x = (s² + a² - b²)/2s` and `z² = a² - x²`, over the sides a, b and s.
@@ -195,8 +178,7 @@ fn gradient_of_a_height() {
     let command = "derivatives lamp.toml --of joints.P.at_m.z --csv z.csv";
     let mut output = Output::told("gradient_of_a_height", &folder, command);
     about_lamp(&mut output);
-    output.is("of", "joints.P.at_m.z");
-    output.is("value", -2.4);
+    output.are(json!({ "of": "joints.P.at_m.z", "value": -2.4 }));
     let wanted = [
         ("bars.1.length_m", -0.8, "m/m"),
         ("bars.1.mass_kg", 0.0, "m/kg"),
@@ -216,13 +198,11 @@ fn gradient_of_a_height() {
     output.is("derivatives[].parameter", wanted.map(|(name, ..)| name).as_slice());
     output.is("derivatives[].value", wanted.map(|(_, value, _)| value).as_slice());
     output.is("derivatives[].unit", wanted.map(|(.., unit)| unit).as_slice());
-    output.done();
     let mut output =
         Output::file("derivatives --csv", "gradient_of_a_height", folder.path().join("z.csv"));
     output.is("parameter", wanted.map(|(name, ..)| name).as_slice());
     output.is("derivative", wanted.map(|(_, value, _)| value).as_slice());
     output.is("unit", wanted.map(|(.., unit)| unit).as_slice());
-    output.done();
 }
 
 /// Of 20 N bar 1 bears `20 a (5 - x)/5 |z|`, bar 2 `20 b x/5 |z|`, anchor A `20 (5 - x)/5` upwards.
@@ -237,7 +217,6 @@ fn derivatives_by_a_length() {
     output.is("joints_m.*[]", json!([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.0, -0.8]));
     output.is("axial_n[]", json!([-3.0, 0.0]));
     output.is("reactions_n.*[]", json!([1.8, 0.0, -2.4, -1.8, 0.0, 2.4]));
-    output.done();
 }
 
 /// Hanging and standing under 10 to 20 N a bar: angles stay, forces and energies scale.
@@ -253,21 +232,17 @@ fn branches_over_gravity() {
     output.is(&at("units[]"), "m/s^2");
     output.is(&at("points[].position"), json!([0.0, 1.0]));
     output.is(&at("points[].values[]"), json!([10.0, 20.0]));
-    output.each(&at("points[].span_m"), 1.0);
-    output.each(&at("points[].status"), "complete");
+    output.repeat_at(at, json!({ "points[].span_m": 1.0, "points[].status": "complete" }));
     // The configurations of two bars in a plane are two points.
-    output.each(&at("points[].count"), 2);
-    output.each(&at("points[].by_index[]"), 2);
-    output.each(&at("points[].alternating_sum"), 2);
-    output.each(&at("points[].euler_characteristic"), 2);
-    output.each(&at("points[].circles"), false);
-    output.each(&at("points[].families"), 0);
-    output.each(&at("directions[][]"), json!([1.0, 0.0]));
+    let wanted = json!({
+        "points[].count": 2, "points[].by_index[]": 2, "points[].alternating_sum": 2,
+        "points[].euler_characteristic": 2, "points[].circles": false, "points[].families": 0,
+        "directions[][]": [1.0, 0.0],
+    });
+    output.repeat_at(at, wanted);
     output.is(&at("branches[].id"), json!([1, 2]));
-    output.each(&at("branches[].start"), "path");
-    output.each(&at("branches[].end"), "path");
-    output.is(&at("events[]"), json!([]));
-    output.is(&at("checks.between"), 1);
+    output.repeat_at(at, json!({ "branches[].start": "path", "branches[].end": "path" }));
+    output.are_at(at, json!({ "events[]": [], "checks.between": 1 }));
     for none in ["added", "disagreements", "euler_violations"] {
         output.is(&at(&format!("checks.{none}")), 0);
     }
@@ -302,7 +277,6 @@ fn branches_over_gravity() {
     output.is(&at("axial_n[]"), each(&|s, w| json!(vec![s * w * 0.1 * AXIAL; 2])));
     output.each(&at("index_in_plane"), 0);
     output.is(&at("index_in_space"), each(&|s, _| json!(i32::from(s < 0.0))));
-    output.done();
     columns_of_branches(&std::fs::read_to_string(folder.path().join("v.csv")).unwrap());
 }
 
@@ -335,7 +309,6 @@ fn columns_of_branches(text: &str) {
     let angles = |s: f64, _: f64| if s > 0.0 { json!([low, high]) } else { json!([high, low]) };
     output.is("angle_#_rad", each(&angles));
     output.is("axial_#_n", each(&|s, w| json!(vec![s * w * 0.1 * AXIAL; 2])));
-    output.done();
 }
 
 /// Three bars between level anchors: pairs meet and end at a span of √(3/2) m, as reflected images
@@ -399,5 +372,4 @@ fn folds_of_the_level_chain() {
     output.is("traces[].points[].count", json!([10, 2]));
     let reason = "the anchors \"0\" and \"3\" are 4 m apart and the members between them reach only 3 m: 1 m are missing";
     output.is("traces[].points[].reason", reason);
-    output.done();
 }

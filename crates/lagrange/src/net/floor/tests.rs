@@ -1,7 +1,7 @@
 //! The rounds of the floor, by hand.
 
 use model::Bar;
-use model::system::{Joint, Member};
+use model::system::Member;
 
 use super::*;
 use crate::net::Settings;
@@ -30,11 +30,7 @@ fn the_push_of_the_floor_is_what_the_support_cannot_bear() {
 
 /// An anchor and two weights of 1 N that hang one below the other, 5 m above the floor.
 fn strand() -> System {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::free("B").with_mass(1.0),
-        Joint::free("C").with_mass(1.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3]], &[1.0, 1.0]);
     let bar = Bar::homogeneous(1.0, 0.0).unwrap();
     let members = vec![Member::bar(0, 1, bar), Member::bar(1, 2, bar)];
     System::new("strand", 1.0, joints, members).unwrap().with_floor(-5.0).unwrap()

@@ -16,10 +16,9 @@ fn legs(support: Support, lengths_m: [f64; 4]) -> (System, SystemEquilibrium) {
     let member = |k: usize| Member::bar(k, 4, Bar::homogeneous(lengths_m[k], 0.0).unwrap());
     let members = (0..4).map(member).collect();
     let system = System::new("legs", 10.0, joints, members).unwrap();
-    let (_, like) = lamp();
     let mut joints_m = corners.to_vec();
     joints_m.push([0.0; 3]);
-    (system, SystemEquilibrium { joints_m, ..like })
+    (system, SystemEquilibrium { joints_m, ..lamp().1 })
 }
 
 /// Those along x against those along y: of 1 N in the first a quarter, with the signs + + - -.
@@ -115,10 +114,9 @@ fn large_systems_are_not_counted() {
         // Slack, so that no member counts.
         let members = (0..joints).map(|k| Member::cable(k, joints, body)).collect();
         let system = System::new("many", 10.0, all, members).unwrap();
-        let (_, like) = lamp();
         let mut joints_m = vec![[0.0, 0.0, -0.5]; joints];
         joints_m.push([0.0; 3]);
-        Family::of(&system, &SystemEquilibrium { joints_m, ..like }).unwrap().dimension()
+        Family::of(&system, &SystemEquilibrium { joints_m, ..lamp().1 }).unwrap().dimension()
     };
     assert_eq!((counted(80), counted(81)), (Some(0), None));
 }
@@ -264,9 +262,8 @@ fn what_no_shape_removes_is_shared_by_length() {
     };
     let members = vec![member(0, 3.9994), member(1, 2.0003)];
     let system = System::new("ring", 10.0, joints, members).unwrap();
-    let (_, like) = lamp();
     let joints_m = vec![[0.0, 0.0, 4.0], [0.0, 0.0, -2.0], [0.0; 3]];
-    let family = Family::of(&system, &SystemEquilibrium { joints_m, ..like }).unwrap();
+    let family = Family::of(&system, &SystemEquilibrium { joints_m, ..lamp().1 }).unwrap();
     for (found, wanted) in family.unremovable_m(&system).iter().zip([0.2e-3, 0.1e-3]) {
         assert!((found - wanted).abs() < 1e-7, "{found}, not {wanted}");
     }

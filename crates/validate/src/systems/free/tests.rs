@@ -4,7 +4,7 @@ use model::Bar;
 use model::system::{Joint, Support};
 use numerics::vector::minus;
 
-use super::super::tests::lamp;
+use super::super::tests::{joined, lamp};
 use super::*;
 
 /// How all joints may move.
@@ -16,9 +16,8 @@ fn ways(system: &System, along: fn(&Support) -> Vec<Vector>) -> impl Fn(usize) -
 fn at(kind: Kind, distance_m: f64) -> bool {
     let body = Bar::homogeneous(2.0, 0.0).unwrap();
     let member = Member::bar(0, 1, body).of_kind(kind);
-    let (_, like) = lamp();
     let joints_m = vec![[0.0; 3], [0.0, distance_m, 0.0]];
-    is_slack(&member, &SystemEquilibrium { joints_m, ..like })
+    is_slack(&member, &SystemEquilibrium { joints_m, ..lamp().1 })
 }
 
 /// Two micrometres of two metres are rounding at most.
@@ -47,9 +46,8 @@ fn two_bars_leave_room_where_they_are_bent() {
         let second = if turned { Member::bar(2, 1, bar) } else { Member::bar(1, 2, bar) };
         let system =
             System::new("two", 10.0, joints, vec![Member::bar(0, 1, bar), second]).unwrap();
-        let (_, like) = lamp();
         let joints_m = vec![[0.0; 3], at_m, [2.0, 0.0, 0.0]];
-        let answer = SystemEquilibrium { joints_m, ..like };
+        let answer = SystemEquilibrium { joints_m, ..lamp().1 };
         with_room(&system, &[answer], &members_of(&system), &[1], &ways(&system, Support::motions))
     };
     for turned in [false, true] {
@@ -75,9 +73,8 @@ fn a_folded_line_leaves_the_room_that_another_answer_shows() {
     let system = System::new("folded", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
     let along = |x: f64, y: f64| [x, y, 0.0];
     let answer = |[p, q, r]: [Vector; 3]| {
-        let (_, like) = lamp();
         let joints_m = vec![[0.0; 3], p, q, r, along(2.0, 0.0)];
-        SystemEquilibrium { joints_m, ..like }
+        SystemEquilibrium { joints_m, ..lamp().1 }
     };
     let high = 0.75_f64.sqrt();
     let folded = || answer([along(1.0, 0.0), along(0.0, 0.0), along(1.0, 0.0)]);
@@ -100,11 +97,7 @@ fn anchors_are_not_free() {
     let mut members = system.members().to_vec();
     members.push(Member::cable(3, 2, Bar::homogeneous(7.0, 0.0).unwrap()));
     let system = System::new("spare cable", 10.0, joints, members).unwrap();
-    answer.joints_m.push([0.0, 1.0, 0.0]);
-    answer.reactions_n.push([0.0; 3]);
-    answer.start_forces_n.push([0.0; 3]);
-    answer.end_forces_n.push([0.0; 3]);
-    answer.axial_n.push(0.0);
+    joined(&mut answer, [0.0, 1.0, 0.0], [0.0; 3], 1);
     assert_eq!(free_joints(&system, &[answer]), [false; 4]);
 }
 
@@ -123,9 +116,8 @@ fn string(joints: usize) -> Vec<bool> {
         members.push(Member::bar(k, k + 1, Bar::homogeneous(5.0, 0.0).unwrap()));
     }
     let system = System::new("string", 10.0, all, members).unwrap();
-    let (_, like) = lamp();
     let (axial_n, reactions_n) = (vec![0.0; joints + 1], vec![[0.0; 3]; joints + 2]);
-    let answer = SystemEquilibrium { joints_m, axial_n, reactions_n, ..like };
+    let answer = SystemEquilibrium { joints_m, axial_n, reactions_n, ..lamp().1 };
     free_joints(&system, &[answer])[1..=joints].to_vec()
 }
 
@@ -152,8 +144,7 @@ fn joints_on_a_line_have_no_room_to_first_order() {
         let mut tied = members.clone();
         tied.push(member(0, 1));
         let system = System::new("three", 10.0, joints, tied).unwrap();
-        let (_, like) = lamp();
-        let answer = SystemEquilibrium { joints_m, ..like };
+        let answer = SystemEquilibrium { joints_m, ..lamp().1 };
         with_room(
             &system,
             &[answer],
@@ -176,11 +167,7 @@ fn what_lies_with_members_that_bear_nothing_is_loose() {
     let mut members = system.members().to_vec();
     members.push(Member::cable(2, 3, Bar::homogeneous(7.0, 0.0).unwrap()));
     let system = System::new("lying", 10.0, joints, members).unwrap().with_floor(-4.0).unwrap();
-    answer.joints_m.push([1.0, 1.0, -4.0]);
-    answer.reactions_n.push([0.0, 0.0, 3.0]);
-    answer.start_forces_n.push([0.0; 3]);
-    answer.end_forces_n.push([0.0; 3]);
-    answer.axial_n.push(0.0);
+    joined(&mut answer, [1.0, 1.0, -4.0], [0.0, 0.0, 3.0], 1);
     let loose = |change: &dyn Fn(&mut SystemEquilibrium)| {
         let mut second = answer.clone();
         change(&mut second);
@@ -238,8 +225,7 @@ fn joints_are_idle_where_nothing_acts_on_them() {
         let mut members = vec![Member::bar(0, 1, light), Member::bar(1, 2, light)];
         change(&mut joints, &mut members);
         let system = System::new("light", 10.0, joints, members).unwrap();
-        let (_, like) = lamp();
-        let answer = SystemEquilibrium { axial_n: vec![0.0; 2], ..like };
+        let answer = SystemEquilibrium { axial_n: vec![0.0; 2], ..lamp().1 };
         idle(&system, &[answer], &ways(&system, Support::motions))
     };
     assert_eq!(idle_with(&|_, _| ()), [false, true, true]);

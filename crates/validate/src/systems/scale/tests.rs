@@ -48,9 +48,8 @@ fn prestress_gives_forces_their_size_where_nothing_is_loaded() {
     let spring =
         |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(6.0);
     let system = System::new("springs", 10.0, joints, vec![spring(0, 2), spring(2, 1)]).unwrap();
-    let (_, like) = lamp();
     let joints_m = vec![[0.0; 3], [4.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
-    let scale = Scale::new(&system, &SystemEquilibrium { joints_m, ..like });
+    let scale = Scale::new(&system, &SystemEquilibrium { joints_m, ..lamp().1 });
     assert_eq!((scale.total_n, scale.held_n), (9.0, 9.0));
     assert_eq!(scale.joint_n, [3.0, 6.0, 6.0]);
 }
@@ -63,16 +62,11 @@ fn coordinates_far_from_the_origin_leave_energies_open() {
     let far_m = 2.0_f64.powi(20) - 16.0;
     let stored = |stiffness_n: f64, length_m: f64| {
         let at = |x| [x, 0.0, far_m];
-        let joints = vec![
-            Joint::anchor("A", at(0.0)),
-            Joint::anchor("B", at(16.0)),
-            Joint::free("P").with_mass(0.3),
-        ];
+        let joints = samples::joints(&[at(0.0), at(16.0)], &[0.3]);
         let rope = Member::cable(0, 1, Bar::homogeneous(length_m, 0.0).unwrap()).over(vec![2]);
         let system = System::new("rope", 10.0, joints, vec![rope.with_stiffness(stiffness_n)]);
-        let (_, like) = lamp();
         let joints_m = vec![at(0.0), at(16.0), at(9.0)];
-        let (system, answer) = (system.unwrap(), SystemEquilibrium { joints_m, ..like });
+        let (system, answer) = (system.unwrap(), SystemEquilibrium { joints_m, ..lamp().1 });
         let scale = Scale::new(&system, &answer);
         assert_eq!((scale.size_m, scale.stored_m), (16.0, 2.0_f64.powi(-29)));
         (stored_n(&system.members()[0], scale.stored_m), scale.stored_j)

@@ -6,25 +6,34 @@ use model::system::{Joint, PointLoad, Support};
 use super::super::tests::lamp;
 use super::*;
 
+/// A spring of a length and a stiffness that hangs from A with a mass on it.
+fn spring(length_m: f64, stiffness_n: f64, mass_kg: f64) -> System {
+    let body = Bar::homogeneous(length_m, 0.0).unwrap();
+    let spring = Member::bar(0, 1, body).with_stiffness(stiffness_n);
+    System::new("spring", 10.0, samples::joints(&[[0.0; 3]], &[mass_kg]), vec![spring]).unwrap()
+}
+
+/// The mass of it so far below A, drawn up with so many newtons.
+fn hung(down_m: f64, axial_n: f64, energy_j: f64) -> SystemEquilibrium {
+    let up = [0.0, 0.0, axial_n];
+    SystemEquilibrium {
+        energy_j,
+        joints_m: vec![[0.0; 3], [0.0, 0.0, -down_m]],
+        start_forces_n: vec![up],
+        end_forces_n: vec![times(-1.0, up)],
+        axial_n: vec![axial_n],
+        reactions_n: vec![up, [0.0; 3]],
+        ..lamp().1
+    }
+}
+
 /// A spring of 1 m at its length, without any load: the only size that its energy has is what the
 /// rounding of its places costs, 8 units in the last place of 1 m times 2^50 N: 2 J.
 #[test]
 fn the_energy_of_a_spring_is_known_to_the_rounding_of_its_places() {
-    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
-    let body = Bar::homogeneous(1.0, 0.0).unwrap();
-    let spring = Member::bar(0, 1, body).with_stiffness(2.0_f64.powi(50));
-    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
-    let (_, like) = lamp();
+    let system = spring(1.0, 2.0_f64.powi(50), 0.0);
     let derived = |energy_j: f64, down_m: f64| {
-        let answer = SystemEquilibrium {
-            energy_j,
-            joints_m: vec![[0.0; 3], [0.0, 0.0, -down_m]],
-            start_forces_n: vec![[0.0; 3]],
-            end_forces_n: vec![[0.0; 3]],
-            axial_n: vec![0.0],
-            reactions_n: vec![[0.0; 3]; 2],
-            ..like.clone()
-        };
+        let answer = hung(down_m, 0.0, energy_j);
         energy(&system, &answer, &Units::new(&system, &answer, Scale::new(&system, &answer)))
     };
     // Of it half of 2^50 N/m times the square of 2^-49 m is rounding, and 2^-49 m of a strain that rounding may leave.
@@ -62,7 +71,6 @@ fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
     let bar = |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap());
     let members = vec![bar(0, 3), bar(1, 4), bar(2, 4)];
     let system = System::new("idle", 10.0, joints, members).unwrap();
-    let (_, like) = lamp();
     let left = |force_n: f64| {
         let answer = SystemEquilibrium {
             energy_j: -10.0,
@@ -71,7 +79,7 @@ fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
             end_forces_n: vec![[0.0, 0.0, -10.0], [force_n, 0.0, 0.0], [0.0; 3]],
             axial_n: vec![10.0, force_n, 0.0],
             reactions_n: vec![[0.0, 0.0, 10.0], [-force_n, 0.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]],
-            ..like.clone()
+            ..lamp().1
         };
         let units = Units::new(&system, &answer, Scale::new(&system, &answer));
         joint_balances(&system, &answer, &units).nth(4).unwrap()
@@ -83,20 +91,7 @@ fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
 /// A spring of 1 m and 6 N that is drawn to 1.4 m has 2.4 N, not 3.
 #[test]
 fn a_wrong_elongation_is_a_part_of_the_force() {
-    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.3)];
-    let spring = Member::bar(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(6.0);
-    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
-    let (_, like) = lamp();
-    let answer = SystemEquilibrium {
-        energy_j: -4.2 + 0.48,
-        joints_m: vec![[0.0; 3], [0.0, 0.0, -1.4]],
-        start_forces_n: vec![[0.0, 0.0, 3.0]],
-        end_forces_n: vec![[0.0, 0.0, -3.0]],
-        axial_n: vec![3.0],
-        reactions_n: vec![[0.0, 0.0, 3.0], [0.0; 3]],
-        ..like
-    };
-    let found = judge(&system, &answer);
+    let found = judge(&spring(1.0, 6.0, 0.3), &hung(1.4, 3.0, -4.2 + 0.48));
     assert!((found.law - 0.2).abs() < 1e-14 && found.worst == Place::Member(1), "{found:?}");
     assert!(
         [found.force, found.moment, found.joint, found.balance, found.derived]
@@ -111,23 +106,13 @@ fn a_wrong_elongation_is_a_part_of_the_force() {
 /// 6 (1.5/1 - 1) = 3 N from 1 m.
 #[test]
 fn the_law_of_a_prestressed_member_is_that_of_the_numbers_given() {
-    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.4)];
-    let spring = Member::bar(0, 1, Bar::homogeneous(1.2, 0.0).unwrap()).with_stiffness(6.0);
-    let spring = spring.with_prestress(2.0).unwrap();
-    let (_, like) = lamp();
+    let system = spring(1.2, 6.0, 0.4);
+    let spring = system.members()[0].clone().with_prestress(2.0).unwrap();
     let law = |length_m: f64, axial_n: f64| {
-        let body = Bar::homogeneous(length_m, 0.0).unwrap();
-        let member = spring.clone().with_body(body);
-        let system = System::new("spring", 10.0, joints.clone(), vec![member]).unwrap();
-        let answer = SystemEquilibrium {
-            joints_m: vec![[0.0; 3], [0.0, 0.0, -1.5]],
-            start_forces_n: vec![[0.0, 0.0, axial_n]],
-            end_forces_n: vec![[0.0, 0.0, -axial_n]],
-            axial_n: vec![axial_n],
-            reactions_n: vec![[0.0, 0.0, axial_n], [0.0; 3]],
-            ..like.clone()
-        };
-        judge(&system, &answer).law
+        let member = spring.clone().with_body(Bar::homogeneous(length_m, 0.0).unwrap());
+        let joints = system.joints().to_vec();
+        let system = System::new("spring", 10.0, joints, vec![member]).unwrap();
+        judge(&system, &hung(1.5, axial_n, -8.0)).law
     };
     assert!(law(spring.body.length_m(), 4.0) < 1e-14);
     close(law(1.0, 3.0), 1.0 / 3.0);
@@ -138,22 +123,10 @@ fn the_law_of_a_prestressed_member_is_that_of_the_numbers_given() {
 #[test]
 fn the_force_of_a_short_spring_is_known_to_the_rounding_of_its_ends() {
     let length_m = 2.0_f64.powi(-10);
-    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
-    let body = Bar::homogeneous(length_m, 0.0).unwrap();
-    let spring = Member::bar(0, 1, body).with_stiffness(2.0_f64.powi(40));
-    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
-    let (_, like) = lamp();
+    let system = spring(length_m, 2.0_f64.powi(40), 0.0);
     let law = |axial_n: f64| {
-        let answer = SystemEquilibrium {
-            energy_j: 0.0,
-            joints_m: vec![[0.0; 3], [0.0, 0.0, -length_m]],
-            start_forces_n: vec![[0.0; 3]],
-            end_forces_n: vec![[0.0; 3]],
-            axial_n: vec![axial_n],
-            reactions_n: vec![[0.0; 3]; 2],
-            ..like.clone()
-        };
-        judge(&system, &answer).law
+        let at_rest = hung(length_m, 0.0, 0.0);
+        judge(&system, &SystemEquilibrium { axial_n: vec![axial_n], ..at_rest }).law
     };
     let explained = 2.0_f64.powi(-9);
     assert_eq!(law(0.75 * explained).to_bits(), 0);
@@ -173,7 +146,6 @@ pub(in crate::systems) fn crooked(
     bar.loads.push(PointLoad { at_m: 5.0, force_n: [5.0, -6.0, 4.0], is_spread: false });
     change(&mut joints, &mut bar);
     let system = System::new("crooked", 10.0, joints, vec![bar]).unwrap();
-    let (_, like) = lamp();
     let answer = SystemEquilibrium {
         energy_j: 265.0,
         joints_m: vec![[1.0, -2.0, 5.0], [3.0, 1.0, 11.0]],
@@ -181,7 +153,7 @@ pub(in crate::systems) fn crooked(
         end_forces_n: vec![[7.0, 11.0, 13.0]],
         axial_n: vec![15.0 / 7.0],
         reactions_n: vec![[1.0, 2.0, 4.0], [0.0; 3]],
-        ..like
+        ..lamp().1
     };
     (system, answer)
 }

@@ -70,7 +70,6 @@ fn forces_turn_with_their_own_span() {
     let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::free("Q")];
     let members = vec![Member::bar(0, 1, bar), Member::bar(1, 2, bar)];
     let system = System::new("two", 9.81, joints, members).unwrap();
-    let (_, like) = lamp();
     let along = [1.0, 0.0, 2.0];
     let mut answer = SystemEquilibrium {
         joints_m: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
@@ -78,7 +77,7 @@ fn forces_turn_with_their_own_span() {
         end_forces_n: vec![along.map(|x| -x); 2],
         axial_n: vec![1.0; 2],
         reactions_n: vec![[0.0; 3]; 3],
-        ..like
+        ..lamp().1
     };
     answer.evidence.jams = (0..2).map(|member| Jam { member, span: 0, pull_n: along }).collect();
     let bodies = Bodies::new(&system, |_| true);

@@ -90,12 +90,7 @@ fn what_is_wrong_with_a_rope_of_others_is_named() {
 /// known, and by no other.
 #[test]
 fn rings_in_one_place_are_in_balance_together() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [4.8, 0.0, 0.0]),
-        Joint::free("R").with_mass(1.0),
-        Joint::free("S").with_mass(3.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [4.8, 0.0, 0.0]], &[1.0, 3.0]);
     // Two spans of 3 m, each 1.8 m deep: 3-4-5.
     let rope = Member::cable(0, 1, Bar::homogeneous(6.0 / 1.001, 0.0).unwrap()).over(vec![2, 3]);
     let tension_n = 40.0 / (2.0 * 0.6);
