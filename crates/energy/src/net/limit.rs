@@ -30,7 +30,7 @@ use crate::net::law::Excess;
 use crate::net::newton::Newton;
 use crate::net::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor};
 use crate::net::shape::{Shape, largest};
-use crate::net::share::Share;
+use crate::net::share::{Share, Shared};
 use crate::net::stability::DENSE;
 use crate::thresholds::{GOLDEN, PROGRESS};
 use crate::vector::norm;
@@ -52,6 +52,11 @@ const LEANING: f64 = 1e-10;
 
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
+
+/// Changes of the members that are taut in which all change that are wrong, and then, as these may go round in circles, only the
+/// first one, which does not (K. G. Murty, Linear Algebra Appl. 5 (1972) 65-108).
+const TOGETHER: usize = 20;
+const ALONE: usize = 400;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
@@ -385,6 +390,11 @@ pub(super) fn stressed(shape: &Shape, stress: &[f64]) -> Shape {
 /// Take out of the forces of the inextensible members what no load causes; the stretches of all.
 fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64> {
     let shared = share.shared(force);
+    take_shares(frame, shared, force)
+}
+
+/// Let the inextensible members bear their shares; the stretches of all.
+fn take_shares(frame: &Frame, shared: Shared, force: &mut [f64]) -> Vec<f64> {
     for (e, rod) in frame.rods.iter().enumerate() {
         if !rod.elastic() {
             force[e] = shared.force[e];
@@ -402,12 +412,15 @@ fn settle_taut(
     taut: &mut [bool],
     softness: f64,
 ) -> Option<usize> {
-    for changes in 0..STEPS {
+    // Not what earlier ones bear: a soft spring may have borne what nothing else did.
+    let mut borne = None;
+    for changes in 0..TOGETHER + ALONE {
         if !share.stand(&shape.x, taut, softness) {
             return None;
         }
-        let stretch = share_forces(frame, share, &mut shape.force);
-        if !change_taut(frame, shape, taut, &stretch) {
+        let borne = borne.get_or_insert_with(|| share.unshared(&shape.force));
+        let stretch = take_shares(frame, share.bearing(borne), &mut shape.force);
+        if !change_taut(frame, shape, taut, &stretch, changes < TOGETHER) {
             return Some(changes);
         }
     }
@@ -426,15 +439,21 @@ fn release_floor(frame: &Frame, shape: &mut Shape, taut: &mut [bool]) -> bool {
     released
 }
 
-/// Let go of members that work against their kind, and take back those that would resist; whether
-/// there are any.
-fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f64]) -> bool {
+/// Let go of members that work against their kind, and take back those that would resist, all together or only the first of
+/// them; whether there are any.
+fn change_taut(
+    frame: &Frame,
+    shape: &mut Shape,
+    taut: &mut [bool],
+    stretch: &[f64],
+    together: bool,
+) -> bool {
     let rounding = rounding_floor(frame, shape);
     let least = rounding * frame.force_scale(&shape.force);
     let touching = frame.touching(shape);
     let mut changed = false;
     for (e, rod) in frame.rods.iter().enumerate() {
-        if rod.kind == Kind::Bar {
+        if rod.kind == Kind::Bar || changed && !together {
             continue;
         }
         let force = shape.force[e];
@@ -479,7 +498,7 @@ mod tests {
         for (stretch, wanted) in [(-0.5, true), (0.5, false)] {
             let mut shape = Shape { x: at.clone(), force: vec![0.0; 2] };
             let mut taut = [true, false];
-            let changed = change_taut(&frame, &mut shape, &mut taut, &[0.0, stretch]);
+            let changed = change_taut(&frame, &mut shape, &mut taut, &[0.0, stretch], true);
             assert_eq!((changed, taut[1]), (wanted, wanted), "{stretch}");
         }
         let limit = Limit {

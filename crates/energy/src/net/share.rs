@@ -31,6 +31,9 @@ use crate::vector::scaled;
 /// after every solution, so that it is as rigid as supports are.
 const FLOOR: f64 = 1e4;
 
+/// Stiffness of what is slack, over its own.
+const SLACK: f64 = 1e-8;
+
 /// Solutions for one distribution: the first one, and corrections.
 const SOLUTIONS: usize = 8;
 
@@ -72,12 +75,18 @@ impl Share {
         self.taut = rods.map(|(rod, taut)| *taut && !rod.elastic()).collect();
         self.excess = frame.excesses(x);
         let sizes = frame.sizes(|e| if self.taut[e] { 1.0 } else { 0.0 });
+        // What is slack holds a little, or of all that is slack the first alone would come back; corrections take it out.
+        let along = |e: usize| {
+            let rod = &frame.rods[e];
+            let slack = !self.taut[e] && !rod.elastic() && !rod.ground;
+            if slack { SLACK / rod.length } else { self.weight(e) }
+        };
         let blocks: Vec<Block> = (0..frame.rods.len())
             .map(|e| Block {
                 isotropic: 0.0,
-                along: self.weight(e),
+                along: along(e),
                 direction: self.excess[e].gradient,
-                stretch: self.weight(e),
+                stretch: along(e),
             })
             .collect();
         frame.fill(
@@ -94,6 +103,12 @@ impl Share {
         if member.ground { FLOOR } else { 1.0 / member.length }
     }
 
+    /// The forces of the joints that inextensible members bear at a shape, taut or not.
+    pub(super) fn unshared(&self, force: &[f64]) -> Vec<f64> {
+        let rods = &self.frame.rods;
+        self.joint_forces(|e| if rods[e].elastic() { 0.0 } else { force[e] })
+    }
+
     /// `Rᵀ t`
     fn joint_forces(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
         self.frame.resisted(|e| scaled(force(e), self.excess[e].gradient))
@@ -106,8 +121,7 @@ impl Share {
     /// The same joint forces, borne by the springs.
     pub(super) fn shared(&mut self, force: &[f64]) -> Shared {
         // What is slack gives its part to the others.
-        let rods = &self.frame.rods;
-        let borne = self.joint_forces(|e| if rods[e].elastic() { 0.0 } else { force[e] });
+        let borne = self.unshared(force);
         self.bearing(&borne)
     }
 

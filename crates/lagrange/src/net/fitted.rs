@@ -15,6 +15,10 @@ use super::stiffness::Stiffness;
 pub(super) const RIGID: f64 = 1e3;
 /// Ridge of the least squares, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
+/// Halvings of a step to where the dual energy is least.
+const HALVINGS: usize = 40;
+/// Stiffness of what is slack, over its own.
+const SLACK: f64 = 1e-5;
 
 /// Forces fitted to the places of a state, of its taut members.
 pub(super) fn fitted_forces(
@@ -37,31 +41,50 @@ pub(super) fn fitted_forces(
         (along, own)
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
-    let mut bearing = state.taut.clone();
-    let mut forces = vec![0.0; members.len()];
+    let bears =
+        |k: usize, force: f64| state.taut[k] && (force == 0.0 || framework.links[k].bears(force));
+    let mut forces: Vec<f64> = members.iter().map(|(_, own)| *own).collect();
+    let mut bearing: Vec<bool> = (0..members.len()).map(|k| bears(k, forces[k])).collect();
     for _ in 0..SIGN_CHANGES {
-        let along = |k: usize| if bearing[k] { members[k].0 } else { 0.0 };
+        // What is slack holds a little, or of all that is slack the first alone would come back.
+        let along = |k: usize| members[k].0 * if bearing[k] { 1.0 } else { SLACK };
         stiffness.assemble_members(framework, |k| (directions[k].0, 0.0, along(k)));
         stiffness.shift(RIDGE * stiffest.max(rigid));
         stiffness.factorise_definite();
-        let own = |k: usize| if bearing[k] { members[k].1 } else { 0.0 };
-        let loads =
-            framework.unbalance(directions.iter().enumerate().map(|(k, (u, _))| u * own(k)));
-        let mut moves = stiffness.gather(framework, &loads);
+        let borne = |k: usize| if bearing[k] { forces[k] } else { 0.0 };
+        let left =
+            framework.unbalance(directions.iter().enumerate().map(|(k, (u, _))| u * borne(k)));
+        let mut moves = stiffness.gather(framework, &left);
         stiffness.solve(&mut moves);
         let moves = stiffness.scatter(framework, &moves);
         let stretch = |span: usize| directions[span].0.dot(&framework.links[span].span(&moves));
-        for (e, (force, (k, own))) in forces.iter_mut().zip(&members).enumerate() {
-            *force = own + k * framework.whole(e, stretch);
+        let change: Vec<f64> =
+            (0..members.len()).map(|k| members[k].0 * framework.whole(k, stretch)).collect();
+        // All signs at once may go round in circles: to where the dual energy, which is convex, is least on the way.
+        let work: f64 = left.iter().zip(&moves).map(|(left, by)| left.dot(by)).sum();
+        let slope = |part: f64| {
+            let more = (0..members.len()).filter(|k| change[*k] != 0.0).map(|k| {
+                let force = forces[k] + part * change[k];
+                let there = if bears(k, force) { force } else { 0.0 };
+                (there - borne(k)) * change[k] / members[k].0
+            });
+            more.sum::<f64>() - work
+        };
+        let (mut least, mut part) = (0.0, 1.0);
+        if slope(part) > 0.0 {
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (least + part);
+                if slope(middle) > 0.0 { part = middle } else { least = middle }
+            }
         }
-        let links = framework.links.iter().zip(&forces).zip(&state.taut);
-        let next =
-            links.map(|((link, force), taut)| *taut && (*force == 0.0 || link.bears(*force)));
-        let next: Vec<bool> = next.collect();
-        if next == bearing {
+        let before = bearing.clone();
+        for k in 0..members.len() {
+            forces[k] += part * change[k];
+            bearing[k] = bears(k, forces[k]);
+        }
+        if bearing == before && part >= 1.0 {
             break;
         }
-        bearing = next;
     }
     forces
 }
