@@ -49,11 +49,14 @@ const CHORDS: usize = 12;
 const CHANGES: usize = 40;
 
 /// Misfit above which members have turned too far for the factorisation of the step before: its
-/// stiff springs point the old way.
+/// stiff springs point the old way; and the most that may hide what is just taut.
 const CHORD_NEAR: f64 = 1e-8;
 
 /// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
 const SLOW: f64 = 1e-5;
+
+/// Lengths that are off hide whether a member beside them is just taut, up to this many times as much.
+const HIDDEN: f64 = 4.0;
 
 /// A chord step must leave at most this part of the residual.
 const CHORD_PROGRESS: f64 = 0.3;
@@ -103,7 +106,7 @@ impl Newton {
         let stiffness = frame.force_scale(&shape.force) / strain;
         let error = frame.error();
         let (mut steps, mut changes) = (POLISH, CHANGES);
-        let mut active = frame.active(&shape);
+        let mut active = frame.active(&shape, slope.misfit);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
@@ -126,11 +129,11 @@ impl Newton {
                     break;
                 }
                 (shape, slope) = (next, there);
-                if frame.active(&shape) != active || slope.misfit > CHORD_NEAR {
+                if frame.active(&shape, slope.misfit) != active || slope.misfit > CHORD_NEAR {
                     break;
                 }
             }
-            let resist = frame.active(&shape);
+            let resist = frame.active(&shape, slope.misfit);
             if resist != active {
                 if changes == 0 {
                     return Polished::Astray;
@@ -239,9 +242,9 @@ impl Frame {
     }
 
     /// Which members resist: by the sign of their force, and where it is rounding by their length; what is just taut
-    /// would resist.
-    fn active(&self, shape: &Shape) -> Vec<bool> {
-        let rounding = rounding_floor(self, shape);
+    /// would resist, and while lengths are off by a misfit, what may be.
+    fn active(&self, shape: &Shape, misfit: f64) -> Vec<bool> {
+        let rounding = rounding_floor(self, shape).max((HIDDEN * misfit).min(CHORD_NEAR));
         let none = NO_STRAIN * self.largest_force(&shape.force);
         let resists = |(e, rod): (usize, &Rod)| {
             let force = shape.force[e];

@@ -286,13 +286,20 @@ fn long_trusses_of_rigid_crossed_members_bear_their_moment() {
     }
 }
 
-/// The columns of a tower bear what is above them, and crossed cables, of which none bears anything, hold it to both sides; of
+/// The columns of a tower bear what is above them, and crossed cables, rigid or elastic, of which none bears anything, hold it to both sides; of
 /// one cable a storey it falls to the other side, however large it is.
 #[test]
 fn towers_stand_by_two_cables_a_storey_and_fall_with_one() {
     let plane = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
     let place = |joint: usize| [4.0 * (joint % 2) as f64, 0.0, 3.0 * (joint / 2) as f64];
-    for (storeys, cables) in [(30, 2), (100, 2), (30, 1), (100, 1)] {
+    for (storeys, cables, stiffness_n) in [
+        (30, 2, None),
+        (100, 2, None),
+        (20, 2, Some(5e6)),
+        (45, 2, Some(5e6)),
+        (30, 1, None),
+        (100, 1, None),
+    ] {
         let joints = (0..2 * storeys + 2).map(|joint| match joint {
             0 | 1 => Joint::anchor(format!("{joint}"), place(joint)),
             _ => {
@@ -309,7 +316,8 @@ fn towers_stand_by_two_cables_a_storey_and_fall_with_one() {
             let bars = [(l, above_l), (r, above_r), (above_l, above_r)];
             let bars = bars.map(|(a, b)| member(a, b, Kind::Bar));
             let cables = [(l, above_r), (r, above_l)].into_iter().take(cables);
-            bars.into_iter().chain(cables.map(|(a, b)| member(a, b, Kind::Cable)))
+            let cable = |(a, b)| member(a, b, Kind::Cable).stretching(stiffness_n);
+            bars.into_iter().chain(cables.map(cable))
         });
         let system = System::new("tower", G, joints.collect(), members.collect()).unwrap();
         if cables == 1 {
