@@ -221,8 +221,7 @@ mod tests {
 
     fn variation() -> Variation {
         let vary = [
-            "anchors.end_m.z=-2,-1.5,-1,-1",
-            "bars.2.mass_kg=1,2,3,6",
+            "anchors.end_m.z=-2,-1.5,-1,-1", "bars.2.mass_kg=1,2,3,6",
             "anchors.end_m.x=0.25,0.25,0.25,0.5",
         ];
         let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();

@@ -29,7 +29,6 @@ const EQUAL: f64 = 1e-9;
 
 impl Axis {
     /// An axis that holds all values with a margin of this part.
-    #[must_use]
     pub fn around(values: impl Iterator<Item = f64>, margin: f64, pixels: [f64; 2]) -> Self {
         let (low, high) = values
             .filter(|x| x.is_finite())
@@ -42,7 +41,6 @@ impl Axis {
     }
 
     /// Where a value stands in the picture.
-    #[must_use]
     pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let [from, to] = self.pixels;
@@ -50,7 +48,6 @@ impl Axis {
     }
 
     /// Round values at round distances; the digits they need behind the point.
-    #[must_use]
     pub fn ticks(&self, unit: Unit) -> (Vec<f64>, usize) {
         let [low, high] = self.values;
         let rough = (high - low) / TICKS;
@@ -100,7 +97,6 @@ pub struct Axes<'a> {
 
 impl<'a> Axes<'a> {
     /// The axes of a panel of this size in a page, with room for their texts, over these ranges.
-    #[must_use]
     pub fn panel([width, height]: [f64; 2], x: [f64; 2], y: [f64; 2], names: [&'a str; 2]) -> Self {
         let [left, right, above, below] = MARGIN;
         let x = Axis { values: x, pixels: [left, width - right] };
@@ -109,7 +105,6 @@ impl<'a> Axes<'a> {
     }
 
     /// Where a point of the data lies in the picture.
-    #[must_use]
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.at(x), self.y.at(y)]
     }

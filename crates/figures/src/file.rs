@@ -54,7 +54,6 @@ impl Format {
     pub const ENDINGS: [&str; 4] = ["svg", "png", "pdf", "dxf"];
 
     /// The format that the ending of a file's name stands for.
-    #[must_use]
     pub fn of_ending(ending: &str) -> Option<Self> {
         let number = Self::ENDINGS.iter().position(|known| ending.eq_ignore_ascii_case(known))?;
         [Self::Svg, Self::Png, Self::Pdf, Self::Dxf].get(number).copied()

@@ -13,7 +13,6 @@ impl Colour {
     pub const WHITE: Self = Self([0xff; 3]);
 
     /// A grey from black (0) to white (255).
-    #[must_use]
     pub const fn grey(level: u8) -> Self {
         Self([level; 3])
     }
@@ -64,13 +63,11 @@ impl<'a> Look<'a> {
     };
 
     /// A line of a colour and a width in px.
-    #[must_use]
     pub const fn stroke(colour: Colour, width_px: f64) -> Self {
         Look { stroke: Some((colour, width_px)), ..Look::PLAIN }
     }
 
     /// An area or a text of a colour.
-    #[must_use]
     pub const fn fill(colour: Colour) -> Self {
         Look { fill: Some(colour), ..Look::PLAIN }
     }

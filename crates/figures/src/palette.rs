@@ -41,7 +41,6 @@ const LEVELS: [u8; 9] = [0, 32, 64, 96, 128, 160, 192, 224, 255];
 /// Different colours, up to [`MOST_REGIONS`]: those of Okabe and Ito as far as they go, then always
 /// the one that is farthest from all before it, and from black and white. The first ones do not
 /// depend on how many are asked for.
-#[must_use]
 pub fn regions(count: usize) -> Vec<Colour> {
     let mut colours: Vec<Colour> = REGIONS.into_iter().take(count).collect();
     let mut candidates: Vec<(Colour, f64)> = vec![];
@@ -100,7 +99,6 @@ fn oklab(colour: Colour) -> [f64; 3] {
 
 /// From light (0) to dark (1), even in grey: between four colours of the ramp cividis (Nuñez,
 /// Anderton and Renslow, 2018, doi:10.1371/journal.pone.0199239), reversed.
-#[must_use]
 pub fn ramp(part: f64) -> Colour {
     const STOPS: [[f64; 3]; 5] = [
         [253.0, 231.0, 55.0],

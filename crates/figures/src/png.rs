@@ -39,7 +39,6 @@ const PALETTE: u8 = 3;
 
 impl Raster<'_> {
     /// The file.
-    #[must_use]
     pub fn png(&self) -> Vec<u8> {
         let palette: Vec<u8> = self.palette.iter().flat_map(|colour| colour.0).collect();
         let rows = self.pixels.chunks(self.width.max(1) as usize);

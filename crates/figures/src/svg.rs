@@ -57,7 +57,6 @@ const LETTERS: f64 = 14.0;
 impl Svg {
     /// A picture of this size that is a file of its own: on white, with letters that every system
     /// has. Its shapes need colours.
-    #[must_use]
     pub fn new(size: [f64; 2], title: &str) -> Self {
         Self {
             id: None,
@@ -71,7 +70,6 @@ impl Svg {
 
     /// A picture of this size for a page, whose style knows the classes of its shapes. `id` is
     /// unique in the page; title and description are for those who do not see it.
-    #[must_use]
     pub fn in_page(id: &str, size: [f64; 2], title: &str, description: &str) -> Self {
         let id = Some(id.to_owned());
         Self { id, description: description.to_owned(), ..Self::new(size, title) }
@@ -336,7 +334,6 @@ impl Svg {
     }
 
     /// The finished text.
-    #[must_use]
     pub fn finish(self) -> String {
         let Self { id, size: [width, height], title, description, letters_px, body } = self;
         let (title, description) = (Escaped(&title), Escaped(&description));

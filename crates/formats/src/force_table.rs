@@ -64,7 +64,6 @@ impl ForceTable {
     }
 
     /// The joints by name with their forces.
-    #[must_use]
     pub fn joints(&self) -> &[(String, ForceOverTime)] {
         &self.joints
     }
@@ -72,7 +71,6 @@ impl ForceTable {
 
 impl ForceOverTime {
     /// The force at a time, N.
-    #[must_use]
     pub fn at(&self, time_s: f64) -> [f64; 3] {
         let after = self.points.partition_point(|(t, _)| *t <= time_s);
         match (after.checked_sub(1).map(|k| self.points[k]), self.points.get(after)) {

@@ -58,7 +58,6 @@ struct Stored {
 
 impl Animation {
     /// Of a system, at no time yet.
-    #[must_use]
     pub fn new(system: &System) -> Self {
         Self {
             system: system.clone(),
@@ -110,7 +109,6 @@ impl Animation {
     }
 
     /// The HTML of the page. Of many times so many are on it that it stays small, and both ends.
-    #[must_use]
     pub fn page(&self) -> String {
         let tracks = vec![self.track()];
         Shown { play: true, tracks, ..self.shown.clone() }.html(&self.system)

@@ -74,7 +74,6 @@ impl Default for Basins {
 impl Basins {
     /// 300 starts along each side, over the angles of the first two bars; all other bars start
     /// hanging down.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -288,31 +287,26 @@ struct Over {
 
 impl BasinsAnswer {
     /// Number of starts.
-    #[must_use]
     pub fn starts(&self) -> u64 {
         u64::from(self.size).pow(2)
     }
 
     /// What the two axes are, with their unit.
-    #[must_use]
     pub fn labels(&self) -> &[String; 2] {
         &self.over.labels
     }
 
     /// Where each axis begins and ends, degrees or m; a start is the middle of its part.
-    #[must_use]
     pub fn ranges(&self) -> [[f64; 2]; 2] {
         self.over.ranges
     }
 
     /// The equilibria that outcomes 0, 1, 2, ... stand for, in words.
-    #[must_use]
     pub fn equilibria(&self) -> &[String] {
         &self.names
     }
 
     /// Where the starts of a solver led.
-    #[must_use]
     pub fn outcomes(&self, solver: &SolverName) -> Option<&Outcomes> {
         match solver.as_str() {
             "lagrange" => Some(&self.lagrange),
@@ -322,14 +316,12 @@ impl BasinsAnswer {
     }
 
     /// Starts from which a solver reached no equilibrium.
-    #[must_use]
     pub fn failed(&self, solver: &SolverName) -> usize {
         let all = self.outcomes(solver).into_iter().flat_map(|all| &all.outcome);
         all.filter(|outcome| **outcome < 0).count() - self.unlisted(solver)
     }
 
     /// Starts from which a solver reached an equilibrium that is in no list.
-    #[must_use]
     pub fn unlisted(&self, solver: &SolverName) -> usize {
         let all = self.outcomes(solver).into_iter().flat_map(|all| &all.outcome);
         all.filter(|outcome| **outcome == Failure::Unlisted as i16).count()

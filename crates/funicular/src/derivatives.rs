@@ -139,7 +139,6 @@ pub enum DerivativesError {
 
 impl Derivatives {
     /// By `lagrange`, with its usual settings.
-    #[must_use]
     pub fn new() -> Self {
         Self
     }
@@ -163,20 +162,17 @@ impl Derivatives {
 
 impl DerivativesAnswer {
     /// Whether the equilibrium is the neighbour of the shape that is drawn, if one is.
-    #[must_use]
     pub fn is_neighbour(&self) -> bool {
         let drawing_m = self.system.drawing();
         drawing_m.is_none_or(|at| Near::of(&self.system, &at, self.equilibrium()).is_neighbour)
     }
 
     /// The equilibrium.
-    #[must_use]
     pub fn equilibrium(&self) -> &SystemEquilibrium {
         &self.solution.equilibrium
     }
 
     /// The system; a chain has joints named by their numbers, from `0`.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
@@ -385,7 +381,6 @@ enum Of {
 
 impl NumberGradient {
     /// The derivative by the parameter of this path.
-    #[must_use]
     pub fn by(&self, parameter: &str) -> Option<&Derivative> {
         self.derivatives.iter().find(|derivative| derivative.parameter == parameter)
     }

@@ -40,7 +40,6 @@ pub struct Inertia {
 
 impl Enclosed {
     /// The index, where it is proved.
-    #[must_use]
     pub fn index(&self) -> Option<usize> {
         match self {
             Self::Reached { inertia, .. } => inertia.map(|inertia| inertia.negative),

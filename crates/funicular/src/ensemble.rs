@@ -44,7 +44,6 @@ const LOOKS: u64 = 256;
 impl Ensemble {
     /// So many positions at random, each released at rest and followed as `simulate` says: its
     /// damping, step and longest time. Its start, pushes and stored times mean nothing here.
-    #[must_use]
     pub fn new(simulate: Simulate, seeds: u64) -> Self {
         Self { simulate, rows: Sweep::new(seeds) }
     }
@@ -121,13 +120,11 @@ pub struct PreparedEnsemble {
 
 impl PreparedEnsemble {
     /// Everything that the rows depend on, as the folder will say it.
-    #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
     }
 
     /// What becomes of these positions.
-    #[must_use]
     pub fn run(&self, seeds: Range<u64>) -> Chunk {
         self.compute.chunk(seeds)
     }

@@ -201,7 +201,6 @@ impl Error {
     /// let error = funicular::Problem::case("three-equal-bar").unwrap_err();
     /// assert!(error.help().unwrap().starts_with("did you mean `three-equal-bars`?"));
     /// ```
-    #[must_use]
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::File(error) => return error.help(),

@@ -63,7 +63,6 @@ fn from_one<S: serde::Serializer>(
 
 impl Extremes {
     /// Of an equilibrium of a system; `None` where there is no joint.
-    #[must_use]
     pub fn of(system: &System, found: &SystemEquilibrium) -> Option<Self> {
         let joints_m = &found.joints_m;
         let height = |joint: &usize| joints_m[*joint][2];

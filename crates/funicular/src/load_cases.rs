@@ -97,7 +97,6 @@ impl Problem {
     }
 
     /// The names of the load cases, in the order of the file.
-    #[must_use]
     pub fn load_cases(&self) -> Vec<&str> {
         self.0.load_cases().iter().map(|case| case.name.as_str()).collect()
     }
@@ -236,43 +235,36 @@ impl LoadCasesAnswer {
     }
 
     /// The system, all its loads acting.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// The cases, in the order of the file.
-    #[must_use]
     pub fn cases(&self) -> &[CaseAnswer] {
         &self.cases
     }
 
     /// The members over all cases that have an answer.
-    #[must_use]
     pub fn bars(&self) -> &[BarEnvelope] {
         &self.bars
     }
 
     /// The supports, and the joints that stand on the floor, over all cases that have an answer.
-    #[must_use]
     pub fn supports(&self) -> &[SupportEnvelope] {
         &self.supports
     }
 
     /// Whether a check of a solver's answer has failed.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.settled().any(|settled| settled.check_failed)
     }
 
     /// Whether each case has an answer that converged.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.settled().filter(|settled| settled.is_decided).count() == self.cases.len()
     }
 
     /// Whether the system hangs in each case as strong as is required; no value where no member has a strength.
-    #[must_use]
     pub fn is_strong(&self) -> Option<bool> {
         let strong = self.settled().filter(|settled| settled.is_strong() == Some(true));
         self.system.has_strengths().then(|| strong.count() == self.cases.len())

@@ -108,25 +108,21 @@ fn left(
 
 impl LossesAnswer {
     /// The system before any loss.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// A loss for each member, in their order.
-    #[must_use]
     pub fn losses(&self) -> &[Loss] {
         &self.losses
     }
 
     /// Whether a check of a solver's answer has failed.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.left().any(|left| left.check_failed)
     }
 
     /// Whether it is known of each loss whether what is left hangs, and how.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.losses.iter().all(|loss| match &loss.left {
             Ok(left) => left.is_decided,
@@ -136,7 +132,6 @@ impl LossesAnswer {
 
     /// Whether the system survives the loss of any one member: all of it still hangs, and what has a
     /// strength is as strong as wanted.
-    #[must_use]
     pub fn survives(&self) -> bool {
         self.losses.iter().all(|loss| match &loss.left {
             Ok(left) => left.is_strong().unwrap_or(true),

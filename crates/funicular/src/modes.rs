@@ -58,7 +58,6 @@ impl Default for Modes {
 
 impl Modes {
     /// A census for chains of up to eight bars.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -230,7 +229,6 @@ pub struct Mode {
 impl ModesAnswer {
     /// Whether the signs of the modes give each equilibrium the index that its solver gives it, and
     /// that interval arithmetic proves where it does.
-    #[must_use]
     pub fn indices_agree(&self) -> bool {
         self.equilibria.iter().all(|found| {
             let proved = found.enclosed.index().unwrap_or(found.index_by_modes);

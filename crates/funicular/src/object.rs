@@ -27,7 +27,6 @@ pub struct Summary {
 
 impl Summary {
     /// Of a system.
-    #[must_use]
     pub fn new(system: &System) -> Self {
         Self {
             name: system.name().to_owned(),

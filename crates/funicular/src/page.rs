@@ -85,7 +85,6 @@ impl Shape {
 
 impl Page {
     /// Of what is at rest.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -247,19 +246,16 @@ fn equilibria(
 
 impl PageAnswer {
     /// The answer that the page shows first.
-    #[must_use]
     pub fn answer(&self) -> &SolveAnswer {
         &self.answer
     }
 
     /// The page, which needs nothing else.
-    #[must_use]
     pub fn html(&self) -> &str {
         &self.html
     }
 
     /// What is on it, in words.
-    #[must_use]
     pub fn contents(&self) -> &str {
         &self.contents
     }

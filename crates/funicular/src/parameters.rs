@@ -25,7 +25,6 @@ pub struct Parameters {
 
 impl Parameters {
     /// None yet, to be taken in all combinations.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

@@ -116,19 +116,16 @@ impl Problem {
     /// assert_eq!(funicular::Problem::parse(&problem.to_toml(), "again.toml")?, problem);
     /// # Ok::<(), funicular::Error>(())
     /// ```
-    #[must_use]
     pub fn to_toml(&self) -> String {
         system_file::write(&self.0)
     }
 
     /// The name, for people.
-    #[must_use]
     pub fn name(&self) -> &str {
         self.0.name()
     }
 
     /// Its joints and members, which may be shared; joints of a chain are named by their numbers, from `0`.
-    #[must_use]
     pub fn system(&self) -> Arc<System> {
         Arc::clone(&self.0)
     }
@@ -142,7 +139,6 @@ impl Problem {
     }
 
     /// Whether a member has a strength that its force can be held against.
-    #[must_use]
     pub fn has_strengths(&self) -> bool {
         self.0.has_strengths()
     }

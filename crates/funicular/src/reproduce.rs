@@ -20,7 +20,6 @@ pub struct Reproduce;
 
 impl Reproduce {
     /// As the paper has it.
-    #[must_use]
     pub fn new() -> Self {
         Self
     }

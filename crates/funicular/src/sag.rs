@@ -54,7 +54,6 @@ impl Sag {
 
     /// The largest of the way of fewest members from one joint to another, by number from 0; `None`
     /// where no way connects them, one is above the other, or no joint is between them in plan.
-    #[must_use]
     pub fn between(system: &System, joints_m: &[Vector], ends: [usize; 2]) -> Option<Self> {
         let rows = Rows::new(system, joints_m);
         rows.deepest(&rows.way(ends)?)

@@ -157,7 +157,6 @@ impl Settled {
     }
 
     /// Whether it is as strong as wanted; no value without strengths.
-    #[must_use]
     pub fn is_strong(&self) -> Option<bool> {
         self.weakest.map(|weakest| weakest.suffices())
     }

@@ -67,7 +67,6 @@ pub enum Spread {
 
 impl Spread {
     /// As the manifest of a folder names it.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
@@ -90,7 +89,6 @@ pub enum Format {
 
 impl Format {
     /// As the manifest of a folder names it.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Parquet => "parquet",
@@ -101,7 +99,6 @@ impl Format {
 
 impl Sweep {
     /// So many starts at random angles, through both solvers, on all processors.
-    #[must_use]
     pub fn new(seeds: u64) -> Self {
         Self {
             seeds,
@@ -345,13 +342,11 @@ enum Compute {
 
 impl PreparedSweep {
     /// Everything that the rows depend on, as the folder will say it.
-    #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
     }
 
     /// The starts of this shard.
-    #[must_use]
     pub fn range(&self) -> Range<u64> {
         self.manifest.range.clone()
     }
@@ -370,7 +365,6 @@ impl PreparedSweep {
 
 impl SweepAnswer {
     /// The counts as JSON, with the keys of `funicular sweep --json`: `solvers`, `comparisons`, `disagreements`.
-    #[must_use]
     pub fn outcomes(&self) -> serde_json::Value {
         crate::text::sweep::object(&self.manifest, &self.summary)
     }

@@ -86,7 +86,6 @@ impl Solve {
 
 impl TolerancesAnswer {
     /// The equilibrium of the numbers given.
-    #[must_use]
     pub fn answer(&self) -> &SolveAnswer {
         &self.answer
     }
@@ -100,40 +99,34 @@ impl TolerancesAnswer {
     }
 
     /// The largest sag of the numbers given, and the range of how deep that joint is below that line, m.
-    #[must_use]
     pub fn sag(&self) -> Option<(Sag, &Range)> {
         Some((self.sag?, self.ranges.as_ref().ok()?.depths_m.first()?))
     }
 
     /// What became of the draws.
-    #[must_use]
     pub fn draws(&self) -> Option<&Draws> {
         self.draws.as_ref()
     }
 
     /// Whether the equilibrium is stable for all values, as it is for the numbers given: its derivative is
     /// regular for all, so that no stable one becomes unstable. `None` where nothing is proved.
-    #[must_use]
     pub fn is_stable(&self) -> Option<bool> {
         let stability = self.answer.equilibria()[0].stability;
         self.ranges.as_ref().ok().map(|_| stability.in_space == InSpace::Stable)
     }
 
     /// Whether a check has failed: of the answer, or of a draw against the ranges.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.answer.check_failed() || self.draws.as_ref().is_some_and(|draws| draws.outside > 0)
     }
 
     /// Whether the solvers have decided, and the ranges are proved.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.answer.is_decided() && self.ranges.is_ok()
     }
 
     /// The least and the largest part of its strength that a member, from 0, uses; `None` without a
     /// strength or a proof. Its own weight and loads are counted as if they all added to its force.
-    #[must_use]
     pub fn utilisation(&self, member: usize) -> Option<[f64; 2]> {
         let (system, ranges) = (self.answer.system(), self.ranges.as_ref().ok()?);
         let strength: &Strength = system.members().get(member)?.strength.as_deref()?;
@@ -147,7 +140,6 @@ impl TolerancesAnswer {
     }
 
     /// As a number of the file is named: `bars.2.length_m`.
-    #[must_use]
     pub fn number_name(&self, number: usize) -> Option<String> {
         let numbers = &self.ranges.as_ref().ok()?.numbers;
         Some(name(self.answer.system(), numbers.get(number)?.number))

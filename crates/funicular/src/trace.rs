@@ -78,7 +78,6 @@ pub struct Trace {
 
 impl Trace {
     /// Over no parameter yet.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -150,7 +149,6 @@ impl Trace {
 
     /// Whether load paths are followed: over a range alone, or of what is no chain. Else all
     /// equilibria of a chain are.
-    #[must_use]
     pub fn is_load_path(&self, problem: &Problem) -> bool {
         self.parameters.is_open()
             || !self.of.is_empty()
@@ -273,7 +271,6 @@ enum Found {
 
 impl TraceAnswer {
     /// The paths along which all equilibria are followed; none where load paths are.
-    #[must_use]
     pub fn paths(&self) -> &[Continuation] {
         match &self.0 {
             Found::All { paths, .. } => paths,
@@ -282,7 +279,6 @@ impl TraceAnswer {
     }
 
     /// The load paths, if these are followed.
-    #[must_use]
     pub fn load_paths(&self) -> Option<&LoadPaths> {
         match &self.0 {
             Found::All { .. } => None,
@@ -292,7 +288,6 @@ impl TraceAnswer {
 
     /// Whether every census between the points and events finds exactly the branches there; of load
     /// paths whether `energy` and the judge confirm every point.
-    #[must_use]
     pub fn checks_agree(&self) -> bool {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().all(|path| path.checks.agree()),
@@ -302,7 +297,6 @@ impl TraceAnswer {
 
     /// Whether all that the checks ask is decided, one way or the other; of load paths whether none
     /// was lost.
-    #[must_use]
     pub fn checks_decided(&self) -> bool {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().map(|path| &path.checks).all(Checks::decided),
@@ -311,7 +305,6 @@ impl TraceAnswer {
     }
 
     /// Why no value of the parameters describes a chain that can hang, if none does.
-    #[must_use]
     pub fn refused_everywhere(&self) -> Option<String> {
         let mut reasons =
             self.paths().iter().flat_map(|path| &path.points).map(|point| match &point.status {
@@ -324,7 +317,6 @@ impl TraceAnswer {
 
     /// The diagram of a path as SVG: energy, and the angle of a bar, from 1; of a load path the
     /// parameter over the first number shown, with the paths that branch off.
-    #[must_use]
     pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
         match &self.0 {
             Found::All { system, paths } => {

@@ -44,7 +44,6 @@ pub(crate) fn from_one<S: Serializer>(bar: &usize, serializer: S) -> Result<S::O
 
 impl Weakest {
     /// Of an equilibrium of a system; `None` where no member has a strength.
-    #[must_use]
     pub fn of(system: &System, found: &SystemEquilibrium) -> Option<Self> {
         let (bar, utilisation) = found.weakest(system)?;
         let safety_wanted = system.members()[bar].strength.as_deref()?.safety();
@@ -52,13 +51,11 @@ impl Weakest {
     }
 
     /// The safety wanted over the one that is there: above 1 it is too weak.
-    #[must_use]
     pub fn demand(&self) -> f64 {
         self.utilisation * self.safety_wanted
     }
 
     /// Whether it is as safe as wanted; then all members are.
-    #[must_use]
     pub fn suffices(&self) -> bool {
         self.demand() <= 1.0
     }

@@ -36,7 +36,6 @@ impl AxialForce {
     /// );
     /// assert_eq!((rope.from_n, rope.to_n, rope.largest_n()), (30.0, 20.0, 30.0));
     /// ```
-    #[must_use]
     pub fn along(
         (from_m, to_m): (Vector, Vector),
         (start_n, end_n): (Vector, Vector),
@@ -65,7 +64,6 @@ impl AxialForce {
     }
 
     /// The larger of the two extremes, with its sign.
-    #[must_use]
     pub fn largest_n(&self) -> f64 {
         if self.most_n >= -self.least_n { self.most_n } else { self.least_n }
     }
@@ -90,7 +88,6 @@ impl SystemEquilibrium {
     /// Spread loads, and the weight of a member whose centre is in its middle, put its extremes at other loads and ends; the
     /// weight of another one counts as acting at its centre. A cable that is slack and a strut that is loose bear nothing along them:
     /// each joint carries its part of their weight.
-    #[must_use]
     pub fn axial_forces(&self, system: &System) -> Vec<AxialForce> {
         (0..system.members().len()).map(|member| self.axial_force(system, member)).collect()
     }
@@ -99,7 +96,6 @@ impl SystemEquilibrium {
     ///
     /// # Panics
     /// If the answer is not one of the system.
-    #[must_use]
     pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {
         let member = &system.members()[k];
         let is_idle = member.kind != Kind::Bar && self.axial_n[k].abs() <= 0.0;
@@ -151,7 +147,6 @@ impl SystemEquilibrium {
 impl crate::Equilibrium {
     /// The axial force along every bar: its ends have the extremes, since weight alone acts between
     /// them.
-    #[must_use]
     pub fn axial_forces(&self) -> Vec<AxialForce> {
         let forces = self.multipliers_n.windows(2).enumerate();
         let joints = self.joints_m.windows(2).zip(&self.axial_n);

@@ -151,44 +151,37 @@ impl Bar {
     /// ```
     /// assert_eq!(model::Bar::slender_inertia(2.0, 3.0), [0.0, 1.0, 1.0]);
     /// ```
-    #[must_use]
     pub fn slender_inertia(length_m: f64, mass_kg: f64) -> [f64; 3] {
         let moment = mass_kg * length_m * length_m / 12.0;
         [0.0, moment, moment]
     }
 
     /// Length `l_i` between the joints, m.
-    #[must_use]
     pub fn length_m(&self) -> f64 {
         self.length_m
     }
 
     /// Mass `m_i`, kg.
-    #[must_use]
     pub fn mass_kg(&self) -> f64 {
         self.mass_kg
     }
 
     /// Distance `r_i` of the centre of weight from the first joint of the bar, m.
-    #[must_use]
     pub fn centre_m(&self) -> f64 {
         self.centre_m
     }
 
     /// Principal central moments `J_x, J_y, J_z`, kg m²; x along the bar.
-    #[must_use]
     pub fn inertia_kg_m2(&self) -> [f64; 3] {
         self.inertia_kg_m2
     }
 
     /// The centre of weight where it was given, and not left out for the middle, m.
-    #[must_use]
     pub fn given_centre_m(&self) -> Option<f64> {
         self.is_given[0].then_some(self.centre_m)
     }
 
     /// The moments where they were given, and not left out for those of a slender bar, kg m².
-    #[must_use]
     pub fn given_inertia_kg_m2(&self) -> Option<[f64; 3]> {
         self.is_given[1].then_some(self.inertia_kg_m2)
     }

@@ -43,7 +43,6 @@ pub fn limit_work(numbers: NonZeroU64) {
 }
 
 /// Work that a solve of this process may do, as [`limit_work`] has it.
-#[must_use]
 pub fn max_work() -> u64 {
     WORK.load(Ordering::Relaxed)
 }
@@ -88,13 +87,11 @@ impl Default for Budget {
 
 impl Budget {
     /// So many bytes.
-    #[must_use]
     pub const fn new(limit: u64) -> Self {
         Self { limit, held: AtomicU64::new(0), members: AtomicU64::new(0) }
     }
 
     /// What is left, bytes.
-    #[must_use]
     pub fn left(&self) -> u64 {
         self.limit.saturating_sub(self.held.load(Ordering::Relaxed))
     }

@@ -22,7 +22,6 @@ impl Case {
     ///
     /// # Panics
     /// Never: a test reads every case of the registry.
-    #[must_use]
     pub fn problem(&self) -> Problem {
         match parse(self.text, self.name) {
             Ok(Described::Chain(problem)) => problem,
@@ -48,7 +47,6 @@ impl Exhibit {
     ///
     /// # Panics
     /// Never: a test reads all of the gallery.
-    #[must_use]
     pub fn system(&self) -> System {
         match parse(self.text, self.name) {
             Ok(Described::System(system)) => system,
@@ -127,13 +125,11 @@ const ROPES: &[Exhibit] = registry! {
 };
 
 /// Ropes that run over rings and pulleys.
-#[must_use]
 pub fn ropes() -> &'static [Exhibit] {
     ROPES
 }
 
 /// Structures that stand where they are drawn: trusses, a tower, domes.
-#[must_use]
 pub fn drawn() -> &'static [Exhibit] {
     DRAWN
 }
@@ -145,13 +141,11 @@ pub fn exhibits() -> impl Iterator<Item = &'static Exhibit> {
 
 /// Tensegrities that no load holds up: cables of a given prestress around rigid struts, each with
 /// the stress that is known of it in a closed form.
-#[must_use]
 pub fn tensegrities() -> &'static [Exhibit] {
     TENSEGRITIES
 }
 
 /// The gallery: systems of joints and members, each with what is known of it in a closed form.
-#[must_use]
 pub fn gallery() -> &'static [Exhibit] {
     GALLERY
 }
@@ -168,7 +162,6 @@ pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
 /// let tripod = model::cases::exhibit("tripod").unwrap().system();
 /// assert_eq!((tripod.joints().len(), tripod.members().len()), (4, 3));
 /// ```
-#[must_use]
 pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
     exhibits().find(|exhibit| exhibit.name == name)
 }
@@ -181,7 +174,6 @@ pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
 ///     assert!(case.problem().chain().bars().len() >= 2, "{}", case.name);
 /// }
 /// ```
-#[must_use]
 pub fn all() -> &'static [Case] {
     REGISTRY
 }
@@ -199,7 +191,6 @@ pub fn named() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// assert_eq!(case.problem().chain().bars().len(), 2);
 /// assert!(model::cases::get("two bars").is_none());
 /// ```
-#[must_use]
 pub fn get(name: &str) -> Option<&'static Case> {
     REGISTRY.iter().find(|case| case.name == name)
 }
@@ -211,7 +202,6 @@ pub fn get(name: &str) -> Option<&'static Case> {
 /// let problem = model::cases::paper();
 /// assert_eq!(problem.chain().anchors().difference_m(), [0.0, 0.0, -2.0]);
 /// ```
-#[must_use]
 pub fn paper() -> Problem {
     REGISTRY[0].problem()
 }

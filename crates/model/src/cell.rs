@@ -19,13 +19,11 @@ const TEXT: char = '\'';
 ///     assert_eq!(name_of_cell(&text_cell(name)), name);
 /// }
 /// ```
-#[must_use]
 pub fn text_cell(name: &str) -> Cow<'_, str> {
     if begins_like_formula(name) { format!("{TEXT}{name}").into() } else { name.into() }
 }
 
 /// The name that a cell has: the inverse of [`text_cell`].
-#[must_use]
 pub fn name_of_cell(cell: &str) -> &str {
     cell.strip_prefix(TEXT).filter(|name| begins_like_formula(name)).unwrap_or(cell)
 }

@@ -24,7 +24,6 @@ impl Anchors {
     /// let anchors = model::Anchors { start_m: [1.0, 2.0, 3.0], end_m: [2.0, 2.0, 1.0] };
     /// assert_eq!(anchors.difference_m(), [1.0, 0.0, -2.0]);
     /// ```
-    #[must_use]
     pub fn difference_m(&self) -> Vector {
         std::array::from_fn(|k| self.end_m[k] - self.start_m[k])
     }
@@ -40,7 +39,6 @@ impl Anchors {
     /// let anchors = model::Anchors { start_m: [0.0; 3], end_m: [3e200, 0.0, 4e200] };
     /// assert!((anchors.span_m() / 5e200 - 1.0).abs() <= f64::EPSILON);
     /// ```
-    #[must_use]
     pub fn span_m(&self) -> f64 {
         let [x, y, z] = self.difference_m();
         x.hypot(y).hypot(z)
@@ -122,37 +120,31 @@ impl Chain {
     }
 
     /// The name, for people.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Gravity `g` along −Z, m/s².
-    #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity_m_s2
     }
 
     /// The anchors.
-    #[must_use]
     pub fn anchors(&self) -> &Anchors {
         &self.anchors
     }
 
     /// The bars, from the start anchor to the end anchor.
-    #[must_use]
     pub fn bars(&self) -> &[Bar] {
         &self.bars
     }
 
     /// Sum of the lengths, m.
-    #[must_use]
     pub fn total_length_m(&self) -> f64 {
         self.total_length_m
     }
 
     /// Sum of the masses, kg.
-    #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
         self.total_mass_kg
     }
@@ -168,7 +160,6 @@ impl Chain {
     /// let paper = model::cases::paper();
     /// assert!(paper.chain().anchors_on_one_vertical());
     /// ```
-    #[must_use]
     pub fn anchors_on_one_vertical(&self) -> bool {
         let [x, y, _] = self.anchors.difference_m();
         x.hypot(y) <= VERTICAL_TOLERANCE * self.total_length_m()

@@ -41,13 +41,11 @@ pub enum Digits {
 
 impl Number {
     /// A fixed number of decimals.
-    #[must_use]
     pub const fn decimals(value: f64, decimals: usize) -> Self {
         Self { value, digits: Digits::Decimals(decimals) }
     }
 
     /// Significant digits, or a bound where the number is rounding.
-    #[must_use]
     pub const fn significant(value: f64, digits: usize) -> Self {
         Self { value, digits: Digits::Significant(digits) }
     }
@@ -58,13 +56,11 @@ impl Number {
     /// use model::number::Number;
     /// assert_eq!(Number::count(4.0).to_string(), "4");
     /// ```
-    #[must_use]
     pub const fn count(value: f64) -> Self {
         Self { value, digits: Digits::Count }
     }
 
     /// An order of magnitude, with so many decimals.
-    #[must_use]
     pub const fn size(value: f64, decimals: usize) -> Self {
         Self { value, digits: Digits::Size(decimals) }
     }
@@ -74,7 +70,6 @@ impl Number {
     /// ```
     /// assert_eq!(model::number::Number::significant(1e-15, 2).in_words(), "less than 10⁻¹²");
     /// ```
-    #[must_use]
     pub fn in_words(self) -> String {
         match bound(self.value) {
             Some(bound) if self.is_told_as_bound() => format!("less than {bound}"),
@@ -212,7 +207,6 @@ fn significant(x: f64, digits: usize) -> String {
 /// use model::number::decimals;
 /// assert_eq!([12.5, 0.125, 1e-9, 0.0].map(|x| decimals(x, 4, 6)), [2, 4, 6, 6]);
 /// ```
-#[must_use]
 pub fn decimals(x: f64, digits: usize, most: usize) -> usize {
     let wanted = digits as f64 - 1.0 - x.abs().log10().floor();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
@@ -221,7 +215,6 @@ pub fn decimals(x: f64, digits: usize, most: usize) -> usize {
 }
 
 /// A number in decimals without the zeros at its end.
-#[must_use]
 pub fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -77,13 +77,11 @@ impl Problem {
     }
 
     /// The chain.
-    #[must_use]
     pub fn chain(&self) -> &Chain {
         &self.0
     }
 
     /// Give the chain back.
-    #[must_use]
     pub fn into_chain(self) -> Chain {
         self.0
     }

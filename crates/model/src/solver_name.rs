@@ -27,13 +27,11 @@ impl SolverName {
     pub const CENSUS: Self = Self(Cow::Borrowed("census"));
 
     /// A solver of any name.
-    #[must_use]
     pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
         Self(name.into())
     }
 
     /// The name.
-    #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
     }

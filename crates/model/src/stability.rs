@@ -24,7 +24,6 @@ pub struct Stability {
 impl Stability {
     /// Of the Morse indices in the plane, which has so many motions, and in space; `is_degenerate` where the second order
     /// does not decide in the plane.
-    #[must_use]
     pub fn of(
         [index_in_plane, index_in_space]: [usize; 2],
         motions: usize,

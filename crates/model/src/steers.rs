@@ -6,7 +6,6 @@
 /// ```
 /// assert!(model::steers('\u{1b}') && model::steers('\u{202e}') && !model::steers('\u{e4}'));
 /// ```
-#[must_use]
 pub fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}')

@@ -10,7 +10,6 @@
 /// # References
 ///
 /// A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39-51, doi:10.1002/zamm.19740540106
-#[must_use]
 pub fn sum(terms: impl IntoIterator<Item = f64>) -> f64 {
     let mut all = Sum::default();
     terms.into_iter().for_each(|term| all.add(term));
@@ -39,7 +38,6 @@ impl Sum {
 
     /// The sum so far.
     #[inline]
-    #[must_use]
     pub fn value(self) -> f64 {
         // An overflow leaves NaN in `lost`; the plain total then says it better.
         if self.lost.is_finite() { self.total + self.lost } else { self.total }

@@ -31,13 +31,11 @@ pub struct Badge {
 
 impl Badge {
     /// A badge.
-    #[must_use]
     pub fn new(tone: Tone, word: impl Into<Cow<'static, str>>) -> Self {
         Self { tone, word: word.into() }
     }
 
     /// Of a claim of the paper.
-    #[must_use]
     pub fn of_claim(verdict: Assessment, as_expected: bool) -> Self {
         let tone = match verdict {
             _ if !as_expected => Tone::Bad,
@@ -50,7 +48,6 @@ impl Badge {
     }
 
     /// Of an equation: its validity, and the kind of its fault if it has one.
-    #[must_use]
     pub fn of_equation(validity: Validity, fault: Option<Fault>) -> Self {
         match (validity, fault) {
             (Validity::Holds, _) => Self::new(Tone::Good, "holds"),
@@ -66,19 +63,16 @@ impl Badge {
     }
 
     /// Of a row of the audit.
-    #[must_use]
     pub fn of_row(row: &EquationAudit) -> Self {
         Self::of_equation(row.verdict, row.fault)
     }
 
     /// Of a comparison.
-    #[must_use]
     pub fn of_agreement(agreed: bool) -> Self {
         if agreed { Self::new(Tone::Good, "agreed") } else { Self::new(Tone::Bad, "disagreed") }
     }
 
     /// Of a rung of evidence.
-    #[must_use]
     pub fn of_rung(reached: bool) -> Self {
         if reached {
             Self::new(Tone::Good, "reached")
@@ -88,7 +82,6 @@ impl Badge {
     }
 
     /// A sign for those who see no colour.
-    #[must_use]
     pub fn sign(&self) -> &'static str {
         match self.tone {
             Tone::Good => "✓",

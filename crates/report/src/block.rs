@@ -69,7 +69,6 @@ pub(crate) fn text<'a>(text: impl Into<String>) -> Block<'a> {
 }
 
 /// A residual of the audit, or a count.
-#[must_use]
 pub fn residual(row: &EquationAudit, value: f64) -> Number {
     /// Significant digits of a residual.
     const DIGITS: usize = 4;
@@ -77,7 +76,6 @@ pub fn residual(row: &EquationAudit, value: f64) -> Number {
 }
 
 /// What an audited row says in cells: what, measured, as printed, as corrected, verdict.
-#[must_use]
 pub fn audit_cells(row: &EquationAudit) -> [Cell; 5] {
     let corrected = row.as_corrected.map(|value| {
         let number = residual(row, value);

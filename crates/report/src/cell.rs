@@ -24,25 +24,21 @@ pub enum Cell {
 
 impl Cell {
     /// A number in the unit of its column.
-    #[must_use]
     pub fn number(number: Number) -> Self {
         Self::Number(number, "")
     }
 
     /// A count.
-    #[must_use]
     pub fn count(count: usize) -> Self {
         Self::number(Number::count(count as f64))
     }
 
     /// Whether a column of such cells stands right.
-    #[must_use]
     pub fn is_number(&self) -> bool {
         matches!(self, Self::Nothing | Self::Number(..))
     }
 
     /// The text, the same in every renderer but for marks, signs and spaces.
-    #[must_use]
     pub fn text(&self) -> String {
         match self {
             Self::Nothing => "-".to_owned(),

@@ -57,26 +57,22 @@ impl Report {
     }
 
     /// What it was made from.
-    #[must_use]
     pub fn reproduction(&self) -> &Reproduction {
         &self.reproduction
     }
 
     /// `report.html`: one page that needs nothing else.
-    #[must_use]
     pub fn html(&self) -> String {
         html::page(self.reproduction.paper, &self.chapters(), &self.run())
     }
 
     /// `report.md`.
-    #[must_use]
     pub fn markdown(&self) -> String {
         self.golden() + "\n" + &markdown::markdown(&self.run())
     }
 
     /// `report.md` without what differs from run to run and from machine to machine:
     /// `validation/REPORT.md`.
-    #[must_use]
     pub fn golden(&self) -> String {
         markdown::markdown(&self.chapters())
     }

@@ -29,7 +29,6 @@ pub struct Environment {
 
 impl Environment {
     /// This machine and this program, called with these arguments (the first is its name).
-    #[must_use]
     pub fn here(mut arguments: impl Iterator<Item = String>) -> Self {
         let name = arguments.next().unwrap_or_default();
         let name = name.rsplit(['/', '\\']).next().unwrap_or_default();

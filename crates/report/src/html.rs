@@ -17,7 +17,6 @@ use crate::symbols::signs;
 const STYLE: &str = include_str!("style.css");
 
 /// The page: a head, a table of contents, the blocks, and a foot.
-#[must_use]
 pub fn page(title: &str, blocks: &[Block], run: &[Block]) -> String {
     let mut body = String::new();
     let mut open = false;

@@ -7,7 +7,6 @@ use crate::equations::Judged;
 use crate::math::plain_latex;
 
 /// All blocks, one after the other.
-#[must_use]
 pub fn markdown(blocks: &[Block]) -> String {
     blocks.iter().map(one).collect::<Vec<_>>().join("\n")
 }

@@ -48,7 +48,6 @@ struct Mark {
 /// assert!(mathml.starts_with("<math") && mathml.contains("class=\"wrong\""));
 /// assert!(!mathml.contains("merror"));
 /// ```
-#[must_use]
 pub fn mathml(latex: &str) -> String {
     let source = MARKS.iter().fold(latex.to_owned(), |s, m| s.replace(m.command, m.through));
     let text = converted(&source, DisplayMode::Block);
@@ -64,7 +63,6 @@ pub fn mathml(latex: &str) -> String {
 /// let mathml = report::math::plain_mathml(r"\sqrt{l}", false);
 /// assert!(mathml.contains("<msqrt>") && mathml.contains("display=\"inline\""));
 /// ```
-#[must_use]
 pub fn plain_mathml(latex: &str, displayed: bool) -> String {
     converted(latex, if displayed { DisplayMode::Block } else { DisplayMode::Inline })
 }
@@ -99,7 +97,6 @@ const BRACKETED: [(&str, &str); 2] = [
 /// ```
 /// assert_eq!(report::math::plain_latex(r"a = \wrong{b}"), r"a = \underline{b}");
 /// ```
-#[must_use]
 pub fn plain_latex(latex: &str) -> String {
     MARKS.iter().fold(latex.to_owned(), |text, mark| text.replace(mark.command, mark.plain))
 }

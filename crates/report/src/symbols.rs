@@ -8,7 +8,6 @@
 /// assert_eq!(signs("{u_psi}, alphabet"), "{u_ψ}, alphabet");
 /// assert_eq!(signs("pi/2 and (xiii)"), "π/2 and (xiii)");
 /// ```
-#[must_use]
 pub fn signs(text: &str) -> String {
     let mut out = String::new();
     let mut word = String::new();

@@ -85,7 +85,6 @@ struct Place {
 
 impl View {
     /// Collect what there is to see.
-    #[must_use]
     pub fn new(reproduction: &Reproduction) -> Self {
         let figures = &reproduction.figures;
         let [ix, x] = figures.scan_results;

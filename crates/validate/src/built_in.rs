@@ -7,7 +7,6 @@ use toml::{Table, Value};
 ///
 /// # Panics
 /// On what is no TOML.
-#[must_use]
 pub fn parsed(file: &str) -> Table {
     file.parse().expect("what is built in is TOML")
 }
@@ -30,37 +29,31 @@ pub fn optional<'a, T>(table: &'a Table, key: &str, read: fn(&'a Value) -> Optio
 }
 
 /// A number; a whole one may be written without a point.
-#[must_use]
 pub fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// The numbers of several keys, as by [`key`].
-#[must_use]
 pub fn numbers<const N: usize>(table: &Table, keys: [&str; N]) -> [f64; N] {
     keys.map(|name| key(table, name, number))
 }
 
 /// A number of things.
-#[must_use]
 pub fn count(value: &Value) -> Option<usize> {
     value.as_integer()?.try_into().ok()
 }
 
 /// A text.
-#[must_use]
 pub fn text(value: &Value) -> Option<String> {
     value.as_str().map(str::to_owned)
 }
 
 /// Several texts.
-#[must_use]
 pub fn texts(value: &Value) -> Option<Vec<String>> {
     value.as_array()?.iter().map(text).collect()
 }
 
 /// Several tables.
-#[must_use]
 pub fn tables(value: &Value) -> Option<Vec<&Table>> {
     value.as_array()?.iter().map(Value::as_table).collect()
 }

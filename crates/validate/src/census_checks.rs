@@ -28,7 +28,6 @@ pub struct Nearest {
 /// The listed equilibrium whose boxes are nearest to a position; with the anchors on one vertical
 /// the position is turned about it first. `None` if nothing is listed, or the joints do not fit the
 /// chain.
-#[must_use]
 pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Nearest> {
     let all = census.equilibria.iter().enumerate().map(|(k, equilibrium)| Nearest {
         number: k + 1,
@@ -156,7 +155,6 @@ pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, Error> {
 
 /// The largest violation of Newton's laws by the middles of the boxes, over all equilibria: joints
 /// and multipliers, judged bar by bar.
-#[must_use]
 pub fn statics(problem: &Problem, census: &Census) -> f64 {
     let answers = census.to_model();
     let judged = answers.iter().map(|answer| judge_chain(problem, answer).largest());
@@ -178,7 +176,6 @@ pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], NoCertificat
 
 /// The accuracy to which a solver may place a joint, in units of the total length: what coordinates
 /// can hold besides 1e-12.
-#[must_use]
 pub fn placed(chain: &Chain) -> f64 {
     /// Measured on random chains: 2e-14 in general.
     const SOLVER: f64 = 1e-12;

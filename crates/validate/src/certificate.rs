@@ -94,7 +94,6 @@ pub struct Certificate {
 
 impl Certificate {
     /// The proof of the rung `optimal`.
-    #[must_use]
     pub fn proof(&self) -> Optimal {
         Optimal { gap: Some(self.gap), singular: self.singular }
     }

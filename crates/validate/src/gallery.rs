@@ -51,7 +51,6 @@ pub struct Piece {
 ///     }
 /// }
 /// ```
-#[must_use]
 pub fn solve() -> Vec<Piece> {
     let one = |exhibit: &'static Exhibit| {
         let system = exhibit.system();

@@ -16,20 +16,17 @@ use numerics::lever;
 /// assert_eq!([lever::near_kg(&bar), lever::far_kg(&bar)], [6.0, 2.0]);
 /// # Ok::<(), model::BarError>(())
 /// ```
-#[must_use]
 pub fn centre_part(bar: &Bar) -> f64 {
     shares(bar)[1]
 }
 
 /// What of its mass the first end of a bar carries, kg; exactly none where the centre of weight is
 /// at the second.
-#[must_use]
 pub fn near_kg(bar: &Bar) -> f64 {
     bar.mass_kg() * shares(bar)[0]
 }
 
 /// What of its mass the second end of a bar carries, kg.
-#[must_use]
 pub fn far_kg(bar: &Bar) -> f64 {
     bar.mass_kg() * centre_part(bar)
 }

@@ -35,7 +35,6 @@ impl Question {
     }
 
     /// Settings of `lagrange` for the condensed equations of a row of so many bars.
-    #[must_use]
     pub fn condensed(&self, bars: usize) -> lagrange::condensed::Settings {
         let usual = lagrange::condensed::Settings::default();
         let passes = self.passes(bars, usual.max_passes as u64);

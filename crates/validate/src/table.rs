@@ -58,14 +58,12 @@ pub struct CaseResult {
 
 impl CaseResult {
     /// Whether both solvers answered and agree.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.agreement.as_ref().is_some_and(SystemAgreement::agrees)
     }
 }
 
 /// Both solvers on the given cases, in parallel; the order of the results is that of the cases.
-#[must_use]
 pub fn table(cases: &[Case]) -> Vec<CaseResult> {
     in_parallel(cases.len(), 1, |k| run(&cases[k]))
 }
@@ -175,7 +173,6 @@ fn rows(
 }
 
 /// All rows as CSV.
-#[must_use]
 pub fn csv(results: &[CaseResult]) -> String {
     let mut text = "case,observable,lagrange,energy,difference\n".to_owned();
     for row in results.iter().flat_map(|result| &result.rows) {

@@ -24,7 +24,6 @@ impl Tolerances {
     ///
     /// # Panics
     /// Never: a test reads the file that is compiled in.
-    #[must_use]
     pub fn project() -> Self {
         static PROJECT: LazyLock<Tolerances> = LazyLock::new(|| {
             let file = file();

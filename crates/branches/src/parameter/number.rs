@@ -97,14 +97,8 @@ const TOP: &[&str] = &["loads", "lengths", "gravity_m_s2", "floor_m", "anchors",
 const ANCHORS: &[&str] = &["start_m", "end_m"];
 const JOINT: &[&str] = &["at_m", "mass_kg", "force_n", "share"];
 const BAR: &[&str] = &[
-    "length_m",
-    "mass_kg",
-    "centre_m",
-    "inertia_kg_m2",
-    "stiffness_n",
-    "prestress_n",
-    "length_tolerance_m",
-    "count",
+    "length_m", "mass_kg", "centre_m", "inertia_kg_m2", "stiffness_n", "prestress_n",
+    "length_tolerance_m", "count",
 ];
 const AXES: [&str; 3] = ["x", "y", "z"];
 

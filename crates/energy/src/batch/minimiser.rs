@@ -136,11 +136,8 @@ impl Batch {
                 let slopes = slopes(pieces, &sums, &accepted, places);
                 for k in (0..WIDTH).filter(|k| accepted[*k]) {
                     next[k] = lanes[k].accepted(
-                        &self.settings,
-                        slopes.largest[k],
-                        slopes.convex[k],
-                        slopes.largest_turn[k],
-                        slopes.fall[k],
+                        &self.settings, slopes.largest[k], slopes.convex[k],
+                        slopes.largest_turn[k], slopes.fall[k],
                     );
                 }
             }

@@ -52,7 +52,6 @@ pub struct Joint<'a> {
 
 impl<'a> Joint<'a> {
     /// A joint without support and load.
-    #[must_use]
     pub fn free(name: &'a str, at_m: [f64; 3]) -> Self {
         Self { name, at_m, support: None, load_n: [0.0; 3], reaction_n: [0.0; 3] }
     }

@@ -46,7 +46,6 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
 /// ```
 /// assert_eq!(formats::export::dxf_text("Spitze \u{e4}\n"), "Spitze \\U+00E4");
 /// ```
-#[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut units = [0; 2];

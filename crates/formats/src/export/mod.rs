@@ -80,7 +80,6 @@ impl Target {
         ["vtu", "dxf", "obj", "gltf", "xml", "urdf", "txt", "dat", "json"];
 
     /// For which program it is, and what the file holds.
-    #[must_use]
     pub fn describe(self) -> &'static str {
         match self {
             Self::Vtu => "an unstructured grid for ParaView",
@@ -101,7 +100,6 @@ impl Target {
     /// assert_eq!(Target::of_ending("xyz"), None);
     /// assert!(Target::ENDINGS.iter().all(|ending| Target::of_ending(ending).is_some()));
     /// ```
-    #[must_use]
     pub fn of_ending(ending: &str) -> Option<Self> {
         Some(match ending.to_ascii_lowercase().as_str() {
             "vtu" => Self::Vtu,
@@ -147,7 +145,6 @@ pub struct Moving<'a> {
 
 impl<'a> Shape<'a> {
     /// Of an equilibrium of a solver, with the [utilisations](SystemEquilibrium::utilisations) of its members.
-    #[must_use]
     pub fn new(system: &'a System, found: &'a SystemEquilibrium, used: &'a [Option<f64>]) -> Self {
         let SystemEquilibrium { joints_m, axial_n, reactions_n, .. } = found;
         Self { system, joints_m, axial_n, reactions_n, used, moving: None }

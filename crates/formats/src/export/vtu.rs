@@ -77,7 +77,6 @@ pub(super) fn write(shape: &Shape<'_>) -> String {
 }
 
 /// The collection that names a grid for each of rising times, s.
-#[must_use]
 pub fn collection(grids: impl IntoIterator<Item = (f64, String)>) -> String {
     let mut text = head("Collection");
     for (time_s, file) in grids {

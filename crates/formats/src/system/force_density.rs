@@ -47,13 +47,11 @@ const RATIO: f64 = 0.5;
 
 impl ForceDensityNet {
     /// The places of the nodes as the file has them, m.
-    #[must_use]
     pub fn places_m(&self) -> Vec<Vector> {
         self.nodes.iter().map(|node| node.at_m).collect()
     }
 
     /// What there is to say of the loads on nodes that are held: one sentence, if there are any.
-    #[must_use]
     pub fn held_loads(&self) -> Option<String> {
         super::held_loads(self.nodes.iter().filter(|node| node.held).map(|node| node.force_n))
     }

@@ -65,7 +65,6 @@ impl Source {
     /// assert_eq!(Source::guess("txt", "--- NODE PROPERTIES ---"), Some(Source::Map));
     /// assert_eq!(Source::guess("txt", "[joints]"), None);
     /// ```
-    #[must_use]
     pub fn guess(ending: &str, text: &str) -> Option<Self> {
         let compas = || text.contains("\"dtype\"") || text.contains("\"datatype\"");
         // Sections stand under lines of dashes, as in no system file.
@@ -93,7 +92,6 @@ impl Source {
     }
 
     /// Whether files with this ending may be of another program.
-    #[must_use]
     pub fn may_end(ending: &str) -> bool {
         let endings = ["dxf", "obj", "map", "tcl", "dat", "txt", "json"];
         endings.iter().any(|known| ending.eq_ignore_ascii_case(known))

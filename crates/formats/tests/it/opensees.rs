@@ -60,9 +60,7 @@ fn trusses_are_elastic_bars_and_nothing_weighs() {
     }
     assert!(system.members().iter().all(|member| member.body.mass_kg() <= 0.0));
     for says in [
-        "units: N, m and kg as written",
-        "nothing weighs",
-        "truss is linear in OpenSees",
+        "units: N, m and kg as written", "nothing weighs", "truss is linear in OpenSees",
         "not read: analyze, integrator, wipe",
     ] {
         assert!(read.notes.iter().any(|note| note.contains(says)), "{:?}", read.notes);

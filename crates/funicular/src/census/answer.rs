@@ -79,7 +79,6 @@ pub struct Enclosures {
 
 impl CensusAnswer {
     /// Put together from a census.
-    #[must_use]
     pub fn new(system: &System, proven: SystemCensus) -> Self {
         let equilibria: Vec<Found> = if let Some((row, chain)) = AsRow::of(system, &proven) {
             let found = |at: Position| row.found(chain.census.position_to_model(&at), &at);
@@ -93,19 +92,16 @@ impl CensusAnswer {
     }
 
     /// What it is the census of.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// The census itself, with the enclosures.
-    #[must_use]
     pub fn proven(&self) -> &SystemCensus {
         &self.proven
     }
 
     /// The census of the row of bars that the system is, if it is one: to draw.
-    #[must_use]
     pub fn row(&self) -> Option<&ChainCensus> {
         self.proven.row(&self.system)
     }
@@ -116,7 +112,6 @@ impl CensusAnswer {
     }
 
     /// Whether it is proved that there is no other.
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.census.complete
     }
@@ -181,13 +176,11 @@ impl Found {
     }
 
     /// Its name in the list, where it has this place from 0: `2`, or `2'` for a mirror image.
-    #[must_use]
     pub fn label(&self, k: usize) -> String {
         self.in_row.as_ref().map_or_else(|| (k + 1).to_string(), |found| found.label.clone())
     }
 
     /// Largest relative width of the enclosures.
-    #[must_use]
     pub fn box_width(&self) -> f64 {
         let verified = self.equilibrium.evidence.ladder.verified.proof();
         verified.map_or(f64::NAN, |proof| proof.box_width)

@@ -135,7 +135,6 @@ impl LargeCensusAnswer {
     }
 
     /// How many bytes of JSON the list takes, from its first equilibria.
-    #[must_use]
     pub fn expected_bytes(&self, list: List) -> f64 {
         /// As many as speak for all.
         const SAMPLE: usize = 16;

@@ -52,7 +52,6 @@ pub struct Census {
 
 impl Census {
     /// Chains of up to 16 bars, on all processors.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

@@ -196,13 +196,11 @@ impl Summary {
     }
 
     /// Whether the check shows that something is wrong.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.chains().any(|chain| chain.check.refuted)
     }
 
     /// Whether every equilibrium is known, and passed the check.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.decided && self.chains().all(|chain| chain.check.passed)
     }

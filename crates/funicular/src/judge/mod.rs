@@ -70,7 +70,6 @@ pub struct Judged {
 
 impl Judge {
     /// Answers that are taken to know six digits.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -112,33 +111,28 @@ impl Judge {
 
 impl Judged {
     /// What was judged against.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// The judgement.
-    #[must_use]
     pub fn judgement(&self) -> &Judgement {
         &self.judgement
     }
 
     /// The member that is nearest to breaking under the forces that were judged; `None` where no member
     /// has a strength.
-    #[must_use]
     pub fn weakest(&self) -> Option<Weakest> {
         Weakest::of(&self.system, &self.judgement.answer)
     }
 
     /// Whether all members are as strong as wanted under these forces; no value where none has a strength.
-    #[must_use]
     pub fn is_strong(&self) -> Option<bool> {
         self.weakest().map(|weakest| weakest.suffices())
     }
 
     /// The judgement as a page that needs nothing else: the verdict, what is broken, a picture.
     /// `notes` are sentences about how the system was read; the picture is seen from `seen`.
-    #[must_use]
     pub fn html(&self, notes: &[String], seen: Seen) -> String {
         page::html(self, notes, seen)
     }

@@ -50,13 +50,11 @@ pub struct Ruling {
 
 impl Subject {
     /// A net, and the name of its file for errors.
-    #[must_use]
     pub fn net(net: ForceDensityNet, file: &str) -> Self {
         Self(Kind::Net { net, file: file.to_owned() })
     }
 
     /// How the file was read.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         match &self.0 {
             Kind::System { notes, .. } => notes.clone(),
@@ -69,7 +67,6 @@ impl Subject {
     }
 
     /// The answer that the file has itself: the places of a net.
-    #[must_use]
     pub fn own_answer(&self) -> Option<Answer> {
         let Kind::Net { net, file } = &self.0 else { return None };
         Some(Answer {
@@ -143,19 +140,16 @@ impl From<ForeignSystem> for Subject {
 
 impl Ruling {
     /// Whether the answer is no equilibrium of the system, proved.
-    #[must_use]
     pub fn is_refuted(&self) -> bool {
         self.judged.judgement().is_refuted() && self.on_floor.is_none()
     }
 
     /// Whether the answer is an equilibrium to its own tolerance.
-    #[must_use]
     pub fn is_confirmed(&self) -> bool {
         self.judged.judgement().is_confirmed() && self.on_floor.is_none()
     }
 
     /// The finding in words: a joint on a floor that is not part of the system leaves it open.
-    #[must_use]
     pub fn finding(&self) -> String {
         match (&self.on_floor, self.judged.judgement().finding) {
             (Some(joint), Finding::Confirmed | Finding::Refuted) => on_floor_sentence(joint),
@@ -164,7 +158,6 @@ impl Ruling {
     }
 
     /// The judgement as a page that needs nothing else, its picture seen from there.
-    #[must_use]
     pub fn html(&self, seen: Seen) -> String {
         self.judged.html(&self.notes, seen)
     }

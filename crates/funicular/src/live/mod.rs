@@ -66,7 +66,6 @@ pub struct Live {
 
 impl Ask {
     /// Of a file.
-    #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), ..Self::default() }
     }
@@ -84,7 +83,6 @@ impl Ask {
     /// assert_eq!((&data["reference"][2], &data["shapes"][0]["x"][5]), (&2.0.into(), &(-1.0).into()));
     /// # Ok::<(), serde_json::Error>(())
     /// ```
-    #[must_use]
     pub fn run(&self) -> Live {
         let changed = self.change.as_ref().map(|change| change.of(&self.text));
         let (text, found) = match changed {
@@ -105,7 +103,6 @@ impl Ask {
     /// The page that begins with this. Its script asks by POST at `ask` and `page` beside it; `embedded` in
     /// another page, it asks that one by messages `{ funicular: number, path, question }`, and takes
     /// `{ funicular: number, text }` or `error` for an answer.
-    #[must_use]
     pub fn page(&self, embedded: bool) -> String {
         let Live { text, data, words, error } = self.run();
         let data = data.unwrap_or_else(|| Value::Object(serde_json::Map::new()));
@@ -117,7 +114,6 @@ impl Ask {
     ///
     /// # Errors
     /// Why the question is none, or its system has no page.
-    #[must_use]
     pub fn answer(path: &str, question: &[u8]) -> Option<Result<String, String>> {
         let asked = || serde_json::from_slice::<Self>(question).map_err(|error| error.to_string());
         let of = |ask: &Self| serde_json::to_string(&ask.run()).map_err(|error| error.to_string());

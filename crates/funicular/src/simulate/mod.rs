@@ -72,7 +72,6 @@ const MOST_STEPS: f64 = 1e12;
 
 impl Simulate {
     /// Ten seconds in steps of a millisecond, from the stable equilibrium, without damping.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

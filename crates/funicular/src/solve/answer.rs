@@ -29,51 +29,43 @@ impl SolveAnswer {
     }
 
     /// What was solved.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// One equilibrium for each solver that has an answer, with its evidence: `lagrange` first.
-    #[must_use]
     pub fn equilibria(&self) -> &[SystemEquilibrium] {
         &self.answer.equilibria
     }
 
     /// The system and its equilibria, given away: no array is copied.
-    #[must_use]
     pub fn into_parts(self) -> (Arc<System>, Vec<SystemEquilibrium>) {
         (self.system, self.answer.equilibria)
     }
 
     /// The answer of one solver, if it has one.
-    #[must_use]
     pub fn by(&self, solver: &SolverName) -> Option<&SystemEquilibrium> {
         self.answer.by(solver)
     }
 
     /// Why solvers that were asked have no answer.
-    #[must_use]
     pub fn failures(&self) -> &[SystemFailure] {
         &self.answer.failures
     }
 
     /// The comparison, and the judge's findings, if there are two answers.
-    #[must_use]
     pub fn agreement(&self) -> Option<&SystemAgreement> {
         self.answer.agreement.as_ref()
     }
 
     /// How the answer lies to the shape given, where the question is the equilibrium next to it;
     /// no value where it is the lowest of all.
-    #[must_use]
     pub fn near(&self) -> Option<&Near> {
         self.answer.near.as_ref()
     }
 
     /// The solvers that were asked again, next to the lowest equilibrium of a complete census,
     /// because they had no answer or a higher one.
-    #[must_use]
     pub fn asked_again(&self) -> &[SolverName] {
         &self.answer.asked_again
     }
@@ -81,41 +73,35 @@ impl SolveAnswer {
     /// The paper's multipliers of an answer, N, where the system is a row of rigid bars between two
     /// anchors: first the force of the ground on the first bar, then at each joint the force of the
     /// next bar on the one before, last that of the ground on the last bar.
-    #[must_use]
     pub fn multipliers_n(&self, answer: &SystemEquilibrium) -> Option<Vec<Vector>> {
         self.system.as_row()?.multipliers_n(answer)
     }
 
     /// Whether both solvers answered and agree, the judge finds both in balance, and no census
     /// refutes them.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.answer.agrees()
     }
 
     /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
     /// census refutes one.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.answer.check_failed()
     }
 
     /// Whether every solver that was asked has an answer, each has converged or is proved to be an
     /// equilibrium, and it is the neighbour of the drawing where that is the question.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.answer.is_decided()
     }
 
     /// The highest rung that an answer has reached.
-    #[must_use]
     pub fn rung(&self) -> Option<Rung> {
         self.equilibria().iter().filter_map(|equilibrium| equilibrium.evidence.rung()).max()
     }
 
     /// Whether all members are as strong as wanted in every equilibrium found; no value where none has
     /// a strength.
-    #[must_use]
     pub fn is_strong(&self) -> Option<bool> {
         let weakest = self.equilibria().iter().filter_map(|e| Weakest::of(&self.system, e));
         weakest.map(|weakest| weakest.suffices()).reduce(|a, b| a && b)

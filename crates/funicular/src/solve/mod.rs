@@ -45,7 +45,6 @@ pub struct Solve {
 
 impl Solve {
     /// Both solvers, a census where that is quick, and all processors.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

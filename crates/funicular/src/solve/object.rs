@@ -27,7 +27,6 @@ pub enum Lists {
 
 impl SolveAnswer {
     /// The JSON object, with or without its joints and bars.
-    #[must_use]
     pub fn json(&self, lists: Lists) -> impl Serialize + '_ {
         let named = |equilibrium| Named { system: self.system(), equilibrium, lists };
         Object {
@@ -213,7 +212,6 @@ pub struct Failure {
 
 impl Failure {
     /// As JSON has it.
-    #[must_use]
     pub fn of(failure: &SystemFailure) -> Self {
         // Errors are numbers and texts, which JSON has.
         let refusal = serde_json::to_value(failure).unwrap_or_default();

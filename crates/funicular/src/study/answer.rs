@@ -44,31 +44,26 @@ pub struct StudyAnswer {
 
 impl StudyAnswer {
     /// The names of the parameters, as in the system file.
-    #[must_use]
     pub fn parameters(&self) -> &[String] {
         &self.parameters
     }
 
     /// The units of the parameters.
-    #[must_use]
     pub fn units(&self) -> &[&'static str] {
         &self.units
     }
 
     /// What is shown besides, with its units, in the order in which it was asked for.
-    #[must_use]
     pub fn of(&self) -> &[(String, &'static str)] {
         &self.of
     }
 
     /// The name of the system whose numbers vary.
-    #[must_use]
     pub fn name(&self) -> &str {
         self.system.name()
     }
 
     /// The joints that are held by name, in the order of [`StudyShape::reactions_n`].
-    #[must_use]
     pub fn supports(&self) -> Vec<Cow<'_, str>> {
         let held = self.system.joints().iter().filter(|joint| joint.support.at_m().is_some());
         held.map(|joint| joint.name.text()).collect()
@@ -81,13 +76,11 @@ impl StudyAnswer {
     }
 
     /// The points, the last parameter changing fastest.
-    #[must_use]
     pub fn points(&self) -> &[StudyPoint] {
         &self.points
     }
 
     /// Which parameters take more than one value at these points; the last if none does.
-    #[must_use]
     pub fn moving(&self, points: &[&StudyPoint]) -> Vec<bool> {
         let last = self.parameters.len().saturating_sub(1);
         let moves = |k: usize| {
@@ -103,7 +96,6 @@ impl StudyAnswer {
     }
 
     /// How many paths there are: combinations of all parameters but the last.
-    #[must_use]
     pub fn paths(&self) -> usize {
         self.paths
     }
@@ -114,14 +106,12 @@ impl StudyAnswer {
     }
 
     /// Whether a check failed at some point.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         self.shapes().any(|shape| shape.check_failed)
     }
 
     /// Whether every point is solved by every solver that was asked, as a solve of it alone would
     /// have it, or refused because nothing can hang there.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.points.iter().all(|point| match &point.shape {
             Ok(shape) => shape.is_decided,
@@ -130,7 +120,6 @@ impl StudyAnswer {
     }
 
     /// Why no value of the parameters describes what can hang, if none does.
-    #[must_use]
     pub fn refused_everywhere(&self) -> Option<&str> {
         let mut reasons = self.points.iter().map(|point| match &point.shape {
             Err(NoShape { refused: true, reason }) => Some(reason.as_str()),
@@ -188,7 +177,6 @@ impl StudyAnswer {
     }
 
     /// Sag, forces and angles over the last parameter as SVG, for one path, from 1.
-    #[must_use]
     pub fn figure(&self, path: usize) -> String {
         figure::figure(self, path)
     }

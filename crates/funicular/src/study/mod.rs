@@ -59,7 +59,6 @@ pub struct Study {
 
 impl Study {
     /// Over no parameter yet, by both solvers.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

@@ -98,13 +98,11 @@ impl Drawn {
 impl StudyShape {
     /// Size of the force at a support, by its place in
     /// [`StudyAnswer::supports`](super::StudyAnswer::supports), N.
-    #[must_use]
     pub fn support_n(&self, support: usize) -> Option<f64> {
         self.reactions_n.get(support).map(|[x, y, z]| x.hypot(*y).hypot(*z))
     }
 
     /// Size of the largest force of the ground, N.
-    #[must_use]
     pub fn largest_support_n(&self) -> Option<f64> {
         (0..self.reactions_n.len()).filter_map(|k| self.support_n(k)).reduce(f64::max)
     }

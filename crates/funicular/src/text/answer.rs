@@ -25,7 +25,6 @@ impl fmt::Display for SolveAnswer {
 }
 
 /// The whole answer; how far it is proved in full, or in a line.
-#[must_use]
 pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
     let mut text = system_line(system) + "\n";
@@ -168,7 +167,6 @@ fn shown(solution: &SolveAnswer) -> Option<&SystemEquilibrium> {
 }
 
 /// What is known of an answer, to stand with what is made of it.
-#[must_use]
 pub fn remarks(answer: &SolveAnswer) -> String {
     let verdict = answer.agreement().map(|both| both.verdict.to_string());
     let missing = answer.failures().iter().map(|failure| format!("no answer of {failure}"));

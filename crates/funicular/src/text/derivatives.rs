@@ -14,7 +14,6 @@ const PRINTED: usize = 24;
 const MOST_ANCHORS: usize = 3;
 
 /// The matrices of all pairs of anchors.
-#[must_use]
 pub fn stiffness(pairs: &[AnchorStiffness]) -> String {
     let mut text = String::new();
     let own = pairs.iter().filter(|pair| pair.of == pair.by).count();

@@ -5,7 +5,6 @@ use comfy_table::{ColumnConstraint, Width};
 use super::tables::{table, wrapped};
 
 /// A page as the terminal shows it. Headings and blocks of code stay as they are.
-#[must_use]
 pub fn page(text: &str) -> String {
     let mut out = String::new();
     let (mut paragraph, mut rows, mut is_code) = (String::new(), Vec::new(), false);

@@ -26,7 +26,6 @@ pub struct Summary {
 
 impl Summary {
     /// Of no time yet.
-    #[must_use]
     pub fn new(system: &System) -> Self {
         Self { lost_j: motion::has_impacts(system).then_some(0.0), ..Self::default() }
     }
@@ -46,13 +45,11 @@ impl Summary {
     }
 
     /// Whether anything but the start is stored.
-    #[must_use]
     pub fn has_begun(&self) -> bool {
         self.stored > 1
     }
 
     /// The text, of steps that were taken in so many parts each.
-    #[must_use]
     pub fn text(&self, system: &System, interrupted: bool, parts_of_step: u32) -> String {
         let parted = match parts_of_step {
             1 => String::new(),

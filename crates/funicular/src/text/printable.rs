@@ -25,7 +25,6 @@ impl<T: fmt::Display> fmt::Display for Printable<T> {
 /// Everything that is printed passes here: what still steers becomes a question mark. Line ends
 /// stay, and so do the colours of the program's own errors (`ESC [ numbers m`) where `colours` are
 /// asked for.
-#[must_use]
 pub fn filtered(text: &str, colours: bool) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

@@ -131,7 +131,6 @@ pub fn numbers(all: &[f64], of: &str, digits: impl Fn(f64) -> String) -> String 
 }
 
 /// The head of a column, `Fx / N`, in the unit for display, with the size of that.
-#[must_use]
 pub fn head(text: &str) -> (String, Option<f64>) {
     let found = text.rsplit_once("/ ").and_then(|(what, of)| Some((what, display(of)?)));
     match found {
@@ -141,7 +140,6 @@ pub fn head(text: &str) -> (String, Option<f64>) {
 }
 
 /// The numbers of a cell in a unit of this size, with as many digits as they have.
-#[must_use]
 pub fn scaled(cell: &str, size: f64) -> String {
     let word = |word: &str| {
         // Also of a vector in brackets.
@@ -161,7 +159,6 @@ fn digits(number: &str) -> usize {
 }
 
 /// The same text in ASCII.
-#[must_use]
 pub fn in_ascii(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

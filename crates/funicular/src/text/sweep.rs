@@ -33,7 +33,6 @@ impl fmt::Display for SweepAnswer {
 const NAMED: usize = 20;
 
 /// Everything about the outcomes.
-#[must_use]
 pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     let all = summary.outcomes.seeds();
     let shard = if manifest.shard.of > 1 {
@@ -100,14 +99,7 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
         None => count.to_string(),
     };
     let mut table = table([
-        "outcome",
-        "energy / J",
-        "index",
-        "seeds",
-        "rate\n/ %",
-        "95 % interval",
-        median,
-        most,
+        "outcome", "energy / J", "index", "seeds", "rate\n/ %", "95 % interval", median, most,
     ]);
     // Equilibria first, then failures from the most harmless on.
     let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
@@ -132,7 +124,6 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
 }
 
 /// The words for an outcome; equilibria are counted from 1.
-#[must_use]
 pub fn outcome(manifest: &Manifest, code: i16) -> String {
     let failures = [
         (Failure::IterationLimit, ["iteration limit", "not at rest in time"]),
@@ -149,7 +140,6 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
 }
 
 /// Outcomes by solver, with rates and intervals; seeds by comparison, if both solvers were asked; and contradictions.
-#[must_use]
 pub fn object(manifest: &Manifest, summary: &Summary) -> Value {
     let all = summary.seeds();
     let row = |(code, row): (&i16, &OutcomeTally)| {

@@ -153,7 +153,6 @@ fn cell(text: &str) -> String {
 
 /// What is printed, ready for the format that is asked for: where tables are pasted as LaTeX or CSV the lines between
 /// them are comments.
-#[must_use]
 pub fn finished(text: &str) -> String {
     let comment = match printed::format() {
         Format::Text | Format::Json => return text.to_owned(),
@@ -188,19 +187,16 @@ pub fn numbers_from(table: &mut Table, first: usize) {
 }
 
 /// A number for reading: six significant digits.
-#[must_use]
 pub fn short(x: f64) -> String {
     significant(x, 6)
 }
 
 /// A number for comparing: fifteen significant digits.
-#[must_use]
 pub fn long(x: f64) -> String {
     significant(x, 15)
 }
 
 /// Two numbers to so many significant digits, rounded away from each other, where they differ by more than rounding.
-#[must_use]
 pub fn outwards(ends: [f64; 2], digits: usize) -> [String; 2] {
     let shown = |(x, sign): (f64, f64)| {
         let nearest = significant(x, digits);
@@ -212,7 +208,6 @@ pub fn outwards(ends: [f64; 2], digits: usize) -> [String; 2] {
 }
 
 /// `digits` significant digits, in plain notation where that is readable.
-#[must_use]
 pub fn significant(x: f64, digits: usize) -> String {
     if x.abs() < f64::MIN_POSITIVE {
         return "0".to_owned();
@@ -226,7 +221,6 @@ pub fn significant(x: f64, digits: usize) -> String {
 }
 
 /// So many decimals, but no zeros at their end.
-#[must_use]
 pub fn fixed(x: f64, decimals: usize) -> String {
     trimmed(&format!("{x:.decimals$}")).to_owned()
 }
@@ -237,7 +231,6 @@ pub fn vector(v: Vector) -> String {
 
 /// A paragraph in lines that fit a terminal of 80 columns, all but the first indented. A longer
 /// word stays whole.
-#[must_use]
 pub fn wrapped(paragraph: &str, indent: usize) -> String {
     const COLUMNS: usize = 80;
     let mut lines = String::new();
@@ -271,7 +264,6 @@ pub(crate) fn counted(number: usize, thing: &str) -> String {
 }
 
 /// The highest rung that an answer has reached.
-#[must_use]
 pub fn rung(evidence: &Evidence) -> String {
     evidence.rung().map_or_else(|| "none".to_owned(), |rung| rung.to_string())
 }
@@ -281,7 +273,6 @@ pub fn word(value: &impl serde::Serialize) -> String {
     serde_json::to_value(value).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
-#[must_use]
 pub fn duration(seconds: f64) -> String {
     if seconds < 1e-3 {
         format!("{:.1} us", seconds * 1e6)

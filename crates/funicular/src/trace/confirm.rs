@@ -46,7 +46,6 @@ pub struct Confirmed {
 
 impl Confirmed {
     /// Whether nothing contradicts the path.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.critical == self.points
             && self.same_index == self.points

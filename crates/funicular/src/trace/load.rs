@@ -190,7 +190,6 @@ pub struct LoadPath {
 impl LoadPath {
     /// Whether nothing contradicts the path: `energy` and the judge confirm its points, and the first loss of
     /// stability that is proved is one that was met.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.confirmed.agrees() && self.meets_proof()
     }
@@ -207,7 +206,6 @@ impl LoadPath {
     }
 
     /// The first event in which the index rises from 0; nothing where it does not.
-    #[must_use]
     pub fn first_loss(&self) -> Option<&LoadEvent> {
         self.events.iter().find(|event| event.is_loss())
     }
@@ -311,31 +309,26 @@ pub(super) fn trace(
 impl LoadPaths {
     /// The paths, one for each combination of all parameters but the last, each followed by those that
     /// branch from it.
-    #[must_use]
     pub fn paths(&self) -> &[LoadPath] {
         &self.paths
     }
 
     /// The names of the parameters, as in the system file, with their units.
-    #[must_use]
     pub fn parameters(&self) -> (&[String], &[&'static str]) {
         (&self.parameters, &self.units)
     }
 
     /// What is shown, with its units.
-    #[must_use]
     pub fn of(&self) -> &[(String, &'static str)] {
         &self.of
     }
 
     /// The system whose numbers vary.
-    #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// Load over displacement as SVG, for one path, from 1, and all that branch from it.
-    #[must_use]
     pub fn figure(&self, path: usize) -> Option<String> {
         let first = path.checked_sub(1)?;
         self.paths.get(first)?;
@@ -350,7 +343,6 @@ impl LoadPaths {
 
     /// One HTML file with the shape at every point of all paths, moved along them, beside the load over
     /// the first number shown.
-    #[must_use]
     pub fn page(&self) -> String {
         page::page(self)
     }

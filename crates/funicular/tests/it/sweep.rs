@@ -47,9 +47,7 @@ fn the_tables_and_the_object_say_the_same() {
     says(
         &text,
         &[
-            "4000 uniform seeds, seed number 1",
-            "equilibrium 1 ",
-            "95 % interval",
+            "4000 uniform seeds, seed number 1", "equilibrium 1 ", "95 % interval",
             "energy (index: directions of the plane",
         ],
     );

@@ -79,12 +79,7 @@ fn the_program_prints_them_in_eighty_columns() {
     says(
         &said,
         &[
-            "exactly one equilibrium",
-            "hull",
-            "most by",
-            "sd / N",
-            "Fx / N",
-            "Sag: ",
+            "exactly one equilibrium", "hull", "most by", "sd / N", "Fx / N", "Sag: ",
             "20 draws (seed 1)",
         ],
     );

@@ -100,7 +100,6 @@ pub enum Proved {
 
 impl Proved {
     /// Without value where nothing is proved.
-    #[must_use]
     pub fn of(rank: bool, stability: bool) -> Option<Self> {
         match (rank, stability) {
             (true, true) => Some(Self::RankAndStability),
@@ -128,7 +127,6 @@ pub struct Room {
 
 impl Room {
     /// Nothing where nothing is open.
-    #[must_use]
     pub fn of(turning_parts: usize, free_joints: usize, undetermined: Vec<String>) -> Option<Self> {
         let is_open = turning_parts + free_joints + undetermined.len() > 0;
         is_open.then_some(Self { turning_parts, free_joints, undetermined })
@@ -228,13 +226,11 @@ pub struct Disagreement {
 
 impl Disagreement {
     /// Whether nothing differs.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.excesses.is_empty()
     }
 
     /// Each part in a sentence.
-    #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         self.excesses.iter().map(ToString::to_string).collect()
     }

@@ -172,7 +172,6 @@ pub enum NoCensus {
 
 impl NoCensus {
     /// The joint that it is about, from 1.
-    #[must_use]
     pub fn joint(&self) -> Option<usize> {
         match *self {
             Self::Turns { joint }
@@ -185,7 +184,6 @@ impl NoCensus {
     }
 
     /// The member that it is about, from 1.
-    #[must_use]
     pub fn member(&self) -> Option<usize> {
         match *self {
             Self::Elastic { member } | Self::Limp { member } => Some(member),

@@ -41,13 +41,11 @@ pub struct Statement {
 
 impl Ladder {
     /// Whether a rung was reached.
-    #[must_use]
     pub fn is_reached(&self, rung: Rung) -> bool {
         self.reason(rung).is_none()
     }
 
     /// Why a rung was not reached; nothing if it was.
-    #[must_use]
     pub fn reason(&self, rung: Rung) -> Option<&Reason> {
         match rung {
             Rung::Converged => self.converged.reason(),
@@ -60,7 +58,6 @@ impl Ladder {
 
     /// How a rung was reached, or why not: a sentence once it is formatted. The alternate form,
     /// `{:#}`, tells what is only rounding as a bound.
-    #[must_use]
     pub fn status(&self, rung: Rung) -> &dyn Display {
         match rung {
             Rung::Converged => &self.converged,
@@ -72,13 +69,11 @@ impl Ladder {
     }
 
     /// How a rung was reached, or why not, in a sentence.
-    #[must_use]
     pub fn how(&self, rung: Rung) -> String {
         self.status(rung).to_string()
     }
 
     /// The highest rung reached, if any is.
-    #[must_use]
     pub fn highest(&self) -> Option<Rung> {
         Rung::ALL.into_iter().rev().find(|rung| self.is_reached(*rung))
     }
@@ -95,7 +90,6 @@ impl Ladder {
 
     /// Whether a check that was made of this answer has failed: solvers disagree, the judge refuses
     /// it, or a census refutes it. That something was not tried or not decided is no failure.
-    #[must_use]
     pub fn failed(&self) -> bool {
         Rung::ALL.into_iter().any(|rung| {
             matches!(
@@ -116,7 +110,6 @@ impl Ladder {
     /// let reached = evidence.ladder.statements().map(|statement| statement.reached);
     /// assert_eq!(reached, [true, false, false, false, false]);
     /// ```
-    #[must_use]
     pub fn statements(&self) -> [Statement; 5] {
         Rung::ALL.map(|rung| Statement {
             rung,
@@ -126,7 +119,6 @@ impl Ladder {
     }
 
     /// How the solver ended, converged or not; nothing if that is not known.
-    #[must_use]
     pub fn convergence(&self) -> Option<&Convergence> {
         match &self.converged {
             Status::Reached(convergence) | Status::Open(Reason::AboveTolerance(convergence)) => {

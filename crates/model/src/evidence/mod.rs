@@ -92,7 +92,6 @@ impl Evidence {
     /// assert_eq!(Evidence::new("residual of (40)", 1e-9, 1e-12, 7).rung(), None);
     /// assert_eq!(Evidence::new("residual of (40)", f64::NAN, 1e-12, 7).rung(), None);
     /// ```
-    #[must_use]
     pub fn new(
         residual_of: &'static str,
         residual: f64,
@@ -104,7 +103,6 @@ impl Evidence {
 
     /// Evidence of a proof by enclosure, which has no tolerance: the enclosures of `residual_of`
     /// have this largest relative width.
-    #[must_use]
     pub fn enclosed(residual_of: &'static str, width: f64) -> Self {
         Self::of(Convergence::new(residual_of, width, None, 0))
     }
@@ -135,13 +133,11 @@ impl Evidence {
     }
 
     /// How far the solver's arithmetic leaves the forces open, where that is worth saying.
-    #[must_use]
     pub fn force_uncertainty(&self) -> Option<ForceUncertainty> {
         self.ladder.convergence().and_then(|convergence| convergence.force_uncertainty)
     }
 
     /// The highest rung reached, if any is.
-    #[must_use]
     pub fn rung(&self) -> Option<Rung> {
         self.ladder.highest()
     }

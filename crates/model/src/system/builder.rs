@@ -37,7 +37,6 @@ impl System {
     /// assert_eq!(no_joint.unwrap_err().to_string(), "member 1 names a joint \"A\" that is not there");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn builder(name: impl Into<String>) -> SystemBuilder {
         SystemBuilder {
             name: name.into(),

@@ -21,7 +21,6 @@ impl System {
     /// assert_eq!(prop(Joint::free("top"))?.drawing(), None);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn drawing(&self) -> Option<Vec<Vector>> {
         let drawn = self.joints.iter().any(|joint| joint.near_m.is_some());
         let places = || self.joints.iter().map(Joint::drawn_m).collect();
@@ -92,7 +91,6 @@ impl System {
     /// assert_eq!(system.across(), Some(1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn across(&self) -> Option<usize> {
         let plane = |joint: &Joint| match joint.support {
             Support::Plane { at_m, normal } => Some((at_m, normal)),

@@ -19,7 +19,6 @@ pub struct Joined {
 
 impl Joined {
     /// The places of its joints where those of the whole system are these, m.
-    #[must_use]
     pub fn places_m(&self, whole_m: &[Vector]) -> Vec<Vector> {
         let kept = self.kept.iter().filter_map(|joint| whole_m.get(*joint).copied());
         let anchors = self.system.joints.iter().skip(self.kept.len());
@@ -65,7 +64,6 @@ impl System {
     /// assert_eq!(joined.system.joints()[1].mass_kg, 2.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn joined(&self, pairs: &[[usize; 2]]) -> Option<Joined> {
         // Of each joint the one that stands for it, and what holds that.
         let mut stands: Vec<usize> = (0..self.joints.len()).collect();

@@ -101,7 +101,6 @@ pub enum Support {
 
 impl Support {
     /// A point of the support, m; nothing for a free joint.
-    #[must_use]
     pub fn at_m(&self) -> Option<Vector> {
         match *self {
             Self::Free => None,
@@ -116,7 +115,6 @@ impl Support {
     /// let rail = Support::Line { at_m: [0.0; 3], direction: [0.6, 0.0, 0.8] };
     /// assert_eq!(rail.free_part([0.0, 5.0, 10.0]), [4.8, 0.0, 6.4]);
     /// ```
-    #[must_use]
     pub fn free_part(&self, v: Vector) -> Vector {
         let along = |a: Vector| {
             let part = v.iter().zip(a).map(|(x, y)| x * y).sum::<f64>();
@@ -164,7 +162,6 @@ impl Support {
 
     /// The part of a force that an upright push takes where the support takes the rest: all of it but for what is normal to its
     /// motions. `None` where the joint cannot rise.
-    #[must_use]
     pub fn upright_part(&self, force_n: Vector) -> Option<f64> {
         let rise = self.free_part(UP);
         let along: f64 = force_n.iter().zip(rise).map(|(f, r)| f * r).sum();
@@ -172,7 +169,6 @@ impl Support {
     }
 
     /// Whether it takes an upright force.
-    #[must_use]
     pub fn holds_height(&self) -> bool {
         match *self {
             Self::Free => false,
@@ -199,7 +195,6 @@ impl Support {
     /// let level = Support::Plane { at_m: [0.0, 0.0, 2.0], normal: [0.0, 0.0, 1.0] };
     /// assert_eq!(level.nearest_m([3.0, 4.0, 5.0]), [3.0, 4.0, 2.0]);
     /// ```
-    #[must_use]
     pub fn nearest_m(&self, point_m: Vector) -> Vector {
         let part = |at_m: Vector, along: Vector| -> f64 {
             (0..3).map(|k| (point_m[k] - at_m[k]) * along[k]).sum()
@@ -267,7 +262,6 @@ impl Support {
     /// let level = Support::Plane { at_m: [0.0, 0.0, 2.0], normal: [0.0, 0.0, 1.0] };
     /// assert_eq!(level.motions(), [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
     /// ```
-    #[must_use]
     pub fn motions(&self) -> Vec<Vector> {
         let unit = |v: Vector| v.map(|x| x / v.iter().map(|x| x * x).sum::<f64>().sqrt());
         match *self {
@@ -286,7 +280,6 @@ impl Support {
     }
 
     /// Orthonormal directions in which it cannot.
-    #[must_use]
     pub fn normals(&self) -> Vec<Vector> {
         match *self {
             Self::Free => vec![],
@@ -304,7 +297,6 @@ impl Support {
     /// let along_x = Support::Line { at_m: [0.0; 3], direction: [1.0, 0.0, 0.0] };
     /// assert!(along_x.bears([0.0, 2.0, -3.0]) && !along_x.bears([1e-9, 0.0, 0.0]));
     /// ```
-    #[must_use]
     pub fn bears(&self, force_n: Vector) -> bool {
         let [x, y, z] = force_n;
         let left: f64 = match *self {
@@ -319,7 +311,6 @@ impl Support {
     }
 
     /// Whether the joint can move at all.
-    #[must_use]
     pub fn is_fixed(&self) -> bool {
         matches!(self, Self::Fixed { .. })
     }
@@ -327,7 +318,6 @@ impl Support {
 
 impl Joint {
     /// A joint that only its members hold.
-    #[must_use]
     pub fn free(name: impl Into<Name>) -> Self {
         Self { name: name.into(), properties: Arc::clone(&FREE) }
     }
@@ -340,7 +330,6 @@ impl Joint {
     /// assert!(anchor.support.is_fixed());
     /// assert_eq!(anchor.support.at_m(), Some([1.0, 0.0, 2.0]));
     /// ```
-    #[must_use]
     pub fn anchor(name: impl Into<Name>, at_m: Vector) -> Self {
         Self::free(name).held_by(Support::Fixed { at_m })
     }
@@ -405,7 +394,6 @@ impl Joint {
     /// assert_eq!(Joint::anchor("A", [0.0; 3]).drawn_m(), Some([0.0; 3]));
     /// assert_eq!(Joint::free("Q").drawn_m(), None);
     /// ```
-    #[must_use]
     pub fn drawn_m(&self) -> Option<Vector> {
         self.near_m.or_else(|| self.support.at_m())
     }

@@ -65,7 +65,6 @@ pub(super) struct LoadCases {
 
 impl LoadCase {
     /// The factor of the loads of this name, [`PERMANENT`] for those without.
-    #[must_use]
     pub fn factor(&self, name: &str) -> f64 {
         let given = self.factors.iter().find(|(load, _)| load == name);
         given.map_or(if name == PERMANENT { 1.0 } else { 0.0 }, |(_, factor)| *factor)
@@ -306,27 +305,23 @@ impl System {
     }
 
     /// The factor by which weights act, and loads without a name: that of the load case ([`in_case`](Self::in_case)), else 1.
-    #[must_use]
     pub fn permanent_factor(&self) -> f64 {
         self.load_cases.as_ref().map_or(1.0, |all| all.permanent)
     }
 
     /// Mass, kg, and force, N, of a joint as it has them itself, without factors and loads; `None` where there are no loads at
     /// it.
-    #[must_use]
     pub fn own_load(&self, joint: usize) -> Option<(f64, Vector)> {
         let own = &self.load_cases.as_ref()?.own;
         own.iter().find(|(k, ..)| *k == joint).map(|(_, mass_kg, force_n)| (*mass_kg, *force_n))
     }
 
     /// The loads by name.
-    #[must_use]
     pub fn named_loads(&self) -> &[NamedLoad] {
         self.load_cases.as_ref().map_or(&[], |all| &all.loads)
     }
 
     /// The cases in which loads act together.
-    #[must_use]
     pub fn load_cases(&self) -> &[LoadCase] {
         self.load_cases.as_ref().map_or(&[], |all| &all.cases)
     }

@@ -138,7 +138,6 @@ impl Kind {
     /// let pushed = [Kind::Bar, Kind::Cable, Kind::Strut].map(|kind| kind.borne(-2.0));
     /// assert_eq!((pushed, Kind::Strut.borne(2.0)), ([-2.0, 0.0, -2.0], 0.0));
     /// ```
-    #[must_use]
     pub fn borne(self, x: f64) -> f64 {
         match self {
             Self::Bar => x,
@@ -148,7 +147,6 @@ impl Kind {
     }
 
     /// Its name in system files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Bar => "bar",
@@ -172,7 +170,6 @@ pub struct PointLoad {
 
 impl Member {
     /// A rigid bar.
-    #[must_use]
     pub fn bar(from: usize, to: usize, body: Bar) -> Self {
         let properties = MemberProperties {
             rope: None,
@@ -189,7 +186,6 @@ impl Member {
     }
 
     /// An inextensible cable.
-    #[must_use]
     pub fn cable(from: usize, to: usize, body: Bar) -> Self {
         Self::bar(from, to, body).of_kind(Kind::Cable)
     }
@@ -266,7 +262,6 @@ impl Member {
     /// assert_eq!((bar.within_m(), bar.with_length_tolerance(1e-3).within_m()), (5e-9, 1e-3));
     /// # Ok::<(), model::BarError>(())
     /// ```
-    #[must_use]
     pub fn within_m(&self) -> f64 {
         self.length_tolerance_m().unwrap_or(LENGTH_ROUNDING * self.body.length_m())
     }
@@ -282,7 +277,6 @@ impl Member {
     /// assert!(Member::bar(0, 1, Bar::homogeneous(5.0, 0.0)?).keeps_apart());
     /// # Ok::<(), model::BarError>(())
     /// ```
-    #[must_use]
     pub fn greatest_length_m(&self) -> f64 {
         match (self.kind, self.stiffness_n) {
             (Kind::Bar | Kind::Cable, None) => self.body.length_m(),
@@ -299,7 +293,6 @@ impl Member {
     /// assert_eq!(bar.end_loads_n(10.0), [[6.0, 0.0, -10.0], [2.0, 0.0, -10.0]]);
     /// # Ok::<(), model::BarError>(())
     /// ```
-    #[must_use]
     pub fn end_loads_n(&self, gravity_m_s2: f64) -> [Vector; 2] {
         let (length_m, centre_m) = (self.body.length_m(), self.body.centre_m());
         let weight = [0.0, 0.0, -self.body.mass_kg() * gravity_m_s2];
@@ -316,7 +309,6 @@ impl Member {
     }
 
     /// Whether the ends can come no nearer to each other than the length: a rigid bar or strut.
-    #[must_use]
     pub fn keeps_apart(&self) -> bool {
         self.stiffness_n.is_none() && matches!(self.kind, Kind::Bar | Kind::Strut)
     }

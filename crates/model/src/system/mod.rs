@@ -197,31 +197,26 @@ impl System {
     }
 
     /// Height of the floor below which no joint gets, m; nothing where there is none.
-    #[must_use]
     pub fn floor_m(&self) -> Option<f64> {
         self.floor_m
     }
 
     /// The name, for people.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Gravity `g` along −Z, m/s².
-    #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity_m_s2
     }
 
     /// The joints.
-    #[must_use]
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }
 
     /// The members.
-    #[must_use]
     pub fn members(&self) -> &[Member] {
         &self.members
     }
@@ -240,7 +235,6 @@ impl System {
     /// assert_eq!((system.reference_m(), system.joint("P")), ([0.0, 0.0, 3.0], Some(0)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn reference_m(&self) -> Vector {
         let supports = || self.joints.iter().map(|joint| &joint.support);
         let first = supports().find(|support| support.holds_height());
@@ -251,19 +245,16 @@ impl System {
     }
 
     /// Sum of the lengths of the members, m.
-    #[must_use]
     pub fn total_length_m(&self) -> f64 {
         self.total_length_m
     }
 
     /// Sum of the masses of joints and members, kg.
-    #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
         self.total_mass_kg
     }
 
     /// Weight and force of each joint with what its members bring there by [`Member::end_loads_n`], N.
-    #[must_use]
     pub fn joint_loads_n(&self) -> Vec<Vector> {
         let weight_n = |joint: &Joint| joint.mass_kg * self.gravity_m_s2;
         let own = self.joints.iter().map(|joint| (joint.force_n, weight_n(joint)));
@@ -279,7 +270,6 @@ impl System {
     }
 
     /// Sum of the sizes of all loads, N.
-    #[must_use]
     pub fn total_load_n(&self) -> f64 {
         let on_members = self.members.iter().flat_map(|member| &member.loads);
         let forces = self.joints.iter().map(|joint| joint.force_n);
@@ -289,7 +279,6 @@ impl System {
     }
 
     /// The number of the joint of this name.
-    #[must_use]
     pub fn joint(&self, name: &str) -> Option<usize> {
         self.joints.iter().position(|joint| joint.name == name)
     }

@@ -34,7 +34,6 @@ impl Name {
     /// use model::system::Name;
     /// assert_eq!(Name::numbered(&"".into(), 0).text(), "0");
     /// ```
-    #[must_use]
     pub fn numbered(stem: &Arc<str>, number: usize) -> Self {
         match u32::try_from(number + 1) {
             Ok(above) => Self { stem: Arc::clone(stem), number: NonZeroU32::new(above) },
@@ -43,13 +42,11 @@ impl Name {
     }
 
     /// A number alone.
-    #[must_use]
     pub fn number(number: usize) -> Self {
         Self::numbered(&NOTHING, number)
     }
 
     /// The name in full.
-    #[must_use]
     pub fn text(&self) -> Cow<'_, str> {
         match self.number {
             None => Cow::Borrowed(&self.stem),

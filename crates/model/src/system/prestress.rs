@@ -126,19 +126,16 @@ impl Member {
     }
 
     /// The body as it was given: at the length under the prestress, or unstretched.
-    #[must_use]
     pub fn given_body(&self) -> &Bar {
         self.prestress.as_ref().map_or(&self.body, |given| &given.body)
     }
 
     /// The forces on the member, at places on the length that was given.
-    #[must_use]
     pub fn given_loads(&self) -> &[PointLoad] {
         self.prestress.as_ref().map_or(&self.loads, |given| &given.loads)
     }
 
     /// The axial force that the member bears at the length given, N, where it was given.
-    #[must_use]
     pub fn prestress_n(&self) -> Option<f64> {
         self.prestress.as_ref().map(|given| given.force_n)
     }

@@ -221,7 +221,6 @@ impl System {
     }
 
     /// Whether nothing loads the system: neither weight nor forces.
-    #[must_use]
     pub fn is_unloaded(&self) -> bool {
         let still = |force_n: [f64; 3]| force_n.iter().all(|x| x.abs() <= 0.0);
         // No mass is negative.

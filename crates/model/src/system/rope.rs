@@ -102,7 +102,6 @@ impl Member {
     }
 
     /// The joints between its ends that it runs over; none of a member that is straight.
-    #[must_use]
     pub fn via(&self) -> &[usize] {
         self.rope.as_ref().map_or(&[], |rope| &rope.via)
     }
@@ -146,13 +145,11 @@ impl Member {
 
 impl System {
     /// The first member that runs over rings or pulleys, from 0.
-    #[must_use]
     pub fn first_rope(&self) -> Option<usize> {
         self.members().iter().position(|member| member.rope.is_some())
     }
 
     /// Whether a member runs over rings or pulleys.
-    #[must_use]
     pub fn has_ropes(&self) -> bool {
         self.first_rope().is_some()
     }

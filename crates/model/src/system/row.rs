@@ -93,7 +93,6 @@ impl System {
     /// let row = system.as_row().expect("a row");
     /// assert_eq!(row.problem().chain().bars(), chain.chain().bars());
     /// ```
-    #[must_use]
     pub fn as_row(&self) -> Option<&Row> {
         self.row.0.get_or_init(|| self.made_row().map(Box::new)).as_deref()
     }
@@ -208,13 +207,11 @@ impl System {
 
 impl Row {
     /// The chain. Moments of inertia are those of the bars alone: no equilibrium depends on them.
-    #[must_use]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
     /// The joints of the system in the order of the chain.
-    #[must_use]
     pub fn joints(&self) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
         self.joints.iter().map(|joint| *joint as usize)
     }
@@ -235,7 +232,6 @@ impl Row {
     }
 
     /// The axial forces of an answer in the order of the chain, N; without value where it is not one of this system.
-    #[must_use]
     pub fn chain_axial_n(&self, found: &SystemEquilibrium) -> Option<Vec<f64>> {
         self.fits(found).then(|| self.members().map(|(member, _)| found.axial_n[member]).collect())
     }
@@ -249,7 +245,6 @@ impl Row {
 
     /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
     /// one of this system. The character in the plane follows from the index alone.
-    #[must_use]
     pub fn chain_equilibrium(&self, found: &SystemEquilibrium) -> Option<Equilibrium> {
         let axial_n = self.chain_axial_n(found)?;
         let [first, last] = self.anchors();
@@ -277,7 +272,6 @@ impl Row {
     /// The paper's multipliers of an answer for the system, N: first the force of the ground on the first
     /// bar, then at each joint the force of the next bar, or of the ground, on the one before; without value where
     /// it is not one of this system.
-    #[must_use]
     pub fn multipliers_n(&self, found: &SystemEquilibrium) -> Option<Vec<Vector>> {
         if !self.fits(found) {
             return None;
@@ -292,7 +286,6 @@ impl Row {
     }
 
     /// An answer for the chain as one for the system.
-    #[must_use]
     pub fn equilibrium(&self, mut found: Equilibrium) -> SystemEquilibrium {
         // One array after the other: of a long row each is large, and what it is made of is let go.
         let bars = self.members.len();

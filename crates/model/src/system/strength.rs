@@ -66,39 +66,33 @@ impl Strength {
     /// let load_n = model::system::Strength::euler_n(1000.0, 2.0);
     /// assert!((load_n - 2467.401_100_272_34).abs() < 1e-9);
     /// ```
-    #[must_use]
     pub fn euler_n(bending_n_m2: f64, length_m: f64) -> f64 {
         (PI / length_m).powi(2) * bending_n_m2
     }
 
     /// The tension that breaks it, N.
-    #[must_use]
     pub fn tension_n(&self) -> Option<f64> {
         self.tension_n
     }
 
     /// The compression that breaks or buckles it, N.
-    #[must_use]
     pub fn compression_n(&self) -> Option<f64> {
         self.compression_n
     }
 
     /// The safety wanted.
-    #[must_use]
     pub fn safety(&self) -> f64 {
         self.safety
     }
 
     /// Which part of its strength a member uses whose axial force, N, goes from `least_n` to `most_n`
     /// along it.
-    #[must_use]
     pub fn utilisation(&self, least_n: f64, most_n: f64) -> f64 {
         let part = |force_n: f64, strength_n: Option<f64>| strength_n.map_or(0.0, |n| force_n / n);
         part(most_n, self.tension_n).max(part(-least_n, self.compression_n)).max(0.0)
     }
 
     /// Whether a member that uses this part of its strength is as safe as wanted.
-    #[must_use]
     pub fn suffices(&self, utilisation: f64) -> bool {
         utilisation * self.safety <= 1.0
     }
@@ -106,7 +100,6 @@ impl Strength {
 
 impl System {
     /// Whether a member has a strength that its force can be held against.
-    #[must_use]
     pub fn has_strengths(&self) -> bool {
         self.members().iter().any(|member| member.strength.is_some())
     }
@@ -118,7 +111,6 @@ impl SystemEquilibrium {
     /// Of the largest force anywhere along it, its own weight included. Where balance leaves forces open
     /// (more members than are needed, none of which stretches) it is that of the largest force that
     /// balances; infinite where nothing bounds the force, or nobody has said what does.
-    #[must_use]
     pub fn utilisation(&self, system: &System, member: usize) -> Option<f64> {
         let given = system.members().get(member)?;
         let strength = given.strength.as_deref()?;
@@ -148,7 +140,6 @@ impl SystemEquilibrium {
     }
 
     /// The same of all members; nothing where none has a strength.
-    #[must_use]
     pub fn utilisations(&self, system: &System) -> Option<Vec<Option<f64>>> {
         let all = || (0..system.members().len()).map(|member| self.utilisation(system, member));
         system.has_strengths().then(|| all().collect())
@@ -156,7 +147,6 @@ impl SystemEquilibrium {
 
     /// The member, from 0, that is nearest to the safety wanted, or furthest below it, with its
     /// utilisation; nothing where no member has a strength.
-    #[must_use]
     pub fn weakest(&self, system: &System) -> Option<(usize, f64)> {
         let used = system.members().iter().enumerate().filter_map(|(k, member)| {
             let utilisation = self.utilisation(system, k)?;

@@ -24,7 +24,6 @@ impl System {
     /// assert_eq!(parts[0].joints, [0, 1, 2, 3]);
     /// assert_eq!(parts[0].axis_m, Some([0.0, 0.0]));
     /// ```
-    #[must_use]
     pub fn parts(&self) -> Vec<Part> {
         let graph = Graph::new(self);
         let level_loads = self.joints_with_level_loads();
@@ -62,7 +61,6 @@ impl System {
     }
 
     /// Which joints feel a load that is not vertical, by number.
-    #[must_use]
     pub fn joints_with_level_loads(&self) -> Vec<bool> {
         let level = |[x, y, _]: [f64; 3]| x.abs() > 0.0 || y.abs() > 0.0;
         let mut found: Vec<bool> = self.joints.iter().map(|joint| level(joint.force_n)).collect();

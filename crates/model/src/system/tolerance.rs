@@ -33,13 +33,11 @@ pub struct ToleranceError {
 
 impl MemberTolerances {
     /// The part by which the stiffness `EA` may be off.
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
     /// How far the mass may be off, kg.
-    #[must_use]
     pub fn mass_kg(&self) -> f64 {
         self.mass_kg
     }
@@ -47,19 +45,16 @@ impl MemberTolerances {
 
 impl JointTolerances {
     /// How far the point mass may be off, kg.
-    #[must_use]
     pub fn mass_kg(&self) -> f64 {
         self.mass_kg
     }
 
     /// How far each coordinate of the place of the support may be off, m.
-    #[must_use]
     pub fn at_m(&self) -> f64 {
         self.at_m
     }
 
     /// How far each component of the force may be off, N.
-    #[must_use]
     pub fn force_n(&self) -> f64 {
         self.force_n
     }
@@ -81,7 +76,6 @@ fn checked(
 
 impl Member {
     /// How far the length may be off, m, where it is said: of a rigid member see [`within_m`](Self::within_m).
-    #[must_use]
     pub fn length_tolerance_m(&self) -> Option<f64> {
         self.tolerances.as_ref()?.length_m
     }
@@ -218,7 +212,6 @@ pub enum UncertainNumber {
 
 impl System {
     /// All numbers that are known within limits.
-    #[must_use]
     pub fn uncertain(&self) -> Vec<Uncertain> {
         let members = self.members().iter().enumerate();
         let joints = self.joints().iter().enumerate();

@@ -22,7 +22,6 @@ pub enum Described {
 /// assert_eq!(parse(&write(&(&chain).into()), "paper.toml")?, Described::Chain(chain));
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
-#[must_use]
 pub fn write(system: &System) -> String {
     let chain = system.as_row().map(|row| row.problem().chain());
     match chain.filter(|chain| System::from(*chain) == *system) {

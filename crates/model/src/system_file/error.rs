@@ -57,20 +57,17 @@ impl SystemFileError {
     }
 
     /// The file as it was named; the bars file if the error stands there.
-    #[must_use]
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
     /// The text of the file as far as it could be read, without a byte order mark; bytes that are
     /// not UTF-8 are replaced by U+FFFD.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.0.text
     }
 
     /// The bytes of [`text`](Self::text) the error is about.
-    #[must_use]
     pub fn span(&self) -> Option<Range<usize>> {
         self.0.span.clone()
     }
@@ -78,19 +75,16 @@ impl SystemFileError {
     /// The key the error is about, as a path such as `bars[2].length_m` or `anchors.end_m[3]`:
     /// tables of `[[bars]]` and components of vectors are counted from 1, as the lines are. In a
     /// bars file, the column.
-    #[must_use]
     pub fn key(&self) -> Option<&str> {
         self.0.key.as_deref()
     }
 
     /// What is wrong.
-    #[must_use]
     pub fn kind(&self) -> &SystemFileErrorKind {
         &self.0.kind
     }
 
     /// Line and column of the start of the span.
-    #[must_use]
     pub fn position(&self) -> Option<Position> {
         Position::of(&self.0.text, self.0.span.as_ref()?.start)
     }
@@ -98,7 +92,6 @@ impl SystemFileError {
     /// The line the error is about, without its line break; nothing of a file that is something else,
     /// whose lines are not to be shown: neither TOML nor JSON, and without the keys that every system
     /// has.
-    #[must_use]
     pub fn line(&self) -> Option<&str> {
         let is_known = || ["anchors", "joints", "bars"].iter().any(|key| self.0.text.contains(key));
         if matches!(self.0.kind, SystemFileErrorKind::Syntax(_) | SystemFileErrorKind::Json(_))
@@ -110,7 +103,6 @@ impl SystemFileError {
     }
 
     /// What is allowed here, or what to do about it.
-    #[must_use]
     pub fn help(&self) -> Option<String> {
         self.0.kind.help()
     }

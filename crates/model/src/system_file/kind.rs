@@ -290,7 +290,6 @@ pub enum SystemFileErrorKind {
 
 impl SystemFileErrorKind {
     /// What is allowed here, or what to do about it.
-    #[must_use]
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::UnknownKey { allowed, suggestion, .. }

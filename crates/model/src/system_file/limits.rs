@@ -50,19 +50,16 @@ pub fn limit_memory(bytes: u64) {
 }
 
 /// Most bars of one system, as [`limit_memory`] has it.
-#[must_use]
 pub fn most_bars() -> usize {
     usize::try_from(memory() / BYTES_PER_BAR).unwrap_or(usize::MAX).min(MAX_BARS)
 }
 
 /// Most bars of a file of bars, as [`limit_memory`] has it.
-#[must_use]
 pub fn most_bars_of_file() -> usize {
     usize::try_from(memory() / BYTES_PER_BAR_OF_FILE).unwrap_or(usize::MAX).min(MAX_BARS)
 }
 
 /// Longest system file, bytes, as [`limit_memory`] has it.
-#[must_use]
 pub fn most_file_bytes() -> u64 {
     (memory() / BYTES_PER_FILE_BYTE).min(MAX_FILE_BYTES)
 }

@@ -22,7 +22,6 @@ const OTHER_WORDS: [(&str, &str); 7] = [
 /// assert_eq!(nearest("weight_n", &keys), Some("mass_kg"));
 /// assert_eq!(nearest("colour", &keys), None);
 /// ```
-#[must_use]
 pub fn nearest<'a>(key: &str, allowed: &[&'a str]) -> Option<&'a str> {
     let key = key.to_lowercase();
     let meant = OTHER_WORDS.iter().find(|(word, _)| *word == key).map(|(_, name)| *name);

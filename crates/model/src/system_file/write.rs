@@ -14,7 +14,6 @@ use crate::{Bar, Chain, Vector};
 /// assert_eq!(parse(&text, "paper.toml")?, Described::Chain(problem));
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
-#[must_use]
 pub fn write_system(chain: &Chain) -> String {
     let anchors = chain.anchors();
     let mut text = format!(

@@ -13,7 +13,6 @@ use crate::system::{Joint, Kind, LoadOn, Member, NamedLoad, Support, System};
 /// assert_eq!(parse(&write_network(&system), "paper.toml")?, Described::System(system));
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
-#[must_use]
 pub fn write_network(system: &System) -> String {
     let permanent = (!system.named_loads().is_empty()).then(|| system.without_named_loads());
     let mut text = write_permanent(permanent.as_ref().unwrap_or(system));

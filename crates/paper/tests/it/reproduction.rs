@@ -252,25 +252,12 @@ fn the_largest_difference_between_the_solvers_is_explained() {
 /// Keys whose value may be missing. Everything else that is `null` was a number that JSON cannot
 /// hold.
 const MAY_BE_NULL: [&str; 16] = [
-    "lagrange",
-    "energy",
-    "unit",
-    "digits",
-    "energy_deg",
-    "energy_mgl",
-    "as_corrected",
-    "fault",
-    "force_uncertainty",
-    // Of a row too long to count them.
-    "self_stresses",
-    "failure",
-    "direct",
-    "largest_difference",
+    "lagrange", "energy", "unit", "digits", "energy_deg", "energy_mgl", "as_corrected", "fault",
+    "force_uncertainty", // Of a row too long to count them.
+    "self_stresses", "failure", "direct", "largest_difference",
     // Of a published number in `field`: what anyone can check by hand, what the solvers say, and
     // why it is not judged. Which of them there are depends on the number.
-    "by_hand",
-    "solvers",
-    "not_judged",
+    "by_hand", "solvers", "not_judged",
 ];
 
 fn nulls(value: &Value, path: &str, found: &mut Vec<String>) {

@@ -89,20 +89,17 @@ pub struct Judged<'a> {
 
 impl Judged<'_> {
     /// The verdict for the eye.
-    #[must_use]
     pub fn badge(&self) -> Badge {
         Badge::of_equation(self.verdict, self.fault)
     }
 
     /// What the second form of the equation is.
-    #[must_use]
     pub fn instead(&self) -> &'static str {
         if self.verdict == Validity::Refuted { "What is true instead" } else { "As corrected" }
     }
 }
 
 /// All equations with their rows, in the order of the paper.
-#[must_use]
 pub fn judged(audit: &[EquationAudit]) -> Vec<Judged<'_>> {
     all()
         .map(|equation| {

@@ -16,7 +16,6 @@ const PLACES: [(char, &str, &str); 5] = [
 ];
 
 /// One panel for each solver.
-#[must_use]
 pub fn basins(r: &Reproduction) -> Figure {
     Figure {
         id: "figure-basins",

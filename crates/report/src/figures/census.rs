@@ -16,7 +16,6 @@ const ORIGIN: [f64; 2] = [95.0, 66.0];
 const PAPER_ZERO_MGL: f64 = 6.0;
 
 /// The shapes, each with its mirror image in thin lines.
-#[must_use]
 pub fn census(problem: &Problem, found: &Census) -> Figure {
     let chain = problem.chain();
     let weight_j: f64 = chain

@@ -11,7 +11,6 @@ use crate::numbers::fixed;
 const FLOOR: f64 = -17.0;
 
 /// One panel for each start.
-#[must_use]
 pub fn convergence(r: &Reproduction) -> Figure {
     let histories = &r.figures.histories;
     let longest = histories.iter().map(last).fold(1, usize::max);

@@ -22,7 +22,6 @@ const SIZE: [f64; 2] = [300.0, 486.0];
 const ORIGIN: [f64; 2] = [118.0, 138.0];
 
 /// E1, what Fig. 4 shows, and E2.
-#[must_use]
 pub fn equilibria(r: &Reproduction) -> Figure {
     let of = |name: &str| r.equilibria.iter().find(|p| p.name == name);
     let mut panels = Vec::new();

@@ -4,7 +4,6 @@ use super::{Figure, direction, joints, moved};
 use ::figures::{Anchor, Svg};
 
 /// Both models side by side.
-#[must_use]
 pub fn mechanism() -> Figure {
     Figure {
         id: "figure-mechanism",

@@ -14,7 +14,6 @@ const EVERY: usize = 40;
 const TINY: f64 = 1e7;
 
 /// The whole curve, and the neighbourhood of E1.
-#[must_use]
 pub fn valley(r: &Reproduction) -> Figure {
     Figure {
         id: "figure-valley",

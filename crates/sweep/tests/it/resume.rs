@@ -57,9 +57,7 @@ fn what_is_not_of_the_sweep_stays() {
     let out = folder.path().join("out");
     stop_after(&out, &manifest(), 1);
     let others = [
-        ".mine.part",
-        ".notes.csv.0123456789ab.part",
-        ".part-000003.csv.0123456789ab.part",
+        ".mine.part", ".notes.csv.0123456789ab.part", ".part-000003.csv.0123456789ab.part",
         ".part-3.parquet.0123456789ab.part",
     ];
     for name in others {

@@ -24,7 +24,6 @@ const MEMBERS: usize = 100;
 ///
 /// # Panics
 /// Never: a test reads the file that is compiled in.
-#[must_use]
 pub fn moorpy() -> Vec<Entry> {
     let file = parsed(include_str!("../../data/external/moorpy-catenary.toml"));
     let tolerance = key(&file, "tolerance", number);
@@ -105,7 +104,6 @@ fn by_both(cable: &ElasticCatenary, closed: &EndForces, on_floor: bool) -> Optio
 ///
 /// # Panics
 /// Never: a test reads the file that is compiled in.
-#[must_use]
 pub fn code_aster() -> Vec<Entry> {
     let file = parsed(include_str!("../../data/external/code-aster.toml"));
     let [cable, stays] =

@@ -13,7 +13,6 @@ const COPS: &str = "E. D. Dolan, J. J. More, T. S. Munson, COPS 3.0, ANL/MCS-TM-
 ///
 /// # Panics
 /// Never: a test reads the file that is compiled in.
-#[must_use]
 pub fn cutest() -> Vec<Entry> {
     let catena = parsed(include_str!("../../data/external/cutest-catena.toml"));
     key(&catena, "published", tables).into_iter().map(|optimum| one(&catena, optimum)).collect()
@@ -61,7 +60,6 @@ fn chain(catena: &Table, beams: usize) -> Option<Problem> {
 }
 
 /// What is published and not judged, with the reasons.
-#[must_use]
 pub fn not_judged() -> Vec<Entry> {
     let incomplete = "input incomplete: no source with all of it was at hand";
     vec![

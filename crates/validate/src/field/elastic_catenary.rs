@@ -122,7 +122,6 @@ impl ElasticCatenary {
     }
 
     /// The forces; nothing where Newton's method does not end, or a number is out of range.
-    #[must_use]
     pub fn solve(&self) -> Option<EndForces> {
         let positive = [self.x_m, self.length_m, self.stiffness_n, self.weight_n_m];
         if positive.iter().any(|x| !(x.is_finite() && *x > 0.0))
@@ -191,7 +190,6 @@ impl ElasticCatenary {
     /// let found = cable.solve_on_floor().unwrap();
     /// assert!((found.ends.horizontal_n - 1.0).abs() < 1e-9 && (found.lies_m - 3.0).abs() < 1e-9);
     /// ```
-    #[must_use]
     pub fn solve_on_floor(&self) -> Option<OnFloor> {
         let Self { x_m, z_m, length_m, stiffness_n, weight_n_m } = *self;
         let numbers = [x_m, z_m, length_m, stiffness_n, weight_n_m];
@@ -245,7 +243,6 @@ fn bisect([mut low, mut high]: [f64; 2], rises: impl Fn(f64) -> f64) -> Option<f
 impl EndForces {
     /// How far the lowest point of the cable is below its lower end, m; 0 where that end is the
     /// lowest.
-    #[must_use]
     pub fn sag_m(&self, cable: &ElasticCatenary) -> f64 {
         let ElasticCatenary { stiffness_n, weight_n_m, .. } = *cable;
         if self.lower_n <= 0.0 {
@@ -269,11 +266,7 @@ mod tests {
     #[test]
     fn a_nearly_taut_line_to_its_digits() {
         let cable = cable([
-            246.224_209_400_329_47,
-            263.557_663_308_431_64,
-            360.635_662_623_969_27,
-            700e6,
-            3.087_35,
+            246.224_209_400_329_47, 263.557_663_308_431_64, 360.635_662_623_969_27, 700e6, 3.087_35,
         ]);
         let found = cable.solve().unwrap();
         // The inputs are rounded to 17 digits, and the force of a nearly taut line has lost seven

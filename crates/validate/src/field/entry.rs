@@ -68,7 +68,6 @@ impl Compared {
     }
 
     /// Whether the published number stands. NaN never does.
-    #[must_use]
     pub fn stands(&self) -> bool {
         if self.at_most {
             self.ours <= self.published
@@ -146,7 +145,6 @@ pub struct Entry {
 
 impl Entry {
     /// An entry that is not judged, with its reason.
-    #[must_use]
     pub fn not_judged(
         title: impl Into<String>,
         source: &'static str,
@@ -163,7 +161,6 @@ impl Entry {
     }
 
     /// The verdict, from the numbers alone.
-    #[must_use]
     pub fn verdict(&self) -> FieldVerdict {
         // NaN breaks the law.
         let broken =

@@ -16,7 +16,6 @@ const MICRO: f64 = 1e6;
 const TOLERANCE: f64 = 1e-9;
 
 /// Both nets.
-#[must_use]
 pub fn jax_fdm() -> Vec<Entry> {
     let olympia = (
         include_str!("../../data/external/force-density/olympia-nodes.csv").to_owned(),
@@ -24,11 +23,8 @@ pub fn jax_fdm() -> Vec<Entry> {
     );
     // The third coordinate is headed `6` in this one.
     let stuttgart = (
-        include_str!("../../data/external/force-density/stuttgart21-nodes.csv").replacen(
-            "id,x,y,6,",
-            "id,x,y,z,",
-            1,
-        ),
+        include_str!("../../data/external/force-density/stuttgart21-nodes.csv")
+            .replacen("id,x,y,6,", "id,x,y,z,", 1),
         include_str!("../../data/external/force-density/stuttgart21-edges.csv"),
     );
     [("Olympia", olympia), ("Stuttgart 21", stuttgart)]

@@ -4,7 +4,6 @@ use super::entry::Entry;
 use super::{cables, chains, nets};
 
 /// Everything that is published and was looked at, judged or not.
-#[must_use]
 pub fn field() -> Vec<Entry> {
     [
         cables::moorpy(),

@@ -32,7 +32,6 @@ pub fn run_of_members(cable: &ElasticCatenary, members: usize) -> Result<System,
 
 /// End forces of an answer for such a run: horizontal, upper and lower vertical force of the
 /// supports on it, N.
-#[must_use]
 pub fn end_forces(answer: &SystemEquilibrium) -> Option<[f64; 3]> {
     let (lower, upper) = (answer.reactions_n.first()?, answer.reactions_n.last()?);
     Some([upper[0], upper[2], lower[2]])

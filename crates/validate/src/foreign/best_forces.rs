@@ -80,7 +80,6 @@ fn met_spans(
 /// longer is loose; an elastic member has the force of its elongation; each as far as the bounds of
 /// the positions decide it. A span of a taut rope whose joints have run together bears what balances
 /// both.
-#[must_use]
 pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> BestForces {
     let mut columns: Vec<Column> = system
         .members()

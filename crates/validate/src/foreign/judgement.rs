@@ -112,19 +112,16 @@ pub struct Judgement {
 
 impl Judgement {
     /// Whether the answer stands.
-    #[must_use]
     pub fn is_confirmed(&self) -> bool {
         self.finding == Finding::Confirmed
     }
 
     /// Whether the answer falls.
-    #[must_use]
     pub fn is_refuted(&self) -> bool {
         self.finding == Finding::Refuted
     }
 
     /// The nearest equilibrium, if one was found.
-    #[must_use]
     pub fn nearest(&self) -> Option<&NearestEquilibrium> {
         self.nearest.equilibria.first()
     }

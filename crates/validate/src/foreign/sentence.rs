@@ -54,7 +54,6 @@ impl Display for Finding {
 
 impl Finding {
     /// The finding in a word.
-    #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
             Self::Confirmed => "confirmed",
@@ -66,7 +65,6 @@ impl Finding {
 
 impl Law {
     /// The law in a word or two.
-    #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
             Self::Support => "support",
@@ -103,7 +101,6 @@ impl Display for Force {
 
 impl Violation {
     /// Where it is, by name.
-    #[must_use]
     pub fn place_in(&self, system: &System) -> String {
         match self.place {
             Place::Member(k) if k >= 1 && k <= system.members().len() => {
@@ -119,7 +116,6 @@ impl Violation {
     }
 
     /// What is broken, with its numbers.
-    #[must_use]
     pub fn what(&self) -> String {
         match self.law {
             Law::Support => format!("{} m off its support", fine(self.value)),
@@ -171,7 +167,6 @@ impl Violation {
 
 impl Judgement {
     /// Which forces were judged, in a sentence.
-    #[must_use]
     pub fn forces_sentence(&self) -> String {
         match &self.forces {
             ForcesJudged::Given => match self.force_digits {
@@ -192,7 +187,6 @@ impl Judgement {
 
     /// At which tolerance the answer would be confirmed, if it is not and there is one; and to what
     /// its positions look rounded, if that explains it.
-    #[must_use]
     pub fn tolerance_sentence(&self, system: &System) -> Option<String> {
         let tolerance = self.confirmed_at?;
         let confirmed = format!("with --tolerance {tolerance:.0e} the answer is confirmed.");
@@ -212,7 +206,6 @@ impl Judgement {
     }
 
     /// How large the error is, one sentence for each equilibrium and each solver without one.
-    #[must_use]
     pub fn error_sentences(&self, system: &System) -> Vec<String> {
         let start = if self.nearest.without_guess { "without a guess" } else { "from the answer" };
         let found = self.nearest.equilibria.iter().map(|one| {

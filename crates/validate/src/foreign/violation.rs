@@ -94,7 +94,6 @@ pub enum Law {
 
 impl Law {
     /// The unit of [`Violation::value`].
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Support | Self::BelowFloor | Self::Length { .. } => "m",

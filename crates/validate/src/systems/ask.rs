@@ -52,7 +52,6 @@ pub enum SystemFailure {
 
 impl SystemFailure {
     /// Whether the lengths of rigid members fit no shape: no search would find one.
-    #[must_use]
     pub fn is_misfit(&self) -> bool {
         matches!(
             self,
@@ -62,7 +61,6 @@ impl SystemFailure {
     }
 
     /// Whether supports leave a part free to move along its loads.
-    #[must_use]
     pub fn falls(&self) -> bool {
         matches!(
             self,
@@ -72,7 +70,6 @@ impl SystemFailure {
     }
 
     /// Whether no force is left that decides the shape.
-    #[must_use]
     pub fn is_unloaded(&self) -> bool {
         matches!(
             self,
@@ -115,7 +112,6 @@ impl SystemFailure {
     }
 
     /// The solver that has no answer.
-    #[must_use]
     pub fn solver(&self) -> SolverName {
         match self {
             Self::Lagrange(_) => SolverName::LAGRANGE,
@@ -126,21 +122,18 @@ impl SystemFailure {
 
 impl SystemAnswer {
     /// The answer of one solver, if it has one.
-    #[must_use]
     pub fn by(&self, solver: &SolverName) -> Option<&SystemEquilibrium> {
         self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
     }
 
     /// Whether both solvers answered and agree, the judge finds both in balance, and no census
     /// refutes them.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.agreement.as_ref().is_some_and(SystemAgreement::agrees) && !self.check_failed()
     }
 
     /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
     /// census refutes one.
-    #[must_use]
     pub fn check_failed(&self) -> bool {
         let disagree = self.agreement.as_ref().is_some_and(|agreement| !agreement.agrees());
         disagree || self.equilibria.iter().any(|answer| answer.evidence.ladder.failed())
@@ -148,7 +141,6 @@ impl SystemAnswer {
 
     /// Whether every solver that was asked has an answer, each has converged or is proved to be an
     /// equilibrium, and it is the neighbour of the drawing where that is the question.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         let known = |answer: &SystemEquilibrium| {
             let ladder = &answer.evidence.ladder;
@@ -174,14 +166,12 @@ impl SystemAnswer {
 /// let energy_mgl = answer.equilibria[0].energy_j / chain.gravity_m_s2();
 /// assert!(answer.agrees() && (energy_mgl + 6.0 - 2.335_468_652).abs() < 1e-9);
 /// ```
-#[must_use]
 pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAnswer {
     ask_with(system, &Question { solvers, ..Question::default() }, watch)
 }
 
 /// The same in full: with which equations, with or without the proofs in interval arithmetic (the
 /// rungs `verified` and `complete`), on how many threads.
-#[must_use]
 pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> SystemAnswer {
     let census = question.census;
     let drawing_m = system.drawing();

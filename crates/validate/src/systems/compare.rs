@@ -63,7 +63,6 @@ pub struct SystemAgreement {
 
 impl SystemAgreement {
     /// Whether the answers are one.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.verdict == Verdict::Agreed
     }
@@ -93,7 +92,6 @@ const NO_FORCE: f64 = 1e-9;
 ///
 /// # Panics
 /// When there are fewer than two answers: one alone is judged by [`judge_alone`].
-#[must_use]
 pub fn compare(
     system: &System,
     answers: &mut [SystemEquilibrium],

@@ -72,7 +72,6 @@ pub struct Near {
 
 impl Near {
     /// Hold an answer against the drawing; what turns freely is turned towards it first.
-    #[must_use]
     pub fn of(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> Self {
         let answer = if answer.stability.neutral > 0 {
             let drawn = SystemEquilibrium { joints_m: drawing_m.to_vec(), ..answer.clone() };

@@ -106,7 +106,6 @@ pub struct PrestressStability {
 /// assert_eq!((held.self_stresses, held.mechanisms, held.super_stable), (1, 1, true));
 /// assert!(matches!(held.held, Held::ByStress { .. }));
 /// ```
-#[must_use]
 pub fn prestress_stability(
     system: &System,
     joints_m: &[Vector],

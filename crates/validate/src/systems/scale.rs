@@ -122,7 +122,6 @@ impl Scale {
 
 /// The size of the energies of a system, J: its loads and its prestress at the places of this answer,
 /// times the lengths of all members.
-#[must_use]
 pub fn energy_size_j(system: &System, answer: &SystemEquilibrium) -> f64 {
     Scale::new(system, answer).held_n * system.total_length_m()
 }

@@ -84,14 +84,12 @@ impl SystemStatics {
     };
 
     /// The largest violation; NaN if any number of the answer is not finite or missing.
-    #[must_use]
     pub fn largest(&self) -> f64 {
         let Self { support, length, law, force, moment, joint, balance, derived, .. } = *self;
         [support, length, law, force, moment, joint, balance, derived].into_iter().fold(0.0, worse)
     }
 
     /// Whether every violation is within the tolerance. NaN never is.
-    #[must_use]
     pub fn passes(&self, tolerance: f64) -> bool {
         self.largest() <= tolerance
     }
@@ -115,7 +113,6 @@ impl SystemStatics {
 ///
 /// Arrays that do not fit the system, and numbers that are not finite, give NaN, which passes no
 /// tolerance.
-#[must_use]
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
     let mut found = SystemStatics::NOTHING;
     let (joints, members) = (system.joints().len(), system.members().len());
@@ -145,7 +142,6 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
 }
 
 /// The same of an answer for a chain, which is judged as the system that it is.
-#[must_use]
 pub fn judge_chain(problem: &Problem, found: &Equilibrium) -> SystemStatics {
     let joints = problem.chain().bars().len() + 1;
     let fits = found.joints_m.len() == joints

@@ -114,14 +114,8 @@ impl PatternSums {
             let term = BarTerm::over(cell, *length, *weight)?;
             let centre = BarTerm::value_over(&point, *length, *weight);
             let terms = [
-                term.value[0],
-                term.value[1],
-                centre[0],
-                centre[1],
-                term.slope[0][0],
-                term.slope[0][1],
-                term.slope[1][0],
-                term.slope[1][1],
+                term.value[0], term.value[1], centre[0], centre[1], term.slope[0][0],
+                term.slope[0][1], term.slope[1][0], term.slope[1][1],
             ];
             let middle = std::array::from_fn(|part| add(&mut sums, part, terms[part]));
             for k in 0..2 {

@@ -70,16 +70,8 @@ fn every_law_broken() {
     let mut output = judged("every_law_broken", 1, HANGERS, PLACES, Some(FORCES));
     output.is("finding", "refuted");
     let laws = [
-        "elongation",
-        "sign",
-        "length",
-        "length",
-        "reaction",
-        "balance",
-        "reaction",
-        "whole",
-        "below_floor",
-        "floor_pulls",
+        "elongation", "sign", "length", "length", "reaction", "balance", "reaction", "whole",
+        "below_floor", "floor_pulls",
     ];
     for list in ["broken", "violations"] {
         let at = |key: &str| format!("{list}[].{key}");

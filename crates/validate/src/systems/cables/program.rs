@@ -135,12 +135,7 @@ impl Program {
             ..DefaultSettings::default()
         };
         let mut solver = DefaultSolver::new(
-            &quadratic,
-            &self.cost,
-            &matrix,
-            &self.constants,
-            &self.cones,
-            settings,
+            &quadratic, &self.cost, &matrix, &self.constants, &self.cones, settings,
         )
         .map_err(|error| ConeError::Refused(Box::new(error)))?;
         solver.solve();

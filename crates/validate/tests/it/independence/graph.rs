@@ -51,12 +51,7 @@ impl Graph {
         // Packages of other platforms are of no use to a build here, and may never have been
         // fetched.
         let arguments = [
-            "metadata",
-            "--format-version",
-            "1",
-            "--all-features",
-            "--locked",
-            "--filter-platform",
+            "metadata", "--format-version", "1", "--all-features", "--locked", "--filter-platform",
             host,
         ];
         let offline: Vec<_> = arguments.into_iter().chain(["--offline"]).collect();
