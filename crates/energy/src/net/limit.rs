@@ -56,7 +56,7 @@ const STEPS: usize = 40;
 /// Changes of the members that are taut in which all change that are wrong, and then, as these may go round in circles, only the
 /// first one, which does not (K. G. Murty, Linear Algebra Appl. 5 (1972) 65-108).
 const TOGETHER: usize = 20;
-const ALONE: usize = 400;
+const ALONE: usize = 200;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;

@@ -249,19 +249,29 @@ pub fn minimise_near(
     })
 }
 
-/// With all joints for themselves.
+/// With all joints for themselves, in short steps; where these lead nowhere, in longer ones.
 fn near_drawing(
     system: &System,
     drawing_m: &[Vector],
     settings: &Settings,
 ) -> Result<Solution, Error> {
-    within(system, settings, |frame, settings| {
-        let drawn = seeded(frame, drawing_m)?;
-        let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let (start, moved) = loaded(frame, &mut factor, &drawn);
-        let step = moved.clamp(LEAST_DRAWN_STEP, DRAWN_STEP);
-        descend(frame, factor, start, Way::Near { step }, settings, Effort::default())
-    })
+    let by = |least: f64| {
+        let mut step = DRAWN_STEP;
+        let found = within(system, settings, |frame, settings| {
+            let drawn = seeded(frame, drawing_m)?;
+            let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+            let (start, moved) = loaded(frame, &mut factor, &drawn);
+            step = moved.clamp(least, DRAWN_STEP);
+            descend(frame, factor, start, Way::Near { step }, settings, Effort::default())
+        });
+        (found, step < DRAWN_STEP)
+    };
+    match by(LEAST_DRAWN_STEP) {
+        (Err(error), true) if !matches!(error, Error::Work { .. }) => {
+            by(DRAWN_STEP).0.map_err(|_| error)
+        }
+        (found, _) => found,
+    }
 }
 
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say

@@ -244,13 +244,15 @@ impl Frame {
     /// Which members resist: by the sign of their force, and where it is rounding by their length; what is just taut
     /// would resist, and while lengths are off by a misfit, what may be.
     fn active(&self, shape: &Shape, misfit: f64) -> Vec<bool> {
-        let rounding = rounding_floor(self, shape).max((HIDDEN * misfit).min(CHORD_NEAR));
+        let rounding = rounding_floor(self, shape);
+        let hidden = rounding.max((HIDDEN * misfit).min(CHORD_NEAR));
         let none = NO_STRAIN * self.largest_force(&shape.force);
         let resists = |(e, rod): (usize, &Rod)| {
             let force = shape.force[e];
             if rod.kind == Kind::Bar {
                 return true;
             }
+            let rounding = if rod.elastic() { hidden } else { rounding };
             let of_length =
                 if rod.elastic() { rounding * rod.length / rod.flexibility } else { 0.0 };
             if force.abs() > none.max(of_length) {

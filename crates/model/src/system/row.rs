@@ -153,7 +153,10 @@ impl System {
                 at[joint][free] = k;
             }
         }
-        let ends = |joint: &u32| at[*joint as usize][1] == u32::MAX;
+        let ends = |joint: &u32| {
+            let [one, other] = at[*joint as usize];
+            one != u32::MAX && other == u32::MAX
+        };
         let mut here = (0..u32::try_from(at.len()).ok()?).find(ends)?;
         let (mut joints, mut members) =
             (Vec::with_capacity(at.len()), Vec::with_capacity(self.members().len()));

@@ -294,11 +294,12 @@ fn ask_again(
     asked_again
 }
 
-/// Two answers in balance that are different equilibria (mirror images, a mast that stands and one that leans): ask the
-/// solver of the higher one again next to the other, or the one that has no answer at all; of two that are as high, or next to
-/// a drawing, where the nearer one comes first, one after the other. What is known must be stable, and next to the drawing, if there is one: but for a barrier on the
-/// straight way where the other answer is unstable; and where there is no other, wherever the lowest of all is, or what a
-/// structure that does not stay where it is drawn has come down to. If both agree then, the solver and the comparison.
+/// Two answers that differ (mirror images, a mast that stands and one that leans): ask the solver of the higher one again next
+/// to the other, or the one that has no answer at all; of two that are as high, or next to a drawing, where the nearer one
+/// comes first, one after the other. What is known must be in balance, stable, and next to the drawing, if there is one: but
+/// for a barrier on the straight way where the other answer is unstable; and where there is no other, wherever the lowest of
+/// all is, or what a structure that does not stay where it is drawn has come down to. If both agree then, the solver and the
+/// comparison.
 fn ask_beside(
     system: &System,
     drawing_m: Option<&[Vector]>,
@@ -327,11 +328,10 @@ fn ask_beside(
         }
         _ => return None,
     };
-    let budget = Tolerances::project().statics;
-    let in_balance = answers.iter().all(|answer| judge(system, answer).passes(budget));
-    if !in_balance || question.equations == Equations::Full {
+    if question.equations == Equations::Full {
         return None;
     }
+    let budget = Tolerances::project().statics;
     let (both, found) = known.into_iter().find_map(|(known, solver)| {
         let unstable = answers.iter().any(|answer| answer.stability.index_in_space > 0);
         let is_next = |at: &[Vector]| {
@@ -340,7 +340,8 @@ fn ask_beside(
                 || known.evidence.ladder.optimal.is_reached() || is_below(system, at, known);
             near.is_neighbour || unstable && near.moved <= FAR || answers.len() == 1 && alone()
         };
-        if known.stability.index_in_space > 0 || !drawing_m.is_none_or(is_next) {
+        let stays = known.stability.index_in_space == 0;
+        if !stays || !drawing_m.is_none_or(is_next) || !judge(system, known).passes(budget) {
             return None;
         }
         let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;

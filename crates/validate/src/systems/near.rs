@@ -33,6 +33,9 @@ const RIDGE: f64 = 1e-13;
 /// Where lengths are still off by more, over themselves, no places fit them.
 const CLOSED: f64 = 1e-6;
 
+/// A member that turns by more of its length may have turned over on the way to where the energy is least of all.
+const SWUNG: f64 = 0.75;
+
 /// A member turns at once where it does so by this part of its whole turn between two stations.
 const AT_ONCE: f64 = 0.25;
 
@@ -199,22 +202,23 @@ fn straight(from_m: &[Vector], to_m: &[Vector], part: f64) -> Vec<Vector> {
 }
 
 /// Whether the energy falls from each station to the next on the way from a drawing, closed first, on which rigid members keep
-/// their lengths and elastic ones change theirs evenly; and no member turns all at once, as a gable does that snaps through.
+/// their lengths and elastic ones change theirs evenly; and no member turns far, nor at once, as a gable does that snaps through.
 fn falls(system: &System, from_m: &[Vector], to_m: &[Vector]) -> bool {
     let Some(mut fit) = Fit::new(system, [from_m, to_m]) else { return false };
-    let at_once = AT_ONCE * turned(system, from_m, to_m);
+    let (mut before_m, _) = fit.at(0.0, from_m.to_vec());
+    let mut before_j = f64::INFINITY;
+    let whole = turned(system, &before_m, to_m);
     let rounding = SUMMED * system.total_load_n() * system.total_length_m();
-    let mut before: Option<(Vec<Vector>, f64)> = None;
-    (0..=STATIONS).all(|station| {
-        let part = f64::from(station) / f64::from(STATIONS);
-        let (places_m, misfit) = fit.at(part, straight(from_m, to_m, part));
-        let energy_j = potential_j(system, system.members(), &places_m);
-        let follows = before.as_ref().is_none_or(|(before_m, before_j)| {
-            energy_j <= before_j + rounding && turned(system, before_m, &places_m) <= at_once
-        });
-        before = Some((places_m, energy_j));
-        misfit <= CLOSED && follows
-    })
+    whole <= SWUNG
+        && (0..=STATIONS).all(|station| {
+            let part = f64::from(station) / f64::from(STATIONS);
+            let (places_m, misfit) = fit.at(part, straight(from_m, to_m, part));
+            let energy_j = potential_j(system, system.members(), &places_m);
+            let follows = turned(system, &before_m, &places_m) <= AT_ONCE * whole;
+            let falls = misfit <= CLOSED && follows && energy_j <= before_j + rounding;
+            (before_m, before_j) = (places_m, energy_j);
+            falls
+        })
 }
 
 /// How far the energy rises on a way of places over a part from 0 to 1, J, if it rises and falls again.
