@@ -31,7 +31,7 @@ use crate::vector::scaled;
 /// after every solution, so that it is as rigid as supports are.
 const FLOOR: f64 = 1e4;
 
-/// Stiffness of what is slack, over its own.
+/// Stiffness of what is slack, over its own: far less than what counts as a motion in a first reading.
 const SLACK: f64 = 1e-8;
 
 /// Solutions for one distribution: the first one, and corrections.

@@ -20,7 +20,7 @@ const RIDGE: f64 = 1e-9;
 /// Halvings of a step to where the dual energy is least, and the slope at its end, over that at its begin, that is rounding.
 const HALVINGS: usize = 40;
 const SLOPE: f64 = 1e-9;
-/// Stiffness of what is slack, over its own.
+/// Stiffness of what is slack, over its own, until the signs are found: far more than the ridge.
 const SLACK: f64 = 1e-5;
 
 /// Forces fitted to the places of a state, of its taut members.

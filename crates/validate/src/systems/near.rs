@@ -33,7 +33,8 @@ const RIDGE: f64 = 1e-13;
 /// Where lengths are still off by more, over themselves, no places fit them.
 const CLOSED: f64 = 1e-6;
 
-/// A member that turns by more of its length may have turned over on the way to where the energy is least of all.
+/// A member that turns by more of its length may have turned over on the way to where the energy is least of all: rough drawings
+/// of what hangs are off by up to 0.7, chains and triangles that end on another side by 1.3 and more.
 const SWUNG: f64 = 0.75;
 
 /// A member turns at once where it does so by this part of its whole turn between two stations.
