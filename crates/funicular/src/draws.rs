@@ -60,7 +60,7 @@ pub struct Drawn {
 impl Draws {
     pub(crate) fn new(
         solve: &Solve,
-        system: &System,
+        (system, found): (&System, &SystemEquilibrium),
         ranges: &Result<ToleranceRanges, NoRanges>,
         (count, seed, distribution): (usize, u64, Distribution),
     ) -> Self {
@@ -70,7 +70,10 @@ impl Draws {
             let values = numbers
                 .map(|(k, number)| number.given + number.within * distribution.of(seed, draw, k))
                 .collect::<Vec<_>>();
-            let answer = solve.run_here(&system.with_uncertain(&values).ok()?.into()).ok()?;
+            let drawn = system.with_uncertain(&values).ok()?;
+            // Not at the mirror image, which has the same energy.
+            let drawn = drawn.clone().drawn_at(&found.joints_m).unwrap_or(drawn);
+            let answer = solve.run_here(&drawn.into()).ok()?;
             answer.into_parts().1.into_iter().next()
         };
         let all: Vec<Option<SystemEquilibrium>> = (0..count).into_par_iter().map(of_draw).collect();

@@ -59,8 +59,8 @@ impl Solve {
         self.tolerances_drawn(problem, 0, 0, Distribution::default())
     }
 
-    /// The same, and what becomes of so many random values from a seed, within the tolerances, each solved by
-    /// itself.
+    /// The same, and what becomes of so many random values from a seed, within the tolerances, each solved
+    /// next to that of the numbers given.
     ///
     /// # Errors
     /// As [`run`](Self::run).
@@ -77,7 +77,7 @@ impl Solve {
         let depth = sag.map(|Sag { joint, ends, .. }| Depth { joint, ends });
         let prove = || prove_ranges(system, &found.joints_m, &found.axial_n, depth.as_slice());
         let ranges = self.on_threads(prove)?;
-        let draw = || Draws::new(self, system, &ranges, (draws, seed, distribution));
+        let draw = || Draws::new(self, (system, found), &ranges, (draws, seed, distribution));
         problem.fits((draws as u64).saturating_mul(BYTES_PER_DRAW))?;
         let draws = if draws > 0 { Some(self.on_threads(draw)?) } else { None };
         Ok(TolerancesAnswer { answer, sag, ranges, draws })

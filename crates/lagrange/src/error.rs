@@ -232,12 +232,13 @@ fn misfit_text(misfits: &[Misfit]) -> String {
         1 => ", and one more is off".into(),
         more => format!(", and {more} more are off"),
     };
+    let way = if worst.misfit_m > 0.0 { "further apart" } else { "closer together" };
     format!(
-        "rigid members have lengths that fit no shape: at best the ends of member {} are {} m further apart \
-         than its length, and it may be off by {} m{more}; say how far the lengths are known \
+        "rigid members have lengths that do not fit: in the shape that meets them best the ends of member {} \
+         are {} m {way} than its length, and it may be off by {} m{more}; say how far the lengths are known \
          (length_tolerance_m), or how stiff the members are (stiffness_n)",
         worst.member + 1,
-        Brief(worst.misfit_m),
+        Brief(worst.misfit_m.abs()),
         Brief(worst.within_m)
     )
 }

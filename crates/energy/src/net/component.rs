@@ -72,7 +72,13 @@ pub(super) fn check_held(system: &System, frame: &Frame) -> Result<(), Error> {
     }
     for (joint, space) in space.into_iter().enumerate() {
         let free = space.unwrap_or_default();
-        let falling = free.iter().map(|b| dot(load[joint], *b).powi(2)).sum::<f64>().sqrt();
+        let onto = |v: Vector| free.iter().fold([0.0; 3], |sum, b| along(sum, dot(v, *b), *b));
+        let (mut way, down) = (onto(load[joint]), onto([0.0, 0.0, -1.0]));
+        if frame.has_floor() && way[2] < 0.0 {
+            // The floor ends what falls.
+            way = along(way, -dot(way, down) / dot(down, down), down);
+        }
+        let falling = norm(way);
         if falling > NO_STRAIN {
             let joint = system.joints()[joint].name.to_string();
             return Err(Error::Falls { joint, force_n: falling * frame.force_n });

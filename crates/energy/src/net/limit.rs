@@ -53,10 +53,8 @@ const LEANING: f64 = 1e-10;
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
 
-/// Changes of the members that are taut in which all change that are wrong, and then, as these may go round in circles, only the
-/// first one, which does not (K. G. Murty, Linear Algebra Appl. 5 (1972) 65-108).
-const TOGETHER: usize = 20;
-const ALONE: usize = 200;
+/// Changes of the members that are taut.
+const CHANGES: usize = 100;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
@@ -348,7 +346,7 @@ impl Newton {
         let mut exact = shape.clone();
         let left = frame.lagrangian_gradient(&frame.excesses(&shape.x), &shape.force);
         let left: Vec<f64> = left.iter().map(|left| -left).collect();
-        for (force, more) in exact.force.iter_mut().zip(share.bearing(&left).force) {
+        for (force, more) in exact.force.iter_mut().zip(share.bearing(&left, None).force) {
             *force += more;
         }
         let ended = settle_taut(frame, share, &mut exact, &mut taut, HARDEST).is_some();
@@ -387,20 +385,19 @@ pub(super) fn stressed(shape: &Shape, stress: &[f64]) -> Shape {
     shape
 }
 
-/// Take out of the forces of the inextensible members what no load causes; the stretches of all.
-fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64> {
+/// Take out of the forces of the inextensible members what no load causes.
+fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) {
     let shared = share.shared(force);
-    take_shares(frame, shared, force)
+    take_shares(frame, &shared, force);
 }
 
-/// Let the inextensible members bear their shares; the stretches of all.
-fn take_shares(frame: &Frame, shared: Shared, force: &mut [f64]) -> Vec<f64> {
+/// Let the inextensible members bear their shares.
+fn take_shares(frame: &Frame, shared: &Shared, force: &mut [f64]) {
     for (e, rod) in frame.rods.iter().enumerate() {
         if !rod.elastic() {
             force[e] = shared.force[e];
         }
     }
-    shared.stretch
 }
 
 /// Change the members that are taut until the shares of forces have the right signs; how often, `None` where that comes to
@@ -414,13 +411,18 @@ fn settle_taut(
 ) -> Option<usize> {
     // Not what earlier ones bear: a soft spring may have borne what nothing else did.
     let mut borne = None;
-    for changes in 0..TOGETHER + ALONE {
+    let mut reached: Option<Shared> = None;
+    let near = frame.touching(shape);
+    for changes in 0..CHANGES {
         if !share.stand(&shape.x, taut, softness) {
             return None;
         }
         let borne = borne.get_or_insert_with(|| share.unshared(&shape.force));
-        let stretch = take_shares(frame, share.bearing(borne), &mut shape.force);
-        if !change_taut(frame, shape, taut, &stretch, changes < TOGETHER) {
+        let next = share.bearing(borne, reached.as_ref());
+        let ended = reached.as_mut().is_none_or(|from| from.towards(&next, frame, &near));
+        let shared = reached.get_or_insert(next);
+        take_shares(frame, shared, &mut shape.force);
+        if !change_taut(frame, shape, taut, &shared.stretch, &near) && ended {
             return Some(changes);
         }
     }
@@ -439,21 +441,20 @@ fn release_floor(frame: &Frame, shape: &mut Shape, taut: &mut [bool]) -> bool {
     released
 }
 
-/// Let go of members that work against their kind, and take back those that would resist, all together or only the first of
-/// them; whether there are any.
+/// Let go of members that work against their kind, and take back those `near` their lengths that would resist; whether there
+/// are any.
 fn change_taut(
     frame: &Frame,
     shape: &mut Shape,
     taut: &mut [bool],
     stretch: &[f64],
-    together: bool,
+    near: &[bool],
 ) -> bool {
     let rounding = rounding_floor(frame, shape);
     let least = rounding * frame.force_scale(&shape.force);
-    let touching = frame.touching(shape);
     let mut changed = false;
     for (e, rod) in frame.rods.iter().enumerate() {
-        if rod.kind == Kind::Bar || changed && !together {
+        if rod.kind == Kind::Bar {
             continue;
         }
         let force = shape.force[e];
@@ -461,7 +462,7 @@ fn change_taut(
             (taut[e], changed) = (false, true);
         } else if !taut[e] {
             let pulls = if rod.elastic() { frame.excess(&shape.x, e).value } else { stretch[e] };
-            if touching[e] && pulls.abs() > least && rod.resists(pulls)
+            if near[e] && pulls.abs() > least && rod.resists(pulls)
                 || rod.elastic() && rod.prestress(pulls).abs() > least
             {
                 (taut[e], changed) = (true, true);
@@ -498,7 +499,7 @@ mod tests {
         for (stretch, wanted) in [(-0.5, true), (0.5, false)] {
             let mut shape = Shape { x: at.clone(), force: vec![0.0; 2] };
             let mut taut = [true, false];
-            let changed = change_taut(&frame, &mut shape, &mut taut, &[0.0, stretch], true);
+            let changed = change_taut(&frame, &mut shape, &mut taut, &[0.0, stretch], &[true; 2]);
             assert_eq!((changed, taut[1]), (wanted, wanted), "{stretch}");
         }
         let limit = Limit {

@@ -21,10 +21,10 @@ use model::Vector;
 
 use crate::error::Error;
 use crate::net::factor::{Block, Factor};
-use crate::net::frame::Frame;
+use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
 use crate::net::shape::largest;
-use crate::thresholds::{GOLDEN, ROUNDING};
+use crate::thresholds::{BISECTIONS, GOLDEN, KNOWN, ROUNDING};
 use crate::vector::scaled;
 
 /// Stiffness of the floor over that of a member of the unit of length. Its deflection is taken back
@@ -34,8 +34,11 @@ const FLOOR: f64 = 1e4;
 /// Stiffness of what is slack, over its own: far less than what counts as a motion in a first reading.
 const SLACK: f64 = 1e-8;
 
-/// Solutions for one distribution: the first one, and corrections.
+/// Solutions for one distribution: the first one, and corrections; as many more as leave less of it than this part each, as where
+/// a tall truss bends, which strains its members by little.
 const SOLUTIONS: usize = 8;
+const MOST_SOLUTIONS: usize = 200;
+const SLOW: f64 = 0.98;
 
 /// The part of forces without any order that a self-stress must take to count as one. Rounding
 /// leaves some 1e-12.
@@ -55,6 +58,54 @@ pub(super) struct Shared {
     pub(super) force: Vec<f64>,
     /// Change of the excess of each member in the motion that makes these forces.
     pub(super) stretch: Vec<f64>,
+    /// What the joint forces do in this motion.
+    pub(super) work: f64,
+}
+
+/// Stiffness of the spring in place of a rigid member.
+fn weight(rod: &Rod) -> f64 {
+    if rod.ground { FLOOR } else { 1.0 / rod.length }
+}
+
+impl Shared {
+    /// As far from here towards other shares as the energy of one-sided springs falls, which is convex; whether that is all
+    /// the way. Those that are not `near` their lengths are none.
+    pub(super) fn towards(&mut self, to: &Self, frame: &Frame, near: &[bool]) -> bool {
+        let springs = || {
+            frame
+                .rods
+                .iter()
+                .enumerate()
+                .filter(|(e, rod)| near[*e] && !rod.elastic() && !rod.ground)
+        };
+        let change = |e: usize| to.stretch[e] - self.stretch[e];
+        let slope = |part: f64| {
+            let falls = springs().map(|(e, rod)| {
+                let stretch = self.stretch[e] + part * change(e);
+                if rod.resists(stretch) { weight(rod) * stretch * change(e) } else { 0.0 }
+            });
+            falls.sum::<f64>() - (to.work - self.work)
+        };
+        let (mut least, mut part) = (0.0, 1.0);
+        if slope(part) > KNOWN * (to.work - self.work).abs() {
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (least + part);
+                if slope(middle) > 0.0 { part = middle } else { least = middle }
+            }
+        }
+        let step = |from: &mut f64, to: f64| *from += part * (to - *from);
+        self.stretch.iter_mut().zip(&to.stretch).for_each(|(from, to)| step(from, *to));
+        step(&mut self.work, to.work);
+        for (e, rod) in frame.rods.iter().enumerate() {
+            if rod.ground {
+                step(&mut self.force[e], to.force[e]);
+            } else {
+                self.force[e] =
+                    if to.force[e] == 0.0 { 0.0 } else { weight(rod) * self.stretch[e] };
+            }
+        }
+        part >= 1.0
+    }
 }
 
 impl Share {
@@ -99,8 +150,7 @@ impl Share {
 
     /// Stiffness of a member's spring.
     fn weight(&self, rod: usize) -> f64 {
-        let Some(member) = self.frame.rods.get(rod).filter(|_| self.taut[rod]) else { return 0.0 };
-        if member.ground { FLOOR } else { 1.0 / member.length }
+        if self.taut[rod] { weight(&self.frame.rods[rod]) } else { 0.0 }
     }
 
     /// The forces of the joints that inextensible members bear at a shape, taut or not.
@@ -122,21 +172,33 @@ impl Share {
     pub(super) fn shared(&mut self, force: &[f64]) -> Shared {
         // What is slack gives its part to the others.
         let borne = self.unshared(force);
-        self.bearing(&borne)
+        self.bearing(&borne, None)
     }
 
-    /// Forces of the joints, by their coordinates, borne by the springs.
-    pub(super) fn bearing(&mut self, borne: &[f64]) -> Shared {
+    /// Forces of the joints, by their coordinates, borne by the springs, by steps from other shares of them.
+    pub(super) fn bearing(&mut self, borne: &[f64], from: Option<&Shared>) -> Shared {
         let enough = ROUNDING * largest(borne);
-        let mut stretch = vec![0.0; self.taut.len()];
-        let mut floor = stretch.clone();
-        for _ in 0..SOLUTIONS {
+        let still = vec![0.0; self.taut.len()];
+        let (mut floor, mut stretch, mut work) = match from {
+            None => (still.clone(), still, 0.0),
+            Some(from) => (from.force.clone(), from.stretch.clone(), from.work),
+        };
+        for (e, rod) in self.frame.rods.iter().enumerate() {
+            if !rod.ground || !self.taut[e] {
+                floor[e] = 0.0;
+            }
+        }
+        let mut before = f64::INFINITY;
+        for solutions in 0..MOST_SOLUTIONS {
             let there = self.joint_forces(|e| floor[e] + self.weight(e) * stretch[e]);
             let mut rest: Vec<f64> = borne.iter().zip(there).map(|(r, t)| r - t).collect();
-            if largest(&rest) <= enough {
+            let left = largest(&rest);
+            if left <= enough || solutions >= SOLUTIONS && left > SLOW * before {
                 break;
             }
+            before = left;
             self.factor.solve(&mut rest);
+            work += borne.iter().zip(&rest).map(|(force, by)| force * by).sum::<f64>();
             // Not of the sum of the motions, whose rounding is that of the largest of them.
             for (stretch, more) in stretch.iter_mut().zip(self.stretch(&rest)) {
                 *stretch += more;
@@ -148,7 +210,7 @@ impl Share {
         let bears = |(e, stretch): (usize, &f64)| {
             if self.frame.rods[e].ground { floor[e] } else { self.weight(e) * stretch }
         };
-        Shared { force: stretch.iter().enumerate().map(bears).collect(), stretch }
+        Shared { force: stretch.iter().enumerate().map(bears).collect(), stretch, work }
     }
 
     /// For each member whether it takes part in a self-stress, shown by forces without any order.

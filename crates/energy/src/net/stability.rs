@@ -11,7 +11,7 @@ use model::{Rigidity, Vector};
 use nalgebra::DMatrix;
 
 use crate::net::factor::Factor;
-use crate::net::frame::{Frame, Spot};
+use crate::net::frame::{Frame, Rod, Spot};
 use crate::net::law::Excess;
 use crate::net::limit::{Limit, stressed};
 use crate::net::polish::STIFF_STRAIN;
@@ -117,9 +117,10 @@ fn sparse(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
         return (index, neutral);
     }
     let mut rows = rows(frame, &frame.excesses(&shape.x), &open);
+    let force = frame.largest_force(&shape.force);
     for (mut row, e) in rows.row_iter_mut().zip(&open) {
         let outwards = if frame.rods[*e].kind == Kind::Strut { -1.0 } else { 1.0 };
-        row *= outwards * soft_stiffness(frame, shape, *e).sqrt();
+        row *= outwards * soft_stiffness(&frame.rods[*e], force).sqrt();
     }
     let mut moves = rows.transpose();
     for mut column in moves.column_iter_mut() {
@@ -196,7 +197,7 @@ pub(super) fn below(
         let rod = &frame.rods[e];
         let stiffness = match resists(frame, shape, e) {
             true if exact && rod.elastic() => rod.flexibility.recip(),
-            true => soft_stiffness(frame, shape, e),
+            true => soft_stiffness(rod, force),
             false => 0.0,
         };
         excess[e].block(shape.force[e], stiffness)
@@ -210,10 +211,9 @@ pub(super) fn below(
     factor.negative_pivots().unwrap_or(0)
 }
 
-/// The stiffness of a member with a spring in series that keeps stiff ones near the others.
-fn soft_stiffness(frame: &Frame, shape: &Shape, rod: usize) -> f64 {
-    let rod = &frame.rods[rod];
-    let spring = frame.largest_force(&shape.force) / STIFF_STRAIN / rod.length;
+/// The stiffness of a member with a spring in series that keeps stiff ones near the others, by the largest force.
+fn soft_stiffness(rod: &Rod, largest: f64) -> f64 {
+    let spring = largest / STIFF_STRAIN / rod.length;
     spring / (1.0 + spring * rod.flexibility)
 }
 

@@ -55,27 +55,38 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
             "Agreement: {} (joints {joints_m} m, forces {forces_n} N, energy {energy_j} J)",
             agreement.verdict
         );
+        // What is slack ends a motion where it gets taut.
+        let first = solution.equilibria().first();
+        let is_slack = first.is_some_and(|e| {
+            let members = solution.system().members().iter().zip(&e.axial_n);
+            members.into_iter().any(|(member, n)| member.kind != Kind::Bar && n.abs() <= 0.0)
+        });
+        let far = if is_slack { ", as far as slack members let it" } else { "" };
         let turning = match agreement.turned_parts {
             0 => None,
-            1 => Some(
-                "One part turns freely about a vertical: each turn of it is an equilibrium."
-                    .to_owned(),
-            ),
+            1 => Some(format!(
+                "One part turns freely about a vertical: each turn of it is an equilibrium{far}."
+            )),
             parts => Some(format!(
-                "{parts} parts turn freely about verticals: each turn of them is an equilibrium."
+                "{parts} parts turn freely about verticals: each turn of them is an equilibrium{far}."
             )),
         };
         let names = Printable(&agreement.undetermined.join(", ")).to_string();
         let sliding = match agreement.undetermined.len() {
             0 => None,
-            1 => Some(format!("Not determined by equilibrium: the place of {names}.")),
-            _ => Some(format!("Not determined by equilibrium: the places of {names}.")),
+            1 => Some(format!("Not determined by equilibrium: at least the place of {names}.")),
+            _ => Some(format!("Not determined by equilibrium: at least the places of {names}.")),
         };
-        let level = (agreement.sliding_parts > 0).then(|| {
-            "What stands on level supports alone moves freely there: each place is an equilibrium."
-                .to_owned()
+        let idle = (agreement.free_joints > 0).then(|| {
+            let joints = counted(agreement.free_joints, "joint");
+            format!(
+                "Not determined by equilibrium: the place of {joints} whose members bear no force."
+            )
         });
-        for sentence in turning.into_iter().chain(level).chain(sliding) {
+        let level = (agreement.sliding_parts > 0).then(|| {
+            format!("What stands on level supports alone moves freely there: each place is an equilibrium{far}.")
+        });
+        for sentence in turning.into_iter().chain(level).chain(sliding).chain(idle) {
             text += &wrapped(&sentence, 0);
             text.push('\n');
         }
@@ -245,7 +256,22 @@ fn in_a_line(best: &Evidence, answers: usize) -> String {
         }
     }
     let forces = notes(best).into_iter().filter(|(mark, ..)| *mark == '!');
-    forces.fold(text, |text, (mark, of, what)| text + &line(mark, of, &what))
+    text = forces.fold(text, |text, (mark, of, what)| text + &line(mark, of, &what));
+    if let Some(agreed) = best.ladder.agreed.proof()
+        && agreed.shape_only
+    {
+        let choices = agreed.forces_found.as_ref().and_then(|found| found.choices.as_ref());
+        let differ = choices.map(ToString::to_string);
+        // Of a large system they are known to be some, but not counted.
+        let uncounted = best.self_stresses.is_none().then(|| {
+            "not unique: self-stresses may be added without a change of shape or balance".to_owned()
+        });
+        let said: Vec<String> = uncounted.into_iter().chain(differ).collect();
+        if !said.is_empty() {
+            text += &line('!', "forces", &said.join("; "));
+        }
+    }
+    text
 }
 
 /// A line of the ladder.

@@ -208,10 +208,11 @@ impl Shape<'_> {
         titled(&format!("Forces of the ground on the joints{which}:"), &table)
     }
 
-    /// What counts as zero beside the axial forces.
+    /// What counts as zero beside the axial forces and those of the ground.
     fn rounded(&self) -> Numbers {
-        let forces: Vec<f64> = self.axial.iter().map(AxialForce::largest_n).collect();
-        Numbers::of(&forces)
+        let axial = self.axial.iter().map(AxialForce::largest_n);
+        let ground = self.reactions_n.iter().flat_map(|(_, force_n)| *force_n);
+        Numbers::of(&axial.chain(ground).collect::<Vec<_>>())
     }
 
     /// Sag, lowest joint, largest forces and where.

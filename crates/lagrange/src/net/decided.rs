@@ -173,6 +173,15 @@ impl Decided {
         rows.map(|(((_, w), part), t)| if *w > 0.0 { w * part } else { *t }).collect()
     }
 
+    /// The axial forces with the least complementary energy that bear loads of the joints.
+    pub fn bearing(&mut self, framework: &Framework, loads: &[Vector3<f64>]) -> Vec<f64> {
+        let mut moves = self.stiffness.gather(framework, loads);
+        self.stiffness.solve(&mut moves);
+        let moves = self.stiffness.scatter(framework, &moves);
+        let rows = self.rows.iter().enumerate();
+        rows.map(|(k, (_, weight))| weight * self.stretch(framework, k, &moves)).collect()
+    }
+
     /// The members that take part in a self-stress: the part of lengths without pattern that is in
     /// no shape shows them.
     pub fn members(&mut self, framework: &Framework) -> Vec<usize> {

@@ -3,6 +3,7 @@ use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, 
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::admissible::shortest;
+use super::decided::{Decided, SHARP};
 use super::framework::{Framework, end_loads_n};
 use super::ranges::ranges;
 use super::residual::Residual;
@@ -230,11 +231,25 @@ fn choose(
         return Forces::Found;
     };
     state.axial = least;
-    if Residual::new(framework, state).balance.0 > tolerance {
-        state.axial = found;
-        return Forces::Found;
+    let is_balanced = |state: &State| Residual::new(framework, state).balance.0 <= tolerance;
+    if is_balanced(state) || balance(framework, state) && is_balanced(state) {
+        return Forces::LeastNorm;
     }
-    Forces::LeastNorm
+    state.axial = found;
+    Forces::Found
+}
+
+/// What the sum of many self-stresses leaves out of balance, borne by the members that bear a force; whether it can be.
+fn balance(framework: &Framework, state: &mut State) -> bool {
+    let taut = state.axial.iter().map(|force| *force != 0.0).collect();
+    let bearing = State { taut, ..state.clone() };
+    let directions = state.directions(framework);
+    let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+    let left = framework.unbalance(pulls);
+    let Ok(mut decided) = Decided::new(framework, &bearing, SHARP) else { return false };
+    let more = decided.bearing(framework, &left);
+    state.axial.iter_mut().zip(more).for_each(|(force, more)| *force += more);
+    true
 }
 
 /// The least forces with the right signs of taut members and of the pushes of the floor; `None`

@@ -83,7 +83,13 @@ impl Deref for Member {
 
 impl Shares for Member {
     fn share(&mut self, before: &Self) {
-        share(&mut self.properties, &before.properties);
+        let made_of = |member: &Self| {
+            let ByLength { growth, mass, force_n_per_m } = member.by_length;
+            (growth.to_bits(), mass, force_n_per_m.map(f64::to_bits))
+        };
+        if made_of(self) == made_of(before) {
+            share(&mut self.properties, &before.properties);
+        }
     }
 }
 

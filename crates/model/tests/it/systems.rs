@@ -256,3 +256,14 @@ fn floors_above_a_support_and_heights_that_are_none_are_refused() {
         bars = [{ length_m = 1, mass_kg = 1, count = 4 }]\n";
     check(chain, "f:1:11: floor_m: joint \"0\" is held at the height 0 m, below the floor at 1 m");
 }
+
+/// Beside a bar of the same mass by another key: with another length it would have another mass.
+#[test]
+fn a_mass_a_metre_is_one_beside_a_bar_as_heavy() {
+    let strands = "from = \"A\"\nto = \"P\"\nlength_m = 0.5\nmass_kg = 1\ncount = 3";
+    let by_metre = "from = \"A\"\nto = \"P\"\nlength_m = 1\nmass_kg_per_m = 0.5";
+    let lamp = system(&changed(strands, by_metre).replace("[2, 0, 0]", "[1, 0, 0]"));
+    assert_eq!(lamp.members()[0].body, lamp.members()[1].body);
+    let given: Vec<bool> = lamp.members().iter().map(|member| member.by_length.mass).collect();
+    assert_eq!(given, [true, false]);
+}

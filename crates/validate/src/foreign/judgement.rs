@@ -8,7 +8,6 @@ use serde::Serialize;
 
 use super::best_forces::{BestForces, best_forces};
 use super::bounds::Bounds;
-use super::complete::{complete, largest_n};
 use super::digits::printed;
 use super::floor::{above_floor, laid};
 use super::given::ForeignAnswer;
@@ -16,6 +15,7 @@ use super::nearest::{Nearest, NearestEquilibrium, nearest};
 use super::violation::{
     Measured, Violation, balance_found, balance_given, geometry_and_laws, tensions, whole,
 };
+use crate::systems::placed::{largest_n, placed};
 use crate::systems::{ABSURD, Scale, SystemStatics, certify, judge};
 use numerics::vector::norm;
 
@@ -242,7 +242,7 @@ fn trial(system: &System, answer: &ForeignAnswer, tolerance: f64, watch: &dyn Fn
         (ForcesJudged::Found(best), axial_n)
     };
     watch("the laws, member by member");
-    let completed = complete(&laid, &answer.source, &answer.joints_m, &axial_n);
+    let completed = placed(&laid, &answer.source, &answer.joints_m, &axial_n);
     let given = answer.reactions_n.iter().flatten();
     let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
     let bounds = bounds.with_largest_force(largest);
@@ -337,7 +337,8 @@ fn finding(
     if joints_m.is_nan() || joints_m > allowed_m {
         return Finding::Far { joints_m, allowed_m };
     }
-    let (forces_n, allowed_n) = (found.forces_n, allowed_n(system, found.member, bounds));
+    // What places allow an elastic force is for the laws: the equilibrium's own has no part in it.
+    let (forces_n, allowed_n) = (found.forces_n, bounds.force_n);
     if answer.axial_n.is_some() && found.forces_unique == Some(true) && forces_n > allowed_n {
         return Finding::OtherForces { forces_n, allowed_n };
     }
@@ -362,14 +363,6 @@ fn loads_hidden(
     let hidden = allowed_n >= loads_n || force_n.abs() >= ABSURD * loads_n;
     let finding = Finding::LoadsHidden { member: k + 1, force_n, loads_n, allowed_n };
     (loads_n > 0.0 && hidden).then_some(finding)
-}
-
-/// How far the force of a member (from 1) may be off.
-fn allowed_n(system: &System, member: usize, bounds: &Bounds) -> f64 {
-    let member = member.checked_sub(1).and_then(|k| system.members().get(k));
-    let elastic =
-        member.and_then(|m| Some(m.stiffness_n? / m.body.length_m() * bounds.distance_m(m)));
-    bounds.force_n + elastic.unwrap_or_default()
 }
 
 /// The rungs of an answer that is confirmed are those of the equilibrium that it stands for.

@@ -52,7 +52,6 @@
 
 pub mod best_forces;
 pub mod bounds;
-mod complete;
 mod digits;
 mod floor;
 mod given;

@@ -6,10 +6,10 @@ use numerics::vector::times;
 
 use super::best_forces::best_forces;
 use super::bounds::{Bounds, TOLERANCE};
-use super::complete::complete;
 use super::least_squares::{Column, Problem};
 use super::proved::proved_error;
 use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
+use crate::systems::placed::placed;
 
 /// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
 /// 5/4 N.
@@ -228,7 +228,7 @@ fn the_energy_of_a_spring_is_that_of_its_force() {
     let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
     for (z, axial_n, energy_j) in [(-1.5, 3.0, 0.75 - 4.5), (-0.5, 0.0, -1.5)] {
         let at_m = [[0.0; 3], [0.0, 0.0, z]];
-        let found = complete(&system, &SolverName::new("a table"), &at_m, &[axial_n]);
+        let found = placed(&system, &SolverName::new("a table"), &at_m, &[axial_n]);
         assert!((found.energy_j - energy_j).abs() < 1e-14, "{}", found.energy_j);
         assert!((found.reactions_n[0][2] - axial_n).abs() < 1e-14);
     }
@@ -378,8 +378,8 @@ fn forces_are_searched_within_the_reach_of_the_places() {
 /// there, and what the ground is left with.
 #[test]
 fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
-    use super::complete::largest_n;
     use crate::systems::judge;
+    use crate::systems::placed::largest_n;
     let mut bar = Member::bar(0, 1, Bar::new(7.0, 8.0, 1.75, [0.0; 3]).unwrap());
     bar.loads.push(PointLoad { at_m: 4.375, force_n: [5.0, -6.0, 4.0], is_spread: false });
     let along = [0.6, 0.0, 0.8];
@@ -390,7 +390,7 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
     ];
     let system = System::new("guided", 10.0, joints, vec![bar]).unwrap();
     let places = [[1.0, -2.0, 5.0], [3.0, 1.0, 11.0]];
-    let found = complete(&system, &SolverName::new("a table"), &places, &[14.0]);
+    let found = placed(&system, &SolverName::new("a table"), &places, &[14.0]);
     // 14 N are (4, 6, 12) N; A has (15/8, -9/4, -117/2) N of loads, B (41/8, -19/4, -87/2) N.
     assert_eq!(found.start_forces_n, [[-4.0 - 1.875, -6.0 + 2.25, -12.0 + 58.5]]);
     assert_eq!(found.end_forces_n, [[4.0 - 3.125, 6.0 + 3.75, 12.0 - (-20.0 + 2.5)]]);
@@ -408,7 +408,7 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
     let largest = (5.875_f64.powi(2) + 3.75_f64.powi(2) + 46.5_f64.powi(2)).sqrt();
     let load = (1.875_f64.powi(2) + 2.25_f64.powi(2) + 58.5_f64.powi(2)).sqrt();
     assert!((largest_n(&system, &found) - load.max(largest)).abs() < 1e-13);
-    let pulled = complete(&system, &SolverName::new("a table"), &places, &[-1000.0]);
+    let pulled = placed(&system, &SolverName::new("a table"), &places, &[-1000.0]);
     assert!((largest_n(&system, &pulled) - 1000.0).abs() < 60.0);
 }
 

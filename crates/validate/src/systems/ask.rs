@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::{is_at, look_up, lowest_listed, wanted_census};
-use super::near::{FAR, LOWER, Near, is_below, lower_j, next_to};
+use super::near::{FAR, LOWER, Near, as_drawn, is_below, lower_j, next_to};
 use super::statics::judge;
 use super::verified::verify;
 use crate::question::{Equations, Question, Solvers, UseCensus};
@@ -187,7 +187,13 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         }
         _ => vec![],
     };
-    let mut near = drawing_m.as_ref().and_then(|at| next_to(system, at, &mut answers));
+    for answer in answers.iter_mut().flatten() {
+        if let Some(at) = &drawing_m {
+            as_drawn(system, at, answer);
+        }
+    }
+    let (mut near, between) =
+        drawing_m.as_ref().and_then(|at| next_to(system, at, &mut answers)).unzip();
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
     for answer in answers {
@@ -256,6 +262,9 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     {
         watch("the lowest equilibrium");
         near.lower_j = lower_j(system, question, first);
+    }
+    if let (Some(near), Some(true)) = (&mut near, between) {
+        near.is_neighbour = false;
     }
     SystemAnswer { equilibria, failures, agreement, near, asked_again }
 }

@@ -8,7 +8,7 @@ use model::{
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n};
-use super::family::Family;
+use super::family::{Family, has_more_lengths};
 use super::forces::{ABSURD, Pair, large};
 use super::free::free_joints;
 use super::proved::proved;
@@ -350,12 +350,14 @@ impl<'a> Judgement<'a> {
             self.forces_found.large.get_or_insert(found);
         }
         let least_n = self.no_force_n();
-        let complete = answer.axial_n.len() == self.system.members().len();
-        self.shape_only |= complete
-            && self
-                .family
-                .as_ref()
-                .is_some_and(|family| family.is_open(self.system, &answer.axial_n, least_n));
+        let complete = [answer.axial_n.len(), answer.joints_m.len()]
+            == [self.system.members().len(), self.system.joints().len()];
+        let counted = self.family.as_ref().filter(|family| family.dimension().is_some());
+        let is_open = || match counted {
+            Some(family) => family.is_open(self.system, &answer.axial_n, least_n),
+            None => has_more_lengths(self.system, answer),
+        };
+        self.shape_only |= complete && is_open();
     }
 
     /// Two answers: their differences, and their second-order behaviour.

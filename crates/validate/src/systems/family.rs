@@ -339,6 +339,17 @@ fn roots(system: &System) -> Vec<f64> {
     system.members().iter().map(|member| member.body.length_m().sqrt()).collect()
 }
 
+/// Whether more inextensible members have their lengths than joints have motions, by two at least: some of the forces are open
+/// then, as in a shape whose self-stresses are counted.
+pub(super) fn has_more_lengths(system: &System, answer: &SystemEquilibrium) -> bool {
+    let motions = motions_above_floor(system, answer).iter().map(Vec::len).sum::<usize>();
+    let members = system.members().iter().zip(&answer.axial_n);
+    let kept = members.filter(|(member, axial_n)| {
+        misfit(member, length_m(member, &answer.joints_m), axial_n.abs() > 0.0).is_some()
+    });
+    kept.count() >= motions + 2
+}
+
 /// Distance less length of an inextensible member that has its length: a cable or strut without
 /// force to rounding alone, for else it is slack.
 fn misfit(member: &Member, distance_m: f64, bears: bool) -> Option<f64> {

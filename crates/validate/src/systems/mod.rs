@@ -20,6 +20,7 @@ pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
 pub(crate) mod near;
+pub(crate) mod placed;
 mod prestress;
 mod proved;
 mod scale;

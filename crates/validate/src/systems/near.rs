@@ -3,14 +3,17 @@
 use std::borrow::Cow;
 
 use matrices::sparse::{Entries, Ldlt, Pivots, minimum_degree};
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{SolverName, Vector, sum};
 use serde::Serialize;
 
 use super::ask::SystemFailure;
+use super::placed::placed;
 use super::spans::length_m;
+use super::statics::judge;
 use super::turn::turned_onto;
 use crate::question::{Question, Solvers};
+use crate::tolerances::Tolerances;
 use numerics::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was
@@ -39,6 +42,10 @@ const SWUNG: f64 = 0.75;
 
 /// A member turns at once where it does so by this part of its whole turn between two stations.
 const AT_ONCE: f64 = 0.25;
+
+/// Of two stable equilibria that the energy falls to from a drawing, the nearer one is its neighbour if the other is so many times
+/// as far.
+const TWICE: f64 = 2.0;
 
 /// A barrier below this part of the change of the energy along the way is rounding.
 const BARRIER: f64 = 1e-6;
@@ -117,6 +124,43 @@ impl Near {
     }
 }
 
+/// An answer of which equilibrium leaves places open, at those of the drawing, where the same forces are in balance there; or
+/// else with what turns freely turned towards it.
+pub(super) fn as_drawn(system: &System, drawing_m: &[Vector], answer: &mut SystemEquilibrium) {
+    let moves = drawing_m.iter().zip(&answer.joints_m).map(|(a, b)| norm(minus(*a, *b)));
+    let Tolerances { joints, statics, .. } = Tolerances::project();
+    if moves.fold(0.0, worse) <= joints * system.total_length_m() {
+        return;
+    }
+    let drawn = SystemEquilibrium { joints_m: drawing_m.to_vec(), ..answer.clone() };
+    let off_j = (drawn_j(system, drawing_m) - answer.energy_j).abs();
+    if off_j <= LOWER * system.total_load_n() * system.total_length_m() {
+        let there = placed(system, &answer.solver, drawing_m, &answer.axial_n);
+        // What the floor bears stays what it is.
+        let ground = system.joints().iter().zip(there.reactions_n).zip(&answer.reactions_n);
+        let reactions_n = ground.map(|((joint, there), here)| match joint.support {
+            Support::Free => *here,
+            _ => there,
+        });
+        let there = SystemEquilibrium {
+            joints_m: there.joints_m,
+            start_forces_n: there.start_forces_n,
+            end_forces_n: there.end_forces_n,
+            reactions_n: reactions_n.collect(),
+            ..answer.clone()
+        };
+        if judge(system, &there).passes(statics) {
+            *answer = there;
+            return;
+        }
+    }
+    if answer.stability.neutral > 0 {
+        let nothing = vec![false; drawing_m.len()];
+        let turned = turned_onto(system, &drawn, answer, &nothing).0.into_owned();
+        *answer = turned;
+    }
+}
+
 /// The most by which the ends of a span move against each other between two shapes, over the length in the first one.
 fn turned(system: &System, from_m: &[Vector], to_m: &[Vector]) -> f64 {
     let spans = system.members().iter().flat_map(Member::spans);
@@ -129,27 +173,33 @@ fn turned(system: &System, from_m: &[Vector], to_m: &[Vector]) -> f64 {
 
 /// How the answers lie to the drawing: that of the first. What `energy` found far from the drawing is no answer to
 /// this question, unless `lagrange` has left the drawing, too, and for the same place, or what it found there does
-/// not stay where it is.
+/// not stay where it is. And whether the drawing lies between the two: both are stable, the energy falls to both, and neither is
+/// much nearer, as of soft bars that are drawn too long.
 pub(super) fn next_to(
     system: &System,
     drawing_m: &[Vector],
     answers: &mut Vec<Result<SystemEquilibrium, SystemFailure>>,
-) -> Option<Near> {
+) -> Option<(Near, bool)> {
     let near = |answer: &SystemEquilibrium| Near::of(system, drawing_m, answer);
     let nearest = answers.iter().flatten().next()?;
     let (places_m, stays) = (nearest.joints_m.clone(), nearest.stability.index_in_space == 0);
     let first = near(nearest);
+    let mut between = false;
     for answer in answers {
         let Ok(found) = answer else { continue };
         let there = near(found);
-        let elsewhere = || first.is_neighbour || Near::of(system, &places_m, found).moved > FAR;
+        let differs = || Near::of(system, &places_m, found).moved > FAR;
+        let elsewhere = || first.is_neighbour || differs();
         let keeps = !stays && there.moved <= FAR;
+        let both_stay = stays && found.stability.index_in_space == 0;
+        let as_near = there.barrier_j.is_none() && there.moved <= TWICE * first.moved;
+        between |= both_stay && as_near && differs();
         if found.solver == SolverName::ENERGY && !there.is_neighbour && !keeps && elsewhere() {
             let Near { joint, moved_m, .. } = there;
             *answer = Err(energy::Error::NoMinimumNear { joint, moved_m }.into());
         }
     }
-    Some(first)
+    Some((first, between))
 }
 
 /// The energy of a lower equilibrium than this, J, if the solvers that are asked find one.
@@ -173,7 +223,14 @@ pub(super) fn lower_j(
 
 /// Whether an answer lies lower than the drawing: a structure may have come down to it.
 pub(super) fn is_below(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> bool {
-    answer.energy_j < potential_j(system, system.members(), drawing_m)
+    answer.energy_j < drawn_j(system, drawing_m)
+}
+
+/// The energy of a drawing, J, from where that of answers counts.
+fn drawn_j(system: &System, drawing_m: &[Vector]) -> f64 {
+    let origin_m = system.reference_m();
+    let places_m: Vec<Vector> = drawing_m.iter().map(|at| minus(*at, origin_m)).collect();
+    potential_j(system, system.members(), &places_m)
 }
 
 /// How far the energy rises on the way between two shapes, J, if it rises and falls again: on the straight one, and, where it

@@ -574,3 +574,70 @@ fn a_dome_with_minima_side_by_side_stays_next_to_its_drawing() {
         close(&[found.energy_j], &[784.409], 1e-3);
     }
 }
+
+/// What equilibrium leaves open is as it is drawn: a frame on rails whose leash is slack, 3.16 of 3.5 m, and a bracket that turns
+/// about its anchors 1.5² - 1² = 0.5² + 1² beside their vertical, likewise. Drawn too far out, the bracket comes to rest in the
+/// plane of the drawing.
+#[test]
+fn what_moves_freely_stays_where_it_is_drawn() {
+    let rails = r#"
+plane = "xz"
+bars = [
+  { from = "L", to = "T", mass_kg = 5 }, { from = "R", to = "T", mass_kg = 5 },
+  { from = "L", to = "R", mass_kg = 1 },
+  { from = "T", to = "W", kind = "cable", length_m = 3.5, mass_kg = 0 },
+]
+[joints]
+L = { at_m = [-0.5, 0, 0], free = "x" }
+R = { at_m = [0.5, 0, 0], free = "x" }
+T = { near_m = [0, 0, 2], mass_kg = 80 }
+W = { at_m = [3, 0, 1] }
+"#;
+    let bracket = |p: &str, leash_m: f64| {
+        format!(
+            r#"
+bars = [
+  {{ from = "A", to = "P", length_m = 1.5, mass_kg = 1 }}, {{ from = "B", to = "P", length_m = 1.5, mass_kg = 1 }},
+  {{ from = "P", to = "W", kind = "cable", length_m = {leash_m}, mass_kg = 0 }},
+  {{ from = "P", to = "V", kind = "cable", length_m = 3.1, mass_kg = 0 }},
+]
+[joints]
+A = {{ at_m = [0, 0, 0] }}
+B = {{ at_m = [0, 0, -2] }}
+P = {{ near_m = {p}, mass_kg = 5 }}
+W = {{ at_m = [-2.1, -2.4, -2] }}
+V = {{ at_m = [-0.6, 1.2, 0] }}
+"#
+        )
+    };
+    for (text, joint, wanted) in [
+        (rails.to_owned(), 2, [0.0, 0.0, 2.0]),
+        (bracket("[0.5, 1.0, -1]", 4.4), 2, [0.5, 1.0, -1.0]),
+        (bracket("[0.55, 1.1, -1]", 4.6), 2, [0.5, 1.0, -1.0]),
+    ] {
+        for e in neighbour(&written(&text)).equilibria {
+            close(&e.joints_m[joint], &wanted, 1e-9);
+        }
+    }
+}
+
+/// Two soft bars drawn far too long, in a nearly level line: the energy falls to the shape above, 0.42 m away, and to that below,
+/// 0.46 m, where a descent ends.
+#[test]
+fn a_drawing_between_two_shapes_has_no_neighbour() {
+    let gable = written(
+        r#"
+plane = "xz"
+bars = [
+  { from = "A", to = "P", length_m = 1.0084, stiffness_n = 4596.029, mass_kg = 0 },
+  { from = "B", to = "P", length_m = 1.1085, stiffness_n = 4596.029, mass_kg = 0 },
+]
+[joints]
+A = { at_m = [0, 0, 0] }
+B = { at_m = [2, 0, 0] }
+P = { near_m = [1.2203, 0, 0.0162], mass_kg = 0.949 }
+"#,
+    );
+    let answer = ask(&gable, Solvers::Both, &|_| {});
+    assert!(answer.agrees() && !answer.is_decided(), "{:?}", answer.near);
+}

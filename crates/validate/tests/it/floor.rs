@@ -515,3 +515,29 @@ fn drawn_masts_stand_on_a_floor_between_cables_that_just_reach() {
     }
     assert!(standing > 50 && leaning < 5, "{standing} stand, {leaning} do not");
 }
+
+/// A step ladder that nothing but the floor holds, 1 m wide and 2 m high under 800 N: the floor bears half of it under each foot,
+/// and its cable 400 N * 0.5 m/2 m.
+#[test]
+fn a_step_ladder_stands_on_the_floor_alone() {
+    let level = Support::Plane { at_m: [0.0; 3], normal: [0.0, 1.0, 0.0] };
+    let joint = |name, at_m| Joint::free(name).held_by(level).near(at_m);
+    let joints = vec![
+        joint("L", [-0.5, 0.0, 0.0]),
+        joint("R", [0.5, 0.0, 0.0]),
+        joint("T", [0.0, 0.0, 2.0]).with_mass(80.0),
+    ];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let leg = 4.25_f64.sqrt();
+    let members = vec![
+        Member::bar(0, 2, bar(leg)),
+        Member::bar(1, 2, bar(leg)),
+        Member::cable(0, 1, bar(1.0)),
+    ];
+    let system = System::new("ladder", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
+    for e in agreed(&system) {
+        close(e.reactions_n[0][2], 400.0);
+        close(e.reactions_n[1][2], 400.0);
+        close(e.axial_n[2], 100.0);
+    }
+}

@@ -116,7 +116,7 @@ impl Display for Choices {
         let [first, second] = forces_n.map(|force_n| Number::significant(force_n, 6));
         write!(
             f,
-            "they name different forces of the family: in member {member} {first} N by {} ({}), {second} N by {} ({})",
+            "the solvers name different forces of the family: in member {member} {first} N by {} ({}), {second} N by {} ({})",
             between[0], choices[0], between[1], choices[1]
         )
     }

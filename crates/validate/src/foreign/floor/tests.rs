@@ -3,10 +3,10 @@
 use model::system::{Member, Support};
 use model::{Bar, STANDARD_GRAVITY_M_S2, SolverName};
 
-use super::super::complete::complete;
 use super::super::tests::lamp;
 use super::super::{Finding, ForeignAnswer, Judgement, judge_foreign};
 use super::*;
+use crate::systems::placed::placed;
 
 const KNOWN: Bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.5 };
 
@@ -40,7 +40,7 @@ fn a_floor_that_is_passed_or_pulls_is_told() {
         let floored = lamp().with_floor(-3.0).unwrap();
         let joints_m = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, z]];
         let laid = laid(&floored, &joints_m, &KNOWN);
-        let answer = complete(&laid, &SolverName::new("a table"), &joints_m, &[axial_n; 2]);
+        let answer = placed(&laid, &SolverName::new("a table"), &joints_m, &[axial_n; 2]);
         let mut found = Measured::default();
         above_floor(&floored, &answer, &KNOWN, &mut found);
         found.violations

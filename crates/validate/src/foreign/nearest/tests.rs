@@ -1,8 +1,8 @@
 //! How far an answer is from an equilibrium, by hand.
 
-use super::super::complete::complete;
 use super::super::tests::lamp;
 use super::*;
+use crate::systems::placed::placed;
 
 #[test]
 fn the_largest_has_its_number() {
@@ -20,7 +20,7 @@ fn an_answer_is_measured_against_the_equilibrium() {
     let system = lamp();
     let at = |lamp_m: Vector, axial_n: [f64; 2]| {
         let joints_m = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], lamp_m];
-        complete(&system, &SolverName::new("a table"), &joints_m, &axial_n)
+        placed(&system, &SolverName::new("a table"), &joints_m, &axial_n)
     };
     let right = at([0.0, 0.0, -4.0], [1.25; 2]);
     let off = at([2.0, -1.0, -2.0], [1.5, 0.5]);

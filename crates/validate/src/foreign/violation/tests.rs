@@ -89,7 +89,7 @@ fn lamp_with(axial_n: [f64; 2]) -> (System, SystemEquilibrium) {
     let system = super::super::tests::lamp();
     let places = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
     let source = model::SolverName::new("a table");
-    let answer = super::super::complete::complete(&system, &source, &places, &axial_n);
+    let answer = crate::systems::placed::placed(&system, &source, &places, &axial_n);
     (system, answer)
 }
 

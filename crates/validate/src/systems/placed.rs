@@ -3,13 +3,13 @@
 use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, InSpace, SolverName, Vector};
 
-use crate::systems::near::potential_j;
-use crate::systems::spans::unit;
+use super::near::potential_j;
+use super::spans::unit;
 use numerics::vector::{minus, norm, plus, times};
 
 /// Positions and axial forces with end forces, reactions and energy by the lever rule and the
 /// members' laws. Its second-order behaviour is nobody's finding and must not be read.
-pub(super) fn complete(
+pub(crate) fn placed(
     system: &System,
     source: &SolverName,
     joints_m: &[Vector],
@@ -53,7 +53,7 @@ pub(super) fn complete(
 }
 
 /// The largest force of an answer: axial, of the ground, or load of a joint, N.
-pub(super) fn largest_n(system: &System, answer: &SystemEquilibrium) -> f64 {
+pub(crate) fn largest_n(system: &System, answer: &SystemEquilibrium) -> f64 {
     let forces = answer.axial_n.iter().map(|force| force.abs());
     let vectors = system.joint_loads_n().into_iter().chain(answer.reactions_n.iter().copied());
     forces.chain(vectors.map(norm)).fold(0.0, f64::max)
