@@ -164,9 +164,8 @@ fn unchecked(names: BTreeSet<Named>, checked: impl Fn(&str) -> bool) -> Vec<Stri
 
 #[test]
 fn no_type_has_a_field_that_is_not_listed() {
-    let sections = table::sections();
-    let paths = sections.values().flat_map(std::collections::BTreeMap::keys);
-    let listed: BTreeSet<&str> = paths.flat_map(|path| path.split(['.', '[', ']'])).collect();
+    let lines = table::blocks().iter().flat_map(|block| &block.lines);
+    let listed: BTreeSet<&str> = lines.flat_map(|[path, ..]| path.split(['.', '[', ']'])).collect();
     let names = names();
     assert!(names.fields.len() > 500, "{}", names.fields.len());
     let left = unchecked(names.fields, |name| listed.contains(name));
@@ -176,10 +175,7 @@ fn no_type_has_a_field_that_is_not_listed() {
 /// A kind, a reason or a law that can be named is asserted by name.
 #[test]
 fn no_type_has_a_variant_that_no_test_names() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/keys");
-    let mut files = vec![];
-    sources(&folder, &mut files);
-    let tests: String = files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    let tests = table::read("rs") + &table::read("txt");
     let names = names();
     assert!(names.variants.len() > 100, "{}", names.variants.len());
     let asserted =

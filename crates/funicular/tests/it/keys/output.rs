@@ -18,35 +18,30 @@ const BY_NAME: [&str; 3] = ["reactions_n", "joints_m", "iterations"];
 
 /// An output by the paths of its values: `equilibria[].axial_n[]`, arrays without their places.
 pub struct Output {
-    kind: &'static str,
-    test: &'static str,
+    kind: String,
+    test: String,
     values: BTreeMap<String, Vec<Value>>,
     asserted: BTreeSet<String>,
 }
 
 impl Output {
     /// Of text in JSON, as the named test looks at it; without a name it may look at a part.
-    pub fn json(kind: &'static str, test: &'static str, text: &str) -> Self {
+    pub fn json(kind: &str, test: &str, text: &str) -> Self {
         Self::with(kind, test, [serde_json::from_str(text).unwrap()])
     }
 
     /// Of what a command says as JSON in a folder where all is well.
-    pub fn told(test: &'static str, folder: impl AsRef<Path>, command: &'static str) -> Self {
+    pub fn told(test: &str, folder: impl AsRef<Path>, command: &str) -> Self {
         Self::ended(0, test, folder, command)
     }
 
     /// The same of one system, which stands in `system.toml`.
-    pub fn alone(test: &'static str, text: impl AsRef<[u8]>, command: &'static str) -> Self {
+    pub fn alone(test: &str, text: impl AsRef<[u8]>, command: &str) -> Self {
         Self::told(test, holding([("system.toml", text)]), command)
     }
 
     /// What a command says that ends with this code.
-    pub fn ended(
-        code: i32,
-        test: &'static str,
-        folder: impl AsRef<Path>,
-        command: &'static str,
-    ) -> Self {
+    pub fn ended(code: i32, test: &str, folder: impl AsRef<Path>, command: &str) -> Self {
         let words: Vec<_> = command.split(' ').chain(["--json"]).collect();
         let (found, text, said) = run(folder, &words);
         assert_eq!(found, Some(code), "{command}: {text}{said}");
@@ -54,18 +49,18 @@ impl Output {
     }
 
     /// As another kind than the name of its command.
-    pub fn of(mut self, kind: &'static str) -> Self {
-        self.kind = kind;
+    pub fn of(mut self, kind: &str) -> Self {
+        kind.clone_into(&mut self.kind);
         self
     }
 
     /// Of lines of JSON.
-    pub fn lines(kind: &'static str, test: &'static str, text: &str) -> Self {
+    pub fn lines(kind: &str, test: &str, text: &str) -> Self {
         Self::with(kind, test, text.lines().map(|line| serde_json::from_str(line).unwrap()))
     }
 
     /// Of a file of columns.
-    pub fn csv(kind: &'static str, test: &'static str, text: &str) -> Self {
+    pub fn csv(kind: &str, test: &str, text: &str) -> Self {
         let mut lines = text.lines().map(|line| line.split(','));
         let head: Vec<String> = lines.next().unwrap().map(numbered).collect();
         let mut output = Self::with(kind, test, []);
@@ -84,17 +79,14 @@ impl Output {
     }
 
     /// Of a file of columns that was written.
-    pub fn file(kind: &'static str, test: &'static str, path: impl AsRef<Path>) -> Self {
+    pub fn file(kind: &str, test: &str, path: impl AsRef<Path>) -> Self {
         Self::csv(kind, test, &std::fs::read_to_string(path).unwrap())
     }
 
-    fn with(
-        kind: &'static str,
-        test: &'static str,
-        objects: impl IntoIterator<Item = Value>,
-    ) -> Self {
+    fn with(kind: &str, test: &str, objects: impl IntoIterator<Item = Value>) -> Self {
         let mut values = BTreeMap::new();
         objects.into_iter().for_each(|object| collect(&object, String::new(), &mut values));
+        let [kind, test] = [kind, test].map(str::to_owned);
         Self { kind, test, values, asserted: BTreeSet::new() }
     }
 
@@ -200,6 +192,34 @@ impl Output {
         }
     }
 
+    /// Assert a line of the text: how the values at a path are, and what.
+    fn line(&mut self, [path, how, what]: &[String; 3]) {
+        let value = |text: &str| -> Value {
+            serde_json::from_str(text)
+                .unwrap_or_else(|error| panic!("{path} {how} {what}: {error}"))
+        };
+        let number = |text: &str| text.parse().unwrap();
+        match how.as_str() {
+            table::IN_RUST => {}
+            "=" => self.is(path, value(what)),
+            "each" => self.each(path, value(what)),
+            "near" => {
+                let (close, what) = what.split_once(' ').unwrap();
+                self.near(path, number(close), value(what));
+            }
+            "in" => {
+                let (low, high) = what.split_once("..").unwrap();
+                self.within(path, number(low)..=number(high));
+            }
+            "encloses" => self.encloses(path, value(what)),
+            "says" => {
+                let words: Vec<String> = serde_json::from_value(value(what)).unwrap();
+                self.says(path, &words.iter().map(String::as_str).collect::<Vec<_>>());
+            }
+            _ => panic!("{path} {how} {what}"),
+        }
+    }
+
     /// The numbers at a path, which the test asserts itself.
     pub fn numbers(&mut self, path: &str) -> Vec<f64> {
         self.found(path).iter().map(|value| value.as_f64().unwrap()).collect()
@@ -210,36 +230,34 @@ impl Output {
         self.found(path)
     }
 
-    /// The paths that the table has not.
+    /// The paths that no block has.
     pub fn unlisted(&self) -> Vec<String> {
-        let table = table::of(self.kind);
-        self.values.keys().filter(|path| !table.contains_key(*path)).cloned().collect()
+        let listed = table::of(&self.kind);
+        self.values.keys().filter(|path| !listed.contains(path.as_str())).cloned().collect()
     }
 }
 
 impl Drop for Output {
-    /// Compare what the named test asserted with the table, and what there is besides.
+    /// Assert what is written for the named test, that it asserts the rest, and that there is nothing besides.
     fn drop(&mut self) {
         if self.test.is_empty() || std::thread::panicking() {
             return;
         }
-        let table = table::of(self.kind);
-        let named: BTreeSet<String> = table
-            .iter()
-            .filter(|(_, tests)| tests.iter().any(|test| test == self.test))
-            .map(|(path, _)| path.clone())
-            .collect();
+        let lines = table::blocks().iter().find(|b| b.kind == self.kind && b.test == self.test);
+        let lines = lines.map_or(&[][..], |block| &block.lines);
+        let of_text = lines.iter().filter(|[_, how, _]| how != table::IN_RUST);
+        of_text.for_each(|line| self.line(line));
+        let named: BTreeSet<String> = lines.iter().map(|[path, ..]| path.clone()).collect();
         let list = |paths: Vec<&String>| -> String {
-            let lines: Vec<String> =
-                paths.iter().map(|path| format!("{path} {}\n", self.test)).collect();
-            lines.concat()
+            paths.iter().map(|path| format!("in Rust: {path}\n")).collect()
         };
         let more = list(self.asserted.difference(&named).collect());
         let less = list(named.difference(&self.asserted).collect());
         assert!(
             more.is_empty() && less.is_empty(),
-            "[{}]\nnot in the table:\n{more}in the table, and not asserted:\n{less}",
-            self.kind
+            "[{}] {}\nnot in the text:\n{more}in the text, and not asserted:\n{less}",
+            self.kind,
+            self.test
         );
         let unlisted = self.unlisted();
         assert!(unlisted.is_empty(), "[{}]\nasserted nowhere:\n{}", self.kind, unlisted.join("\n"));
