@@ -7,10 +7,11 @@
 //! - `path = values`, in their order; `path near 1e-9 values`, which are not as close; `path each values`,
 //!   which repeat themselves; `path in 0..1e-12`; `path encloses values`, by intervals; `path says words`;
 //! - `in Rust: paths`, what the test asserts itself;
-//! - `also: name`, the lines of the block `[] name`;
 //! - `name.toml| text`, a line of a file beside `v.toml` and `lamp.toml`.
 //!
-//! A path with `{a,b}` stands for two. A line that is indented goes on with the one before.
+//! Values are JSON; long ones are closed forms, or digits of others, in decimals. A path with `{a,b}` stands
+//! for two, one that begins with a dot, after `; `, is beside the first of its line. A line that is indented
+//! goes on with the one before.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -32,7 +33,6 @@ pub struct Block {
     files: Vec<(String, String)>,
     /// Paths, with how and what they are.
     pub lines: Vec<[String; 3]>,
-    also: Vec<String>,
 }
 
 /// How a path is said to be asserted by a test in Rust.
@@ -67,16 +67,18 @@ impl Block {
             for path in paths.split_whitespace().flat_map(paths_of) {
                 self.lines.push([path, IN_RUST.to_owned(), String::new()]);
             }
-        } else if let Some(name) = line.strip_prefix("also: ") {
-            self.also.push(name.to_owned());
         } else if let Some((name, text)) =
             line.split_once('|').filter(|(name, _)| !name.contains(' '))
         {
             self.files.push((name.to_owned(), text.trim_start().to_owned() + "\n"));
         } else {
-            let [path, how, what] = line.splitn(3, ' ').collect::<Vec<_>>().try_into().expect(line);
-            for path in paths_of(path) {
-                self.lines.push([path, how.to_owned(), what.to_owned()]);
+            let first = line.split([' ', '{']).next().unwrap();
+            let beside = &first[..first.rfind('.').map_or(0, |dot| dot + 1)];
+            for line in line.replace("; .", &format!("\n{beside}")).lines() {
+                let [path, how, what] = line.splitn(3, ' ').collect::<Vec<_>>().try_into().unwrap();
+                for path in paths_of(path) {
+                    self.lines.push([path, how.to_owned(), what.to_owned()]);
+                }
             }
         }
     }
@@ -85,26 +87,25 @@ impl Block {
 static BLOCKS: LazyLock<Vec<Block>> = LazyLock::new(|| {
     let mut blocks = Vec::<Block>::new();
     let text = read("txt").replace("\n  ", " ");
-    for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+    for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with("# ")) {
         let head = line.strip_prefix('[').and_then(|line| line.split_once("] "));
         match head {
             Some((kind, rest)) => blocks.push(Block::begun(kind, rest)),
             None => blocks.last_mut().expect("a block").add(line),
         }
     }
-    let (parts, mut blocks) =
-        blocks.into_iter().partition::<Vec<_>, _>(|block| block.kind.is_empty());
-    let mut seen = BTreeSet::new();
-    for block in &mut blocks {
-        for name in &block.also {
-            let part = parts.iter().find(|part| part.test == *name).expect(name);
-            block.lines.extend(part.lines.iter().cloned());
-            seen.insert(name.clone());
-        }
+    for block in &blocks {
         let paths: BTreeSet<_> = block.lines.iter().map(|[path, ..]| path).collect();
         assert_eq!(paths.len(), block.lines.len(), "{}: a path stands twice", block.test);
+        let same = |other: &&Block| (&other.kind, &other.test) == (&block.kind, &block.test);
+        assert_eq!(
+            blocks.iter().filter(same).count(),
+            1,
+            "[{}] {} stands twice",
+            block.kind,
+            block.test
+        );
     }
-    assert_eq!(seen.len(), parts.len(), "a part that no block has");
     blocks
 });
 
