@@ -9,12 +9,9 @@
 //! no run of these tests brings forth: `fields.rs` reads them from the sources.
 
 mod census;
-mod evidence;
-
 mod fields;
 mod files;
 mod inventory;
-mod judge;
 mod laws;
 mod load_paths;
 mod motion;
@@ -22,13 +19,10 @@ mod names;
 mod open_rungs;
 pub mod output;
 mod page;
-mod reasons;
 mod refusals;
 mod reproduce;
 mod solve;
 mod starts;
-mod strength;
 mod table;
-mod tolerances;
 mod undecided;
 mod vary;

@@ -112,11 +112,6 @@ impl Output {
     }
 
     /// The same of values that repeat themselves.
-    pub fn repeat(&mut self, wanted: Value) {
-        self.repeat_at(str::to_owned, wanted);
-    }
-
-    /// The same by what the paths are called for short.
     pub fn repeat_at(&mut self, at: impl Fn(&str) -> String, wanted: Value) {
         by_path(at, wanted).for_each(|(path, wanted)| self.each(&path, wanted));
     }
@@ -248,14 +243,12 @@ impl Drop for Output {
         let of_text = lines.iter().filter(|[_, how, _]| how != table::IN_RUST);
         of_text.for_each(|line| self.line(line));
         let named: BTreeSet<String> = lines.iter().map(|[path, ..]| path.clone()).collect();
-        let list = |paths: Vec<&String>| -> String {
-            paths.iter().map(|path| format!("in Rust: {path}\n")).collect()
-        };
-        let more = list(self.asserted.difference(&named).collect());
-        let less = list(named.difference(&self.asserted).collect());
+        let list = |paths: Vec<&str>| paths.join("\n");
+        let more = list(self.asserted.difference(&named).map(String::as_str).collect());
+        let less = list(named.difference(&self.asserted).map(String::as_str).collect());
         assert!(
             more.is_empty() && less.is_empty(),
-            "[{}] {}\nnot in the text:\n{more}in the text, and not asserted:\n{less}",
+            "[{}] {}\nnot in the text:\n{more}\nin the text, and not asserted:\n{less}",
             self.kind,
             self.test
         );

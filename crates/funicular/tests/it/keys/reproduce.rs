@@ -3,8 +3,8 @@
 
 use serde_json::{Value, json};
 
-use super::evidence::NOTHING;
 use super::output::Output;
+use super::solve::NOTHING;
 
 /// Angles of E1 from the descending vertical, degrees.
 const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];

@@ -1,13 +1,14 @@
 //! What is expected of every output, as the text files beside the tests say it.
 //!
 //! A block begins with `[kind] test`: what that test in Rust looks at; or with `[kind] name $ command`, which
-//! is run below, and ends with 0 if not `(ends with 3)`; or, after such a one, with `[kind] name < file`,
-//! columns that the command has written. Its lines say what stands at which paths:
+//! is run, and ends with 0 if not `(ends with 3)`; or, after such a one, with `[kind] name < file`, columns
+//! that the command has written. Of `[said]` the text for people is looked at instead of JSON, in one line.
+//! The lines of a block say what stands at which paths:
 //!
 //! - `path = values`, in their order; `path near 1e-9 values`, which are not as close; `path each values`,
 //!   which repeat themselves; `path in 0..1e-12`; `path encloses values`, by intervals; `path says words`;
-//! - `in Rust: paths`, what the test asserts itself;
-//! - `name.toml| text`, a line of a file beside `v.toml` and `lamp.toml`.
+//! - `in Rust: paths`, what a test of the block's name asserts itself;
+//! - `name.toml| text`, a line of a file beside `v.toml` and `lamp.toml`; it stays for the blocks that follow.
 //!
 //! Values are JSON; long ones are closed forms, or digits of others, in decimals. A path with `{a,b}` stands
 //! for two, one that begins with a dot, after `; `, is beside the first of its line. A line that is indented
@@ -17,17 +18,19 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use serde_json::json;
+
 use super::output::Output;
 use super::solve::{LAMP, LEVEL_V};
 
-use crate::run::{holding, names};
+use crate::run::{good, holding, names};
 
 /// What is expected of an output.
 #[derive(Default)]
 pub struct Block {
     pub kind: String,
     pub test: String,
-    /// The command or the file, where no test in Rust has an output.
+    /// The command or the file, if it is not the test in Rust that has the output.
     source: String,
     /// Names with the lines of these files.
     files: Vec<(String, String)>,
@@ -72,7 +75,9 @@ impl Block {
         {
             self.files.push((name.to_owned(), text.trim_start().to_owned() + "\n"));
         } else {
-            let first = line.split([' ', '{']).next().unwrap();
+            let first = line.split(' ').next().unwrap();
+            let at_end = first.rsplit_once('}').is_some_and(|(_, after)| !after.contains('.'));
+            let first = if at_end { first.rsplit_once('{').unwrap().0 } else { first };
             let beside = &first[..first.rfind('.').map_or(0, |dot| dot + 1)];
             for line in line.replace("; .", &format!("\n{beside}")).lines() {
                 let [path, how, what] = line.splitn(3, ' ').collect::<Vec<_>>().try_into().unwrap();
@@ -120,38 +125,70 @@ pub fn of(kind: &str) -> BTreeSet<&'static str> {
     blocks.flat_map(|block| block.lines.iter().map(|[path, ..]| path.as_str())).collect()
 }
 
-/// Commands and their files of columns, in one folder.
-#[test]
-fn commands_say_what_is_written() {
-    let folder = holding([("v.toml", LEVEL_V), ("lamp.toml", LAMP)]);
-    for block in blocks() {
-        let Block { kind, test, source, .. } = block;
-        for (name, _) in &block.files {
+/// A folder with the files that all commands may name.
+fn folder() -> tempfile::TempDir {
+    holding([("v.toml", LEVEL_V), ("lamp.toml", LAMP)])
+}
+
+impl Block {
+    fn is_for_rust(&self) -> bool {
+        self.source.is_empty() || self.lines.iter().any(|[_, how, _]| how == IN_RUST)
+    }
+
+    /// The output in a folder, where the files of the block are written first.
+    fn output(&self, folder: &Path, test: &str) -> Output {
+        for (name, _) in &self.files {
             let lines =
-                block.files.iter().filter(|(of, _)| of == name).map(|(_, line)| line.as_str());
-            std::fs::write(folder.path().join(name), lines.collect::<String>()).unwrap();
+                self.files.iter().filter(|(of, _)| of == name).map(|(_, line)| line.as_str());
+            std::fs::write(folder.join(name), lines.collect::<String>()).unwrap();
         }
-        println!("[{kind}] {test} {source}");
-        if let Some(command) = source.strip_prefix("$ ") {
-            let (command, code) = command.split_once(" (ends with ").unwrap_or((command, "0)"));
-            let code = code.trim_end_matches(')').parse().unwrap();
-            drop(Output::ended(code, test, &folder, command).of(kind));
-        } else if let Some(file) = source.strip_prefix("< ") {
-            drop(Output::file(kind, test, folder.path().join(file)));
-        } else {
-            assert!(source.is_empty() && block.files.is_empty(), "{test}: {source}");
+        if let Some(file) = self.source.strip_prefix("< ") {
+            return Output::file(&self.kind, test, folder.join(file));
         }
+        let command = self.source.strip_prefix("$ ").expect(&self.test);
+        if self.kind == "said" {
+            let text = good(folder, &command.split(' ').collect::<Vec<_>>());
+            assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+            let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            return Output::json(&self.kind, test, &json!({ "text": words }).to_string());
+        }
+        let (command, code) = command.split_once(" (ends with ").unwrap_or((command, "0)"));
+        let code = code.trim_end_matches(')').parse().unwrap();
+        Output::ended(code, test, folder, command).of(&self.kind)
     }
 }
 
-/// A block without a command has a test in Rust that looks at such an output.
+/// The outputs of all blocks of a test in Rust that have a command or a file.
+pub fn outputs<const N: usize>(test: &str) -> [Output; N] {
+    let folder = folder();
+    let blocks = blocks().iter().filter(|block| block.test == test && !block.source.is_empty());
+    let outputs: Vec<Output> = blocks.map(|block| block.output(folder.path(), test)).collect();
+    outputs.try_into().ok().unwrap()
+}
+
+/// Commands and their files of columns, in one folder.
+#[test]
+fn commands_say_what_is_written() {
+    let folder = folder();
+    for block in blocks().iter().filter(|block| !block.source.is_empty()) {
+        println!("[{}] {} {}", block.kind, block.test, block.source);
+        let test = if block.is_for_rust() { "" } else { &block.test };
+        drop(block.output(folder.path(), test));
+    }
+}
+
+/// A block of a test in Rust has a test that looks at such an output.
 #[test]
 fn tests_in_rust_are_there() {
     let tests = read("rs");
-    let blocks = blocks().iter().filter(|block| block.source.is_empty());
-    for Block { kind, test, .. } in blocks {
+    for block in blocks().iter().filter(|block| block.is_for_rust()) {
+        let Block { kind, test, source, .. } = block;
         assert!(tests.contains(&format!("#[test]\nfn {test}()")), "there is no test {test}");
-        let is_said = ["\"", " "].iter().any(|end| tests.contains(&format!("\"{kind}{end}")));
-        assert!(is_said, "no test has {kind}");
+        let is_looked_at = if source.is_empty() {
+            ["\"", " "].iter().any(|end| tests.contains(&format!("\"{kind}{end}")))
+        } else {
+            tests.contains(&format!("table::outputs(\"{test}\")"))
+        };
+        assert!(is_looked_at, "{test} does not look at [{kind}]");
     }
 }
