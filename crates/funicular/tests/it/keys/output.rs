@@ -111,11 +111,6 @@ impl Output {
         by_path(at, wanted).for_each(|(path, wanted)| self.is(&path, wanted));
     }
 
-    /// The same of values that repeat themselves.
-    pub fn repeat_at(&mut self, at: impl Fn(&str) -> String, wanted: Value) {
-        by_path(at, wanted).for_each(|(path, wanted)| self.each(&path, wanted));
-    }
-
     /// What a system is: its name, how many joints and bars, total length, total mass and gravity.
     pub fn system(&mut self, name: &str, counts: [u32; 2], totals: [f64; 3]) {
         self.is("system.name", name);

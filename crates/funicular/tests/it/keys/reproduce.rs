@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::output::Output;
 use super::solve::NOTHING;
+use super::table;
 
 /// Angles of E1 from the descending vertical, degrees.
 const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
@@ -42,13 +43,8 @@ fn slope(theta: f64, alpha: f64) -> f64 {
 
 #[test]
 fn the_paper_judged() {
-    let mut output = Output::told("the_paper_judged", ".", "reproduce");
-    output.is("schema_version", 3);
-    output.says("paper", &["Equilibrium of a System of Bars Using a Multibody Type Method"]);
-    output.is("all_as_expected", true);
-    output.within("seconds", 1e-3..=600.0);
+    let [mut output] = table::outputs("the_paper_judged");
     equilibria(&mut output);
-    ladder(&mut output);
     completeness(&mut output);
     claims(&mut output);
     equations(&mut output);
@@ -61,15 +57,6 @@ fn the_paper_judged() {
 
 fn equilibria(output: &mut Output) {
     let at = |key: &str| format!("equilibria[].{key}");
-    output.is(&at("name"), json!(["E1", "E1'", "E2", "E2'"]));
-    let [a, b, c] = E1;
-    let second = [-c, -b, -a];
-    let all = [E1, E1.map(|x: f64| -x), second, second.map(|x: f64| -x)];
-    output.are_at(at, json!({ "lagrange_deg[]": all, "energy_deg[]": all[..2] }));
-    output.each(&at("energy_deg"), json!(null));
-    let [low, high] = ENERGIES;
-    output.is(&at("lagrange_mgl"), json!([low, low, high, high]));
-    output.is(&at("energy_mgl"), json!([low, low, null, null]));
     // E2 is E1 upside down: what held an end up now is the other one.
     let [p, q, r, s] = UPRIGHT;
     let forces = |sign: f64, up: [f64; 4]| {
@@ -91,67 +78,10 @@ fn equilibria(output: &mut Output) {
     let axial = [axial[0], LEVEL.hypot(-q - 0.5), axial[2]];
     let upside = [-axial[2], -axial[1], -axial[0]];
     output.is(&at("axial_mg[]"), json!([axial, axial, upside, upside]));
-    output.is(&at("stability.in_plane"), json!(["minimum", "minimum", "maximum", "maximum"]));
-    output.is(&at("stability.index_in_plane"), json!([0, 0, 1, 1]));
-    output.is(&at("stability.in_space"), json!(["stable", "stable", "unstable", "unstable"]));
-    output.is(&at("stability.index_in_space"), json!([0, 0, 2, 2]));
-    // Three spins, and the turn about OD.
-    output.each(&at("nullity"), 4);
-}
-
-fn ladder(output: &mut Output) {
-    let at = |key: &str| format!("equilibria[].ladder[].{key}");
-    let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
-    output.each(&at("rung"), rungs.as_slice());
-    let reached =
-        [[true; 5], [true; 5], [true, false, true, true, false], [true, false, true, true, false]];
-    output.is(&at("reached"), json!(reached));
-    output.says(&at("how"), &["after", "energy", "Krawczyk", "8 patterns", "stress matrix"]);
-    let proof = |key: &str| at(&format!("proof.{key}"));
-    output.says(&proof("residual_of"), &["largest of the 6n + 3(n+1) equations"]);
-    output.within(&proof("residual"), 0.0..=NOTHING);
-    output.each(&proof("tolerance"), 3e-13);
-    output.within(&proof("iterations"), 1.0..=60.0);
-    output.each(&proof("solvers[]"), json!(["lagrange", "energy"]));
-    for difference in ["joints_m", "forces_n", "energy_j", "statics"] {
-        output.within(&proof(difference), 0.0..=NOTHING);
-    }
-    output.each(&proof("shape_only"), false);
-    // The whole chain turns about OD; its lengths are independent in every shape but a straight one.
-    output.each(&proof("room.turning_parts"), 1);
-    output.each(&proof("room.free_joints"), 0);
-    output.each(&proof("forces_found.proved"), "rank");
-    output.within(&proof("box_width"), f64::EPSILON / 2.0..=NOTHING);
-    output.within(&proof("distance"), 0.0..=NOTHING);
-    let wanted = json!({
-        "circle": true, "in_plane": 4, "families": 0, "patterns": 8,
-    });
-    output.repeat_at(proof, wanted);
-    output.within(&proof("cells"), 8.0..=1000.0);
-    output.within(&proof("gap"), 0.0..=NOTHING);
-    output.each(&proof("singular"), true);
-    let reason = |key: &str| at(&format!("reason.{key}"));
-    output.each(&reason("kind"), json!(["other_solver_without_answer", "no_certificate"]));
-    output.each(&reason("solver"), "energy");
-    output.each(&reason("because"), json!(["minima_only", "several_compressed"]));
-    output.within(&reason("statics"), 0.0..=NOTHING);
-    output.each(&reason("bars"), 2);
 }
 
 fn completeness(output: &mut Output) {
     let at = |key: &str| format!("completeness.{key}");
-    let wanted = json!({
-        "complete": true, "planar": 4, "circles": 2, "by_index[]": [2, 2], "alternating_sum": 0,
-        "euler": 0,
-    });
-    output.are_at(at, wanted);
-    // cos θ of E1 and E2 are all the roots of the sextic in [-1, 1].
-    output.are_at(at, json!({ "sextic_roots": 2, "patterns": 8 }));
-    output.within(&at("cells"), 8.0..=1000.0);
-    output.within(&at("width"), f64::EPSILON / 2.0..=NOTHING);
-    output.within(&at("lagrange"), 0.0..=NOTHING);
-    output.within(&at("statics"), 0.0..=NOTHING);
-    output.within(&at("seconds"), 1e-7..=60.0);
     // (ix) and (x) as printed, each with half of its last digit.
     for (which, theta, alpha) in [("first", 0.344, 0.67), ("second", 0.001, -1.05)] {
         let found = output.numbers(&at(&format!("{which}.slope_mgl[]")));
@@ -159,15 +89,6 @@ fn completeness(output: &mut Output) {
         assert!(found[0] - 1e-5 <= wanted && wanted <= found[1] + 1e-5, "{found:?} {wanted}");
         assert!(found[0] < found[1] && found[1] - found[0] < 1e-5, "{found:?}");
     }
-    output.near(&at("first.nearest_deg"), 1e-10, E1[1] - 38.583_065);
-    output.near(&at("second.nearest_deg"), 1e-10, (360.0 - 299.942_74) - E1[1] - 0.000_005);
-    let [low, high] = ENERGIES;
-    output.are(json!({ "bounds.lower_mgl": low, "bounds.upper_mgl": high }));
-    output.within("bounds.gap_to_e1_mgl", 0.0..=NOTHING);
-    output.within("bounds.gap_to_e2_mgl", 0.0..=NOTHING);
-    // As cables, the last one slack: two hang straight down 2 l, 1/2 + 3/2 below, and the third
-    // folds at D. By clarabel, to its tolerance of 1e-9.
-    output.near("bounds.cables_mgl", 1e-8, 2.0);
 }
 
 fn claims(output: &mut Output) {
@@ -187,7 +108,6 @@ fn claims(output: &mut Output) {
         assert!(listed.contains(&format!("digits = {digits}\n")), "{digits}");
     }
     assert_eq!(output.values(&at("verdict")), output.values(&at("expected")));
-    output.each(&at("as_expected"), true);
     let place = |id: &str| ids.iter().position(|found| found == id).unwrap();
     let [lagrange, energies, number] =
         ["lagrange", "energy", "number"].map(|key| output.values(&at(key)));
@@ -220,7 +140,6 @@ fn claims(output: &mut Output) {
         assert_eq!(count(verdict), listed, "{verdict}");
         output.is(&summary(verdict), listed);
     }
-    output.is(&summary("unexpected_claims[]"), json!([]));
 }
 
 /// The equations that do not hold as printed, as referees with computer algebra found them.
@@ -231,12 +150,7 @@ fn equations(output: &mut Output) {
     let [printed, corrected] = ["as_printed", "as_corrected"].map(|key| output.values(&at(key)));
     let substance =
         ["(5)", "(18)", "(19)", "(20)", "(24)", "(31)", "(39)", "(x)", "(xxiii)", "(xxiv)"];
-    let form = ["(23)", "(32)", "(33)", "(38)", "(vii)"];
     output.is("summary.faulty_equations.substance[]", substance.as_slice());
-    output.is("summary.faulty_equations.digits[]", json!(["(ix)"]));
-    output.is("summary.faulty_equations.form[]", form.as_slice());
-    // (1) to (41), (i) to (xxvi).
-    output.is("summary.faulty_equations.numbered", 41 + 26);
     let faults = output.values(&at("fault"));
     for number in substance {
         assert!(
@@ -267,7 +181,6 @@ fn equations(output: &mut Output) {
     output.is("summary.equations", numbers.len());
     output.is("summary.equations_corrected", count("corrected"));
     output.is("summary.equations_refuted", count("refuted"));
-    output.is("summary.equations_as_expected", true);
 }
 
 fn cases(output: &mut Output) {
@@ -277,29 +190,12 @@ fn cases(output: &mut Output) {
     output.is(&at("about"), all.iter().map(|case| case.about).collect::<Vec<_>>());
     let bars = output.numbers(&at("bars"));
     assert!((bars[0] - 3.0).abs() < 0.5 && bars.contains(&100.0));
-    // The gigametres have energies of 1e16 J; `scaled` is in units of each.
-    for (difference, most) in [("joints_m", 1e-3), ("forces_n", 1e-3), ("energy_j", 2.0)] {
-        output.within(&at(&format!("agreement.{difference}")), 0.0..=most);
-    }
-    output.within(&at("scaled[]"), 0.0..=1e-9);
     // The paper's chain turns about the vertical through its anchors, others are held.
     let turned = output.numbers(&at("agreement.turned_parts"));
     assert!(turned[0] > 0.5 && turned.contains(&0.0));
-    output.each(&at("agreement.free_joints"), 0);
     // Of the longest chain they are not counted.
     let counted = output.values(&at("agreement.self_stresses"));
     assert!(counted.iter().all(|found| *found == 0 || found.is_null()) && counted[0] == 0);
-    for law in ["support", "length", "law", "force", "moment", "joint", "balance", "derived"] {
-        output.within(&at(&format!("agreement.statics[].{law}")), 0.0..=1e-9);
-    }
-    // The largest is the rounding of the energy.
-    output.each(&at("agreement.statics[].worst"), "whole");
-    output.each(&at("agreement.verdict"), "agreed");
-    for none in ["reasons[]", "excesses[]"] {
-        output.is(&at(&format!("agreement.{none}")), json!([]));
-    }
-    output.says(&at("rung"), &["optimal"]);
-    output.each(&at("failure"), json!(null));
     output.are(json!({ "summary.cases": all.len(), "summary.cases_agreed": all.len() }));
     let rows = |key: &str| at(&format!("rows[].{key}"));
     assert_eq!(output.values(&rows("case"))[0], "three-equal-bars");
@@ -317,22 +213,10 @@ fn cases(output: &mut Output) {
     assert!(rows > 100 && all.iter().any(|known| case == known.name), "{case} {observable}");
     let [a, b] = ["lagrange", "energy"].map(|key| output.numbers(&at(key))[0]);
     assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "{a} {b}");
-    output.within(&at("difference"), 0.0..=1e-9);
 }
 
 fn seeds(output: &mut Output) {
     let at = |key: &str| format!("seeds[].{key}");
-    output.is(&at("solver"), json!(["lagrange", "energy", "lagrange", "energy"]));
-    output.is(&at("kind"), json!(["planar", "planar", "spatial", "spatial"]));
-    output.repeat_at(at, json!({ "seeds": 10_000, "converged": 10_000, "elsewhere": 0 }));
-    output.is(&at("lost[]"), json!([]));
-    let planar = ["E1", "E1'", "E2", "E2'"];
-    let names = [&planar[..], &planar, &["E1", "E2"], &["E1", "E2"]].concat();
-    output.is(&at("reached[].equilibrium"), names.clone());
-    let [low, high] = ENERGIES;
-    let energies: Vec<f64> =
-        names.iter().map(|name| if name.starts_with("E1") { low } else { high }).collect();
-    output.is(&at("reached[].energy_mgl"), energies);
     let reached = output.numbers(&at("reached[].seeds"));
     for counts in [&reached[..4], &reached[4..8], &reached[8..10], &reached[10..]] {
         assert!((counts.iter().sum::<f64>() - 10_000.0).abs() < 0.5, "{counts:?}");
@@ -352,7 +236,6 @@ fn seeds(output: &mut Output) {
     for k in 0..4 {
         assert!(1.0 <= median[k] && median[k] <= most[k] && most[k] <= largest[k]);
     }
-    output.within(&at("seconds"), 1e-6..=600.0);
 }
 
 /// Numbers that others have published, and laws that need no solver.
@@ -391,14 +274,6 @@ fn field(output: &mut Output) {
     assert!((output.numbers(&solvers("members"))[0] - 100.0).abs() < 0.5);
     let off = output.values(&solvers("off[][]"));
     assert!(off[0] == "lagrange" && off[2] == "energy");
-    output.each(&solvers("finding"), "confirmed");
-    output.within(&solvers("joints_m"), 0.0..=1e-8);
-    output.is(&solvers("rung"), json!(["agreed", "optimal", "optimal"]));
-    // Chains have less energy than the published ones that are not converged.
-    output.within(&solvers("apart_j"), 0.0..=1e-9);
-    output.within(&solvers("below_j"), 0.0..=0.01);
-    output.repeat_at(at, json!({ "by_hand": null, "solvers": null }));
-    output.is(&at("numbers[]"), json!([]));
 }
 
 /// Curves of the paper's figures, point by point.
@@ -441,7 +316,6 @@ fn figures(output: &mut Output) {
         assert!((found - wanted).abs() < 0.6e-5, "{found} {wanted}");
     }
     output.near(&at("slope_at_x"), 1e-4, slope(0.001, -1.05));
-    output.is(&at("basins[].solver"), json!(["lagrange", "energy"]));
     let rows = output.values(&at("basins[].rows[]"));
     let outcomes = |rows: &[Value]| -> std::collections::BTreeSet<char> {
         rows.iter().flat_map(|row| row.as_str().unwrap().chars().collect::<Vec<_>>()).collect()
@@ -451,24 +325,16 @@ fn figures(output: &mut Output) {
     // The second solver ends at minima.
     assert_eq!(outcomes(&rows[half..]), "12".chars().collect());
     let at = |key: &str| format!("figures.histories[].{key}");
-    output.is(&at("solver"), json!(["lagrange", "energy", "lagrange", "energy"]));
-    let [near, far] = ["rough guess near E1", "all bars swung out"];
-    output.is(&at("start"), json!([near, near, far, far]));
     let guess = [0.3_f64, 0.7, -1.3].map(f64::to_degrees);
     let starts = output.numbers(&at("start_deg[]"));
     assert!(starts[..3].iter().zip(guess).all(|(found, wanted)| (found - wanted).abs() < 1e-12));
-    output.each(&at("end_deg[]"), json!(E1));
-    output.is(&at("first_iteration"), json!([0, 1, 0, 1]));
-    output.says(&at("residual_of"), &["norm of the reduced equations", "projected gradient"]);
     let residuals = output.numbers(&at("residuals[]"));
     assert!(residuals[residuals.len() - 1] < NOTHING && residuals[0] > 1e-3);
 }
 
 fn environment(output: &mut Output) {
     let at = |key: &str| format!("environment.{key}");
-    output.is(&at("command"), "funicular reproduce --json");
     output.is(&at("version"), env!("CARGO_PKG_VERSION"));
-    output.says(&at("compiler"), &["rustc 1."]);
     let packages = output.values(&at("packages[]"));
     let lock = include_str!("../../../../../Cargo.lock");
     for package in packages {
