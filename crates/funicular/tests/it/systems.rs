@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::run::{column, funicular, good, json, ran, refused, says};
+use crate::run::{column, good, json, ran, refused, says};
 use serde_json::Value;
 
 /// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
@@ -156,7 +156,8 @@ fn a_floor_pushes_what_lies_on_it() {
 }
 
 /// A weight of 1 N on three cables in a plane: with the force densities a, b, a of the family
-/// 2 a + b = 1 the outer ones bear 0 to 1/√2 N, the middle one 0 to 1 N, the hanger its weight.
+/// 2 a + b = 1 the outer ones bear 0 to 1/√2 N, the middle one 0 to 1 N, the hanger its weight. (`keys/solve.txt` has
+/// these numbers as JSON.)
 #[test]
 fn what_is_open_of_forces_is_told_bar_by_bar() {
     let folder = tempfile::tempdir().unwrap();
@@ -173,23 +174,11 @@ fn what_is_open_of_forces_is_told_bar_by_bar() {
         + &bar("B", "P", 1.0)
         + &bar("C", "P", side)
         + &bar("P", "Q", 0.5);
-    let path = folder.path().join("fan.toml");
-    std::fs::write(&path, text).unwrap();
-    let solve = |more: &[&str]| funicular(&[&["solve", path.to_str().unwrap()], more].concat());
-    let said = String::from_utf8(solve(&[]).stdout).unwrap();
+    std::fs::write(folder.path().join("fan.toml"), text).unwrap();
+    let said = good(&folder, &["solve", "fan.toml"]);
     assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
     says(&said, &["may be / N", "0 to 0.707107", "0 to 1 ", "only this"]);
     assert!(!said.contains("slack") && !said.contains("just taut"), "{said}");
-    let json: Value = serde_json::from_slice(&solve(&["--json"]).stdout).unwrap();
-    let first = &json["equilibria"][0];
-    assert_eq!(first["solver"], "lagrange");
-    let ranges = first["evidence"]["self_stresses"]["ranges"].as_array().unwrap();
-    for (range, most) in ranges.iter().zip([0.5 * side, 1.0, 0.5 * side]) {
-        assert_eq!(range["kind"], "bounded");
-        assert!(range["least_n"].as_f64().unwrap().abs() < 1e-9);
-        assert!((range["most_n"].as_f64().unwrap() - most).abs() < 1e-9);
-    }
-    assert_eq!(ranges[3]["kind"], "unique");
 }
 
 #[test]

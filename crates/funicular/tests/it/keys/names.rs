@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::refusals::{of, output};
+use super::refusals::output;
 
 fn name(value: &impl Serialize) -> Value {
     serde_json::to_value(value).unwrap()
@@ -118,14 +118,8 @@ fn uncertain_forces() {
         force_uncertainty: Some(ForceUncertainty { relative, cause }),
     };
     let objects = [
-        of(
-            &uncertain(0.125, 3e-5, UncertaintyCause::WeakClosure),
-            &["closure: 1.2e-1 after 3", "hardly depends on the pull", "up to 3e-5 of the largest"],
-        ),
-        of(
-            &uncertain(0.25, 4e-6, UncertaintyCause::ParallelBars),
-            &["closure: 2.5e-1 after 3", "nearly parallel", "up to 4e-6 of the largest"],
-        ),
+        uncertain(0.125, 3e-5, UncertaintyCause::WeakClosure),
+        uncertain(0.25, 4e-6, UncertaintyCause::ParallelBars),
     ];
     output("uncertain forces", "uncertain_forces", &objects);
     assert_eq!(name(&ForceChoice::Unknown), "unknown");

@@ -1,17 +1,12 @@
 //! Every reason for which a rung is open, as JSON and as a sentence: what went into it stands in
 //! both. Which reason an answer has is asserted of cases, here and in the crates that give it.
 
-use super::refusals::{of, output};
 use model::{
     Choices, Disagreement, Excess, ForceChoice, ForcesFound, LargeForce, NoBox, NoCensus,
     NoCertificate, Place, Proved, Quantity, Reason, SolverName,
 };
 
-/// The reasons with what their sentences have to say.
-fn reasons<'a, const N: usize>(test: &str, reasons: [(Reason, &'a [&'a str]); N]) {
-    let reasons = reasons.map(|(reason, words)| of(&reason, words));
-    output("a reason", test, &reasons);
-}
+use super::refusals::output;
 
 fn pair() -> [SolverName; 2] {
     [SolverName::LAGRANGE, SolverName::ENERGY]
@@ -19,26 +14,21 @@ fn pair() -> [SolverName; 2] {
 
 #[test]
 fn reasons_of_a_chain() {
-    reasons(
+    output(
+        "a reason",
         "reasons_of_a_chain",
-        [
-            (Reason::RefutedByCensus { distance: 0.125 }, &["refuted", "lies 1.2e-1 of the total"]),
-            (Reason::SlackFamily, &["one of a family with slack bars"]),
-            (Reason::NotAmongDecided { cells: 3 }, &["leaves 3 cells of pulls undecided"]),
-            (Reason::Elsewhere { distance: 0.375 }, &["lies 3.8e-1 of the total"]),
-            (
-                Reason::AtStraight { distance: 0.875 },
-                &["within 8.8e-1 of the total", "a straight position"],
-            ),
-            (Reason::NothingListed, &["lists no equilibrium"]),
-            (Reason::CensusUndecided { cells: 4 }, &["4 cells of pulls are undecided"]),
-            (
-                Reason::SingularFamilies { listed: 1 },
-                &["one family with slack bars is no manifold"],
-            ),
-            (Reason::SingularFamilies { listed: 9 }, &["9 families with slack bars"]),
-            (Reason::StraightPosition { sides: vec![6, 7] }, &["sides 6, 7 are together"]),
-            (Reason::CountUnchecked { sides: 8 }, &["a polygon of 8 sides"]),
+        &[
+            Reason::RefutedByCensus { distance: 0.125 },
+            Reason::SlackFamily,
+            Reason::NotAmongDecided { cells: 3 },
+            Reason::Elsewhere { distance: 0.375 },
+            Reason::AtStraight { distance: 0.875 },
+            Reason::NothingListed,
+            Reason::CensusUndecided { cells: 4 },
+            Reason::SingularFamilies { listed: 1 },
+            Reason::SingularFamilies { listed: 9 },
+            Reason::StraightPosition { sides: vec![6, 7] },
+            Reason::CountUnchecked { sides: 8 },
         ],
     );
 }
@@ -46,30 +36,26 @@ fn reasons_of_a_chain() {
 #[test]
 fn reasons_without_a_census() {
     let reason = Reason::NoCensus;
-    reasons(
+    output(
+        "a reason",
         "reasons_without_a_census",
-        [
-            (reason(NoCensus::Settings), &["settings are out of range"]),
-            (reason(NoCensus::Refused), &["no equilibrium problem"]),
-            (
-                reason(NoCensus::Motions { closures: 3, motions: 4, limit: 5 }),
-                &[
-                    "a net of 3 closures whose joints move in 4 independent ways, and the limit is 5",
-                ],
-            ),
-            (reason(NoCensus::Undecided { boxes: 6 }), &["6 boxes of places"]),
-            (reason(NoCensus::PlaneOnly), &["in the vertical plane of the anchors"]),
-            (reason(NoCensus::Turns { joint: 7 }), &["at the 7th joint turns freely"]),
-            (reason(NoCensus::Closures { closures: 8 }), &["8 independent closures"]),
-            (reason(NoCensus::LoadsNotDown { joint: 9 }), &["the 9th joint", "not straight down"]),
-            (reason(NoCensus::Elastic { member: 10 }), &["member 10", "is elastic"]),
-            (reason(NoCensus::Limp { member: 12 }), &["member 12 bears nothing"]),
-            (reason(NoCensus::Flat { joint: 13 }), &["the 13th joint may lie flat"]),
-            (reason(NoCensus::Floor), &["no census knows a floor"]),
-            (reason(NoCensus::TooManyPositions { limit: 14 }), &["more than 14 equilibria"]),
-            (reason(NoCensus::Cables), &["of cables and ropes alone"]),
-            (reason(NoCensus::SlackSets { limit: 15 }), &["slack or jam in more than 15 ways"]),
-            (reason(NoCensus::Loose { joint: 16 }), &["nothing holds the 16th joint"]),
+        &[
+            reason(NoCensus::Settings),
+            reason(NoCensus::Refused),
+            reason(NoCensus::Motions { closures: 3, motions: 4, limit: 5 }),
+            reason(NoCensus::Undecided { boxes: 6 }),
+            reason(NoCensus::PlaneOnly),
+            reason(NoCensus::Turns { joint: 7 }),
+            reason(NoCensus::Closures { closures: 8 }),
+            reason(NoCensus::LoadsNotDown { joint: 9 }),
+            reason(NoCensus::Elastic { member: 10 }),
+            reason(NoCensus::Limp { member: 12 }),
+            reason(NoCensus::Flat { joint: 13 }),
+            reason(NoCensus::Floor),
+            reason(NoCensus::TooManyPositions { limit: 14 }),
+            reason(NoCensus::Cables),
+            reason(NoCensus::SlackSets { limit: 15 }),
+            reason(NoCensus::Loose { joint: 16 }),
         ],
     );
 }
@@ -77,38 +63,24 @@ fn reasons_without_a_census() {
 #[test]
 fn reasons_without_a_box() {
     let reason = Reason::NoBox;
-    reasons(
+    output(
+        "a reason",
         "reasons_without_a_box",
-        [
-            (
-                reason(NoBox::TooLarge { unknowns: 3, limit: 4 }),
-                &["3 unknowns, and the limit is 4"],
-            ),
-            (reason(NoBox::SelfStresses { dimension: 5 }), &["5 independent states"]),
-            (reason(NoBox::FreeMotions { dimension: 6 }), &["from 6 independent motions"]),
-            (
-                reason(NoBox::Degenerate { member: 7 }),
-                &["member 7 has just its length and bears no force but that of its own weight"],
-            ),
-            (
-                reason(NoBox::WrongSign { member: 8 }),
-                &["member 8", "the sign that its kind allows"],
-            ),
-            (reason(NoBox::NotSlack { member: 9 }), &["member 9 is not proved to be slack"]),
-            (reason(NoBox::BetweenAnchors { member: 10 }), &["member 10 connects two anchors"]),
-            (
-                reason(NoBox::Floor { joint: 11 }),
-                &["the 11th joint is not proved to be above the floor"],
-            ),
-            (reason(NoBox::NotConverged), &["no equilibrium with the same members in action"]),
-            (reason(NoBox::Singular), &["is singular"]),
-            (reason(NoBox::NotContracting), &["Krawczyk's test fails"]),
-            (
-                reason(NoBox::Elsewhere { distance_m: 0.125, distance_n: 0.375 }),
-                &["is 1.2e-1 m and 3.8e-1 N away"],
-            ),
-            (reason(NoBox::NotFinite), &["incomplete or not finite"]),
-            (reason(NoBox::Rope { member: 12 }), &["the rope that is member 12 has no length"]),
+        &[
+            reason(NoBox::TooLarge { unknowns: 3, limit: 4 }),
+            reason(NoBox::SelfStresses { dimension: 5 }),
+            reason(NoBox::FreeMotions { dimension: 6 }),
+            reason(NoBox::Degenerate { member: 7 }),
+            reason(NoBox::WrongSign { member: 8 }),
+            reason(NoBox::NotSlack { member: 9 }),
+            reason(NoBox::BetweenAnchors { member: 10 }),
+            reason(NoBox::Floor { joint: 11 }),
+            reason(NoBox::NotConverged),
+            reason(NoBox::Singular),
+            reason(NoBox::NotContracting),
+            reason(NoBox::Elsewhere { distance_m: 0.125, distance_n: 0.375 }),
+            reason(NoBox::NotFinite),
+            reason(NoBox::Rope { member: 12 }),
         ],
     );
 }
@@ -116,21 +88,19 @@ fn reasons_without_a_box() {
 #[test]
 fn reasons_without_a_certificate() {
     let reason = Reason::NoCertificate;
-    reasons(
+    output(
+        "a reason",
         "reasons_without_a_certificate",
-        [
-            (reason(NoCertificate::SeveralCompressed { bars: 3 }), &["3 bars are in compression"]),
-            (reason(NoCertificate::Indefinite { bar: 4, excess: 0.125 }), &["bar 4", "1.25e-1"]),
-            (reason(NoCertificate::Gap { gap: 0.375 }), &["stays 3.8e-1 of weight times length"]),
-            (
-                reason(NoCertificate::NotClosed { gap_m: 0.5, slack_m: 0.25 }),
-                &["is 5.0e-1 m from its anchor", "only 2.5e-1 m of slack"],
-            ),
-            (reason(NoCertificate::EnergyFalls { directions: 5 }), &["falls in 5 directions"]),
-            (reason(NoCertificate::PivotsUndecided), &["not proved positive"]),
-            (reason(NoCertificate::NotDefinite { compressed: 6 }), &["with 6 members compressed"]),
-            (reason(NoCertificate::NotConvex { members: 7 }), &["and 7 push or may push"]),
-            (reason(NoCertificate::Unusable), &["incomplete or not finite"]),
+        &[
+            reason(NoCertificate::SeveralCompressed { bars: 3 }),
+            reason(NoCertificate::Indefinite { bar: 4, excess: 0.125 }),
+            reason(NoCertificate::Gap { gap: 0.375 }),
+            reason(NoCertificate::NotClosed { gap_m: 0.5, slack_m: 0.25 }),
+            reason(NoCertificate::EnergyFalls { directions: 5 }),
+            reason(NoCertificate::PivotsUndecided),
+            reason(NoCertificate::NotDefinite { compressed: 6 }),
+            reason(NoCertificate::NotConvex { members: 7 }),
+            reason(NoCertificate::Unusable),
         ],
     );
 }
@@ -150,19 +120,8 @@ fn reasons_of_solvers_that_disagree() {
         excess(Quantity::EquallyStiff { solver: solver.clone() }, 12.0),
         excess(Quantity::LargeForce { solver, member: 16 }, 13.0),
     ];
-    let words = [
-        "joints of lagrange and energy / m: 3.00e0 is over its budget of 1.25e-1",
-        "forces of lagrange and energy / N: 4.00e0",
-        "energy of lagrange and energy / J: 5.00e0",
-        "statics of energy, at member 15: 6.00e0",
-        "numbers of directions in which the energy falls, by lagrange and energy: 7.00e0",
-        "what the self-stresses of energy leave at a joint: 8.00e0",
-        "forces that lagrange and energy name by the same convention / N: 1.10e1",
-        "forces of energy less those of equally stiff members / N: 1.20e1",
-        "force of energy over all that acts on the system, at member 16: 1.30e1",
-    ];
     let disagreement = Reason::SolversDisagree(Disagreement { excesses });
-    reasons("reasons_of_solvers_that_disagree", [(disagreement, &words)]);
+    output("a reason", "reasons_of_solvers_that_disagree", &[disagreement]);
 }
 
 /// What is found of forces besides their difference. Which findings a comparison has is asserted in
@@ -185,10 +144,6 @@ fn findings_of_forces() {
         ..ForcesFound::default()
     };
     let proved = ForcesFound { proved: Some(Proved::RankAndStability), ..ForcesFound::default() };
-    let findings = [
-        of(&large, &["member 3 bears -5.00e7 N, 2.50e6 times all that acts", "independent"]),
-        of(&choices, &["in member 4 0.25 N by lagrange", "12.5 N by energy", "the energy rises"]),
-        of(&proved, &["the lengths are independent, and the energy rises"]),
-    ];
+    let findings = [large, choices, proved];
     output("a finding of forces", "findings_of_forces", &findings);
 }

@@ -173,12 +173,16 @@ impl Output {
         }
     }
 
-    /// Assert that all texts at a path contain these words, in turn.
-    pub fn says(&mut self, path: &str, words: &[&str]) {
+    /// Assert that all texts at a path contain these words, in turn: one, or several in a list.
+    pub fn says(&mut self, path: &str, wanted: Value) {
+        let Value::Array(wanted) = wanted else { panic!("{path} says {wanted}") };
         let found = self.found(path);
-        assert!(!found.is_empty(), "{path}");
-        for (value, words) in found.iter().zip(words.iter().cycle()) {
-            assert!(value.as_str().unwrap().contains(words), "{path}: {value} for {words}");
+        assert!(!found.is_empty() && found.len().is_multiple_of(wanted.len()), "{path}: {found:?}");
+        for (value, words) in found.iter().zip(wanted.iter().cycle()) {
+            for word in leaves(words) {
+                let is_said = value.as_str().unwrap().contains(word.as_str().unwrap());
+                assert!(is_said, "{path}: {value} for {word}");
+            }
         }
     }
 
@@ -202,10 +206,7 @@ impl Output {
                 self.within(path, number(low)..=number(high));
             }
             "encloses" => self.encloses(path, value(what)),
-            "says" => {
-                let words: Vec<String> = serde_json::from_value(value(what)).unwrap();
-                self.says(path, &words.iter().map(String::as_str).collect::<Vec<_>>());
-            }
+            "says" => self.says(path, value(what)),
             _ => panic!("{path} {how} {what}"),
         }
     }

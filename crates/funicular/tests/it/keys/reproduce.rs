@@ -342,7 +342,7 @@ fn environment(output: &mut Output) {
         let entry = format!("name = \"{name}\"\nversion = \"{version}\"");
         assert!(lock.contains(&entry), "{name} {version}");
     }
-    output.says(&at("system"), &[std::env::consts::OS]);
+    output.says(&at("system"), json!([std::env::consts::OS]));
     let processor = output.values(&at("processor")).remove(0);
     if let Ok(known) = std::fs::read_to_string("/proc/cpuinfo") {
         assert!(known.contains(processor.as_str().unwrap()), "{processor}");

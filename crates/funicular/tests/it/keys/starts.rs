@@ -226,7 +226,7 @@ fn manifest(output: &mut Output, folder: &Path, text: &str, seeds: usize) {
     output.is("schema_version", 2);
     output.is("program", format!("funicular {}", env!("CARGO_PKG_VERSION")));
     output.is("system.name", "level V");
-    output.says("system.text", &["length_m = 1.0\nmass_kg = 1.0\ncount = 2\n"]);
+    output.says("system.text", json!(["length_m = 1.0\nmass_kg = 1.0\ncount = 2\n"]));
     let parsed: Value = serde_json::from_str(text).unwrap();
     let copy = folder.join("copy.toml");
     std::fs::write(&copy, parsed["system"]["text"].as_str().unwrap()).unwrap();

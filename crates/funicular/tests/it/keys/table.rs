@@ -6,7 +6,8 @@
 //! The lines of a block say what stands at which paths:
 //!
 //! - `path = values`, in their order; `path near 1e-9 values`, which are not as close; `path each values`,
-//!   which repeat themselves; `path in 0..1e-12`; `path encloses values`, by intervals; `path says words`;
+//!   which repeat themselves; `path in 0..1e-12`; `path encloses values`, by intervals; `path says words`
+//!   of texts that repeat themselves, one of each or several in a list;
 //! - `in Rust: paths`, what a test of the block's name asserts itself;
 //! - `name.toml| text`, a line of a file beside `v.toml` and `lamp.toml`; it stays for the blocks that follow.
 //!
