@@ -7,6 +7,7 @@ use super::output::Output;
 use super::table;
 
 use crate::load_paths::RING;
+use crate::run::holding;
 
 /// EA = 1 N, feet 2 m apart, the apex 0.5 m above them on a line, 1 N down.
 #[test]
@@ -63,5 +64,6 @@ fn load_path_of_a_gable() {
 fn paths_that_branch_off() {
     let file = RING.replace("[[bars]]\n", "[[bars]]\nmass_kg = 0\n");
     let command = "trace system.toml --vary loads=0,4,-4 --branches --linear-buckling";
-    drop(Output::alone("paths_that_branch_off", file, command).of("load paths"));
+    let folder = holding([("system.toml", file)]);
+    drop(Output::ended(0, "paths_that_branch_off", folder, command).of("load paths"));
 }

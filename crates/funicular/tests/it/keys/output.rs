@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::table;
 
-use crate::run::{holding, run};
+use crate::run::run;
 
 /// How closely a number is asserted, in units of the number or of one: some rounding errors.
 const CLOSE: f64 = 1e-12;
@@ -30,17 +30,7 @@ impl Output {
         Self::with(kind, test, [serde_json::from_str(text).unwrap()])
     }
 
-    /// Of what a command says as JSON in a folder where all is well.
-    pub fn told(test: &str, folder: impl AsRef<Path>, command: &str) -> Self {
-        Self::ended(0, test, folder, command)
-    }
-
-    /// The same of one system, which stands in `system.toml`.
-    pub fn alone(test: &str, text: impl AsRef<[u8]>, command: &str) -> Self {
-        Self::told(test, holding([("system.toml", text)]), command)
-    }
-
-    /// What a command says that ends with this code.
+    /// Of what a command says as JSON in a folder, and ends with this code.
     pub fn ended(code: i32, test: &str, folder: impl AsRef<Path>, command: &str) -> Self {
         let words: Vec<_> = command.split(' ').chain(["--json"]).collect();
         let (found, text, said) = run(folder, &words);
@@ -109,19 +99,6 @@ impl Output {
     /// The same by what the paths are called for short.
     pub fn are_at(&mut self, at: impl Fn(&str) -> String, wanted: Value) {
         by_path(at, wanted).for_each(|(path, wanted)| self.is(&path, wanted));
-    }
-
-    /// What a system is: its name, how many joints and bars, total length, total mass and gravity.
-    pub fn system(&mut self, name: &str, counts: [u32; 2], totals: [f64; 3]) {
-        self.is("system.name", name);
-        for (what, count) in ["joints", "bars"].into_iter().zip(counts) {
-            self.is(&format!("system.{what}"), count);
-        }
-        for (what, total) in
-            ["total_length_m", "total_mass_kg", "gravity_m_s2"].into_iter().zip(totals)
-        {
-            self.is(&format!("system.{what}"), total);
-        }
     }
 
     /// The same of numbers that are less close.

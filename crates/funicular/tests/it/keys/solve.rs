@@ -2,7 +2,6 @@
 
 use serde_json::json;
 
-use super::output::Output;
 use super::table;
 
 /// Two bars of 1 m and 10 N over a span of 1 m: each stands at 60 degrees.
@@ -11,6 +10,15 @@ name = "level V"
 gravity_m_s2 = 10
 anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }
 bars = [{ length_m = 1, mass_kg = 1, count = 2 }]
+"#;
+
+/// A lamp of 20 N on light bars of 3 and 4 m over 5 m: they meet at a right angle.
+pub const LAMP: &str = r#"
+name = "lamp"
+gravity_m_s2 = 10
+joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [5, 0, 0] }, P = { mass_kg = 2 } }
+bars = [{ from = "A", to = "P", length_m = 3, mass_kg = 0 },
+  { from = "P", to = "B", length_m = 4, mass_kg = 0 }]
 "#;
 
 /// Half the height of an equilateral triangle of side 1 m, m.
@@ -23,11 +31,6 @@ pub const AXIAL: f64 = 5.773_502_691_896_258;
 /// Residuals in units of the largest force or length, and differences between two answers to
 /// numbers of some metres and newtons: in exact arithmetic they are nothing.
 pub const NOTHING: f64 = 1e-12;
-
-/// What is said of the system.
-pub fn system_of_level_v(output: &mut Output) {
-    output.system("level V", [3, 2], [2.0, 2.0, 10.0]);
-}
 
 /// The paper's chain in its own numbering, from 40 digits; it may turn about the line between its
 /// anchors, and both answers are turned onto each other.
@@ -70,26 +73,6 @@ fn straight_forces_are_a_family() {
     }
     output.each("equilibria[].bars[].axial_n", json!([low - 5.0, low - 15.0, 25.0 - low]));
 }
-
-/// A lamp of 20 N on light bars of 3 and 4 m over 5 m: they meet at a right angle.
-pub const LAMP: &str = r#"
-name = "lamp"
-gravity_m_s2 = 10
-[joints]
-A = { at_m = [0, 0, 0] }
-B = { at_m = [5, 0, 0] }
-P = { mass_kg = 2 }
-[[bars]]
-from = "A"
-to = "P"
-length_m = 3
-mass_kg = 0
-[[bars]]
-from = "P"
-to = "B"
-length_m = 4
-mass_kg = 0
-"#;
 
 /// A weight of 1 N on three cables in a plane, √2, 1 and √2 m long, and a hanger: with the outer
 /// forces t and the middle one 1 - √2 t there is a family.

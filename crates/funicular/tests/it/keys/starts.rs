@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::Output;
-use super::solve::{DEPTH, LEVEL_V, system_of_level_v};
+use super::solve::{DEPTH, LEVEL_V};
 
 use crate::run::{column, good, holding};
 
@@ -154,7 +154,6 @@ fn a_grid_of_starts() {
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let [lagrange, energy] = ["lagrange", "energy"].map(|solver| Rows::of(&rows, solver));
     let mut output = Output::json("sweep", "a_grid_of_starts", &text);
-    system_of_level_v(&mut output);
     equilibria(&mut output, true);
     about(&mut output, "out", SEEDS, 1);
     output.is("seeds_before", 0);
@@ -332,7 +331,6 @@ fn releases() {
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let motion = Rows::of(&rows, "motion");
     let mut output = Output::json("simulate --seeds", "releases", &text);
-    system_of_level_v(&mut output);
     equilibria(&mut output, false);
     about(&mut output, "out", 20, 1);
     output.is("seeds_before", 0);
