@@ -134,7 +134,7 @@ fn a_straight_position_is_named_and_apart_from_all_equilibria() {
 }
 
 /// Bars of 1 m with 1 kg in positions that are not isolated: 1 + 1 − 1 = 1, three ways to hang upright, each under any
-/// force; and four equilibria that have merged, where bar 1 hangs as heavily as bar 3 stands. (`keys::census` has their
+/// force; and four equilibria that have merged, where bar 1 hangs as heavily as bar 3 stands. (`keys/census.txt` has their
 /// numbers.)
 #[test]
 fn what_is_not_isolated_is_told() {

@@ -6,7 +6,6 @@ use funicular::{Loss, Outcome, Weakest, prelude::*};
 
 use crate::run::{good, holding, refused, run};
 
-/// What the program prints and says, and how it ends.
 /// 300 N hang on two threads of 5 m between anchors 8 m apart, 3 m below them: each pulls with 250 N.
 fn bridle(root: &str, first: &str, second: &str) -> String {
     format!(
