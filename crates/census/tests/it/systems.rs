@@ -220,13 +220,7 @@ fn columns_are_pressed_together() {
 /// Two hangers over the same anchors, one of them with a pendulum at its lamp: 2 times 2 times 2.
 #[test]
 fn parts_are_combined_and_trees_hang_on_chains() {
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("P"),
-        Joint::free("Q").with_mass(0.2),
-        Joint::free("lamp").with_mass(0.2),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.0, 0.2, 0.2]);
     let members = vec![
         Member::bar(0, 2, light(5.0)),
         Member::bar(1, 2, light(5.0)),

@@ -10,11 +10,7 @@ use crate::net_support::{G, bar, check, close, net, solve};
 fn a_lamp_on_a_v_of_heavy_bars() {
     // Two bars of 5 m and 2 kg between anchors 8 m apart: the lamp is 3 m down. By the lever rule 5
     // kg + 2 kg hang there, 35 N on each side along (4, -3)/5.
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [8.0, 0.0, 0.0]),
-        Joint::free("lamp").with_mass(5.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [8.0, 0.0, 0.0]], &[5.0]);
     let (_, solution) = solve(joints, vec![bar(0, 2, 5.0, 2.0), bar(2, 1, 5.0, 2.0)]);
     let found = &solution.equilibrium;
     close(found.joints_m[2][2], -3.0);
@@ -95,12 +91,10 @@ fn four_legs_share_a_load_as_equally_stiff_ones_would() {
 
 #[test]
 fn a_tripod_stands_where_its_seed_stands() {
-    let joints = vec![
-        Joint::anchor("A", [3.0, 0.0, 0.0]),
-        Joint::anchor("B", [-1.5, 1.5 * 3.0_f64.sqrt(), 0.0]),
-        Joint::anchor("C", [-1.5, -1.5 * 3.0_f64.sqrt(), 0.0]),
-        Joint::free("apex").with_mass(12.0),
-    ];
+    let joints = samples::joints(
+        &[[3.0, 0.0, 0.0], [-1.5, 1.5 * 3.0_f64.sqrt(), 0.0], [-1.5, -1.5 * 3.0_f64.sqrt(), 0.0]],
+        &[12.0],
+    );
     let members: Vec<Member> = (0..3).map(|k| bar(k, 3, 5.0, 0.0)).collect();
     let system = System::new("tripod", G, joints, members).unwrap();
     let mut seed: Vec<Vector> =
@@ -116,12 +110,7 @@ fn a_tripod_stands_where_its_seed_stands() {
 fn a_symmetric_bridle_with_a_branch_point() {
     // Two strands of 5 m from anchors 6 m apart carry a third of 2 m with 7 kg at its end: the
     // branch point is 4 m down, the end 6 m. Strand weights 1 kg each, the third 3 kg.
-    let joints = vec![
-        Joint::anchor("A", [-3.0, 0.0, 0.0]),
-        Joint::anchor("B", [3.0, 0.0, 0.0]),
-        Joint::free("branch"),
-        Joint::free("end").with_mass(7.0),
-    ];
+    let joints = samples::joints(&[[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[0.0, 7.0]);
     let members = vec![bar(0, 2, 5.0, 1.0), bar(1, 2, 5.0, 1.0), bar(2, 3, 2.0, 3.0)];
     let (_, solution) = solve(joints, members);
     let found = &solution.equilibrium;

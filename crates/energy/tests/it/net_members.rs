@@ -37,11 +37,7 @@ fn a_lamp_on_a_v_of_springs() {
     // N.
     for stiffness in [20.0, 1e3, 1e7] {
         let length = 5.0 / (1.0 + 50.0 / stiffness);
-        let joints = vec![
-            Joint::anchor("A", [0.0; 3]),
-            Joint::anchor("B", [8.0, 0.0, 0.0]),
-            Joint::free("lamp").with_mass(6.0),
-        ];
+        let joints = samples::joints(&[[0.0; 3], [8.0, 0.0, 0.0]], &[6.0]);
         let members = [(0, 2), (2, 1)]
             .map(|(a, b)| weightless(a, b, length, Kind::Bar).with_stiffness(stiffness));
         let (_, solution) = solve(joints, members.to_vec());
@@ -79,12 +75,7 @@ fn a_standing_spring_holds_a_weight_that_its_guide_keeps_upright() {
 
 #[test]
 fn a_long_cable_is_slack() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [8.0, 0.0, 0.0]),
-        Joint::anchor("C", [4.0, 3.0, 0.0]),
-        Joint::free("lamp").with_mass(6.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3], [8.0, 0.0, 0.0], [4.0, 3.0, 0.0]], &[6.0]);
     let cable = |from, length| weightless(from, 3, length, Kind::Cable);
     let (_, solution) =
         solve_loose(joints, vec![cable(0, 5.0), cable(1, 5.0), cable(2, 4.5)], &[2]);

@@ -170,11 +170,7 @@ fn tripod() {
 #[test]
 fn mobile() {
     let (left, right) = (2.0_f64, 3.0_f64);
-    let joints = vec![
-        Joint::anchor("hook", [0.0; 3]),
-        Joint::free("L").with_mass(left),
-        Joint::free("R").with_mass(right),
-    ];
+    let joints = samples::joints(&[[0.0; 3]], &[left, right]);
     let members = vec![bar(0, 1, 1.0, 0.0), bar(0, 2, 1.0, 0.0), bar(1, 2, 1.0, 0.0)];
     let solution = hang(&system(joints, members));
     let total = left + right;

@@ -175,12 +175,7 @@ fn spreader() {
 /// be limp; the lamp hangs as without them.
 #[test]
 fn limp_members() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::free("lamp").with_mass(2.0),
-        Joint::free("P"),
-        Joint::free("Q"),
-    ];
+    let joints = samples::joints(&[[0.0; 3]], &[2.0, 0.0, 0.0]);
     let members = vec![bar(0, 1, 1.0, 0.0), bar(1, 2, 0.5, 0.0), cable(1, 3, 0.5, 0.0)];
     let solution = hang(&system(joints, members));
     near(solution.equilibrium.joints_m[1], [0.0, 0.0, -1.0]);

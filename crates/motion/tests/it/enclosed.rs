@@ -253,11 +253,7 @@ fn a_cable_that_is_just_taut_is_undecided() {
     // A rod hangs at the end of a level elastic cable of just its distance: stiff to one side
     // alone.
     let cable = |length_m| {
-        let joints = vec![
-            Joint::anchor("O", [0.0; 3]),
-            Joint::anchor("A", [-1.0, 0.0, -1.0]),
-            Joint::free("P"),
-        ];
+        let joints = samples::joints(&[[0.0; 3], [-1.0, 0.0, -1.0]], &[0.0]);
         let rod = Member::bar(0, 2, Bar::homogeneous(1.0, 2.0).unwrap());
         let mut cord = Member::bar(1, 2, Bar::homogeneous(length_m, 0.0).unwrap());
         (cord.kind, cord.stiffness_n) = (Kind::Cable, Some(100.0));

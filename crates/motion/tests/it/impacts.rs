@@ -285,11 +285,7 @@ fn positions_at_random_have_cables_within_their_lengths_and_joints_above_the_flo
 /// a tonne falls by g t^2 / 2.
 #[test]
 fn a_light_weight_above_its_cable_falls_beside_a_heavy_one() {
-    let joints = vec![
-        Joint::anchor("O", [0.0; 3]),
-        Joint::free("P").with_mass(1e-7),
-        Joint::free("Q").with_mass(1000.0),
-    ];
+    let joints = samples::joints(&[[0.0; 3]], &[1e-7, 1000.0]);
     let light = Member::bar(0, 1, cord(1.0)).of_kind(Kind::Cable);
     let members = vec![light, Member::bar(0, 2, cord(1.0))];
     let system = System::new("light", G, joints, members).unwrap();
