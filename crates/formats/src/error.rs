@@ -26,37 +26,22 @@ pub enum Wrong {
     /// Occurs when there is nothing in the file.
     #[error("the file is empty")]
     Empty,
-    /// Occurs when the text is no JSON.
-    #[error("this is no JSON: {reason}")]
-    Json {
-        /// What the parser says.
-        reason: String,
-    },
-    /// Occurs when the text is no XML.
-    #[error("this is no XML: {reason}")]
-    Xml {
-        /// What the parser says.
-        reason: String,
-    },
+    /// Occurs when the text is no JSON: what the parser says.
+    #[error("this is no JSON: {0}")]
+    Json(String),
+    /// Occurs when the text is no XML: what the parser says.
+    #[error("this is no XML: {0}")]
+    Xml(String),
     /// Occurs when a part that is needed is not there.
-    #[error("there is no {what}")]
-    Missing {
-        /// The part.
-        what: String,
-    },
+    #[error("there is no {0}")]
+    Missing(String),
     /// Occurs when a part is not understood, so that the system or answer would be another one
     /// without it.
-    #[error("{what} is not understood")]
-    Unknown {
-        /// The part.
-        what: String,
-    },
+    #[error("{0} is not understood")]
+    Unknown(String),
     /// Occurs when a part is understood and outside of what systems of bars are.
-    #[error("{what} is not part of a system of bars at rest")]
-    OutOfScope {
-        /// The part.
-        what: String,
-    },
+    #[error("{0} is not part of a system of bars at rest")]
+    OutOfScope(String),
     /// Occurs when a value is of the wrong type or out of range.
     #[error("{what} must be {wanted}, found {found:?}")]
     Value {
@@ -76,20 +61,14 @@ pub enum Wrong {
         found: usize,
     },
     /// Occurs when a name or number stands twice.
-    #[error("{what} is there twice")]
-    Repeated {
-        /// Which.
-        what: String,
-    },
+    #[error("{0} is there twice")]
+    Repeated(String),
     /// Occurs when what the file describes needs more memory than there is.
     #[error("{0}")]
     Memory(OutOfMemory),
-    /// Occurs when what was read is no system: a length that is no length, a member twice.
-    #[error("{reason}")]
-    NoSystem {
-        /// Why not.
-        reason: String,
-    },
+    /// Occurs when what was read is no system, and why: a length that is no length, a member twice.
+    #[error("{0}")]
+    NoSystem(String),
 }
 
 impl FormatError {

@@ -14,9 +14,8 @@ pub(crate) fn parse(text: &str, file: &str) -> Result<Value> {
     let bytes = (text.len() as u64).saturating_mul(BYTES_PER_BYTE);
     let asked = Budget::default().fits(bytes);
     asked.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
-    serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
-        FormatError::new(file, Some(error.line()), Wrong::Json { reason: error.to_string() })
-    })
+    serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|error| FormatError::new(file, Some(error.line()), Wrong::Json(error.to_string())))
 }
 
 /// Reads the tree of a file, by its name in errors.
@@ -27,7 +26,7 @@ pub(crate) struct Reader<'a> {
 
 impl Reader<'_> {
     pub(crate) fn missing(self, what: &str) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() })
+        FormatError::new(self.file, None, Wrong::Missing(what.to_owned()))
     }
 
     pub(crate) fn wrong(self, what: &str, wanted: &'static str, found: &Value) -> FormatError {

@@ -42,7 +42,7 @@ impl<'a> Sheet<'a> {
         // Such a file is another one, of which nothing is shown.
         if !head.iter().any(known) {
             let what = "its first line, which names no column,".to_owned();
-            let error = FormatError::new(file, Some(line), Wrong::Unknown { what });
+            let error = FormatError::new(file, Some(line), Wrong::Unknown(what));
             return Err(error.with_help(format!("columns are: {}", names.join(", "))));
         }
         for (k, cell) in head.iter().enumerate() {
@@ -53,12 +53,12 @@ impl<'a> Sheet<'a> {
                 let near = model::system_file::nearest(cell, names);
                 let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
                 let help = format!("{near}columns are: {}", names.join(", "));
-                let error = FormatError::new(file, Some(line), Wrong::Unknown { what });
+                let error = FormatError::new(file, Some(line), Wrong::Unknown(what));
                 return Err(error.with_help(help));
             };
             if columns[column].replace(k).is_some() {
                 let what = format!("the column {cell:?}");
-                return Err(FormatError::new(file, Some(line), Wrong::Repeated { what }));
+                return Err(FormatError::new(file, Some(line), Wrong::Repeated(what)));
             }
         }
         let rows: Vec<_> = rows.collect();
@@ -82,7 +82,7 @@ impl<'a> Sheet<'a> {
             return Ok(());
         }
         let what = format!("column `{name}`");
-        Err(FormatError::new(self.file, Some(1), Wrong::Missing { what }))
+        Err(FormatError::new(self.file, Some(1), Wrong::Missing(what)))
     }
 
     pub(crate) fn rows(&'a self) -> impl Iterator<Item = Row<'a>> {
@@ -148,7 +148,7 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>> {
         }
     }
     if quoted {
-        let wrong = Wrong::Missing { what: "end of a quoted cell".to_owned() };
+        let wrong = Wrong::Missing("end of a quoted cell".to_owned());
         return Err(FormatError::new(file, Some(began), wrong));
     }
     cells.push(finished(&mut cell, &mut was_quoted));

@@ -228,7 +228,7 @@ impl Basins {
             None => true,
         };
         let found = system.joints().iter().position(|joint| is_free(joint) && wanted(joint));
-        found.ok_or_else(|| Error::BasinsJoint { joint: self.joint.clone().unwrap_or_default() })
+        found.ok_or_else(|| Error::BasinsJoint(self.joint.clone().unwrap_or_default()))
     }
 
     /// Processor time that the starts take, s: from a few starts, good to a factor of three.
@@ -252,7 +252,7 @@ impl Basins {
             return Err(Error::BasinsBars { axes: self.bars, bars });
         }
         if !self.others_deg.is_finite() {
-            return Err(Error::BasinsAngle { others_deg: self.others_deg });
+            return Err(Error::BasinsAngle(self.others_deg));
         }
         Ok([i.min(j), i.max(j)])
     }

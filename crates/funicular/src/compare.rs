@@ -18,7 +18,7 @@ pub fn compare(
     answers: &mut [SystemEquilibrium],
 ) -> Result<SystemAgreement, Error> {
     if answers.len() < 2 {
-        return Err(Error::NothingToCompare { answers: answers.len() });
+        return Err(Error::NothingToCompare(answers.len()));
     }
     Ok(validate::systems::compare(&problem.system(), answers, &Tolerances::project()))
 }

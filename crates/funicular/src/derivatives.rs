@@ -118,23 +118,17 @@ fn by_name<S: Serializer>(list: &[(String, Vector)], serializer: S) -> Result<S:
 pub enum DerivativesError {
     /// Occurs when the text names a number without derivatives.
     #[error(
-        "there are no derivatives of `{text}`: there are some of `joints.NAME.x` (y, z), a coordinate of a joint that \
+        "there are no derivatives of `{0}`: there are some of `joints.NAME.x` (y, z), a coordinate of a joint that \
          moves, and of `bars.K.axial_n`, the axial force of bar K, from 1"
     )]
-    NoNumber {
-        /// The text.
-        text: String,
-    },
-    /// Occurs when derivatives by a parameter are not known.
+    NoNumber(String),
+    /// Occurs when derivatives by the parameter of this text are not known.
     #[error(
-        "there are no derivatives by `{text}`: there are some by `length_m`, `mass_kg`, \
+        "there are no derivatives by `{0}`: there are some by `length_m`, `mass_kg`, \
          `stiffness_n` and `prestress_n` of one bar (of a rope no `mass_kg`), `mass_kg` and `force_n` of a joint, \
          `at_m` of an anchor"
     )]
-    NoParameter {
-        /// The text.
-        text: String,
-    },
+    NoParameter(String),
 }
 
 impl Derivatives {
@@ -349,8 +343,7 @@ impl DerivativesAnswer {
             }
             _ => (None, 1.0),
         };
-        let parameter =
-            parameter.ok_or_else(|| DerivativesError::NoParameter { text: text.to_owned() })?;
+        let parameter = parameter.ok_or_else(|| DerivativesError::NoParameter(text.to_owned()))?;
         Ok((number, parameter, scale))
     }
 
@@ -368,7 +361,7 @@ impl DerivativesAnswer {
             Observable::Place(joint, axis) if !self.system.joints()[joint].support.is_fixed() => {
                 Ok(Of::Place(joint, axis))
             }
-            _ => Err(DerivativesError::NoNumber { text: text.to_owned() }.into()),
+            _ => Err(DerivativesError::NoNumber(text.to_owned()).into()),
         }
     }
 }

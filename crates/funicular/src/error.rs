@@ -31,13 +31,10 @@ pub enum Error {
         /// The name that is nearest, if one is near.
         suggestion: Option<&'static str>,
     },
-    /// Occurs when a page is to show shapes over parameters, and nothing hangs at any of their values.
+    /// Occurs when a page is to show shapes over parameters, and nothing hangs at any of their values: why there is no load path.
     #[cfg(feature = "branches")]
-    #[error("nothing hangs at any of the values; no load path: {because}")]
-    NoShapes {
-        /// Why there is no load path.
-        because: String,
-    },
+    #[error("nothing hangs at any of the values; no load path: {0}")]
+    NoShapes(String),
     /// Occurs when a file format has no counterpart of a part of the system.
     #[error(transparent)]
     Export(#[from] formats::export::ExportError),
@@ -46,19 +43,13 @@ pub enum Error {
         "this system has no load cases: tables [[cases]] with a name, and factors of its [[loads]]"
     )]
     NoCases,
-    /// Occurs when what was asked for is possible for chains between two anchors alone, and the
+    /// Occurs when this, which was asked for, is possible for chains between two anchors alone, and the
     /// problem is another system.
-    #[error("{what} is for chains between two anchors")]
-    ChainsOnly {
-        /// What was asked for.
-        what: &'static str,
-    },
-    /// Occurs when fewer than two answers are to be compared.
-    #[error("two answers can be compared, {answers} cannot")]
-    NothingToCompare {
-        /// Number of answers.
-        answers: usize,
-    },
+    #[error("{0} is for chains between two anchors")]
+    ChainsOnly(&'static str),
+    /// Occurs when so many answers, fewer than two, are to be compared.
+    #[error("two answers can be compared, {0} cannot")]
+    NothingToCompare(usize),
     /// Occurs when every solver that was asked gave up: the answer has no equilibrium, and says
     /// why.
     #[error("{}", reasons(.0.failures()))]
@@ -126,20 +117,14 @@ pub enum Error {
         /// Number of bars.
         bars: usize,
     },
-    /// Occurs when the joint whose start is to vary is none that can move.
+    /// Occurs when the joint of this name, whose start is to vary, is none that can move.
     #[cfg(feature = "sweep")]
-    #[error("{joint:?} is no joint that can move")]
-    BasinsJoint {
-        /// The name as given.
-        joint: String,
-    },
-    /// Occurs when the starting angle of the bars that are no axis is infinite or not a number.
+    #[error("{0:?} is no joint that can move")]
+    BasinsJoint(String),
+    /// Occurs when the starting angle of the bars that are no axis, in degrees, is infinite or not a number.
     #[cfg(feature = "sweep")]
-    #[error("the starting angle of the other bars must be finite, got {others_deg} degrees")]
-    BasinsAngle {
-        /// The angle as given.
-        others_deg: f64,
-    },
+    #[error("the starting angle of the other bars must be finite, got {0} degrees")]
+    BasinsAngle(f64),
     /// Occurs when a picture of basins cannot be drawn.
     #[cfg(feature = "sweep")]
     #[error(transparent)]
@@ -178,12 +163,9 @@ pub enum Error {
     /// Occurs when a simulation does not begin: a time out of range, no such start.
     #[error(transparent)]
     Simulate(#[from] crate::simulate::SimulateError),
-    /// Occurs when more threads are asked for than make sense.
-    #[error("{threads} threads are too many: at most {MOST_THREADS}")]
-    TooManyThreads {
-        /// The number as given.
-        threads: usize,
-    },
+    /// Occurs when so many threads are asked for, which is more than make sense.
+    #[error("{0} threads are too many: at most {MOST_THREADS}")]
+    TooManyThreads(usize),
     /// Occurs when the system does not start the threads.
     #[error("{threads} threads cannot be started: {reason}")]
     Threads {

@@ -185,7 +185,7 @@ impl Sweep {
     /// out of range and chains without a list, [`Error::TooManyThreads`].
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
         if self.threads > MOST_THREADS {
-            return Err(Error::TooManyThreads { threads: self.threads });
+            return Err(Error::TooManyThreads(self.threads));
         }
         let threads = if self.threads == 0 { rayon::current_num_threads() } else { self.threads };
         Budget::default().fits(threads as u64 * BYTES_PER_THREAD)?;
@@ -211,7 +211,7 @@ impl Sweep {
     /// The same of any system, from places of its joints in space.
     fn prepare_places(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
         if self.spread != Spread::Uniform || self.angles {
-            return Err(Error::ChainsOnly { what: "a grid or a sequence of angles" });
+            return Err(Error::ChainsOnly("a grid or a sequence of angles"));
         }
         let known = equilibria::all(problem, crate::simulate::CENSUS_BARS)?;
         let starts = threads::on(self.threads, || {

@@ -12,7 +12,7 @@ pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Re
         return Ok(work());
     }
     if threads > MOST_THREADS {
-        return Err(Error::TooManyThreads { threads });
+        return Err(Error::TooManyThreads(threads));
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

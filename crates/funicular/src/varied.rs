@@ -22,7 +22,7 @@ pub(crate) fn tracks(problem: &Problem, parameters: &Parameters) -> Result<Vec<T
             let study = Study::new().over(parameters.sampled(POINTS)).with_shapes();
             let found = study.run(problem)?;
             if found.shapes().next().is_none() {
-                return Err(Error::NoShapes { because: why });
+                return Err(Error::NoShapes(why));
             }
             Ok(found.tracks(&problem.system(), &why))
         }

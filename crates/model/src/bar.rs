@@ -28,18 +28,12 @@ impl PartialEq for Bar {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BarError {
-    /// Occurs when the length is zero, negative, infinite or not a number.
-    #[error("the length of a bar must be positive and finite, got {} m", Readable(*length_m))]
-    Length {
-        /// The length as given.
-        length_m: f64,
-    },
-    /// Occurs when the mass is negative, infinite or not a number; zero is a massless link.
-    #[error("the mass of a bar must be zero or positive, and finite, got {} kg", Readable(*mass_kg))]
-    Mass {
-        /// The mass as given.
-        mass_kg: f64,
-    },
+    /// Occurs when the length, in m, is zero, negative, infinite or not a number.
+    #[error("the length of a bar must be positive and finite, got {} m", Readable(*.0))]
+    Length(f64),
+    /// Occurs when the mass, in kg, is negative, infinite or not a number; zero is a massless link.
+    #[error("the mass of a bar must be zero or positive, and finite, got {} kg", Readable(*.0))]
+    Mass(f64),
     /// Occurs when the centre of weight does not lie on the bar.
     #[error(
         "the centre of weight must lie on the bar, between 0 and its length {} m, got {} m",
@@ -51,12 +45,9 @@ pub enum BarError {
         /// The length of the bar.
         length_m: f64,
     },
-    /// Occurs when a principal moment of inertia is negative, infinite or not a number.
-    #[error("a moment of inertia must be zero or positive, and finite, got {} kg m^2", Readable(*moment_kg_m2))]
-    Inertia {
-        /// The first bad moment.
-        moment_kg_m2: f64,
-    },
+    /// Occurs when a principal moment of inertia is negative, infinite or not a number: the first such, kg m².
+    #[error("a moment of inertia must be zero or positive, and finite, got {} kg m^2", Readable(*.0))]
+    Inertia(f64),
 }
 
 impl Bar {
@@ -108,17 +99,17 @@ impl Bar {
         let inertia_kg_m2 =
             given_inertia_kg_m2.unwrap_or_else(|| Self::slender_inertia(length_m, mass_kg));
         if !(length_m.is_finite() && length_m > 0.0) {
-            return Err(BarError::Length { length_m });
+            return Err(BarError::Length(length_m));
         }
         if !(mass_kg.is_finite() && mass_kg >= 0.0) {
-            return Err(BarError::Mass { mass_kg });
+            return Err(BarError::Mass(mass_kg));
         }
         if !(0.0..=length_m).contains(&centre_m) {
             return Err(BarError::Centre { centre_m, length_m });
         }
         for moment_kg_m2 in inertia_kg_m2 {
             if !(moment_kg_m2.is_finite() && moment_kg_m2 >= 0.0) {
-                return Err(BarError::Inertia { moment_kg_m2 });
+                return Err(BarError::Inertia(moment_kg_m2));
             }
         }
         let is_given = [given_centre_m.is_some(), given_inertia_kg_m2.is_some()];

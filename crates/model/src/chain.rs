@@ -93,7 +93,7 @@ impl Chain {
             return Err(SystemError::NoMembers);
         }
         if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
-            return Err(SystemError::Gravity { gravity_m_s2 });
+            return Err(SystemError::Gravity(gravity_m_s2));
         }
         for (joint, at_m) in [(0, anchors.start_m), (bars.len(), anchors.end_m)] {
             if let Some(&coordinate_m) = at_m.iter().find(|x| !x.is_finite()) {

@@ -86,7 +86,7 @@ fn parts(error: &Error) -> Parts {
         Error::System(error) | Error::Point(PointError::System(error)) => system(error),
         Error::Refused(refusal) => refused(refusal),
         Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
-        Error::ChainsOnly { what } => ("ChainsOnly", fields!(what)),
+        Error::ChainsOnly(what) => ("ChainsOnly", fields!(what)),
         Error::Unsolved(answer) => ("Unsolved", failures(answer.failures())),
         Error::Given(error) => given(error),
         Error::Tolerance(ToleranceError { tolerance }) => ("SettingError", fields!(tolerance)),
@@ -98,14 +98,14 @@ fn parts(error: &Error) -> Parts {
         }
         Error::Point(PointError::Refused(refusal)) => refused(refusal),
         Error::Derivatives(
-            DerivativesError::NoNumber { text } | DerivativesError::NoParameter { text },
+            DerivativesError::NoNumber(text) | DerivativesError::NoParameter(text),
         ) => ("DerivativesError", fields!(text)),
         Error::Simulate(error) => simulate(error),
         Error::Store(error) => {
             ("StoreError", vec![("may_pass", Field::Count(u64::from(error.may_pass())))])
         }
         Error::GridSeeds { seeds, bars, .. } => ("SettingError", fields!(seeds, bars)),
-        Error::TooManyThreads { threads } => ("SettingError", fields!(threads)),
+        Error::TooManyThreads(threads) => ("SettingError", fields!(threads)),
         Error::Motion(_) => ("MotionError", vec![]),
         Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
         Error::Continuation(_) | Error::Load(_) => ("TraceError", vec![]),
@@ -142,10 +142,10 @@ fn file(error: &SystemFileError) -> Parts {
 
 fn bar(error: &BarError) -> Parts {
     let fields = match error {
-        BarError::Length { length_m } => fields!(length_m),
-        BarError::Mass { mass_kg } => fields!(mass_kg),
+        BarError::Length(length_m) => fields!(length_m),
+        BarError::Mass(mass_kg) => fields!(mass_kg),
         BarError::Centre { centre_m, length_m } => fields!(centre_m, length_m),
-        BarError::Inertia { moment_kg_m2 } => fields!(moment_kg_m2),
+        BarError::Inertia(moment_kg_m2) => fields!(moment_kg_m2),
         _ => vec![],
     };
     ("BarError", fields)
@@ -153,7 +153,7 @@ fn bar(error: &BarError) -> Parts {
 
 fn system(error: &SystemError) -> Parts {
     let fields = match error {
-        SystemError::Gravity { gravity_m_s2 } => fields!(gravity_m_s2),
+        SystemError::Gravity(gravity_m_s2) => fields!(gravity_m_s2),
         SystemError::DuplicateName { name, joint } => fields!(name, joint),
         SystemError::Coordinate { name, joint, coordinate_m } => fields!(name, joint, coordinate_m),
         SystemError::Direction { name, joint, length } => fields!(name, joint, length),
@@ -162,7 +162,7 @@ fn system(error: &SystemError) -> Parts {
         SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
         SystemError::UnknownJoint { member, name } => fields!(member, name),
         SystemError::SelfLoop { member, joint } => fields!(member, joint),
-        SystemError::Overflow { quantity } => fields!(quantity),
+        SystemError::Overflow(quantity) => fields!(quantity),
         SystemError::Underflow { quantity, total } => fields!(quantity, total),
         SystemError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],
@@ -202,11 +202,11 @@ fn refused(refusal: &Refusal) -> Parts {
 fn given(error: &GivenError) -> Parts {
     let fields = match error {
         GivenError::UnknownJoint { name, suggestion } => fields!(name, suggestion),
-        GivenError::Repeated { name } => fields!(name),
+        GivenError::Repeated(name) => fields!(name),
         GivenError::MissingJoints { names, count } | GivenError::MissingForces { names, count } => {
             fields!(names, count)
         }
-        GivenError::NotFinite { what } => fields!(what),
+        GivenError::NotFinite(what) => fields!(what),
         GivenError::UnknownMember { from: from_joint, to: to_joint }
         | GivenError::RepeatedMember { from: from_joint, to: to_joint } => {
             fields!(from_joint, to_joint)
@@ -220,8 +220,8 @@ fn given(error: &GivenError) -> Parts {
 fn simulate(error: &SimulateError) -> Parts {
     let fields = match error {
         SimulateError::Time { what, value_s } => fields!(what, value_s),
-        SimulateError::Steps { steps } => fields!(steps),
-        SimulateError::NoSuchJoint { name } | SimulateError::PushedAnchor { name } => fields!(name),
+        SimulateError::Steps(steps) => fields!(steps),
+        SimulateError::NoSuchJoint(name) | SimulateError::PushedAnchor(name) => fields!(name),
         SimulateError::NoSuchEquilibrium { label, labels } => fields!(label, labels),
         SimulateError::AngleCount { given, bars } => fields!(given, bars),
         SimulateError::Angles { off, bar, joint } => fields!(off, bar, joint),

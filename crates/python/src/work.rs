@@ -72,7 +72,7 @@ fn processors() -> usize {
 
 fn check(threads: usize) -> PyResult<()> {
     if threads > funicular::MOST_THREADS {
-        return Err(raise(&Error::TooManyThreads { threads }));
+        return Err(raise(&Error::TooManyThreads(threads)));
     }
     Ok(())
 }

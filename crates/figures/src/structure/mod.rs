@@ -122,12 +122,9 @@ pub enum StructureError {
         /// Joints in the list.
         joints: usize,
     },
-    /// Occurs when a coordinate is not finite.
-    #[error("joint {joint} is at no finite place")]
-    NotFinite {
-        /// Place of the joint, from 0.
-        joint: usize,
-    },
+    /// Occurs when a coordinate of a joint, by its place from 0, is not finite.
+    #[error("joint {0} is at no finite place")]
+    NotFinite(usize),
 }
 
 impl Structure<'_> {
@@ -180,7 +177,7 @@ impl Structure<'_> {
         }
         let finite = |joint: &Joint<'_>| joint.at_m.iter().all(|x| x.is_finite());
         if let Some(joint) = self.joints.iter().position(|joint| !finite(joint)) {
-            return Err(StructureError::NotFinite { joint });
+            return Err(StructureError::NotFinite(joint));
         }
         let joints = self.joints.len();
         for (member, one) in self.members.iter().enumerate() {

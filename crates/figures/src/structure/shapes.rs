@@ -73,7 +73,7 @@ impl ModeShapes<'_> {
         }
         let finite = |joint: &Vector| joint.iter().all(|x| x.is_finite());
         if let Some(joint) = self.joints_m.iter().position(|joint| !finite(joint)) {
-            return Err(StructureError::NotFinite { joint });
+            return Err(StructureError::NotFinite(joint));
         }
         let rows = self.modes.len().div_ceil(COLUMNS).max(1);
         let size = [PANEL[0] * COLUMNS as f64, ABOVE + PANEL[1] * rows as f64];

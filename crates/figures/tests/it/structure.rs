@@ -145,7 +145,7 @@ fn what_cannot_be_drawn_is_refused() {
     let error = StructureError::NoJoint { member: 0, joint: 3, joints: 2 };
     assert_eq!(refused(&joints[..2], &members), error);
     joints[1].at_m[2] = f64::NAN;
-    assert_eq!(refused(&joints, &members), StructureError::NotFinite { joint: 1 });
+    assert_eq!(refused(&joints, &members), StructureError::NotFinite(1));
     // All in one place, and a force that is no number: drawn, without nonsense.
     let joints = [Joint { load_n: [f64::NAN; 3], ..Joint::free("", [1.0; 3]) }; 2];
     let member = Member { joints: [0, 1], axial_n: Some(f64::NAN), ..Member::default() };

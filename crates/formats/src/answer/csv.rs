@@ -48,7 +48,7 @@ pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
         let collected = &mut answers[index].1;
         let name = name_of_cell(row.text("joint")).to_owned();
         if name.is_empty() {
-            return Err(row.error(Wrong::Missing { what: "name of the joint".to_owned() }));
+            return Err(row.error(Wrong::Missing("name of the joint".to_owned())));
         }
         let place = [row.number("x_m")?, row.number("y_m")?, row.number("z_m")?];
         if reactions {
@@ -62,7 +62,7 @@ pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
         collected.joints.push((name, place));
     }
     if answers.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing { what: "joint".to_owned() }));
+        return Err(FormatError::new(file, None, Wrong::Missing("joint".to_owned())));
     }
     let answer = |(source, collected): (String, Collected)| Answer {
         source,
@@ -113,7 +113,7 @@ pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>> 
         lists[index].1.push((from, to, force));
     }
     if lists.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing { what: "member".to_owned() }));
+        return Err(FormatError::new(file, None, Wrong::Missing("member".to_owned())));
     }
     Ok(lists)
 }

@@ -94,7 +94,7 @@ pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>> {
 /// # Ok::<(), formats::FormatError>(())
 /// ```
 pub fn attach_forces(answers: &mut [Answer], lists: &[MemberForces], file: &str) -> Result<()> {
-    let missing = |what| Err(FormatError::new(file, None, Wrong::Missing { what }));
+    let missing = |what| Err(FormatError::new(file, None, Wrong::Missing(what)));
     let mut taken = vec![false; lists.len()];
     let numbers: HashMap<_, _> =
         lists.iter().enumerate().map(|(k, (name, _))| (name.as_deref(), k)).collect();

@@ -27,7 +27,7 @@ pub fn parse_vtu(text: &str, file: &str) -> Result<Answer> {
     let text = text.trim_start_matches('\u{feff}');
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let line = usize::try_from(error.pos().row).ok();
-        FormatError::new(file, line, Wrong::Xml { reason: error.to_string() })
+        FormatError::new(file, line, Wrong::Xml(error.to_string()))
     })?;
     let reader = Reader { file };
     let root = document.root_element();
@@ -78,7 +78,7 @@ fn check_attributes(text: &str, file: &str) -> Result<()> {
     };
     let line = text[..part.as_ptr().addr() - text.as_ptr().addr()].matches('\n').count() + 1;
     let what = format!("an element with {found} attributes");
-    Err(FormatError::new(file, Some(line), Wrong::Unknown { what }))
+    Err(FormatError::new(file, Some(line), Wrong::Unknown(what)))
 }
 
 struct Reader<'a> {
@@ -92,7 +92,7 @@ impl Reader<'_> {
     }
 
     fn missing(&self, node: Node<'_, '_>, what: &str) -> FormatError {
-        self.error(node, Wrong::Missing { what: what.to_owned() })
+        self.error(node, Wrong::Missing(what.to_owned()))
     }
 
     fn child<'n, 'd>(&self, node: Node<'n, 'd>, name: &str) -> Result<Node<'n, 'd>> {
@@ -105,7 +105,7 @@ impl Reader<'_> {
         let format = node.attribute("format").unwrap_or("ascii");
         if format != "ascii" {
             let what = format!("DataArray of format {format:?}");
-            let error = self.error(node, Wrong::Unknown { what });
+            let error = self.error(node, Wrong::Unknown(what));
             return Err(error.with_help("write the file in ASCII"));
         }
         let line = node.document().text_pos_at(node.range().start).row;
@@ -152,7 +152,7 @@ impl Reader<'_> {
         for (end, kind) in ends.into_iter().zip(kinds) {
             if !LINES.contains(&kind) {
                 let what = format!("cell of VTK's type {kind}");
-                return Err(self.error(piece, Wrong::OutOfScope { what }));
+                return Err(self.error(piece, Wrong::OutOfScope(what)));
             }
             let Some(line) = points.get(start..end) else {
                 let wrong = Wrong::Count { wanted: end, found: points.len() };

@@ -87,7 +87,7 @@ impl<'a> Attributes<'a> {
 
 impl Reader<'_> {
     fn unknown(&self, what: String) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Unknown { what })
+        FormatError::new(self.file, None, Wrong::Unknown(what))
     }
 
     fn object<'v>(&self, what: &str, value: Option<&'v Value>) -> Result<&'v Map<String, Value>> {
@@ -158,7 +158,7 @@ impl Reader<'_> {
                 && self.number(key, load)?.abs() > 0.0
             {
                 let what = format!("the load {key} on {place}");
-                return Err(FormatError::new(self.file, None, Wrong::OutOfScope { what }));
+                return Err(FormatError::new(self.file, None, Wrong::OutOfScope(what)));
             }
         }
         let q = attributes.get("q").ok_or_else(|| self.missing(&format!("q of {place}")))?;

@@ -79,7 +79,7 @@ impl<'a> Drawing<'a> {
         let kind = match () {
             () if layer.contains("rope") => {
                 let what = format!("a rope ({:?}), over whatever it runs,", shortened(&layer));
-                let error = self.error(line, Wrong::Unknown { what });
+                let error = self.error(line, Wrong::Unknown(what));
                 return Err(error.with_help(ROPES));
             }
             () if layer.contains("cable") => Kind::Cable,
@@ -117,7 +117,7 @@ impl<'a> Drawing<'a> {
         if layer.contains(SLIDING) || axes.chars().any(|c| !"xyz".contains(c)) || free == [true; 3]
         {
             let what = format!("a support that slides obliquely ({:?})", shortened(&layer));
-            let error = self.error(line, Wrong::Unknown { what });
+            let error = self.error(line, Wrong::Unknown(what));
             return Err(error.with_help("a name such as supports_free_xz says along which axes"));
         }
         self.anchors.push(Anchor { line, at_m, free });
@@ -168,7 +168,7 @@ impl<'a> Drawing<'a> {
             match seen.entry([a.min(b), a.max(b)]) {
                 Entry::Occupied(other) => {
                     let what = format!("the {word} in line {}", other.get());
-                    return Err(self.error(line.line, Wrong::Repeated { what }));
+                    return Err(self.error(line.line, Wrong::Repeated(what)));
                 }
                 Entry::Vacant(free) => free.insert(line.line),
             };
@@ -176,7 +176,7 @@ impl<'a> Drawing<'a> {
         }
         if ends.is_empty() {
             let what = format!("{word} that has a length");
-            return Err(FormatError::new(self.file, None, Wrong::Missing { what }));
+            return Err(FormatError::new(self.file, None, Wrong::Missing(what)));
         }
         let (names, nameless) = self.named(&places, &ends);
         let joints = self.joints(&places, names, mark)?;
@@ -254,18 +254,18 @@ impl<'a> Drawing<'a> {
         for anchor in &self.anchors {
             let Some(joint) = places.find(anchor.at_m) else {
                 let what = "line that ends at this anchor".to_owned();
-                return Err(self.error(anchor.line, Wrong::Missing { what }));
+                return Err(self.error(anchor.line, Wrong::Missing(what)));
             };
             let other = *marked.entry(joint).or_insert(anchor);
             if other.free != anchor.free {
                 let what = format!("the anchor in line {}, held in another way,", other.line);
-                return Err(self.error(anchor.line, Wrong::Repeated { what }));
+                return Err(self.error(anchor.line, Wrong::Repeated(what)));
             }
             let [x, y, z] = anchor.free;
             free[joint] = if places.level { [x, false, y] } else { [x, y, z] };
         }
         if self.anchors.is_empty() {
-            let missing = Wrong::Missing { what: "anchor".to_owned() };
+            let missing = Wrong::Missing("anchor".to_owned());
             return Err(FormatError::new(self.file, None, missing).with_help(mark));
         }
         let joint = |(k, &at_m): (usize, &Vector)| {
@@ -283,7 +283,7 @@ impl<'a> Drawing<'a> {
     }
 
     fn no_system(&self, line: Option<usize>, reason: &dyn std::fmt::Display) -> FormatError {
-        FormatError::new(self.file, line, Wrong::NoSystem { reason: reason.to_string() })
+        FormatError::new(self.file, line, Wrong::NoSystem(reason.to_string()))
     }
 }
 

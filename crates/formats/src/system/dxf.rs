@@ -97,7 +97,7 @@ struct Sheet<'a> {
 pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
     if text.starts_with("AutoCAD Binary DXF") {
         let what = "a binary DXF file".to_owned();
-        let error = FormatError::new(file, None, Wrong::Unknown { what });
+        let error = FormatError::new(file, None, Wrong::Unknown(what));
         return Err(error.with_help("save the drawing as DXF in ASCII"));
     }
     let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines().enumerate();
@@ -112,7 +112,7 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
     let mut section = "";
     loop {
         let Some(entity) = groups.entity()? else {
-            let missing = Wrong::Missing { what: "end of the drawing (EOF)".to_owned() };
+            let missing = Wrong::Missing("end of the drawing (EOF)".to_owned());
             return Err(FormatError::new(file, None, missing));
         };
         match (section, entity.kind) {
@@ -155,7 +155,7 @@ impl<'a> Groups<'a> {
         };
         let Some((_, value)) = self.lines.next() else {
             let what = format!("value of the group {code}");
-            return Err(FormatError::new(self.file, Some(line), Wrong::Missing { what }));
+            return Err(FormatError::new(self.file, Some(line), Wrong::Missing(what)));
         };
         Ok(Some(Group { line, code, value: value.trim() }))
     }
@@ -173,7 +173,7 @@ impl<'a> Groups<'a> {
         }
         let Some(Group { line, code: 0, value: kind }) = head else {
             let (line, what) = (head.map(|head| head.line), "group 0 of an entity".to_owned());
-            return Err(FormatError::new(self.file, line, Wrong::Missing { what }));
+            return Err(FormatError::new(self.file, line, Wrong::Missing(what)));
         };
         let mut groups = vec![];
         while let Some(group) = self.group()? {
@@ -216,7 +216,7 @@ impl<'a> Entity<'a> {
     }
 
     fn missing(&self, what: &str) -> FormatError {
-        self.error(Wrong::Missing { what: what.to_owned() })
+        self.error(Wrong::Missing(what.to_owned()))
     }
 
     /// The point of the groups 10, 20, 30, or 11, 21, 31, m.
@@ -240,7 +240,7 @@ impl<'a> Entity<'a> {
         let unit = UNITS.iter().find(|(number, ..)| *number == group.value);
         unit.copied().map(Some).ok_or_else(|| {
             let what = format!("the unit {:?} ($INSUNITS)", shortened(group.value));
-            let error = FormatError::new(self.file, Some(group.line + 1), Wrong::Unknown { what });
+            let error = FormatError::new(self.file, Some(group.line + 1), Wrong::Unknown(what));
             error.with_help("draw in m, dm, cm, mm, km, in, ft or yd")
         })
     }
@@ -290,7 +290,7 @@ impl<'a> Entity<'a> {
             }
             ("INSERT", _) if !blocks.is_plain(self.text(2)) => {
                 let what = format!("the block {:?}", shortened(self.text(2)));
-                return Err(self.error(Wrong::Unknown { what }).with_help(EXPLODE));
+                return Err(self.error(Wrong::Unknown(what)).with_help(EXPLODE));
             }
             (kind, _) => drawing.skip(&shortened(kind)),
         }
@@ -319,7 +319,7 @@ impl<'a> Entity<'a> {
         for group in bulges {
             if self.value(group)?.abs() > 0.0 {
                 let what = "an arc of a polyline (group 42)".to_owned();
-                let wrong = Wrong::OutOfScope { what };
+                let wrong = Wrong::OutOfScope(what);
                 return Err(FormatError::new(self.file, Some(group.line), wrong));
             }
         }
@@ -331,7 +331,7 @@ impl<'a> Entity<'a> {
         let normal = [self.number(210, 0.0)?, self.number(220, 0.0)?, self.number(230, 1.0)?];
         if normal[0].abs() + normal[1].abs() > 0.0 || normal[2] <= 0.0 {
             let what = "a polyline in a plane of its own (groups 210 to 230)".to_owned();
-            return Err(self.error(Wrong::Unknown { what }).with_help("draw it in 3D"));
+            return Err(self.error(Wrong::Unknown(what)).with_help("draw it in 3D"));
         }
         Ok(())
     }

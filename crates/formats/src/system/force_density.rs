@@ -87,7 +87,7 @@ impl ForceDensityNet {
     /// # Ok::<(), formats::FormatError>(())
     /// ```
     pub fn system_at(&self, places_m: &[Vector], file: &str) -> Result<System> {
-        let no_system = |reason: String| FormatError::new(file, None, Wrong::NoSystem { reason });
+        let no_system = |reason: String| FormatError::new(file, None, Wrong::NoSystem(reason));
         if places_m.len() != self.nodes.len() {
             let (places, nodes) = (places_m.len(), self.nodes.len());
             return Err(no_system(format!("{places} places for {nodes} nodes")));

@@ -186,5 +186,5 @@ fn held_loads(loads_n: impl Iterator<Item = Vector>) -> Option<String> {
 }
 
 fn no_system(file: &str, reason: &dyn std::fmt::Display) -> FormatError {
-    FormatError::new(file, None, Wrong::NoSystem { reason: reason.to_string() })
+    FormatError::new(file, None, Wrong::NoSystem(reason.to_string()))
 }

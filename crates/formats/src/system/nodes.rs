@@ -43,7 +43,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
     for row in sheet.rows() {
         let node = node(&row)?;
         if numbers.insert(node.name.clone(), found.len()).is_some() {
-            return Err(row.error(Wrong::Repeated { what: format!("node {:?}", node.name) }));
+            return Err(row.error(Wrong::Repeated(format!("node {:?}", node.name))));
         }
         found.push(node);
     }
@@ -62,7 +62,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
     let edges = sheet.rows().map(|row| edge(&row, &numbers, &found, sheet.has("force_n")));
     let edges = edges.collect::<Result<Vec<_>, _>>()?;
     if edges.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing { what: "edge".to_owned() }));
+        return Err(FormatError::new(file, None, Wrong::Missing("edge".to_owned())));
     }
     Ok(ForceDensityNet { name: name.to_owned(), nodes: found, edges })
 }
@@ -70,7 +70,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
 fn node(row: &Row<'_>) -> Result<Node> {
     let name = row.text("joint").to_owned();
     if name.is_empty() {
-        return Err(row.error(Wrong::Missing { what: "name of the joint".to_owned() }));
+        return Err(row.error(Wrong::Missing("name of the joint".to_owned())));
     }
     let mut at_m = [row.number("x_m")?, row.number("y_m")?, row.number("z_m")?];
     for (place, moved) in at_m.iter_mut().zip(["u_m", "v_m", "w_m"]) {
@@ -95,7 +95,7 @@ fn edge(
     let end = |column: &str| {
         let name = row.text(column);
         let number = numbers.get(name).copied();
-        number.ok_or_else(|| row.error(Wrong::Missing { what: format!("node {name:?}") }))
+        number.ok_or_else(|| row.error(Wrong::Missing(format!("node {name:?}"))))
     };
     let (from, to, density_n_m) = (end("from")?, end("to")?, row.number("q_n_m")?);
     if with_force {
@@ -106,7 +106,7 @@ fn edge(
             let reason = format!(
                 "the force {given} N is not the force density times the length, {follows} N"
             );
-            return Err(row.error(Wrong::NoSystem { reason }));
+            return Err(row.error(Wrong::NoSystem(reason)));
         }
     }
     Ok(Edge { from, to, density_n_m })

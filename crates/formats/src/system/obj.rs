@@ -66,7 +66,7 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem> {
             word if among(NO_BEARING, word) => {}
             word => {
                 let what = format!("the element {:?}", shortened(word));
-                return Err(FormatError::new(file, at, Wrong::Unknown { what }));
+                return Err(FormatError::new(file, at, Wrong::Unknown(what)));
             }
         }
     }
@@ -81,6 +81,6 @@ fn corner(vertices: &[Vector], word: &str, file: &str, line: usize) -> Result<Ve
     let vertex = index.and_then(|index| vertices.get(usize::try_from(index).ok()?));
     vertex.copied().ok_or_else(|| {
         let what = format!("vertex {:?}", shortened(word));
-        FormatError::new(file, Some(line), Wrong::Missing { what })
+        FormatError::new(file, Some(line), Wrong::Missing(what))
     })
 }

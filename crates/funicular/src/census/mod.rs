@@ -138,7 +138,7 @@ impl Census {
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<LargeCensusAnswer, Error> {
         let system = problem.system();
-        let row = LoadedRow::of(&system).ok_or(Error::ChainsOnly { what: "a long list" })?;
+        let row = LoadedRow::of(&system).ok_or(Error::ChainsOnly("a long list"))?;
         let census = threads::on(self.threads, || row.compact(&self.settings, watch))??;
         Ok(LargeCensusAnswer::new(&system, census, made))
     }

@@ -144,7 +144,7 @@ impl From<Error> for Failure {
             | Error::Load(
                 LoadError::Solver(_)
                 | LoadError::NotNear { .. }
-                | LoadError::Start { .. }
+                | LoadError::Start(_)
                 | LoadError::Singular,
             ) => Exit::Undecided,
             _ => Exit::BadInput,

@@ -17,29 +17,20 @@ pub enum SimulateError {
         /// Its value.
         value_s: f64,
     },
-    /// Occurs when the time has more steps than can be counted.
-    #[error("{steps:e} steps are too many: at most {MOST_STEPS:e}")]
-    Steps {
-        /// Their number.
-        steps: f64,
-    },
+    /// Occurs when the time has so many steps, more than can be counted.
+    #[error("{0:e} steps are too many: at most {MOST_STEPS:e}")]
+    Steps(f64),
     /// Occurs when many positions are to come to rest, and there is no damping.
     #[error(
         "without damping nothing comes to rest: give damping by a medium or friction in the joints"
     )]
     NoDamping,
-    /// Occurs when a joint that is to be pushed, or on which a force is to act, is not there.
-    #[error("there is no joint {name:?}")]
-    NoSuchJoint {
-        /// The name as given.
-        name: String,
-    },
-    /// Occurs when a joint that is to be pushed is held.
-    #[error("joint {name:?} is an anchor: a push does not move it")]
-    PushedAnchor {
-        /// The name.
-        name: String,
-    },
+    /// Occurs when no joint has this name, which is to be pushed, or on which a force is to act.
+    #[error("there is no joint {0:?}")]
+    NoSuchJoint(String),
+    /// Occurs when the joint of this name, which is to be pushed, is held.
+    #[error("joint {0:?} is an anchor: a push does not move it")]
+    PushedAnchor(String),
     /// Occurs when there is no equilibrium of this number.
     #[error("there is no equilibrium {label:?}; there are {}", labels.join(", "))]
     NoSuchEquilibrium {

@@ -172,7 +172,7 @@ impl Simulate {
             let force = force.clone();
             let of_time = Box::new(move |time_s: f64| force.at(time_s));
             let number = numbers.get(name.as_str()).copied();
-            let number = number.ok_or_else(|| SimulateError::NoSuchJoint { name: name.clone() })?;
+            let number = number.ok_or_else(|| SimulateError::NoSuchJoint(name.clone()))?;
             simulation.add_force(number, of_time)?;
         }
         let step_s = self.time_s / steps as f64;
@@ -207,7 +207,7 @@ impl Simulate {
         }
         let steps = (self.time_s / self.step_s).round().max(1.0);
         if steps > MOST_STEPS {
-            return Err(SimulateError::Steps { steps }.into());
+            return Err(SimulateError::Steps(steps).into());
         }
         let every = (store_s / self.step_s).round().max(1.0);
         #[expect(
@@ -223,7 +223,7 @@ impl Simulate {
         for (name, impulse) in &self.pushes {
             let joint = joint(system, name)?;
             if system.joints()[joint].support.is_fixed() {
-                return Err(SimulateError::PushedAnchor { name: name.clone() }.into());
+                return Err(SimulateError::PushedAnchor(name.clone()).into());
             }
             for k in 0..3 {
                 impulses[joint][k] += impulse[k];
@@ -234,7 +234,7 @@ impl Simulate {
 }
 
 fn joint(system: &System, name: &str) -> Result<usize, SimulateError> {
-    system.joint(name).ok_or_else(|| SimulateError::NoSuchJoint { name: name.to_owned() })
+    system.joint(name).ok_or_else(|| SimulateError::NoSuchJoint(name.to_owned()))
 }
 
 /// A motion at its stored times.

@@ -173,7 +173,7 @@ impl Solve {
         let Self { solvers, equations, census, max_work, .. } = *self;
         let is_row = || problem.row().is_some() && system.drawing().is_none();
         if equations == Equations::Full && !is_row() {
-            return Err(Error::ChainsOnly { what: FULL });
+            return Err(Error::ChainsOnly(FULL));
         }
         let question = Question { solvers, equations, census, threads, max_work };
         let answer = ask_with(&system, &question, watch);

@@ -244,7 +244,7 @@ impl load::Equations for Family<'_> {
 impl From<NoPath<LoadError>> for LoadError {
     fn from(error: NoPath<LoadError>) -> Self {
         match error {
-            NoPath::Start { residual } => Self::Start { residual },
+            NoPath::Start { residual } => Self::Start(residual),
             NoPath::Singular => Self::Singular,
             NoPath::Numbers(error) => error,
         }

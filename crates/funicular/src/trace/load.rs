@@ -51,16 +51,13 @@ pub enum LoadError {
         /// How far, m.
         moved_m: f64,
     },
-    /// Occurs when the shape given is no equilibrium at the start, nor next to one.
+    /// Occurs when the shape given is no equilibrium at the start, nor next to one: what is left of balance and lengths.
     #[error(
-        "no equilibrium at the start of the path: next to the shape given a part {residual} of forces or lengths \
+        "no equilibrium at the start of the path: next to the shape given a part {} of forces or lengths \
          is left",
-        residual = Brief(*residual)
+        Brief(*.0)
     )]
-    Start {
-        /// What is left of balance and lengths.
-        residual: f64,
-    },
+    Start(f64),
     /// Occurs when the equilibrium at the start is singular, as in a limit point.
     #[error(
         "the start of the path is singular, as in a limit point, or where something turns or moves freely"

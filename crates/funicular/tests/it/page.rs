@@ -138,7 +138,7 @@ fn a_study_where_there_is_no_load_path() {
     assert!(study["group"] == "Study" && study["at"].as_array().unwrap().len() == 41);
     assert!(study["x"][0].is_null() && study["x"][40].is_array());
     let nowhere = Page::new().vary("anchors.end_m.x=2.2..3").unwrap().run(&problem);
-    assert!(matches!(nowhere, Err(Error::NoShapes { .. })));
+    assert!(matches!(nowhere, Err(Error::NoShapes(_))));
 }
 
 /// A case of the paper has a census: its four equilibria stand beside the answer.

@@ -62,10 +62,7 @@ fn derivatives_are_the_differences_of_the_other_solver() {
     // A rope has no mass to vary.
     assert!(height.by("bars.1.mass_kg").is_none() && height.by("bars.6.mass_kg").is_some());
     let refused = derivatives.change("bars.1.mass_kg").unwrap_err();
-    assert!(
-        matches!(refused, Error::Derivatives(DerivativesError::NoParameter { .. })),
-        "{refused}"
-    );
+    assert!(matches!(refused, Error::Derivatives(DerivativesError::NoParameter(_))), "{refused}");
 }
 
 /// A ring of 10 kg on a rope of 5 m from the origin to 4 m aside and 1 m up.

@@ -13,15 +13,12 @@ use crate::{SMALLEST_TOTAL, Vector};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SystemError {
-    /// Occurs when gravity is zero, negative, infinite or not a number.
+    /// Occurs when gravity, in m/s², is zero, negative, infinite or not a number.
     #[error(
         "gravity must be positive and finite (it acts along -Z), got {} m/s^2",
-        Readable(*gravity_m_s2)
+        Readable(*.0)
     )]
-    Gravity {
-        /// Gravity as given.
-        gravity_m_s2: f64,
-    },
+    Gravity(f64),
     /// Occurs when there are no members.
     #[error("a system needs at least one member")]
     NoMembers,
@@ -194,12 +191,9 @@ pub enum SystemError {
         /// How far away.
         distance_m: f64,
     },
-    /// Occurs when the height of the floor is infinite or not a number.
-    #[error("the height of the floor must be finite, got {floor_m} m")]
-    Floor {
-        /// The height as given.
-        floor_m: f64,
-    },
+    /// Occurs when the height of the floor, in m, is infinite or not a number.
+    #[error("the height of the floor must be finite, got {0} m")]
+    Floor(f64),
     /// Occurs when a support holds a joint below the floor.
     #[error(
         "joint {name:?} is held at the height {} m, below the floor at {} m", Readable(*height_m), Readable(*floor_m)
@@ -222,12 +216,9 @@ pub enum SystemError {
         /// Its number, from 0.
         number: usize,
     },
-    /// Occurs when two load cases have the same name.
-    #[error("two load cases are called {case:?}")]
-    DuplicateCase {
-        /// The name.
-        case: String,
-    },
+    /// Occurs when two load cases have the same name, this one.
+    #[error("two load cases are called {0:?}")]
+    DuplicateCase(String),
     /// Occurs when a system has no load case of a name.
     #[error("there is no load case {case:?}; {}", if known.is_empty() { "the system has none".to_owned() } else { format!("there are {}", quoted(known)) })]
     UnknownCase {
@@ -258,15 +249,12 @@ pub enum SystemError {
         /// The factor as given.
         factor: f64,
     },
-    /// Occurs when every number is finite and a total, or its square, is not: lengths, loads, their product,
+    /// Occurs when every number is finite and this total, or its square, is not: lengths, loads, their product,
     /// stiffnesses.
     #[error(
-        "the {quantity} of this system is above {LARGEST_TOTAL:e}: its square is more than a double can hold"
+        "the {0} of this system is above {LARGEST_TOTAL:e}: its square is more than a double can hold"
     )]
-    Overflow {
-        /// Which total.
-        quantity: &'static str,
-    },
+    Overflow(&'static str),
     /// Occurs when a total is less than [`SMALLEST_TOTAL`], so that digits would be lost without
     /// notice.
     #[error(
@@ -309,7 +297,7 @@ pub(super) fn check(
     members: &[Member],
 ) -> Result<(), SystemError> {
     if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
-        return Err(SystemError::Gravity { gravity_m_s2 });
+        return Err(SystemError::Gravity(gravity_m_s2));
     }
     if members.is_empty() {
         return Err(SystemError::NoMembers);
@@ -433,7 +421,7 @@ fn idle_strength(member: &Member) -> Option<&'static str> {
 /// Refuse a floor above what a support holds.
 pub(super) fn check_floor(floor_m: f64, joints: &[Joint]) -> Result<(), SystemError> {
     if !floor_m.is_finite() {
-        return Err(SystemError::Floor { floor_m });
+        return Err(SystemError::Floor(floor_m));
     }
     for (number, joint) in joints.iter().enumerate() {
         // The height of what moves level alone.
@@ -488,7 +476,7 @@ pub(crate) fn check_range<const N: usize>(
 ) -> Result<(), SystemError> {
     for (quantity, total, may_vanish) in totals {
         if total.is_nan() || total > LARGEST_TOTAL {
-            return Err(SystemError::Overflow { quantity });
+            return Err(SystemError::Overflow(quantity));
         }
         if total < SMALLEST_TOTAL && !may_vanish {
             return Err(SystemError::Underflow { quantity, total });

@@ -212,7 +212,7 @@ impl System {
         }
         for (k, case) in cases.iter().enumerate() {
             if cases[..k].iter().any(|other| other.name == case.name) {
-                return Err(SystemError::DuplicateCase { case: case.name.clone() });
+                return Err(SystemError::DuplicateCase(case.name.clone()));
             }
             for (name, factor) in &case.factors {
                 let is_there = name == PERMANENT || loads.iter().any(|load| load.name == *name);

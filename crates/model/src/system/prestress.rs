@@ -27,18 +27,12 @@ pub enum PrestressError {
         "a prestress needs a stiffness: an inextensible member has its length whatever it bears"
     )]
     Inextensible,
-    /// Occurs when the stiffness is zero, negative, infinite or not a number.
-    #[error("the stiffness EA of a member must be positive and finite, got {} N", Readable(*stiffness_n))]
-    Stiffness {
-        /// The stiffness as given.
-        stiffness_n: f64,
-    },
-    /// Occurs when the prestress is infinite or not a number.
-    #[error("a prestress must be finite, got {prestress_n} N")]
-    NotFinite {
-        /// The prestress as given.
-        prestress_n: f64,
-    },
+    /// Occurs when the stiffness, in N, is zero, negative, infinite or not a number.
+    #[error("the stiffness EA of a member must be positive and finite, got {} N", Readable(*.0))]
+    Stiffness(f64),
+    /// Occurs when the prestress, in N, is infinite or not a number.
+    #[error("a prestress must be finite, got {0} N")]
+    NotFinite(f64),
     /// Occurs when a cable is to push or a strut to pull.
     #[error("{} under a prestress of {} N", contradiction(*kind), Readable(*prestress_n))]
     Sign {
@@ -143,10 +137,10 @@ impl Member {
     /// `1 + F/EA`: the length under a force over the unstretched one.
     fn stretch(&self, stiffness_n: f64, prestress_n: f64) -> Result<f64, PrestressError> {
         if !(stiffness_n.is_finite() && stiffness_n > 0.0) {
-            return Err(PrestressError::Stiffness { stiffness_n });
+            return Err(PrestressError::Stiffness(stiffness_n));
         }
         if !prestress_n.is_finite() {
-            return Err(PrestressError::NotFinite { prestress_n });
+            return Err(PrestressError::NotFinite(prestress_n));
         }
         let contradicts = match self.kind {
             Kind::Bar => false,

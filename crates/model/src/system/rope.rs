@@ -40,12 +40,9 @@ pub enum RopeFault {
     /// Occurs when a rope has a mass.
     #[error("a rope over rings or pulleys has no mass here: its weight would slide with the rope")]
     Mass,
-    /// Occurs when a rope has a centre of weight or moments of inertia.
-    #[error("a rope over rings or pulleys has no mass here, and so no {key}")]
-    Body {
-        /// `centre_m` or `inertia_kg_m2`.
-        key: &'static str,
-    },
+    /// Occurs when a rope has a centre of weight or moments of inertia: `centre_m` or `inertia_kg_m2`.
+    #[error("a rope over rings or pulleys has no mass here, and so no {0}")]
+    Body(&'static str),
     /// Occurs when a force acts on a rope between its joints.
     #[error("no force acts on a rope over rings or pulleys: it would slide with the rope")]
     Load,
@@ -54,12 +51,9 @@ pub enum RopeFault {
         "a rope over rings or pulleys has no prestress here: its unstretched length says what it bears"
     )]
     Prestress,
-    /// Occurs when a rope runs from a joint to the same joint.
-    #[error("a rope runs from joint {joint:?} to itself: a span has two joints")]
-    Repeated {
-        /// Name of the joint.
-        joint: String,
-    },
+    /// Occurs when a rope runs from the joint of this name to the same joint.
+    #[error("a rope runs from joint {0:?} to itself: a span has two joints")]
+    Repeated(String),
 }
 
 impl RopeFault {
@@ -68,10 +62,10 @@ impl RopeFault {
         match self {
             Self::Kind => "kind",
             Self::Mass => "mass_kg",
-            Self::Body { key } => key,
+            Self::Body(key) => key,
             Self::Load => "forces",
             Self::Prestress => "prestress_n",
-            Self::Repeated { .. } => "via",
+            Self::Repeated(_) => "via",
         }
     }
 }
@@ -129,13 +123,13 @@ impl Member {
         self.rope.as_ref()?;
         let repeated = self.spans().find(|[a, b]| a == b);
         if let Some(joint) = repeated.map(|[joint, _]| joints[joint].name.to_string()) {
-            return Some(RopeFault::Repeated { joint });
+            return Some(RopeFault::Repeated(joint));
         }
         let faults = [
             (self.kind != Kind::Cable, RopeFault::Kind),
             (self.body.mass_kg() > 0.0, RopeFault::Mass),
-            (self.body.given_centre_m().is_some(), RopeFault::Body { key: "centre_m" }),
-            (self.body.given_inertia_kg_m2().is_some(), RopeFault::Body { key: "inertia_kg_m2" }),
+            (self.body.given_centre_m().is_some(), RopeFault::Body("centre_m")),
+            (self.body.given_inertia_kg_m2().is_some(), RopeFault::Body("inertia_kg_m2")),
             (!self.loads.is_empty(), RopeFault::Load),
             (self.prestress.is_some(), RopeFault::Prestress),
         ];

@@ -249,7 +249,7 @@ impl System {
                 }
                 UncertainNumber::Stiffness(k) => members[k].stiffness_n = Some(*value),
                 UncertainNumber::Mass(k) => {
-                    let off = || SystemError::Overflow { quantity: "mass of a member" };
+                    let off = || SystemError::Overflow("mass of a member");
                     weighted(&mut members[k], *value).ok_or_else(off)?;
                 }
                 UncertainNumber::JointMass(k) => joints[k].mass_kg = *value,

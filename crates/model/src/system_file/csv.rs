@@ -15,7 +15,7 @@ pub(super) fn feed(text: &str, rows: &mut dyn Rows) -> Result<(), (Kind, Range<u
     let head = lines.next().unwrap_or(&text[..0]);
     let separator = head.find([';', '\t', '|']).filter(|_| !head.contains(','));
     if let Some(found) = separator.and_then(|at| head[at..].chars().next()) {
-        return Err((Kind::Separator { found }, span_of(text, head)));
+        return Err((Kind::Separator(found), span_of(text, head)));
     }
     let mut cells = Vec::new();
     split(head, &mut cells).map_err(|()| (Kind::OpenQuote, span_of(text, head)))?;

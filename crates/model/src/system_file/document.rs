@@ -136,12 +136,12 @@ fn chain_of(root: &Table<'_>) -> Result<(Chain, Places)> {
     let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
         let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
         let (at, key) = match error {
-            SystemError::Gravity { .. } => (root, "gravity_m_s2"),
+            SystemError::Gravity(_) => (root, "gravity_m_s2"),
             SystemError::Coordinate { .. } => {
                 let key = if start_is_good { "end_m" } else { "start_m" };
                 return table.component_error(Kind::System(error), key, f64::is_finite);
             }
-            SystemError::Overflow { quantity: "span" } => (&table, "end_m"),
+            SystemError::Overflow("span") => (&table, "end_m"),
             _ if matches!(origin, Origin::Tables(_)) => (root, "bars"),
             _ => (root, "bars_file"),
         };
@@ -159,7 +159,7 @@ fn chain_bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin)> {
     let (mut rows, limit) = (Vec::new(), most_bars_of_file());
     let mut take = |row: &Row<'_>| {
         if rows.len() == limit {
-            return Err((None, Kind::TooManyBars { limit }));
+            return Err((None, Kind::TooManyBars(limit)));
         }
         rows.push(network_rows::of_chain(row)?);
         Ok(())
@@ -215,7 +215,7 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin)> {
         let bar = bar(&table, table.number_of("length_m", length)?)?;
         let count = table.count("count")?;
         if count > most_bars() - bars.len() {
-            return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
+            return Err(table.error(Kind::TooManyBars(most_bars()), "count"));
         }
         let mass = table.get("mass_kg").map_or_else(|| length.span(), Spanned::span);
         places.push(BarsPlace { first: bars.len() + 1, length: length.span(), mass });
@@ -235,10 +235,10 @@ pub(super) fn bar(table: &Table<'_>, given_m: f64) -> Result<Bar> {
     given.and_then(|given| given.scaled(|x| expansion * x)).map_err(|error| {
         let kind = Kind::Bar(error);
         match error {
-            BarError::Length { .. } => table.error(kind, "length_m"),
-            BarError::Mass { .. } => table.error(kind, mass_key),
+            BarError::Length(_) => table.error(kind, "length_m"),
+            BarError::Mass(_) => table.error(kind, mass_key),
             BarError::Centre { .. } => table.error(kind, "centre_m"),
-            BarError::Inertia { .. } => {
+            BarError::Inertia(_) => {
                 table.component_error(kind, "inertia_kg_m2", |j| j.is_finite() && j >= 0.0)
             }
         }

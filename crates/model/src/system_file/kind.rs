@@ -41,27 +41,18 @@ pub enum SystemFileErrorKind {
     /// Occurs when the reader of another kind of file fails.
     #[error("{0}")]
     ForeignBars(Box<dyn std::error::Error + Send + Sync>),
-    /// Occurs when `bars_file` or `joints_file` stands in a text that was not read from a file.
-    #[error("`{key}` is relative to the system file, and this text was not read from a file")]
-    NoFolder {
-        /// `bars_file` or `joints_file`.
-        key: &'static str,
-    },
-    /// Occurs when the file is longer than any such file needs to be.
-    #[error("the file is longer than the limit of {limit} bytes")]
-    TooLong {
-        /// The limit.
-        limit: u64,
-    },
+    /// Occurs when this key, `bars_file` or `joints_file`, stands in a text that was not read from a file.
+    #[error("`{0}` is relative to the system file, and this text was not read from a file")]
+    NoFolder(&'static str),
+    /// Occurs when the file is longer than any such file needs to be: the limit, in bytes.
+    #[error("the file is longer than the limit of {0} bytes")]
+    TooLong(u64),
     /// Occurs when the file holds nothing but white space and comments.
     #[error("the file describes no system: it is empty")]
     Empty,
-    /// Occurs when the file is not UTF-8.
-    #[error("the file is not UTF-8 text (first bad byte at offset {offset})")]
-    NotText {
-        /// Offset of the first byte that is not UTF-8, in the file.
-        offset: usize,
-    },
+    /// Occurs when the file is not UTF-8: the offset of the first byte that is not, in the file.
+    #[error("the file is not UTF-8 text (first bad byte at offset {0})")]
+    NotText(usize),
     /// Occurs when the text is not TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
@@ -76,12 +67,9 @@ pub enum SystemFileErrorKind {
         /// The line of its first appearance, where that is certain.
         first_line: Option<usize>,
     },
-    /// Occurs when a bars file has two columns of one name.
-    #[error("duplicate column `{column}`")]
-    DuplicateColumn {
-        /// The column.
-        column: &'static str,
-    },
+    /// Occurs when a bars file has two columns of this name.
+    #[error("duplicate column `{0}`")]
+    DuplicateColumn(&'static str),
     /// Occurs when a key or a column is not one of those allowed in its place.
     #[error("unknown key `{key}`")]
     UnknownKey {
@@ -92,12 +80,9 @@ pub enum SystemFileErrorKind {
         /// The allowed key that looks most like it.
         suggestion: Option<&'static str>,
     },
-    /// Occurs when a key asks for what is not modelled.
-    #[error("`{key}` is outside what is modelled here")]
-    OutOfScope {
-        /// The key.
-        key: String,
-    },
+    /// Occurs when this key asks for what is not modelled.
+    #[error("`{0}` is outside what is modelled here")]
+    OutOfScope(String),
     /// Occurs when a bar begins or ends at a joint that is not there.
     #[error("there is no joint {joint:?}")]
     UnknownJoint {
@@ -152,27 +137,18 @@ pub enum SystemFileErrorKind {
         /// Name of the other.
         to: String,
     },
-    /// Occurs when a load acts on an anchor, where it moves nothing.
-    #[error("joint {joint:?} is an anchor: a load there goes straight into the ground")]
-    LoadedAnchor {
-        /// Name or number of the joint.
-        joint: String,
-    },
+    /// Occurs when a load acts on this joint, by name or number, an anchor, where it moves nothing.
+    #[error("joint {0:?} is an anchor: a load there goes straight into the ground")]
+    LoadedAnchor(String),
     /// Occurs when a load has neither mass nor force.
     #[error("a load needs mass_kg or force_n")]
     NoLoadGiven,
-    /// Occurs when a mass at a joint is negative, infinite or not a number.
-    #[error("a mass must be zero or positive, and finite, got {} kg", Readable(*mass_kg))]
-    Mass {
-        /// The mass as given.
-        mass_kg: f64,
-    },
-    /// Occurs when a force is infinite or not a number.
-    #[error("a force must be finite, got {component_n} N")]
-    Force {
-        /// The first bad component.
-        component_n: f64,
-    },
+    /// Occurs when a mass at a joint, in kg, is negative, infinite or not a number.
+    #[error("a mass must be zero or positive, and finite, got {} kg", Readable(*.0))]
+    Mass(f64),
+    /// Occurs when a force is infinite or not a number: its first bad component, N.
+    #[error("a force must be finite, got {0} N")]
+    Force(f64),
     /// Occurs when a direction is zero or not finite.
     #[error("a direction must be finite and not zero")]
     NoDirection,
@@ -200,12 +176,9 @@ pub enum SystemFileErrorKind {
         /// What stands there.
         found: &'static str,
     },
-    /// Occurs when a vector does not have three components.
-    #[error("expected three numbers, found {found}")]
-    WrongCount {
-        /// How many stand there.
-        found: usize,
-    },
+    /// Occurs when a vector has so many components, and not three.
+    #[error("expected three numbers, found {0}")]
+    WrongCount(usize),
     /// Occurs when an integer does not fit where it stands.
     #[error("the value {found} is out of range")]
     OutOfRange {
@@ -214,24 +187,18 @@ pub enum SystemFileErrorKind {
         /// What is allowed.
         wanted: &'static str,
     },
-    /// Occurs when there are more bars than fit.
-    #[error("the system has more than {limit} bars")]
-    TooManyBars {
-        /// The limit.
-        limit: usize,
-    },
+    /// Occurs when there are more bars than fit: the limit.
+    #[error("the system has more than {0} bars")]
+    TooManyBars(usize),
     /// Occurs when a system by name, with its names, needs more memory than there is.
     #[error("{0}")]
     Memory(OutOfMemory),
     /// Occurs when a bars file has a header and no rows.
     #[error("there are columns but no bars")]
     NoRows,
-    /// Occurs when the columns of a bars file are not separated by commas.
-    #[error("columns are separated by commas, found {found:?}")]
-    Separator {
-        /// What stands between them.
-        found: char,
-    },
+    /// Occurs when this stands between the columns of a bars file, and not a comma.
+    #[error("columns are separated by commas, found {0:?}")]
+    Separator(char),
     /// Occurs when a row has more or fewer cells than the header.
     #[error("expected {wanted} cells, found {found}")]
     WrongCells {
@@ -246,12 +213,9 @@ pub enum SystemFileErrorKind {
     /// Occurs when a cell is empty that must not be.
     #[error("the cell is empty")]
     EmptyCell,
-    /// Occurs when a joint is named by a number that is not whole.
-    #[error("a joint is named by text or a whole number, found {found}")]
-    NoName {
-        /// The number.
-        found: f64,
-    },
+    /// Occurs when a joint is named by a number, this one, that is not whole.
+    #[error("a joint is named by text or a whole number, found {0}")]
+    NoName(f64),
     /// Occurs when a row of a file is wrong whose text cannot be shown.
     #[error(
         "{}: {}{kind}",
@@ -268,12 +232,9 @@ pub enum SystemFileErrorKind {
         /// What is wrong.
         kind: Box<SystemFileErrorKind>,
     },
-    /// Occurs when a cell is no number.
-    #[error("expected a number, found {found:?}")]
-    NotANumber {
-        /// What stands there.
-        found: String,
-    },
+    /// Occurs when a cell is no number: what stands there.
+    #[error("expected a number, found {0:?}")]
+    NotANumber(String),
     /// Occurs when a bar cannot be built.
     #[error(transparent)]
     Bar(BarError),
@@ -315,8 +276,8 @@ impl SystemFileErrorKind {
                 std::io::ErrorKind::IsADirectory => "this is a folder; name a file in it",
                 _ => return None,
             },
-            Self::OutOfScope { .. } => SCOPE,
-            Self::LoadedAnchor { .. } => "remove the load, or put it on a joint that can move",
+            Self::OutOfScope(_) => SCOPE,
+            Self::LoadedAnchor(_) => "remove the load, or put it on a joint that can move",
             Self::OffPlane { .. } | Self::LeavesPlane { .. } => {
                 "with `plane` all joints lie in one plane and stay in it; without, every joint says \
                  itself how it slides"
@@ -327,31 +288,31 @@ impl SystemFileErrorKind {
             }
             Self::System(error) => return system_help(error).map(str::to_owned),
             Self::Refused(refusal) => refusal_help(refusal),
-            Self::NoFolder { .. } => "write the bars as [[bars]], or read the system from its file",
-            Self::TooLong { .. } => {
+            Self::NoFolder(_) => "write the bars as [[bars]], or read the system from its file",
+            Self::TooLong(_) => {
                 "equal bars in a row are written once, with `count`; many different ones as columns, \
                  with `bars_file`"
             }
             Self::Empty => {
                 "a system needs [anchors] with start_m and end_m, or [joints] by name, and one or more [[bars]]"
             }
-            Self::NotText { .. } => "save the file as UTF-8",
+            Self::NotText(_) => "save the file as UTF-8",
             Self::Syntax(_) => {
                 "a line is `key = value`, `[anchors]`, `[[bars]]` or `# a comment`; text stands in \
                  double quotes, numbers take a decimal point and no unit"
             }
             Self::DuplicateKey { .. } => "a key is given once; every bar starts with [[bars]]",
-            Self::DuplicateColumn { .. } => "a column is given once; keep one of them",
+            Self::DuplicateColumn(_) => "a column is given once; keep one of them",
             Self::NoRows => "every line after the header is a bar, such as 0.25,1e-3",
             Self::WrongType { found: "a string", wanted } if wanted.contains("number") => {
                 "numbers are written without quotes"
             }
-            Self::WrongCount { .. } => "a vector is written [x, y, z]",
+            Self::WrongCount(_) => "a vector is written [x, y, z]",
             Self::Memory(_) => "fewer members, or shorter names of joints, need less memory",
-            Self::TooManyBars { .. } => {
+            Self::TooManyBars(_) => {
                 "an answer over more bars than this does not fit into 24 GB of memory"
             }
-            Self::Separator { .. } | Self::NotANumber { .. } => {
+            Self::Separator(_) | Self::NotANumber(_) => {
                 "a row is numbers with a decimal point, separated by commas, such as 0.25,1e-3"
             }
             Self::OpenQuote => {
@@ -362,7 +323,7 @@ impl SystemFileErrorKind {
                 "a row has one cell for each column of the header; numbers take a decimal point, not a \
                  comma"
             }
-            Self::Bar(BarError::Inertia { .. }) => {
+            Self::Bar(BarError::Inertia(_)) => {
                 "without inertia_kg_m2 a bar has the moments [0, m l^2/12, m l^2/12] of a slender one"
             }
             Self::Prestress(error) => return prestress_help(*error).map(str::to_owned),
@@ -395,7 +356,7 @@ fn prestress_help(error: PrestressError) -> Option<&'static str> {
 fn system_help(error: &SystemError) -> Option<&'static str> {
     Some(match error {
         SystemError::Parallel { .. } => "replace them by one bar, or put a joint into one of them",
-        SystemError::Overflow { .. } | SystemError::Underflow { .. } => {
+        SystemError::Overflow(_) | SystemError::Underflow { .. } => {
             "check the units: lengths are in metres, masses in kilograms, forces in newtons"
         }
         SystemError::MassRange { .. } => {
@@ -419,7 +380,7 @@ fn rope_help(fault: &RopeFault) -> Option<&'static str> {
         }
         RopeFault::Load => "let the force act at a joint",
         RopeFault::Prestress => "give its unstretched length_m and stiffness_n alone",
-        RopeFault::Body { .. } | RopeFault::Repeated { .. } => return None,
+        RopeFault::Body(_) | RopeFault::Repeated(_) => return None,
     })
 }
 

@@ -28,7 +28,7 @@ pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded>> {
     let mut bytes = Vec::with_capacity(usize::try_from(length.min(limit)).unwrap_or(0));
     source.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit {
-        return Ok(Err(SystemFileError::new(&file, "", None, None, Kind::TooLong { limit })));
+        return Ok(Err(SystemFileError::new(&file, "", None, None, Kind::TooLong(limit))));
     }
     Ok(match String::from_utf8(bytes) {
         Ok(text) => Ok(Loaded { file, text }),
@@ -36,7 +36,7 @@ pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded>> {
             let offset = error.utf8_error().valid_up_to();
             let text = String::from_utf8_lossy(error.as_bytes());
             let span = offset..offset + REPLACEMENT_BYTES;
-            Err(SystemFileError::new(&file, &text, Some(span), None, Kind::NotText { offset }))
+            Err(SystemFileError::new(&file, &text, Some(span), None, Kind::NotText(offset)))
         }
     })
 }

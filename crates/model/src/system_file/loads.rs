@@ -48,7 +48,7 @@ fn numbered(table: &Table<'_>, value: &Value<'_>, last: usize) -> Result<usize> 
         return Ok(number);
     }
     let kind = if number == last {
-        Kind::LoadedAnchor { joint: number.to_string() }
+        Kind::LoadedAnchor(number.to_string())
     } else {
         Kind::OutOfRange {
             found: number.to_string(),
@@ -72,7 +72,7 @@ pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System> {
         };
         match numbers.get(name) {
             Some(k) if !joints[*k].support.is_fixed() => Ok(*k),
-            Some(_) => Err(table.error(Kind::LoadedAnchor { joint: name.to_owned() }, "joint")),
+            Some(_) => Err(table.error(Kind::LoadedAnchor(name.to_owned()), "joint")),
             None => Err(table.error(unknown_joint(name, &joints), "joint")),
         }
     })
@@ -90,12 +90,12 @@ fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System> {
     let cases = case_tables.iter().map(case).collect::<Result<Vec<_>, _>>()?;
     let called = |table: &&Table<'_>, name: &str| table.text("name").ok().flatten() == Some(name);
     system.with_loads(loads, cases).map_err(|error| match &error {
-        SystemError::DuplicateCase { case }
+        SystemError::DuplicateCase(case)
         | SystemError::Factor { case, .. }
         | SystemError::UnknownLoad { case, .. } => {
             let table = case_tables.iter().rev().find(|table| called(table, case)).unwrap_or(root);
             let key =
-                if matches!(error, SystemError::DuplicateCase { .. }) { "name" } else { "factors" };
+                if matches!(error, SystemError::DuplicateCase(_)) { "name" } else { "factors" };
             table.error(Kind::System(error), key)
         }
         _ => root.error(Kind::System(error), "loads"),

@@ -58,7 +58,7 @@ pub(super) fn spread(table: &Table<'_>, given_m: f64, length_m: f64) -> Result<O
     let per_m = table.vector("force_n_per_m", value)?;
     let force_n = per_m.map(|x| x * given_m);
     if let Some(bad) = force_n.into_iter().find(|x| !x.is_finite()) {
-        let kind = Kind::Force { component_n: bad };
+        let kind = Kind::Force(bad);
         return Err(table.component_error(kind, "force_n_per_m", f64::is_finite));
     }
     Ok(Some(PointLoad { at_m: 0.5 * length_m, force_n, is_spread: true }))

@@ -196,7 +196,7 @@ impl Reading<'_> {
         let (to, to_name) = self.joint(table, "to")?;
         let count = table.count("count")?;
         if count > MAX_BARS - self.members.len().min(MAX_BARS) {
-            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+            return Err(table.error(Kind::TooManyBars(MAX_BARS), "count"));
         }
         let ends = self.drawn.then(|| [from, to].map(|end| self.joints[end].clone()));
         let via = self.via(table)?;
@@ -343,8 +343,8 @@ impl Reading<'_> {
         let system = System::new(name, gravity_m_s2, joints, members)
             .and_then(above_floor)
             .map_err(|error| match error {
-                SystemError::Floor { .. } => root.error(Kind::System(error), "floor_m"),
-                SystemError::Gravity { .. } => root.error(Kind::System(error), "gravity_m_s2"),
+                SystemError::Floor(_) => root.error(Kind::System(error), "floor_m"),
+                SystemError::Gravity(_) => root.error(Kind::System(error), "gravity_m_s2"),
                 SystemError::DuplicateName { joint, .. }
                 | SystemError::Coordinate { joint, .. }
                 | SystemError::Direction { joint, .. }
@@ -410,7 +410,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint> {
     if support.is_fixed()
         && let Some(key) = ["mass_kg", "force_n"].into_iter().find(|key| table.get(key).is_some())
     {
-        return Err(table.error(Kind::LoadedAnchor { joint: name.to_owned() }, key));
+        return Err(table.error(Kind::LoadedAnchor(name.to_owned()), key));
     }
     let near_m = vector("near_m")?;
     if support.is_fixed() && near_m.is_some() {

@@ -81,14 +81,14 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
     let mass_kg = row.number("mass_kg")?.unwrap_or(0.0);
     let force_n = row.vector(FORCE)?.unwrap_or_default();
     if !(mass_kg.is_finite() && mass_kg >= 0.0) {
-        return Err((Some("mass_kg"), Kind::Mass { mass_kg }));
+        return Err((Some("mass_kg"), Kind::Mass(mass_kg)));
     }
     if let Some(bad) = (0..3).find(|k| !force_n[*k].is_finite()) {
-        return Err((Some(FORCE[bad]), Kind::Force { component_n: force_n[bad] }));
+        return Err((Some(FORCE[bad]), Kind::Force(force_n[bad])));
     }
     if support.is_fixed() {
         let loaded = |is: bool| {
-            if is { Err(Kind::LoadedAnchor { joint: name.to_string() }) } else { Ok(()) }
+            if is { Err(Kind::LoadedAnchor(name.to_string())) } else { Ok(()) }
         };
         loaded(mass_kg > 0.0).map_err(|kind| (Some("mass_kg"), kind))?;
         for k in 0..3 {
@@ -163,10 +163,10 @@ pub(super) fn of_chain(row: &Row<'_>) -> Result<Bar, Wrong> {
 fn body(row: &Row<'_>, length_m: f64, mass_kg: f64) -> Result<Bar, Wrong> {
     Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
         let column = match error {
-            BarError::Mass { .. } => "mass_kg",
+            BarError::Mass(_) => "mass_kg",
             BarError::Centre { .. } => "centre_m",
             // The moments have no column of their own: m l²/12 is too large.
-            BarError::Length { .. } | BarError::Inertia { .. } => "length_m",
+            BarError::Length(_) | BarError::Inertia(_) => "length_m",
         };
         (Some(column), Kind::Bar(error))
     })
@@ -216,7 +216,7 @@ pub(super) fn prestressed(
     let Some(prestress_n) = prestress_n else { return Ok(member) };
     member.with_prestress(prestress_n).map_err(|error| {
         let key = match error {
-            PrestressError::Stiffness { .. } => "stiffness_n",
+            PrestressError::Stiffness(_) => "stiffness_n",
             PrestressError::Bar(_) => "length_m",
             _ => "prestress_n",
         };
@@ -231,7 +231,7 @@ fn load(row: &Row<'_>, length_m: f64) -> Result<Vec<PointLoad>, Wrong> {
         return if at.is_some() { Err((Some(FORCE[0]), Kind::EmptyCell)) } else { Ok(Vec::new()) };
     };
     if let Some(bad) = (0..3).find(|k| !force_n[*k].is_finite()) {
-        return Err((Some(FORCE[bad]), Kind::Force { component_n: force_n[bad] }));
+        return Err((Some(FORCE[bad]), Kind::Force(force_n[bad])));
     }
     let at_m = at.unwrap_or(0.5 * length_m);
     if !(0.0..=length_m).contains(&at_m) {

@@ -89,11 +89,7 @@ impl Rows for RowTable<'_> {
                 }
                 Some(known) => {
                     if self.places[known].replace(k).is_some() {
-                        return self.fail(
-                            0,
-                            here,
-                            Kind::DuplicateColumn { column: columns[known] },
-                        );
+                        return self.fail(0, here, Kind::DuplicateColumn(columns[known]));
                     }
                 }
             }
@@ -142,7 +138,7 @@ impl Row<'_> {
             Cell::Number(number) => Ok(Some(number)),
             Cell::Text(text) => match text.parse() {
                 Ok(number) => Ok(Some(number)),
-                Err(_) => Err((Some(column), Kind::NotANumber { found: text.to_owned() })),
+                Err(_) => Err((Some(column), Kind::NotANumber(text.to_owned()))),
             },
         }
     }
@@ -175,7 +171,7 @@ impl Row<'_> {
             Cell::Number(number) if number.fract() == 0.0 && number.abs() < LARGEST => {
                 Ok(Cow::Owned(format!("{number}")))
             }
-            Cell::Number(number) => Err((Some(column), Kind::NoName { found: number })),
+            Cell::Number(number) => Err((Some(column), Kind::NoName(number))),
         }
     }
 

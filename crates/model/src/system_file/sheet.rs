@@ -29,7 +29,7 @@ impl SheetFile {
         let Some(file) = root.text(key)? else { return Ok(None) };
         let source = root.source();
         let Some(folder) = source.folder else {
-            return Err(root.error(Kind::NoFolder { key }, key));
+            return Err(root.error(Kind::NoFolder(key), key));
         };
         let path = folder.join(file);
         let mut rows = RowTable::new(known, take);

@@ -79,7 +79,7 @@ impl<'a> Table<'a> {
             Some(key) => {
                 let name = key.get_ref().to_string();
                 let kind = if NOT_MODELLED.contains(&name.as_str()) {
-                    Kind::OutOfScope { key: name.clone() }
+                    Kind::OutOfScope(name.clone())
                 } else {
                     let suggestion = nearest(&name, allowed);
                     Kind::UnknownKey { key: name.clone(), allowed, suggestion }
@@ -151,7 +151,7 @@ impl<'a> Table<'a> {
             return Err(self.wrong_type(key, value, "three numbers [x, y, z]"));
         };
         if items.len() != 3 {
-            return Err(self.error(Kind::WrongCount { found: items.len() }, key));
+            return Err(self.error(Kind::WrongCount(items.len()), key));
         }
         let mut vector = [0.0; 3];
         for (k, (slot, item)) in vector.iter_mut().zip(items.iter()).enumerate() {
@@ -195,10 +195,10 @@ impl<'a> Table<'a> {
         force_key: &str,
     ) -> Result<()> {
         if mass_kg.is_some_and(|mass| !(mass.is_finite() && mass >= 0.0)) {
-            return Err(self.error(Kind::Mass { mass_kg: mass_kg.unwrap_or(f64::NAN) }, "mass_kg"));
+            return Err(self.error(Kind::Mass(mass_kg.unwrap_or(f64::NAN)), "mass_kg"));
         }
         if let Some(bad) = force_n.and_then(|force| force.into_iter().find(|x| !x.is_finite())) {
-            let kind = Kind::Force { component_n: bad };
+            let kind = Kind::Force(bad);
             return Err(self.component_error(kind, force_key, f64::is_finite));
         }
         Ok(())

@@ -20,9 +20,9 @@ fn systems() {
     let (from, to) = ("A".to_owned(), "B".to_owned());
     let parallel = SystemError::Parallel { member: 2, first: 1, from, to };
     advises(&system(parallel), &["one bar", "a joint into one"]);
-    advises(&system(SystemError::Overflow { quantity: "total load" }), &["metres", "newtons"]);
+    advises(&system(SystemError::Overflow("total load")), &["metres", "newtons"]);
     advises(&system(SystemError::NoMembers), &["[[bars]]"]);
-    advises(&system(SystemError::Gravity { gravity_m_s2: 0.0 }), &[]);
+    advises(&system(SystemError::Gravity(0.0)), &[]);
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn prestress_and_refusals() {
     advises(&prestress(PrestressError::Inextensible), &["stiffness_n", "EA"]);
     let sign = PrestressError::Sign { kind: Kind::Cable, prestress_n: -1.0 };
     advises(&prestress(sign), &["tension is positive"]);
-    advises(&prestress(PrestressError::NotFinite { prestress_n: f64::INFINITY }), &[]);
+    advises(&prestress(PrestressError::NotFinite(f64::INFINITY)), &[]);
     advises(&SystemFileErrorKind::Refused(Refusal::NothingMoves), &["without at_m"]);
     advises(&SystemFileErrorKind::Refused(Refusal::LoadOnAnchors), &["can move"]);
 }

@@ -280,7 +280,7 @@ fn words_limits_and_what_is_not_modelled_are_those_of_the_parser() {
     assert_eq!(named, model::system_file::NOT_MODELLED.iter().copied().collect());
     for key in named {
         let error = hanging(&format!("{key} = 1")).unwrap_err();
-        assert!(matches!(error.kind(), Kind::OutOfScope { .. }), "{error}");
+        assert!(matches!(error.kind(), Kind::OutOfScope(_)), "{error}");
     }
 
     let millions = model::system_file::MAX_BARS / 1_000_000;

@@ -70,7 +70,7 @@ fn only_numbers_of_unusual_size_have_exponents() {
         (f64::INFINITY, "inf"),
         (f64::NAN, "NaN"),
     ] {
-        let error = BarError::Length { length_m: number }.to_string();
+        let error = BarError::Length(number).to_string();
         assert!(error.ends_with(&format!(", got {text} m")), "{error}");
     }
 }

@@ -27,11 +27,11 @@ fn accepted(gravity_m_s2: f64, joints: [Joint; 2], member: Member) -> bool {
 fn gravity_is_positive_and_a_number() {
     for gravity_m_s2 in [0.0, -0.0, -9.81, f64::INFINITY] {
         let found = error(gravity_m_s2, [anchor(), free()], bar(1.0, 1.0));
-        assert_eq!(found, SystemError::Gravity { gravity_m_s2 });
+        assert_eq!(found, SystemError::Gravity(gravity_m_s2));
     }
     assert!(matches!(
         error(f64::NAN, [anchor(), free()], bar(1.0, 1.0)),
-        SystemError::Gravity { gravity_m_s2 } if gravity_m_s2.is_nan()
+        SystemError::Gravity(gravity_m_s2) if gravity_m_s2.is_nan()
     ));
     assert!(accepted(0.001, [anchor(), free()], bar(1.0, 1.0)));
 }
@@ -105,7 +105,7 @@ fn members_refuse_what_cannot_be() {
 #[test]
 fn totals_are_numbers_with_digits_to_spare() {
     let small = |quantity, total| SystemError::Underflow { quantity, total };
-    let large = |quantity| SystemError::Overflow { quantity };
+    let large = |quantity| SystemError::Overflow(quantity);
     let (tiny, huge) = (SMALLEST_TOTAL, f64::MAX);
     let joints = || [anchor(), free()];
     assert_eq!(error(1.0, joints(), bar(tiny / 2.0, 1.0)), small("total length", tiny / 2.0));

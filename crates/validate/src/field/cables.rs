@@ -149,8 +149,7 @@ fn square(force_n: f64) -> Result<System, SystemError> {
         held("4", Support::Line { at_m: at[3], direction: [1.0, 0.0, 0.0] }),
     ];
     let length = |length_m| {
-        Bar::homogeneous(length_m, 0.0)
-            .map_err(|_| SystemError::Overflow { quantity: "length of a member" })
+        Bar::homogeneous(length_m, 0.0).map_err(|_| SystemError::Overflow("length of a member"))
     };
     let (side, diagonal) = (length(1.0)?, length(std::f64::consts::SQRT_2)?);
     let mut members: Vec<Member> =

@@ -17,7 +17,7 @@ pub fn run_of_members(cable: &ElasticCatenary, members: usize) -> Result<System,
     const GRAVITY: f64 = 10.0;
     let length_m = cable.length_m / members as f64;
     let mass_kg = cable.weight_n_m * length_m / GRAVITY;
-    let out_of_range = SystemError::Overflow { quantity: "length of a member" };
+    let out_of_range = SystemError::Overflow("length of a member");
     let body = Bar::homogeneous(length_m, mass_kg).map_err(|_| out_of_range)?;
     let joints = (0..=members).map(|k| match k {
         0 => Joint::anchor("lower", [0.0; 3]),

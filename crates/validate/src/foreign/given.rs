@@ -36,12 +36,9 @@ pub enum GivenError {
         /// The joint whose name is nearest, if one is near.
         suggestion: Option<String>,
     },
-    /// Occurs when the answer has a joint twice.
-    #[error("joint {name:?} is given twice")]
-    Repeated {
-        /// Its name.
-        name: String,
-    },
+    /// Occurs when the answer has the joint of this name twice.
+    #[error("joint {0:?} is given twice")]
+    Repeated(String),
     /// Occurs when joints of the system are not in the answer.
     #[error("the answer has no place for {}", listed("joint", names, *count))]
     MissingJoints {
@@ -50,12 +47,9 @@ pub enum GivenError {
         /// How many.
         count: usize,
     },
-    /// Occurs when a number of the answer is infinite or not a number.
-    #[error("a number of {what} is not finite")]
-    NotFinite {
-        /// Of which joint or member.
-        what: String,
-    },
+    /// Occurs when a number of this joint or member of the answer is infinite or not a number.
+    #[error("a number of {0} is not finite")]
+    NotFinite(String),
     /// Occurs when no member connects two joints for which a force is given.
     #[error("no member connects {from:?} with {to:?}")]
     UnknownMember {
@@ -166,7 +160,7 @@ impl ForeignAnswer {
         }
         if let Some(k) = joints_m.iter().position(|place| place.iter().any(|x| !x.is_finite())) {
             let what = format!("joint {:?}", system.joints()[k].name);
-            return Err(GivenError::NotFinite { what });
+            return Err(GivenError::NotFinite(what));
         }
         let source = SolverName::new(source.into());
         let (spans_n, reactions_n) = (BTreeMap::new(), None);
@@ -188,7 +182,7 @@ impl ForeignAnswer {
         };
         let forces: Vec<Vec<f64>> = members.iter().map(of_member).collect();
         if let Some(k) = forces.iter().position(|spans| spans.iter().any(|n| !n.is_finite())) {
-            return Err(GivenError::NotFinite { what: member_name(system, k) });
+            return Err(GivenError::NotFinite(member_name(system, k)));
         }
         let mean = |spans: &Vec<f64>| {
             let more = model::sum(spans.iter().map(|force| force - spans[0]));
@@ -289,10 +283,10 @@ fn vectors(
             return Err(unknown(system, &name));
         };
         if vector.iter().any(|x| !x.is_finite()) {
-            return Err(GivenError::NotFinite { what: format!("joint {name:?}") });
+            return Err(GivenError::NotFinite(format!("joint {name:?}")));
         }
         if found[k].replace(vector).is_some() {
-            return Err(GivenError::Repeated { name });
+            return Err(GivenError::Repeated(name));
         }
     }
     Ok(found)

@@ -177,14 +177,14 @@ fn names_that_do_not_fit_are_told() {
     assert!(
         matches!(error(&["A", "B", "Q"]), GivenError::UnknownJoint { name, .. } if name == "Q")
     );
-    assert!(matches!(error(&["A", "A"]), GivenError::Repeated { name } if name == "A"));
+    assert!(matches!(error(&["A", "A"]), GivenError::Repeated(name) if name == "A"));
     let missing = error(&["B"]);
     assert_eq!(missing.to_string(), "the answer has no place for joint \"P\"");
     // Anchors are where the system has them.
     let found = ForeignAnswer::by_name(&system, "x", [("P".to_owned(), [0.0, 0.0, -4.0])]).unwrap();
     assert_eq!(found.joints_m, places([0.0, 0.0, -4.0]));
     let nan = ForeignAnswer::by_name(&system, "x", [("A".to_owned(), [f64::NAN; 3])]);
-    assert!(matches!(nan, Err(GivenError::NotFinite { .. })));
+    assert!(matches!(nan, Err(GivenError::NotFinite(_))));
     let answer = ForeignAnswer::in_order(&system, "x", vec![[0.0; 3]; 3], None).unwrap();
     let missing = answer.with_forces(&system, [("A".to_owned(), "P".to_owned(), 1.0)]);
     assert!(matches!(missing, Err(GivenError::MissingForces { count: 1, .. })));

@@ -70,7 +70,7 @@ struct Place {
 /// ```
 pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
     if let Some(rope) = system.first_rope() {
-        return Err(ConeError::Rope { member: rope + 1 });
+        return Err(ConeError::Rope(rope + 1));
     }
     let cables = as_cables(system)?;
     let loads_n = system.joint_loads_n();
@@ -135,7 +135,7 @@ pub fn hang_as_cables(system: &System) -> Result<Cables, ConeError> {
 fn as_cables(system: &System) -> Result<Vec<Member>, ConeError> {
     let members = system.members().iter().enumerate().map(|(k, member)| match member.kind {
         Kind::Bar | Kind::Cable => Ok(member.clone().of_kind(Kind::Cable)),
-        Kind::Strut => Err(ConeError::Strut { member: k + 1 }),
+        Kind::Strut => Err(ConeError::Strut(k + 1)),
     });
     members.collect()
 }

@@ -64,7 +64,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
             let name = numbered(row, copy, nodes.len(), k)?;
             let joint = node(row, name, *angle, &options, &mut held_n)?;
             if numbers.insert(joint.name.to_string(), joints.len()).is_some() {
-                return Err(row.error(Wrong::Repeated { what: format!("node {}", joint.name) }));
+                return Err(row.error(Wrong::Repeated(format!("node {}", joint.name))));
             }
             joints.push(joint);
         }
@@ -113,7 +113,7 @@ fn angles(sections: &Sections<'_>) -> Result<Vec<f64>> {
             }
         } else if !among(NO_BEARING, &word) {
             let what = format!("the option {:?}", shortened(text));
-            return Err(FormatError::new(sections.file, Some(*line), Wrong::Unknown { what }));
+            return Err(FormatError::new(sections.file, Some(*line), Wrong::Unknown(what)));
         }
     }
     Ok(angles)
@@ -142,7 +142,7 @@ fn node(
     }
     if kind != "connect" {
         let what = format!("the type {kind:?} of node {name}");
-        return Err(row.error(Wrong::Unknown { what }));
+        return Err(row.error(Wrong::Unknown(what)));
     }
     let mut load = super::load(row, options)?;
     for (column, sum_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
@@ -151,7 +151,7 @@ fn node(
         // MAP++ takes N, whatever the head of its table says.
         if force_n.abs() > 0.0 && row.unit(column) != "N" {
             let what = format!("the force {column} on node {name} in {:?}", row.unit(column));
-            return Err(row.error(Wrong::Unknown { what }).with_help("MAP++ takes N: write (N)"));
+            return Err(row.error(Wrong::Unknown(what)).with_help("MAP++ takes N: write (N)"));
         }
     }
     Ok(Joint::free(name).with_mass(load.mass_kg).with_force(turned(load.force_n)))
@@ -162,7 +162,7 @@ fn flags(row: &Row<'_>) -> Result<()> {
     let read = |flag: &str| among(OUTPUTS, &flag.to_lowercase());
     let known = |flag: &str| read(flag) || flag.eq_ignore_ascii_case(NO_CONTACT);
     let Some(flag) = row.flags().iter().find(|flag| !known(flag)) else { return Ok(()) };
-    let error = row.error(Wrong::Unknown { what: format!("the flag {:?}", shortened(flag)) });
+    let error = row.error(Wrong::Unknown(format!("the flag {:?}", shortened(flag))));
     Err(if flag.eq_ignore_ascii_case(SPRING) {
         error.with_help("a spring without weight is an elastic member: write it into a system file")
     } else {
@@ -174,7 +174,7 @@ fn flags(row: &Row<'_>) -> Result<()> {
 fn place(row: &Row<'_>, column: &str) -> Result<f64> {
     let text = row.text(column)?;
     if text.eq_ignore_ascii_case("depth") {
-        let error = row.error(Wrong::Missing { what: "depth of the water".to_owned() });
+        let error = row.error(Wrong::Missing("depth of the water".to_owned()));
         return Err(error.with_help("write the height of the bottom in the place of `depth`"));
     }
     row.as_number(column, text.strip_prefix('#').unwrap_or(text))
@@ -188,7 +188,7 @@ fn floor_m(lines: &[Row<'_>], joints: &[Joint]) -> Result<Option<f64>> {
     }
     if let Some(row) = lines.iter().find(|row| row.has_flag(NO_CONTACT)) {
         let what = format!("a bottom for some lines alone ({NO_CONTACT})");
-        return Err(row.error(Wrong::Unknown { what }));
+        return Err(row.error(Wrong::Unknown(what)));
     }
     let heights = joints.iter().filter_map(|joint| joint.support.at_m()).map(|at_m| at_m[2]);
     Ok(heights.reduce(f64::min))

@@ -43,7 +43,7 @@ impl Options {
                 "wtrdpth" | "depth" => {
                     if value.parse::<f64>().is_err() {
                         let what = format!("the floor {value:?}");
-                        return Err(FormatError::new(file, at, Wrong::OutOfScope { what }));
+                        return Err(FormatError::new(file, at, Wrong::OutOfScope(what)));
                     }
                     options.floor_m = Some(-positive(file, at, name, value)?);
                 }
@@ -51,12 +51,12 @@ impl Options {
                 known if ZERO.contains(&known) => {
                     if value.parse::<f64>().map_or(true, |value| value.abs() > 0.0) {
                         let what = format!("{name} = {value}");
-                        return Err(FormatError::new(file, at, Wrong::OutOfScope { what }));
+                        return Err(FormatError::new(file, at, Wrong::OutOfScope(what)));
                     }
                 }
                 _ => {
                     let what = format!("the option {:?}", shortened(text.trim()));
-                    return Err(FormatError::new(file, at, Wrong::Unknown { what }));
+                    return Err(FormatError::new(file, at, Wrong::Unknown(what)));
                 }
             }
         }

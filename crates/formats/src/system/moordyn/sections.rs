@@ -87,7 +87,7 @@ impl<'a> Sections<'a> {
                 {
                     let what =
                         format!("the section {:?}", shortened(line.trim_matches(['-', ' '])));
-                    return Err(FormatError::new(file, Some(number), Wrong::Repeated { what }));
+                    return Err(FormatError::new(file, Some(number), Wrong::Repeated(what)));
                 }
                 sections.tables.entry(current).or_insert_with(table);
                 continue;
@@ -109,7 +109,7 @@ impl<'a> Sections<'a> {
             && let Some((line, rod)) = rods.lines.get(HEAD)
         {
             let what = format!("the rod {:?}", shortened(rod.trim()));
-            return Err(FormatError::new(file, Some(*line), Wrong::OutOfScope { what }));
+            return Err(FormatError::new(file, Some(*line), Wrong::OutOfScope(what)));
         }
         Ok(sections)
     }
@@ -129,7 +129,7 @@ impl<'a> Sections<'a> {
                 "section {}",
                 HEADINGS.iter().find(|(_, one)| *one == section).map_or("", |(name, _)| name)
             );
-            FormatError::new(self.file, None, Wrong::Missing { what })
+            FormatError::new(self.file, None, Wrong::Missing(what))
         })
     }
 
@@ -147,7 +147,7 @@ fn heading(line: &str, file: &str, number: usize) -> Result<Section> {
     let known = HEADINGS.iter().find(|(name, _)| text.contains(name));
     known.map(|(_, section)| *section).ok_or_else(|| {
         let what = format!("the section {:?}", shortened(&text));
-        FormatError::new(file, Some(number), Wrong::Unknown { what })
+        FormatError::new(file, Some(number), Wrong::Unknown(what))
     })
 }
 
@@ -157,7 +157,7 @@ impl<'a> Table<'a> {
     pub(super) fn rows(&self, known: &[(&'static str, &[&str])]) -> Result<Vec<Row<'a>>> {
         let Some((line, names)) = self.lines.first() else {
             let what = "line with the names of the columns".to_owned();
-            return Err(FormatError::new(self.file, Some(self.heading), Wrong::Missing { what }));
+            return Err(FormatError::new(self.file, Some(self.heading), Wrong::Missing(what)));
         };
         let mut columns = HashMap::new();
         let names: Vec<_> = names.split_whitespace().collect();
@@ -168,11 +168,11 @@ impl<'a> Table<'a> {
             let column = find(name).or_else(|| find(&lower));
             let Some((column, _)) = column else {
                 let what = format!("the column {:?}", shortened(name));
-                return Err(FormatError::new(self.file, Some(*line), Wrong::Unknown { what }));
+                return Err(FormatError::new(self.file, Some(*line), Wrong::Unknown(what)));
             };
             if !column.is_empty() && columns.insert(*column, k).is_some() {
                 let what = format!("the column {name:?}");
-                return Err(FormatError::new(self.file, Some(*line), Wrong::Repeated { what }));
+                return Err(FormatError::new(self.file, Some(*line), Wrong::Repeated(what)));
             }
         }
         let wanted = names.len() - usize::from(columns.get(FLAGS) == Some(&(names.len() - 1)));
@@ -197,8 +197,8 @@ impl Row<'_> {
 
     pub(super) fn text(&self, column: &str) -> Result<&str> {
         let place = self.columns.get(column).copied();
-        let place = place
-            .ok_or_else(|| self.error(Wrong::Missing { what: format!("column for {column}") }))?;
+        let place =
+            place.ok_or_else(|| self.error(Wrong::Missing(format!("column for {column}"))))?;
         Ok(self.words[place])
     }
 

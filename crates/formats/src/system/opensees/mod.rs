@@ -97,11 +97,11 @@ impl<'a> Words<'a> {
     }
 
     fn unknown(&self, what: String) -> FormatError {
-        self.error(Wrong::Unknown { what })
+        self.error(Wrong::Unknown(what))
     }
 
     fn missing(&self, what: String) -> FormatError {
-        self.error(Wrong::Missing { what })
+        self.error(Wrong::Missing(what))
     }
 
     fn get(&self, k: usize) -> Result<&'a str> {
@@ -189,7 +189,7 @@ impl Deck<'_> {
         room.map_err(|error| words.error(Wrong::Memory(error)))?;
         let (name, at_m) = (words.get(1)?.to_owned(), self.vector(words, 2, "a coordinate")?);
         if self.numbers.insert(name.clone(), self.nodes.len()).is_some() {
-            return Err(words.error(Wrong::Repeated { what: format!("node {name}") }));
+            return Err(words.error(Wrong::Repeated(format!("node {name}"))));
         }
         let free = [true, self.dimensions == 3, true];
         self.nodes.push(Node { name, at_m, free, mass_kg: 0.0, force_n: [0.0; 3] });
@@ -217,7 +217,7 @@ impl Deck<'_> {
         let free = [true, self.dimensions == 3, true];
         if mass_kg < 0.0 || !masses.into_iter().zip(free).all(same) {
             let what = "a mass that differs by direction, or a negative one,".to_owned();
-            return Err(words.error(Wrong::OutOfScope { what }));
+            return Err(words.error(Wrong::OutOfScope(what)));
         }
         self.nodes[node].mass_kg = mass_kg;
         Ok(())
@@ -232,7 +232,7 @@ impl Deck<'_> {
         }
         let (tag, young_pa) = (words.get(2)?.to_owned(), words.positive(3, "E")?);
         if self.materials.insert(tag.clone(), young_pa).is_some() {
-            return Err(words.error(Wrong::Repeated { what: format!("material {tag}") }));
+            return Err(words.error(Wrong::Repeated(format!("material {tag}"))));
         }
         Ok(())
     }
@@ -252,11 +252,11 @@ impl Deck<'_> {
         };
         if words.option(7, "-cMass")?.is_some_and(|full| full.abs() > 0.0) {
             let what = "a mass that is not at the nodes (-cMass)".to_owned();
-            return Err(words.error(Wrong::OutOfScope { what }));
+            return Err(words.error(Wrong::OutOfScope(what)));
         }
         let length_m = norm(minus(self.nodes[b].at_m, self.nodes[a].at_m));
         let body = Bar::homogeneous(length_m, 0.0)
-            .map_err(|error| words.error(Wrong::NoSystem { reason: error.to_string() }))?;
+            .map_err(|error| words.error(Wrong::NoSystem(error.to_string())))?;
         self.members.push(Member::bar(a, b, body).with_stiffness(young_pa * area_m2));
         let half_kg = 0.5 * words.option(7, "-rho")?.unwrap_or_default() * length_m;
         for node in [a, b] {
@@ -312,7 +312,7 @@ impl Deck<'_> {
             let force_n = self.vector(&words, 2, "a load")?;
             for k in 2 + self.dimensions..command.words.len() {
                 if words.number(k, "a moment")?.abs() > 0.0 {
-                    return Err(words.error(Wrong::OutOfScope { what: "a moment".to_owned() }));
+                    return Err(words.error(Wrong::OutOfScope("a moment".to_owned())));
                 }
             }
             for (sum, force_n) in self.nodes[node].force_n.iter_mut().zip(force_n) {
@@ -323,9 +323,8 @@ impl Deck<'_> {
     }
 
     fn system(self) -> Result<ForeignSystem> {
-        let missing = |what: &str| {
-            Err(FormatError::new(self.file, None, Wrong::Missing { what: what.to_owned() }))
-        };
+        let missing =
+            |what: &str| Err(FormatError::new(self.file, None, Wrong::Missing(what.to_owned())));
         if self.members.is_empty() {
             return missing("element");
         }

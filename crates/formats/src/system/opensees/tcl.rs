@@ -111,11 +111,11 @@ impl<'a> Script<'a> {
             }
             if word.len() > MOST_LETTERS {
                 let what = format!("a word of more than {MOST_LETTERS} letters");
-                return Err(self.error(Wrong::Unknown { what }));
+                return Err(self.error(Wrong::Unknown(what)));
             }
         }
         if quoted {
-            let missing = Wrong::Missing { what: "end of a text in quotes".to_owned() };
+            let missing = Wrong::Missing("end of a text in quotes".to_owned());
             return Err(FormatError::new(self.file, Some(begun), missing));
         }
         Ok(word)
@@ -133,7 +133,7 @@ impl<'a> Script<'a> {
         let value = variables.get(name).map(String::as_str);
         value.ok_or_else(|| {
             let what = format!("value of the variable {:?}", shortened(name));
-            self.error(Wrong::Missing { what })
+            self.error(Wrong::Missing(what))
         })
     }
 
@@ -163,7 +163,7 @@ impl<'a> Script<'a> {
         }
         expr::value(&text).ok_or_else(|| {
             let what = format!("the arithmetic {:?}", shortened(inner));
-            FormatError::new(self.file, Some(line), Wrong::Unknown { what })
+            FormatError::new(self.file, Some(line), Wrong::Unknown(what))
         })
     }
 
@@ -181,7 +181,7 @@ impl<'a> Script<'a> {
             }
             escaped = !escaped && c == '\\';
         }
-        Err(self.error(Wrong::Missing { what: format!("{close:?} that closes {open:?}") }))
+        Err(self.error(Wrong::Missing(format!("{close:?} that closes {open:?}"))))
     }
 
     /// A comment, which goes on behind a backslash at the end of its line.

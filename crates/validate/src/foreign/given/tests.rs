@@ -82,7 +82,7 @@ fn names_may_come_in_any_order() {
     assert!(told(&[force("A", "nobody", 1.0)]).starts_with("the system has no joint \"nobody\""));
     let twice = [("A".to_owned(), [1.0; 3]), ("A".to_owned(), [2.0; 3])];
     let error = answer.clone().with_reactions(&system, twice).unwrap_err();
-    assert_eq!(error, GivenError::Repeated { name: "A".to_owned() });
+    assert_eq!(error, GivenError::Repeated("A".to_owned()));
     let error = answer.with_reactions(&system, [("A".to_owned(), [0.0, f64::NAN, 0.0])]);
     assert_eq!(error.unwrap_err().to_string(), "a number of joint \"A\" is not finite");
 }

@@ -20,18 +20,12 @@ const TOLERANCE: f64 = 1e-9;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConeError {
-    /// Occurs when a member is a rope over rings or pulleys.
-    #[error("member {member} is a rope over rings or pulleys, which this programme does not take")]
-    Rope {
-        /// Number of the member, from 1.
-        member: usize,
-    },
-    /// Occurs when a system has a strut, which no convex programme knows.
-    #[error("member {member} is a strut, and the least energy of struts is no convex problem")]
-    Strut {
-        /// Number of the member, from 1.
-        member: usize,
-    },
+    /// Occurs when a member, by its number from 1, is a rope over rings or pulleys.
+    #[error("member {0} is a rope over rings or pulleys, which this programme does not take")]
+    Rope(usize),
+    /// Occurs when a member, by its number from 1, is a strut, which no convex programme knows.
+    #[error("member {0} is a strut, and the least energy of struts is no convex problem")]
+    Strut(usize),
     /// Occurs when clarabel does not accept the programme, which would be a bug here.
     #[error("the cone programme was not accepted")]
     Refused(#[source] Box<SolverError>),
