@@ -173,18 +173,17 @@ pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAns
 /// The same in full: with which equations, with or without the proofs in interval arithmetic (the
 /// rungs `verified` and `complete`), on how many threads.
 pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> SystemAnswer {
+    let asked = Asked { system, question, watch };
     let census = question.census;
     let drawing_m = system.drawing();
     let mut answers = match &drawing_m {
-        Some(drawing_m) => near_to(system, &Seed::at(drawing_m.clone()), question, watch),
-        None => lowest(system, question, watch),
+        Some(drawing_m) => asked.near_to(&Seed::at(drawing_m.clone())),
+        None => asked.lowest(),
     };
     // Without a drawing the lowest is asked for, and a complete list knows it.
     let listed = wanted_census(system, census);
     let mut asked_again = match &listed {
-        Ok(listed) if drawing_m.is_none() => {
-            ask_again(system, listed, question, watch, &mut answers)
-        }
+        Ok(listed) if drawing_m.is_none() => asked.ask_again(listed, &mut answers),
         _ => vec![],
     };
     for answer in answers.iter_mut().flatten() {
@@ -211,22 +210,14 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         *far = Near::of(system, at, first);
     }
     if drawing_m.is_none()
-        && let Some((both, one)) = lower(system, question, watch, &equilibria)
+        && let Some((both, one)) = asked.lower(&equilibria)
     {
         (equilibria, agreement) = (both, Some(one));
         failures.clear();
         asked_again = vec![SolverName::LAGRANGE, SolverName::ENERGY];
     }
     if !agreement.as_ref().is_some_and(SystemAgreement::agrees) {
-        let beside = ask_beside(
-            system,
-            drawing_m,
-            question,
-            watch,
-            agreement.as_ref(),
-            &mut equilibria,
-            &failures,
-        );
+        let beside = asked.ask_beside(drawing_m, agreement.as_ref(), &mut equilibria, &failures);
         let is_near = near.as_ref().is_some_and(|near| near.is_neighbour);
         let agreed = match beside {
             Some((solver, one)) => {
@@ -235,9 +226,7 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
                 }
                 Some(one)
             }
-            None if drawing_m.is_some() && !is_near => {
-                elsewhere(system, question, watch, &mut equilibria, &failures)
-            }
+            None if drawing_m.is_some() && !is_near => asked.elsewhere(&mut equilibria, &failures),
             None => None,
         };
         if agreed.is_some() {
@@ -269,159 +258,246 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
     SystemAnswer { equilibria, failures, agreement, near, asked_again }
 }
 
-/// Ask those solvers again that have no answer or end in another equilibrium than the lowest of a complete census, each by its own method next
-/// to that; the names of those that are there now. The census tells where to look, not what holds there.
-fn ask_again(
-    system: &System,
-    census: &SystemCensus,
-    question: &Question,
-    watch: &dyn Fn(&str),
-    answers: &mut [Result<SystemEquilibrium, SystemFailure>],
-) -> Vec<SolverName> {
-    let found: Vec<&SystemEquilibrium> = answers.iter().flatten().collect();
-    let Some(lowest) = lowest_listed(system, census, &found) else { return vec![] };
-    let places_m: Vec<Vector> = lowest.joints_m.iter().map(|at| at.map(Interval::mid)).collect();
-    let is_listed = |answer: &SystemEquilibrium| {
-        census.equilibria.iter().any(|position| is_at(system, position, answer))
-    };
-    let mut asked_again = vec![];
-    for answer in answers {
-        let solver = match answer {
-            // The paper's equations have no shape to begin from.
-            _ if question.equations == Equations::Full => continue,
-            // One that is no equilibrium at all is refuted, not replaced.
-            Ok(answer) if is_at(system, lowest, answer) || !is_listed(answer) => continue,
-            Ok(answer) => answer.solver.clone(),
-            Err(failure) => failure.solver(),
-        };
-        let again = next_to_by(system, &places_m, &solver, question, watch);
-        if let Some(again) = again.filter(|again| is_at(system, lowest, again)) {
-            *answer = Ok(again);
-            asked_again.push(solver);
-        }
-    }
-    asked_again
+/// What a solver has.
+type Found = Result<SystemEquilibrium, SystemFailure>;
+
+/// What is asked of which system, and who is told.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    system: &'a System,
+    question: &'a Question,
+    watch: &'a dyn Fn(&str),
 }
 
-/// Two answers that differ (mirror images, a mast that stands and one that leans): ask the solver of the higher one again next
-/// to the other, or the one that has no answer at all; of two that are as high, or next to a drawing, where the nearer one
-/// comes first, one after the other. What is known must be in balance, stable, and next to the drawing, if there is one: but
-/// for a barrier on the straight way where the other answer is unstable; and where there is no other, wherever the lowest of
-/// all is, or what a structure that does not stay where it is drawn has come down to. If both agree then, the solver and the
-/// comparison.
-fn ask_beside(
-    system: &System,
-    drawing_m: Option<&[Vector]>,
-    question: &Question,
-    watch: &dyn Fn(&str),
-    agreement: Option<&SystemAgreement>,
-    answers: &mut Vec<SystemEquilibrium>,
-    failures: &[SystemFailure],
-) -> Option<(SolverName, SystemAgreement)> {
-    let are_level = agreement.is_some_and(|agreement| {
-        let mut excesses = agreement.disagreement.excesses.iter();
-        !excesses.any(|excess| matches!(excess.what, Quantity::Energy { .. }))
-    });
-    let known: Vec<(&SystemEquilibrium, SolverName)> = match (&answers[..], failures) {
-        ([known], [failure]) if failure.is_astray(system) => vec![(known, failure.solver())],
-        ([first, second], []) => {
-            // Next to a drawing the nearer one comes first, and else the lower one.
-            let [one, other] = [first, second].map(|answer| match drawing_m {
-                Some(at) => Near::of(system, at, answer).moved,
-                None => answer.energy_j,
-            });
-            let (best, rest) = if one < other { (first, second) } else { (second, first) };
-            let both = are_level || drawing_m.is_some();
-            let rest_too = both.then(|| (rest, best.solver.clone()));
-            [(best, rest.solver.clone())].into_iter().chain(rest_too).collect()
-        }
-        _ => return None,
-    };
-    if question.equations == Equations::Full {
-        return None;
-    }
-    let budget = Tolerances::project().statics;
-    let (both, found) = known.into_iter().find_map(|(known, solver)| {
-        let unstable = answers.iter().any(|answer| answer.stability.index_in_space > 0);
-        let is_next = |at: &[Vector]| {
-            let near = Near::of(system, at, known);
-            let alone =
-                || known.evidence.ladder.optimal.is_reached() || is_below(system, at, known);
-            near.is_neighbour || unstable && near.moved <= FAR || answers.len() == 1 && alone()
+impl Asked<'_> {
+    /// Ask those solvers again that have no answer or end in another equilibrium than the lowest of a complete census, each by its own method next
+    /// to that; the names of those that are there now. The census tells where to look, not what holds there.
+    fn ask_again(&self, census: &SystemCensus, answers: &mut [Found]) -> Vec<SolverName> {
+        let found: Vec<&SystemEquilibrium> = answers.iter().flatten().collect();
+        let Some(lowest) = lowest_listed(self.system, census, &found) else { return vec![] };
+        let places_m: Vec<Vector> =
+            lowest.joints_m.iter().map(|at| at.map(Interval::mid)).collect();
+        let is_listed = |answer: &SystemEquilibrium| {
+            census.equilibria.iter().any(|position| is_at(self.system, position, answer))
         };
-        let stays = known.stability.index_in_space == 0;
-        if !stays || !drawing_m.is_none_or(is_next) || !judge(system, known).passes(budget) {
+        let mut asked_again = vec![];
+        for answer in answers {
+            let solver = match answer {
+                // The paper's equations have no shape to begin from.
+                _ if self.question.equations == Equations::Full => continue,
+                // One that is no equilibrium at all is refuted, not replaced.
+                Ok(answer) if is_at(self.system, lowest, answer) || !is_listed(answer) => continue,
+                Ok(answer) => answer.solver.clone(),
+                Err(failure) => failure.solver(),
+            };
+            let again = self.next_to_by(&places_m, &solver);
+            if let Some(again) = again.filter(|again| is_at(self.system, lowest, again)) {
+                *answer = Ok(again);
+                asked_again.push(solver);
+            }
+        }
+        asked_again
+    }
+
+    /// Two answers that differ (mirror images, a mast that stands and one that leans): ask the solver of the higher one again next
+    /// to the other, or the one that has no answer at all; of two that are as high, or next to a drawing, where the nearer one
+    /// comes first, one after the other. What is known must be in balance, stable, and next to the drawing, if there is one: but
+    /// for a barrier on the straight way where the other answer is unstable; and where there is no other, wherever the lowest of
+    /// all is, or what a structure that does not stay where it is drawn has come down to. If both agree then, the solver and the
+    /// comparison.
+    fn ask_beside(
+        &self,
+        drawing_m: Option<&[Vector]>,
+        agreement: Option<&SystemAgreement>,
+        answers: &mut Vec<SystemEquilibrium>,
+        failures: &[SystemFailure],
+    ) -> Option<(SolverName, SystemAgreement)> {
+        let are_level = agreement.is_some_and(|agreement| {
+            let mut excesses = agreement.disagreement.excesses.iter();
+            !excesses.any(|excess| matches!(excess.what, Quantity::Energy { .. }))
+        });
+        let known: Vec<(&SystemEquilibrium, SolverName)> = match (&answers[..], failures) {
+            ([known], [failure]) if failure.is_astray(self.system) => {
+                vec![(known, failure.solver())]
+            }
+            ([first, second], []) => {
+                // Next to a drawing the nearer one comes first, and else the lower one.
+                let [one, other] = [first, second].map(|answer| match drawing_m {
+                    Some(at) => Near::of(self.system, at, answer).moved,
+                    None => answer.energy_j,
+                });
+                let (best, rest) = if one < other { (first, second) } else { (second, first) };
+                let both = are_level || drawing_m.is_some();
+                let rest_too = both.then(|| (rest, best.solver.clone()));
+                [(best, rest.solver.clone())].into_iter().chain(rest_too).collect()
+            }
+            _ => return None,
+        };
+        if self.question.equations == Equations::Full {
             return None;
         }
-        let again = next_to_by(system, &known.joints_m, &solver, question, watch)?;
-        let mut both = vec![known.clone(), again];
-        both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
-        let one = compare(system, &mut both, &Tolerances::project());
-        // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
-        let free = one.turned_parts + 3 * (one.free_joints + one.sliding_parts);
-        let is_placed = known.stability.neutral <= free;
-        (one.agrees() && is_placed).then_some((both, (solver, one)))
-    })?;
-    *answers = both;
-    Some(found)
-}
+        let budget = Tolerances::project().statics;
+        let (both, found) = known.into_iter().find_map(|(known, solver)| {
+            let unstable = answers.iter().any(|answer| answer.stability.index_in_space > 0);
+            let is_next = |at: &[Vector]| {
+                let near = Near::of(self.system, at, known);
+                let alone = || {
+                    known.evidence.ladder.optimal.is_reached() || is_below(self.system, at, known)
+                };
+                near.is_neighbour || unstable && near.moved <= FAR || answers.len() == 1 && alone()
+            };
+            let stays = known.stability.index_in_space == 0;
+            if !stays || !drawing_m.is_none_or(is_next) || !judge(self.system, known).passes(budget)
+            {
+                return None;
+            }
+            let again = self.next_to_by(&known.joints_m, &solver)?;
+            let mut both = vec![known.clone(), again];
+            both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
+            let one = compare(self.system, &mut both, &Tolerances::project());
+            // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
+            let free = one.turned_parts + 3 * (one.free_joints + one.sliding_parts);
+            let is_placed = known.stability.neutral <= free;
+            (one.agrees() && is_placed).then_some((both, (solver, one)))
+        })?;
+        *answers = both;
+        Some(found)
+    }
 
-/// A structure that does not stay where it is drawn, as a mast that has lost a guy, and of which the descent from there
-/// has not come to an end that both solvers know: the lowest equilibrium, if both find it without the drawing. The
-/// comparison.
-fn elsewhere(
-    system: &System,
-    question: &Question,
-    watch: &dyn Fn(&str),
-    answers: &mut Vec<SystemEquilibrium>,
-    failures: &[SystemFailure],
-) -> Option<SystemAgreement> {
-    let astray = !failures.is_empty() && failures.iter().all(|failure| failure.is_astray(system));
-    if !astray || question.solvers != Solvers::Both || question.equations == Equations::Full {
-        return None;
+    /// A structure that does not stay where it is drawn, as a mast that has lost a guy, and of which the descent from there
+    /// has not come to an end that both solvers know: the lowest equilibrium, if both find it without the drawing. The
+    /// comparison.
+    fn elsewhere(
+        &self,
+        answers: &mut Vec<SystemEquilibrium>,
+        failures: &[SystemFailure],
+    ) -> Option<SystemAgreement> {
+        let astray =
+            !failures.is_empty() && failures.iter().all(|failure| failure.is_astray(self.system));
+        if !astray
+            || self.question.solvers != Solvers::Both
+            || self.question.equations == Equations::Full
+        {
+            return None;
+        }
+        let question = Question { census: UseCensus::Never, ..*self.question };
+        let answer = ask_with(&self.system.clone().undrawn(), &question, self.watch);
+        let agreement = answer.agreement.filter(SystemAgreement::agrees)?;
+        *answers = answer.equilibria;
+        Some(agreement)
     }
-    let question = Question { census: UseCensus::Never, ..*question };
-    let answer = ask_with(&system.clone().undrawn(), &question, watch);
-    let agreement = answer.agreement.filter(SystemAgreement::agrees)?;
-    *answers = answer.equilibria;
-    Some(agreement)
-}
 
-/// A lower equilibrium than those found, where members may push and none is proved the lowest: `energy` from places at
-/// random, and if that ends lower both solvers next to it. What both find there, and the comparison, if they agree.
-fn lower(
-    system: &System,
-    question: &Question,
-    watch: &dyn Fn(&str),
-    found: &[SystemEquilibrium],
-) -> Option<(Vec<SystemEquilibrium>, SystemAgreement)> {
-    let pushes = system.members().iter().any(|member| member.kind != Kind::Cable);
-    let is_asked = question.solvers == Solvers::Both
-        && question.equations != Equations::Full
-        && question.census != UseCensus::Never;
-    let is_lowest = found.iter().any(|answer| answer.evidence.ladder.optimal.is_reached());
-    if !is_asked || is_lowest || !pushes || system.members().len() > STARTED {
-        return None;
+    /// A lower equilibrium than those found, where members may push and none is proved the lowest: `energy` from places at
+    /// random, and if that ends lower both solvers next to it. What both find there, and the comparison, if they agree.
+    fn lower(
+        &self,
+        found: &[SystemEquilibrium],
+    ) -> Option<(Vec<SystemEquilibrium>, SystemAgreement)> {
+        let pushes = self.system.members().iter().any(|member| member.kind != Kind::Cable);
+        let is_asked = self.question.solvers == Solvers::Both
+            && self.question.equations != Equations::Full
+            && self.question.census != UseCensus::Never;
+        let is_lowest = found.iter().any(|answer| answer.evidence.ladder.optimal.is_reached());
+        if !is_asked || is_lowest || !pushes || self.system.members().len() > STARTED {
+            return None;
+        }
+        (self.watch)("other starts");
+        let known_j = found.iter().map(|answer| answer.energy_j).reduce(f64::min)?;
+        let settings = self.question.energy();
+        let ends = (1..=STARTS).filter_map(|start| {
+            let places_m = scattered(self.system, start);
+            Some(energy::net::minimise_from(self.system, &places_m, &settings).ok()?.equilibrium)
+        });
+        let stable = ends.filter(|end| end.stability.index_in_space == 0);
+        let lowest = stable.min_by(|a, b| a.energy_j.total_cmp(&b.energy_j))?;
+        let unit_j = self.system.total_load_n() * self.system.total_length_m();
+        if lowest.energy_j >= known_j - LOWER * unit_j {
+            return None;
+        }
+        let at_rest = Seed::at_rest(lowest.joints_m);
+        let both = self.near_to(&at_rest).into_iter();
+        let mut both = both.collect::<Result<Vec<_>, _>>().ok()?;
+        let one = compare(self.system, &mut both, &Tolerances::project());
+        let is_stable = both.iter().all(|answer| answer.stability.index_in_space == 0);
+        (is_stable && one.agrees()).then_some((both, one))
     }
-    watch("other starts");
-    let known_j = found.iter().map(|answer| answer.energy_j).reduce(f64::min)?;
-    let settings = question.energy();
-    let ends = (1..=STARTS).filter_map(|start| {
-        let places_m = scattered(system, start);
-        Some(energy::net::minimise_from(system, &places_m, &settings).ok()?.equilibrium)
-    });
-    let stable = ends.filter(|end| end.stability.index_in_space == 0);
-    let lowest = stable.min_by(|a, b| a.energy_j.total_cmp(&b.energy_j))?;
-    let unit_j = system.total_load_n() * system.total_length_m();
-    if lowest.energy_j >= known_j - LOWER * unit_j {
-        return None;
+
+    /// What one solver finds next to an equilibrium.
+    fn next_to_by(&self, places_m: &[Vector], solver: &SolverName) -> Option<SystemEquilibrium> {
+        let alone =
+            if *solver == SolverName::LAGRANGE { Solvers::Lagrange } else { Solvers::Energy };
+        let question = Question { solvers: alone, ..*self.question };
+        let at_rest = Seed::at_rest(places_m.to_vec());
+        Asked { question: &question, ..*self }.near_to(&at_rest).into_iter().flatten().next()
     }
-    let at_rest = Seed::at_rest(lowest.joints_m);
-    let both = near_to(system, &at_rest, question, watch).into_iter();
-    let mut both = both.collect::<Result<Vec<_>, _>>().ok()?;
-    let one = compare(system, &mut both, &Tolerances::project());
-    let is_stable = both.iter().all(|answer| answer.stability.index_in_space == 0);
-    (is_stable && one.agrees()).then_some((both, one))
+
+    /// What the solvers find next to some places.
+    fn near_to(&self, seed: &Seed) -> Vec<Found> {
+        let lagrange = || lagrange::net::solve_from(self.system, seed, &self.question.lagrange());
+        let energy =
+            || energy::net::minimise_near(self.system, &seed.joints_m, &self.question.energy());
+        self.by_each(&|| Ok(lagrange()?.equilibrium), &|| Ok(energy()?.equilibrium))
+    }
+
+    /// The lowest equilibrium that each solver finds.
+    fn lowest(&self) -> Vec<Found> {
+        self.by_each(&|| self.by_lagrange(), &|| self.by_energy())
+    }
+
+    /// What each solver finds that is asked, by its own method.
+    fn by_each(&self, lagrange: &dyn Fn() -> Found, energy: &dyn Fn() -> Found) -> Vec<Found> {
+        let (members, joints) = (self.system.members().len(), self.system.joints().len());
+        let mut answers = vec![];
+        if self.question.solvers != Solvers::Energy {
+            (self.watch)(&format!("lagrange: forces and closures of {members} members"));
+            answers.push(lagrange());
+        }
+        if self.question.solvers != Solvers::Lagrange {
+            (self.watch)(&format!("energy: minimisation over the places of {joints} joints"));
+            answers.push(energy());
+        }
+        answers
+    }
+
+    /// A row between two anchors by the condensed equations, where these have an answer, or by the paper's; any other system
+    /// by all members.
+    fn by_lagrange(&self) -> Found {
+        if let Some(row) = self.system.as_row() {
+            let bars = self.system.members().len();
+            if self.question.equations == Equations::Full {
+                let found = lagrange::solve(row.problem(), &self.question.full(bars))?;
+                return Ok(row.equilibrium(found.equilibrium));
+            }
+            // The bits of the answer do not depend on how many share the work.
+            let mut solver = lagrange::condensed::Solver::with_processors(self.question.threads);
+            if let Ok(found) = solver.solve(row.problem(), &self.question.condensed(bars)) {
+                drop(solver);
+                return Ok(row.equilibrium(found.equilibrium));
+            }
+        }
+        let found = lagrange::net::solve(self.system, &self.question.lagrange())?;
+        Ok(found.equilibrium)
+    }
+
+    /// A row between two anchors over the directions of its bars, where that has an answer; any other system over the places of its joints.
+    fn by_energy(&self) -> Found {
+        let usual = energy::Settings::default();
+        let max_iterations =
+            self.question.passes(self.system.members().len(), usual.max_iterations);
+        let settings = energy::Settings { max_iterations, ..usual };
+        // One whose bars are not known well enough has no answer.
+        let over_directions = |row: &Row| {
+            let found = energy::minimise(row.problem(), &settings).ok()?.equilibrium;
+            found.evidence.ladder.is_reached(Rung::Converged).then_some(found)
+        };
+        if let Some((row, found)) =
+            self.system.as_row().and_then(|row| Some((row, over_directions(row)?)))
+        {
+            return Ok(row.equilibrium(found));
+        }
+        let found = energy::net::minimise(self.system, &self.question.energy())?;
+        Ok(found.equilibrium)
+    }
 }
 
 /// Places of the joints without pattern, as far apart as the longest member and the supports, above the floor.
@@ -441,109 +517,6 @@ fn scattered(system: &System, start: usize) -> Vec<Vector> {
         joint.support.nearest_m([x, y, z.max(floor_m)])
     };
     system.joints().iter().enumerate().map(place).collect()
-}
-
-/// What one solver finds next to an equilibrium.
-fn next_to_by(
-    system: &System,
-    places_m: &[Vector],
-    solver: &SolverName,
-    question: &Question,
-    watch: &dyn Fn(&str),
-) -> Option<SystemEquilibrium> {
-    let alone = if *solver == SolverName::LAGRANGE { Solvers::Lagrange } else { Solvers::Energy };
-    let question = Question { solvers: alone, ..*question };
-    let at_rest = Seed::at_rest(places_m.to_vec());
-    near_to(system, &at_rest, &question, watch).into_iter().flatten().next()
-}
-
-/// What the solvers find next to some places.
-fn near_to(
-    system: &System,
-    seed: &Seed,
-    question: &Question,
-    watch: &dyn Fn(&str),
-) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
-    let lagrange = || lagrange::net::solve_from(system, seed, &question.lagrange());
-    let energy = || energy::net::minimise_near(system, &seed.joints_m, &question.energy());
-    by_each(system, question, watch, &|| Ok(lagrange()?.equilibrium), &|| Ok(energy()?.equilibrium))
-}
-
-/// The lowest equilibrium that each solver finds.
-fn lowest(
-    system: &System,
-    question: &Question,
-    watch: &dyn Fn(&str),
-) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
-    let row = system.as_row();
-    let lagrange = || by_lagrange(system, row, question);
-    by_each(system, question, watch, &lagrange, &|| by_energy(system, row, question))
-}
-
-/// What each solver finds that is asked, by its own method.
-fn by_each(
-    system: &System,
-    question: &Question,
-    watch: &dyn Fn(&str),
-    lagrange: &dyn Fn() -> Result<SystemEquilibrium, SystemFailure>,
-    energy: &dyn Fn() -> Result<SystemEquilibrium, SystemFailure>,
-) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
-    let (members, joints) = (system.members().len(), system.joints().len());
-    let mut answers = vec![];
-    if question.solvers != Solvers::Energy {
-        watch(&format!("lagrange: forces and closures of {members} members"));
-        answers.push(lagrange());
-    }
-    if question.solvers != Solvers::Lagrange {
-        watch(&format!("energy: minimisation over the places of {joints} joints"));
-        answers.push(energy());
-    }
-    answers
-}
-
-/// A row between two anchors by the condensed equations, where these have an answer, or by the paper's; any other system
-/// by all members.
-fn by_lagrange(
-    system: &System,
-    row: Option<&Row>,
-    question: &Question,
-) -> Result<SystemEquilibrium, SystemFailure> {
-    if let Some(row) = row {
-        let bars = system.members().len();
-        if question.equations == Equations::Full {
-            let found = lagrange::solve(row.problem(), &question.full(bars))?;
-            return Ok(row.equilibrium(found.equilibrium));
-        }
-        // The bits of the answer do not depend on how many share the work.
-        let mut solver = lagrange::condensed::Solver::with_processors(question.threads);
-        if let Ok(found) = solver.solve(row.problem(), &question.condensed(bars)) {
-            drop(solver);
-            return Ok(row.equilibrium(found.equilibrium));
-        }
-    }
-    let found = lagrange::net::solve(system, &question.lagrange())?;
-    Ok(found.equilibrium)
-}
-
-/// A row between two anchors over the directions of its bars, where that has an answer; any other system over the places of its joints.
-fn by_energy(
-    system: &System,
-    row: Option<&Row>,
-    question: &Question,
-) -> Result<SystemEquilibrium, SystemFailure> {
-    let usual = energy::Settings::default();
-    let max_iterations = question.passes(system.members().len(), usual.max_iterations);
-    let settings = energy::Settings { max_iterations, ..usual };
-    // One whose bars are not known well enough has no answer.
-    let over_directions = |row: &Row| {
-        let found = energy::minimise(row.problem(), &settings).ok()?.equilibrium;
-        found.evidence.ladder.is_reached(Rung::Converged).then_some(found)
-    };
-    if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
-        return Ok(row.equilibrium(found));
-    }
-    let found = energy::net::minimise(system, &question.energy())?;
-    Ok(found.equilibrium)
 }
 
 /// Answers are compared; a single one is only judged by Newton's laws.
