@@ -34,7 +34,8 @@ fn the_energy_of_a_spring_is_known_to_the_rounding_of_its_places() {
     let system = spring(1.0, 2.0_f64.powi(50), 0.0);
     let derived = |energy_j: f64, down_m: f64| {
         let answer = hung(down_m, 0.0, energy_j);
-        energy(&system, &answer, &Units::new(&system, &answer, Scale::new(&system, &answer)))
+        let units = Units::new(&system, &answer, Scale::new(&system, &answer));
+        judging(&system, &answer, units).energy()
     };
     // Of it half of 2^50 N/m times the square of 2^-49 m is rounding, and 2^-49 m of a strain that rounding may leave.
     let strained = 2.0 * model::system::LENGTH_ROUNDING;
@@ -82,7 +83,7 @@ fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
             ..lamp().1
         };
         let units = Units::new(&system, &answer, Scale::new(&system, &answer));
-        joint_balances(&system, &answer, &units).nth(4).unwrap()
+        judging(&system, &answer, units).joint_balances()[4]
     };
     assert!(left(4e-14) < 2e-12, "{}", left(4e-14));
     assert!(left(1e-10) > 1e-9, "{}", left(1e-10));
@@ -171,6 +172,10 @@ const UNITS: Units = Units {
     free: vec![],
 };
 
+fn judging<'a>(system: &'a System, answer: &'a SystemEquilibrium, units: Units) -> Judging<'a> {
+    Judging { system, answer, units, found: SystemStatics::NOTHING }
+}
+
 fn close(found: f64, wanted: f64) {
     assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{found}, not {wanted}");
 }
@@ -183,8 +188,9 @@ fn close(found: f64, wanted: f64) {
 fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     let (system, mut answer) = crooked(|_, _| ());
     answer.axial_n[0] += 2.5;
-    let mut found = SystemStatics::NOTHING;
-    member(&system, &answer, 0, 7.0, &UNITS, &mut found);
+    let mut exact = judging(&system, &answer, UNITS);
+    exact.member(0, 7.0);
+    let found = exact.found;
     close(found.force, (3818.0_f64.sqrt() - 0.5) / 80.0);
     close(found.moment, (535_429.0_f64.sqrt() / 8.0 - 23.5) / 560.0);
     close(found.derived, 0.025);
@@ -192,9 +198,10 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     assert_eq!((found.law.to_bits(), found.worst), (0, Place::Member(1)));
     // Where rounding is as much as the distance there is no direction.
     for (rounding_m, derived) in [(7.0, 0.0), (6.875, 0.025)] {
-        let mut found = SystemStatics::NOTHING;
-        member(&system, &answer, 0, 7.0, &Units { rounding_m, ..UNITS }, &mut found);
-        close(found.derived, derived);
+        let units = Units { rounding_m, ..UNITS };
+        let mut rough = judging(&system, &answer, units);
+        rough.member(0, 7.0);
+        close(rough.found.derived, derived);
     }
 }
 
@@ -206,10 +213,13 @@ fn the_laws_of_members_are_those_of_their_kinds() {
         |acts_n: f64, kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
             let local = Local { rounding_n: 0.5, most_n: BORNE * acts_n, least_n: 0.0 };
             let body = Bar::homogeneous(8.0, 0.0).unwrap();
-            let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
-            let mut found = SystemStatics::NOTHING;
-            law(&member, distance_m, axial_n, 4.0, (0.25, local), Place::Member(1), &mut found);
-            [found.length, found.law]
+            let (system, mut answer) = crooked(|_, bar| {
+                *bar = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
+            });
+            answer.axial_n[0] = axial_n;
+            let mut judging = judging(&system, &answer, UNITS);
+            judging.law(0, distance_m, 4.0, local);
+            [judging.found.length, judging.found.law]
         };
     let told = |kind, stiffness_n, distance_m, axial_n| {
         acting(1.0, kind, stiffness_n, distance_m, axial_n)
@@ -260,11 +270,11 @@ fn the_laws_of_members_are_those_of_their_kinds() {
 #[test]
 fn what_is_left_over_at_a_joint_is_a_part_of_its_largest_force() {
     let (system, answer) = crooked(|_, _| ());
-    let [a, b] = joint_balances(&system, &answer, &UNITS).collect::<Vec<_>>()[..] else { panic!() };
+    let [a, b] = judging(&system, &answer, UNITS).joint_balances()[..] else { panic!() };
     close(a, 0.5 / 21.0_f64.sqrt());
     close(b, (1690.0_f64.sqrt() - 0.5) / 30.0);
     let (system, answer) = crooked(|joints, _| joints[1].mass_kg = 0.0);
-    let b = joint_balances(&system, &answer, &UNITS).nth(1).unwrap();
+    let b = judging(&system, &answer, UNITS).joint_balances()[1];
     close(b, ((25.0 + 144.0 + 81.0_f64).sqrt() - 0.5) / 339.0_f64.sqrt());
 }
 
@@ -277,11 +287,11 @@ fn what_is_left_over_on_the_whole_is_a_part_of_all_forces() {
     let (system, mut answer) = crooked(|_, _| ());
     let loads = 681.0_f64.sqrt() + 77.0_f64.sqrt() + 80.0;
     let sizes = loads + 21.0_f64.sqrt();
-    close(whole(&system, &answer, &UNITS), (9693.0_f64.sqrt() - 0.5) / sizes);
+    close(judging(&system, &answer, UNITS).whole(), (9693.0_f64.sqrt() - 0.5) / sizes);
     answer.reactions_n[0] = [-7.0, 7.0, 102.0];
     let sizes = loads + 10_502.0_f64.sqrt();
     let moment = (102.0_f64.powi(2) + 117.75_f64.powi(2) + 24.875_f64.powi(2)).sqrt();
-    close(whole(&system, &answer, &UNITS), ((moment - 0.25 * sizes) / 4.0 - 0.5) / sizes);
+    close(judging(&system, &answer, UNITS).whole(), ((moment - 0.25 * sizes) / 4.0 - 0.5) / sizes);
 }
 
 /// (1, 2, 4) N of the ground where nothing acts but a prestress of 1 kN.
@@ -293,7 +303,7 @@ fn without_loads_the_whole_is_measured_by_the_prestress() {
     });
     let units = Units { total_n: 1000.0, ..UNITS };
     // A millionth of that at most is rounding.
-    close(whole(&system, &answer, &units), (21.0_f64.sqrt() - 1e-3) / 1000.0);
+    close(judging(&system, &answer, units).whole(), (21.0_f64.sqrt() - 1e-3) / 1000.0);
 }
 
 /// From A: (2, -1, -26) N along (2, 3, 6), 80 N down along 3/2 and (5, -6, 4) N along (5, 15/2, 15)/4:
@@ -309,10 +319,10 @@ fn the_energy_is_that_of_all_loads_and_springs() {
         });
         answer.joints_m[1] = [1.0 + 2.0 * far, -2.0 + 3.0 * far, 5.0 + 6.0 * far];
         answer.energy_j = 265.0 * far + elastic_j;
-        assert!(energy(&system, &answer, &UNITS) < 1e-15, "{kind:?} {far}");
+        assert!(judging(&system, &answer, UNITS).energy() < 1e-15, "{kind:?} {far}");
         answer.energy_j += 64.0;
         let beyond_j = 64.0 - 0.125;
-        close(energy(&system, &answer, &UNITS), beyond_j / (4.0 * forces + unit_j));
+        close(judging(&system, &answer, UNITS).energy(), beyond_j / (4.0 * forces + unit_j));
     };
     off(Kind::Bar, None, 1.0, 0.0, 0.0);
     // 24 N over 8 m are 3 N/m, a metre too short or 6 m too long; rounding is 6 J.
@@ -336,8 +346,9 @@ fn supports_bear_what_is_normal_to_their_motions() {
         let system = floor_m.map_or(system.clone(), |floor_m| system.with_floor(floor_m).unwrap());
         answer.joints_m[1] = [1.8 - 3.2, 5.0, 2.4 + 2.4];
         answer.reactions_n[1] = [3.6 - 6.4, 0.0, 4.8 + 4.8];
-        let mut found = SystemStatics::NOTHING;
-        support(&system, &answer, 1, &UNITS, &mut found);
+        let mut judging = judging(&system, &answer, UNITS);
+        judging.support(1);
+        let found = judging.found;
         assert_eq!(found.worst, Place::Joint(1));
         (found.support, found.joint)
     };
@@ -369,9 +380,11 @@ fn supports_bear_what_is_normal_to_their_motions() {
 
 #[test]
 fn a_floor_pushes_what_lies_on_it_alone() {
+    let (system, answer) = crooked(|_, _| ());
     let told = |above_m: f64, push_n: f64| {
-        let mut found = SystemStatics::NOTHING;
-        on_floor(above_m, push_n, 3, &UNITS, &mut found);
+        let mut judging = judging(&system, &answer, UNITS);
+        judging.on_floor(above_m, push_n, 3);
+        let found = judging.found;
         (found.support, found.joint, found.worst)
     };
     let joint = Place::Joint(3);
