@@ -35,7 +35,7 @@
 //!
 //! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices).
 
-use model::system::{Member, System, SystemEquilibrium};
+use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::{NoCertificate, Optimal, Vector, sum};
 
 use super::definite::{Symmetric, gamma};
@@ -81,14 +81,13 @@ pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, N
         return within(answer.energy_j, super::convex::bound_j(system, answer)?, unit_j);
     }
     let densities = densities(system, answer);
-    let tangent = tangent(system, answer, &densities);
-    let wanted = tangent.squared_gradient / (2.0 * SMALL_GAP * unit_j);
+    let (value_j, squared_gradient) = tangent(system, answer, &densities);
+    let wanted = squared_gradient / (2.0 * SMALL_GAP * unit_j);
     let matrix = stress_matrix(system, &densities);
     let least = matrix.least_eigenvalue(wanted).ok_or_else(|| NoCertificate::NotDefinite {
         compressed: densities.iter().filter(|w| **w < 0.0).count(),
     })?;
-    let bound_j = tangent.value_j - tangent.squared_gradient / (2.0 * least);
-    within(answer.energy_j, bound_j, unit_j)
+    within(answer.energy_j, value_j - squared_gradient / (2.0 * least), unit_j)
 }
 
 /// The certificate of a bound that is near enough, in units of some energy: an answer that is below the bound of all
@@ -164,80 +163,78 @@ fn largest_degree(system: &System) -> usize {
 
 /// Units in the last place that the operations of one term come to: fewer than 16 roundings of half
 /// a unit each, and as many again for those of the bound itself.
-pub(super) const TERM_ULPS: f64 = 16.0;
+const TERM_ULPS: f64 = 16.0;
 
-/// The quadratic function below the energy, at an answer.
-struct Tangent {
-    /// A lower bound of its value there, J.
-    value_j: f64,
-    /// An upper bound of the square of its gradient by the places that the joints may take, N².
-    squared_gradient: f64,
+/// A function below the energy, at an answer, while it is added up. Each number is paired with the size of
+/// all that was rounded on the way: of differences, with the size of what was subtracted.
+pub(super) struct Below<'a> {
+    system: &'a System,
+    /// Places of the joints from the reference of the energy, m.
+    pub(super) places_m: Vec<Vector>,
+    /// Loads of the joints, with the pushes of the floor, N.
+    loads_n: Vec<Vector>,
+    /// The gradient by the place of each joint, N.
+    gradient_n: Vec<(Vector, f64)>,
+    /// The terms of the value but for the loads, J.
+    pub(super) terms_j: Vec<(f64, f64)>,
 }
 
-/// The potential energies of the loads of the joints at their places, each with its size, J.
-pub(super) fn works(
-    loads: &[Vector],
-    place: impl Fn(usize) -> Vector,
-) -> impl Iterator<Item = (f64, f64)> {
-    loads.iter().enumerate().map(move |(k, load)| {
-        let at = place(k);
-        (-dot(*load, at), norm(*load) * norm(at))
-    })
-}
-
-/// Add the pushes of the floor to the loads of the joints: the energies of the floor's height under them, each
-/// with its size, J. Whatever is pushed the bound holds; what the answer's floor pulls is none.
-pub(super) fn pushed(
-    system: &System,
-    answer: &SystemEquilibrium,
-    loads: &mut [Vector],
-) -> Vec<(f64, f64)> {
-    let Some(floor_m) = system.floor_m() else { return vec![] };
-    let height_m = floor_m - system.reference_m()[2];
-    let push = |(k, load): (usize, &mut Vector)| {
-        let push_n = push_n(system, answer, k).max(0.0);
-        load[2] += push_n;
-        (push_n * height_m, (push_n * height_m).abs())
-    };
-    loads.iter_mut().enumerate().map(push).collect()
-}
-
-/// The quadratic function at an answer. What is added is paired with the size of all that was
-/// rounded on the way: of differences, with the size of what was subtracted.
-fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Tangent {
-    let origin = system.reference_m();
-    let place = |k: usize| minus(answer.joints_m[k], origin);
-    let mut loads = system.joint_loads_n();
-    let mut terms = pushed(system, answer, &mut loads);
-    let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
-    let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
-    terms.reserve(densities.len() + loads.len());
-    for (member, density) in system.members().iter().zip(densities) {
-        let along = minus(place(member.to), place(member.from));
-        let pull = times(*density, along);
-        gradient[member.to] = plus(gradient[member.to], pull);
-        gradient[member.from] = minus(gradient[member.from], pull);
-        for joint in [member.from, member.to] {
-            sizes_n[joint] += norm(pull);
-        }
-        terms.push(tangent_j(member, *density, dot(along, along)));
-    }
-    terms.extend(works(&loads, place));
-    let ulps = TERM_ULPS * f64::EPSILON;
-    let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
-    // As many additions as members meet in a joint, each rounded.
-    let ulps = ulps + f64::EPSILON * largest_degree(system) as f64;
-    let squared_gradient =
-        sum(gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
-            if system.joints()[k].support.is_fixed() {
-                return 0.0;
+impl<'a> Below<'a> {
+    /// The loads, and the pushes of the floor with the energies of its height under them. Whatever is pushed the
+    /// bound holds; what the answer's floor pulls is none.
+    pub(super) fn new(system: &'a System, answer: &SystemEquilibrium) -> Self {
+        let origin_m = system.reference_m();
+        let places_m = answer.joints_m.iter().map(|at_m| minus(*at_m, origin_m)).collect();
+        let (mut loads_n, mut terms_j) = (system.joint_loads_n(), vec![]);
+        if let Some(floor_m) = system.floor_m() {
+            let height_m = floor_m - origin_m[2];
+            for (k, load) in loads_n.iter_mut().enumerate() {
+                let push_n = push_n(system, answer, k).max(0.0);
+                load[2] += push_n;
+                terms_j.push((push_n * height_m, (push_n * height_m).abs()));
             }
-            let moving = system.joints()[k].support.free_part(*force);
-            let most = norm(moving) + ulps * size;
-            most * most
-        }));
-    let value_j = sum(terms.iter().map(|(term, _)| *term)) - rounding_j;
-    Tangent { value_j, squared_gradient }
+        }
+        let gradient_n = loads_n.iter().map(|load| (times(-1.0, *load), norm(*load))).collect();
+        Self { system, places_m, loads_n, gradient_n, terms_j }
+    }
+
+    /// What pulls two joints together, and how large what was rounded in it is, N.
+    pub(super) fn pull(&mut self, [a, b]: [usize; 2], pull: Vector, size_n: f64) {
+        self.gradient_n[b].0 = plus(self.gradient_n[b].0, pull);
+        self.gradient_n[a].0 = minus(self.gradient_n[a].0, pull);
+        [a, b].into_iter().for_each(|joint| self.gradient_n[joint].1 += size_n);
+    }
+
+    /// A lower bound of the value, J, and upper bounds of the gradient by the places that each joint may take, N,
+    /// where no more than so many additions meet in a joint, each rounded.
+    pub(super) fn bounds(&self, additions: usize) -> (f64, Vec<f64>) {
+        let works = self.loads_n.iter().zip(&self.places_m);
+        let works = works.map(|(load, at)| (-dot(*load, *at), norm(*load) * norm(*at)));
+        let terms = self.terms_j.iter().copied().chain(works);
+        let ulps = TERM_ULPS * f64::EPSILON;
+        let rounding_j = ulps * sum(terms.clone().map(|(_, size)| size));
+        let ulps = ulps + f64::EPSILON * additions as f64;
+        let left_n = |(joint, (force, size)): (&Joint, &(Vector, f64))| {
+            let moving = || norm(joint.support.free_part(*force)) + ulps * size;
+            if joint.support.is_fixed() { 0.0 } else { moving() }
+        };
+        let left_n = self.system.joints().iter().zip(&self.gradient_n).map(left_n).collect();
+        (sum(terms.map(|(term, _)| term)) - rounding_j, left_n)
+    }
+}
+
+/// The quadratic function below the energy at an answer: a lower bound of its value there, J, and an upper bound of
+/// the square of its gradient by the places that the joints may take, N².
+fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> (f64, f64) {
+    let mut below = Below::new(system, answer);
+    for (member, density) in system.members().iter().zip(densities) {
+        let along = minus(below.places_m[member.to], below.places_m[member.from]);
+        let pull = times(*density, along);
+        below.pull([member.from, member.to], pull, norm(pull));
+        below.terms_j.push(tangent_j(member, *density, dot(along, along)));
+    }
+    let (value_j, left_n) = below.bounds(largest_degree(system));
+    (value_j, sum(left_n.iter().map(|most| most * most)))
 }
 
 /// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, and the

@@ -20,11 +20,11 @@
 use std::collections::VecDeque;
 
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
-use model::{NoCertificate, Vector, sum};
+use model::{NoCertificate, sum};
 
-use super::certificate::{TERM_ULPS, pushed, size_m, works};
+use super::certificate::{Below, size_m};
 use super::spans::pull_n;
-use numerics::vector::{dot, minus, norm, plus, times};
+use numerics::vector::{dot, minus, norm, times};
 
 /// More than rounding adds to a reach.
 const REACHES: f64 = 1.001;
@@ -49,12 +49,7 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
     if !farthest_m.is_finite() {
         return Err(NoCertificate::NotConvex { members: 0 });
     }
-    let origin = system.reference_m();
-    let place = |k: usize| minus(answer.joints_m[k], origin);
-    let mut loads = system.joint_loads_n();
-    let mut terms = pushed(system, answer, &mut loads);
-    let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
-    let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
+    let mut below = Below::new(system, answer);
     for (k, (member, axial_n)) in members().enumerate() {
         let tension_n = axial_n.max(0.0);
         if tension_n <= 0.0 {
@@ -65,32 +60,21 @@ pub(super) fn bound_j(system: &System, answer: &SystemEquilibrium) -> Result<f64
             let pull = pull_n(k, n, [a, b], answer);
             // Of a span without length no more than its tension.
             let pull = times(tension_n / norm(pull).max(tension_n), pull);
-            gradient[b] = plus(gradient[b], pull);
-            gradient[a] = minus(gradient[a], pull);
-            for joint in [a, b] {
-                sizes_n[joint] += tension_n;
-                size_m += norm(place(joint));
-            }
-            along_m += dot(pull, minus(place(b), place(a))) / tension_n;
+            below.pull([a, b], pull, tension_n);
+            let [from, to] = [a, b].map(|joint| below.places_m[joint]);
+            size_m = size_m + norm(from) + norm(to);
+            along_m += dot(pull, minus(to, from)) / tension_n;
         }
         // Unstretched, and by its force.
         let stretch_m =
             member.stiffness_n.map_or(0.0, |ea| member.body.length_m() * tension_n / ea);
         let stretched_m = member.body.length_m() + stretch_m;
         let value_j = tension_n * (along_m - stretched_m) + 0.5 * tension_n * stretch_m;
-        terms.push((value_j, tension_n * (size_m + stretched_m)));
+        below.terms_j.push((value_j, tension_n * (size_m + stretched_m)));
     }
-    terms.extend(works(&loads, place));
-    let ulps = TERM_ULPS * f64::EPSILON;
-    let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
-    let many =
-        f64::EPSILON * system.members().iter().map(|m| m.via().len() + 1).sum::<usize>() as f64;
-    let left_j = gradient.iter().zip(sizes_n).zip(reaches_m).enumerate();
-    let left_j = left_j.map(|(k, ((force, size), reach_m))| {
-        let moving = norm(system.joints()[k].support.free_part(*force)) + (ulps + many) * size;
-        if system.joints()[k].support.is_fixed() { 0.0 } else { moving * far_m(reach_m) }
-    });
-    Ok(sum(terms.iter().map(|(term, _)| *term)) - rounding_j - sum(left_j))
+    let (value_j, left_n) = below.bounds(system.members().iter().map(|m| m.via().len() + 1).sum());
+    let left_j = left_n.iter().zip(reaches_m).map(|(left_n, reach_m)| left_n * far_m(reach_m));
+    Ok(value_j - sum(left_j))
 }
 
 /// How far each joint may be from an anchor along unstretched members, m; infinite where nothing leads to one.
