@@ -229,11 +229,6 @@ impl System {
         Ok(())
     }
 
-    /// The same with the named loads and cases of another that bears the same.
-    pub(crate) fn with_cases_of(self, other: Self) -> Self {
-        Self { load_cases: other.load_cases, ..self }
-    }
-
     /// The same with the loads by name and the cases of another system, of which this one differs in numbers: `own` is what
     /// a joint has itself, by its number there, mass and force, of what it had; loads at joints act by one factor, those along
     /// members by another. Joints are found by their names. Loads along members need the same members: else cases are not kept.

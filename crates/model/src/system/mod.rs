@@ -48,11 +48,9 @@ pub use refusal::Refusal;
 pub(crate) use refusal::shortened;
 pub use rope::{Rope, RopeFault, RunTogether};
 pub use row::Row;
-pub use strength::{Strength, StrengthError};
+pub use strength::Strength;
 pub use symmetry::Part;
-pub use tolerance::{
-    JointTolerances, MemberTolerances, ToleranceError, Uncertain, UncertainNumber,
-};
+pub use tolerance::{JointTolerances, MemberTolerances, RangeError, Uncertain, UncertainNumber};
 
 pub(crate) use share::Shares;
 use share::share_all;

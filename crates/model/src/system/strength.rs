@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::{System, SystemEquilibrium};
+use super::tolerance::checked;
+use super::{RangeError, System, SystemEquilibrium};
 use crate::ForceRange;
 
 /// A member with less than this part of a self-stress has none of it but for rounding.
@@ -19,7 +20,7 @@ const NO_STRESS: f64 = 1e-9;
 /// // 4 kN are 80 % of 5 kN: a safety of 1.25, less than the 2 that is wanted.
 /// assert_eq!(rope.utilisation(0.0, 4000.0), 0.8);
 /// assert!(!rope.suffices(0.8) && rope.suffices(0.5));
-/// # Ok::<(), model::system::StrengthError>(())
+/// # Ok::<(), model::system::RangeError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strength {
@@ -28,33 +29,21 @@ pub struct Strength {
     safety: f64,
 }
 
-/// A strength or a safety is not positive and finite.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{what} must be positive and finite, found {found}")]
-pub struct StrengthError {
-    /// Which number.
-    pub what: &'static str,
-    /// What it is.
-    pub found: f64,
-}
-
 impl Strength {
     /// The tension that breaks a member and the compression that breaks or buckles it, N, as far as
     /// they are known, and the safety wanted: strength over force, at least; 1 where none is.
     ///
     /// # Errors
-    /// [`StrengthError`] for a number that is not positive and finite.
+    /// [`RangeError`] for a number that is not positive and finite.
     pub fn new(
         tension_n: Option<f64>,
         compression_n: Option<f64>,
         safety: f64,
-    ) -> Result<Self, StrengthError> {
+    ) -> Result<Self, RangeError> {
         let all =
             [("strength_n", tension_n), ("compression_n", compression_n), ("safety", Some(safety))];
         for (what, number) in all {
-            if let Some(found) = number.filter(|x| !(x.is_finite() && *x > 0.0)) {
-                return Err(StrengthError { what, found });
-            }
+            checked(what, "positive and finite", number, f64::MAX)?;
         }
         Ok(Self { tension_n, compression_n, safety })
     }

@@ -22,7 +22,7 @@ pub struct JointTolerances {
 /// A tolerance is out of range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("{what} must be {wanted}, found {found}")]
-pub struct ToleranceError {
+pub struct RangeError {
     /// The key of the system file.
     pub what: &'static str,
     /// What it may be.
@@ -60,17 +60,17 @@ impl JointTolerances {
     }
 }
 
-/// The tolerance of a positive number, at most a part of it; 0 where none is given.
-fn checked(
+/// A positive number that is at most so large; 0 where none is given.
+pub(super) fn checked(
     what: &'static str,
     wanted: &'static str,
     given: Option<f64>,
     most: f64,
-) -> Result<f64, ToleranceError> {
+) -> Result<f64, RangeError> {
     match given {
         None => Ok(0.0),
         Some(found) if found.is_finite() && found > 0.0 && found <= most => Ok(found),
-        Some(found) => Err(ToleranceError { what, wanted, found }),
+        Some(found) => Err(RangeError { what, wanted, found }),
     }
 }
 
@@ -106,12 +106,12 @@ impl Member {
     /// ```
     ///
     /// # Errors
-    /// [`ToleranceError`] for a number that is not positive, and where a stiffness or mass could vanish.
+    /// [`RangeError`] for a number that is not positive, and where a stiffness or mass could vanish.
     pub fn with_tolerances(
         mut self,
         stiffness: Option<f64>,
         mass_kg: Option<f64>,
-    ) -> Result<Self, ToleranceError> {
+    ) -> Result<Self, RangeError> {
         let part = if self.stiffness_n.is_some() { 1.0_f64.next_down() } else { 0.0 };
         let wanted = "positive and less than 1, of a bar with a stiffness";
         let stiffness = checked("stiffness_tolerance", wanted, stiffness, part)?;
@@ -154,18 +154,18 @@ impl Joint {
     /// let anchor = Joint::anchor("A", [0.0; 3]).with_tolerances(None, Some(1e-3), None)?;
     /// assert_eq!(anchor.tolerances.as_ref().map(|t| t.at_m()), Some(1e-3));
     /// assert!(Joint::free("P").with_tolerances(None, Some(1e-3), None).is_err());
-    /// # Ok::<(), model::system::ToleranceError>(())
+    /// # Ok::<(), model::system::RangeError>(())
     /// ```
     ///
     /// # Errors
-    /// [`ToleranceError`] for a number that is not positive and finite, where a mass could become negative,
+    /// [`RangeError`] for a number that is not positive and finite, where a mass could become negative,
     /// and for the place of a joint that no support holds, or the force on one that none moves.
     pub fn with_tolerances(
         mut self,
         mass_kg: Option<f64>,
         at_m: Option<f64>,
         force_n: Option<f64>,
-    ) -> Result<Self, ToleranceError> {
+    ) -> Result<Self, RangeError> {
         let most = |allowed: bool| if allowed { f64::MAX } else { 0.0 };
         let held = most(self.support != Support::Free);
         let moves = most(!self.support.is_fixed());

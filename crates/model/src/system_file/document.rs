@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeArray, DeTable};
+use toml::de::DeTable;
 
 use super::described::Described;
 use super::duplicate;
@@ -20,7 +20,7 @@ use super::source::Source;
 use super::strength;
 use super::table::Table;
 use super::tolerance;
-use crate::system::{Refusal, SystemError};
+use crate::system::{Refusal, Shares as _, System, SystemError};
 use crate::{Anchors, Bar, BarError, Chain, Problem, STANDARD_GRAVITY_M_S2};
 
 const ROOT_KEYS: &[&str] = names! {
@@ -29,6 +29,12 @@ const ROOT_KEYS: &[&str] = names! {
 };
 /// What a chain may have in a file and a [`Chain`] has not.
 const BEYOND_CHAINS: &[&str] = &["loads", "cases", "floor_m"];
+/// What all bars of a chain may have, and what one, and a [`Bar`] has not.
+const BEYOND_ALL: &[&str] = &["safety", "tolerances"];
+const BEYOND_BAR: &[&str] = names! {
+    mass_kg_per_m density_kg_m3 temperature_k strength_n compression_n bending_n_m2 safety
+    length_tolerance_m mass_tolerance_kg
+};
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = names! {
     length_m mass_kg mass_kg_per_m diameter_m density_kg_m3 temperature_k expansion_per_k centre_m
@@ -74,17 +80,16 @@ impl Source<'_> {
             return Err(root.error(kind, "plane"));
         }
         let (chain, places) = chain_of(&root)?;
-        let bare = BEYOND_CHAINS.iter().all(|key| root.get(key).is_none());
-        let given = || {
-            strength::given(&root)
-                .or_else(|| tolerance::given(&root))
-                .or_else(|| material::given(&root))
-        };
-        if bare && given().is_none() {
+        let has =
+            |table: &Table<'_>, keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
+        let mut tables = root.tables("bars", WANTED_BARS)?.flatten();
+        let more = has(&root, BEYOND_ALL) || tables.any(|table| has(&table, BEYOND_BAR));
+        if !more && !has(&root, BEYOND_CHAINS) {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|found| refusal(&root, found, &places));
         }
-        let loaded = loads::of_chain(&root, &chain)?;
+        let system = if more { with_bars(&root, &chain)? } else { System::from(&chain) };
+        let loaded = loads::of_chain(&root, system)?;
         match Problem::new(chain) {
             // The loads may be all that weighs; the system's own check says so if nothing does.
             Ok(_) | Err(Refusal::NoLoad | Refusal::LoadOnAnchors) => {}
@@ -167,9 +172,34 @@ fn chain_bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin)> {
     if let Some(file) = SheetFile::read(root, "bars_file", &network_rows::CHAIN, &mut take)? {
         return Ok((rows, Origin::File(file)));
     }
-    let value = root.require("bars", WANTED_BARS)?;
-    let tables = value.get_ref().as_array();
-    bars(root, tables.ok_or_else(|| root.wrong_type("bars", value, WANTED_BARS))?)
+    root.require("bars", WANTED_BARS)?;
+    bars(root)
+}
+
+/// The chain as a system, with what else the file says of its bars.
+fn with_bars(root: &Table<'_>, chain: &Chain) -> Result<System> {
+    let (safety, tolerances) = (strength::safety(root)?, tolerance::all(root)?);
+    let system = System::from(chain);
+    let mut members = Vec::with_capacity(system.members().len());
+    for table in root.tables("bars", WANTED_BARS)? {
+        let (table, left) = (table?, &system.members()[members.len()..]);
+        for member in left.iter().take(table.count("count")?) {
+            let strength = strength::of(&table, member.body.length_m(), safety)?;
+            let mut member = member.clone().bearing(strength);
+            member.by_length = material::by_length(&table)?;
+            tolerances.member(member, &table)?.join(&mut members);
+        }
+    }
+    // Those of a file have what is said of all.
+    for member in &system.members()[members.len()..] {
+        tolerances.member(member.clone(), root)?.join(&mut members);
+    }
+    let joints = system.joints().iter().map(|joint| tolerances.joint(joint.clone(), root));
+    let joints = joints.collect::<Result<_>>()?;
+    let system = System::new(system.name(), system.gravity_m_s2(), joints, members);
+    let system = system.map_err(|error| root.error(Kind::System(error), "bars"))?;
+    strength::check(root, &system)?;
+    Ok(system)
 }
 
 /// Put a refusal where the number stands that it rests on.
@@ -205,10 +235,10 @@ fn anchors(table: &Table<'_>) -> Result<Anchors> {
     Ok(Anchors { start_m: vector("start_m")?, end_m: vector("end_m")? })
 }
 
-fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin)> {
+fn bars(root: &Table<'_>) -> Result<(Vec<Bar>, Origin)> {
     let (mut bars, mut places) = (Vec::new(), Vec::new());
-    for (k, value) in tables.iter().enumerate() {
-        let table = root.table(&format!("bars[{}]", k + 1), value)?;
+    for table in root.tables("bars", WANTED_BARS)? {
+        let table = table?;
         table.only(BAR_KEYS)?;
         let length = table.require("length_m", "a length in metres")?;
         material::check_diameter(&table, &["density_kg_m3"])?;

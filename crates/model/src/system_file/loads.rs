@@ -2,16 +2,11 @@
 
 use std::collections::HashMap;
 
-use toml::de::DeArray;
-
 use super::error::Result;
 use super::kind::SystemFileErrorKind as Kind;
-use super::material;
 use super::network::unknown_joint;
-use super::strength;
 use super::table::{Table, Value};
 use super::tolerance;
-use crate::Chain;
 use crate::system::{LoadCase, LoadOn, NamedLoad, PERMANENT, System, SystemError};
 
 const LOAD_KEYS: &[&str] = &["name", "joint", "bar", "mass_kg", "force_n", "force_n_per_m"];
@@ -26,13 +21,11 @@ const ALL: &str = "each";
 /// The joint that a value of a load names.
 type JointOf<'a> = &'a dyn Fn(&Table<'_>, &Value<'_>) -> Result<usize>;
 
-/// The chain as a system with the loads of the file at its joints, the strengths of its bars and the
-/// tolerances of its numbers, above its floor.
-pub(super) fn of_chain(root: &Table<'_>, chain: &Chain) -> Result<System> {
-    let system = material::put(root, strength::put(root, System::from(chain))?)?;
+/// A chain, as a system, with the loads of the file at its joints, above its floor.
+pub(super) fn of_chain(root: &Table<'_>, system: System) -> Result<System> {
     let last = system.joints().len() - 1;
     let system = put(root, system, &|table, value| numbered(table, value, last))?;
-    let system = tolerance::put(root, system)?;
+    let system = tolerance::of_loads(root, system)?;
     match root.number("floor_m")? {
         None => Ok(system),
         Some(floor_m) => {
@@ -80,8 +73,8 @@ pub(super) fn by_name(root: &Table<'_>, system: System) -> Result<System> {
 
 /// The system with the loads and the cases of the file.
 fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System> {
-    let load_tables = tables(root, "loads", WANTED)?;
-    let case_tables = tables(root, "cases", WANTED_CASES)?;
+    let load_tables = root.tables("loads", WANTED)?.collect::<Result<Vec<_>>>()?;
+    let case_tables = root.tables("cases", WANTED_CASES)?.collect::<Result<Vec<_>>>()?;
     if load_tables.is_empty() && case_tables.is_empty() {
         return Ok(system);
     }
@@ -100,15 +93,6 @@ fn put(root: &Table<'_>, system: System, joint: JointOf<'_>) -> Result<System> {
         }
         _ => root.error(Kind::System(error), "loads"),
     })
-}
-
-/// The tables under a key.
-fn tables<'a>(root: &'a Table<'a>, key: &str, wanted: &'static str) -> Result<Vec<Table<'a>>> {
-    let Some(value) = root.get(key) else { return Ok(vec![]) };
-    let tables = value.get_ref().as_array();
-    let tables: &DeArray<'_> = tables.ok_or_else(|| root.wrong_type(key, value, wanted))?;
-    let numbered = tables.iter().enumerate();
-    numbered.map(|(k, value)| root.table(&format!("{key}[{}]", k + 1), value)).collect()
 }
 
 fn load(table: &Table<'_>, system: &System, joint: JointOf<'_>) -> Result<NamedLoad> {

@@ -3,17 +3,16 @@
 
 use std::f64::consts::PI;
 
-use super::error::{Result, SystemFileError};
+use super::error::Result;
 use super::kind::SystemFileErrorKind as Kind;
-use super::strength::{first_of, with_bars};
 use super::table::Table;
-use crate::system::{ByLength, PointLoad, System};
+use super::tolerance::Numbers as _;
+use crate::system::{ByLength, PointLoad};
 
 /// The keys that give a mass, one of which a bar has.
 const MASS: [&str; 3] = ["mass_kg", "mass_kg_per_m", "density_kg_m3"];
 const WANTED_MASS: &str =
     "a mass in kilograms, or mass_kg_per_m, or density_kg_m3 with diameter_m, in its place";
-const WANTED_SIZE: &str = "positive and finite";
 
 /// How much longer a bar is after a change of temperature: `1 + expansion_per_k temperature_k`.
 pub(super) fn expansion(table: &Table<'_>) -> Result<f64> {
@@ -43,11 +42,8 @@ pub(super) fn mass_kg(table: &Table<'_>, length_m: f64) -> Result<(f64, &'static
 /// The axial stiffness EA, N, if there is one: `young_pa pi diameter_m^2 / 4`.
 pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>> {
     one_of(table, &["stiffness_n", "young_pa"])?;
-    match table.number("young_pa")? {
-        Some(young_pa) if young_pa > 0.0 && young_pa.is_finite() => {
-            Ok(Some(young_pa * area_m2(table)?))
-        }
-        Some(young_pa) => Err(out_of_range(table, "young_pa", young_pa)),
+    match table.positive("young_pa")? {
+        Some(young_pa) => Ok(Some(young_pa * area_m2(table)?)),
         None => table.number("stiffness_n"),
     }
 }
@@ -75,22 +71,6 @@ pub(super) fn by_length(table: &Table<'_>) -> Result<ByLength> {
     })
 }
 
-/// The first key of a bar of a chain that has anything follow its length.
-pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
-    first_of(root, &[MASS[1], MASS[2], "temperature_k"])
-}
-
-/// The bars of a chain, as a system, with what follows their lengths.
-pub(super) fn put(root: &Table<'_>, system: System) -> Result<System> {
-    if given(root).is_none() {
-        return Ok(system);
-    }
-    with_bars(root, &system, |table, member| {
-        member.by_length = by_length(table)?;
-        Ok(())
-    })
-}
-
 /// Refuse a diameter of which nothing is made.
 pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<()> {
     let used = makers.iter().any(|key| table.get(key).is_some());
@@ -107,17 +87,9 @@ pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<()> {
 
 /// The area of a round section.
 fn area_m2(table: &Table<'_>) -> Result<f64> {
-    let value = table.require("diameter_m", "the diameter in metres")?;
-    let diameter_m = table.number_of("diameter_m", value)?;
-    if diameter_m > 0.0 && diameter_m.is_finite() {
-        Ok(0.25 * PI * diameter_m * diameter_m)
-    } else {
-        Err(out_of_range(table, "diameter_m", diameter_m))
-    }
-}
-
-fn out_of_range(table: &Table<'_>, key: &str, found: f64) -> SystemFileError {
-    table.error(Kind::OutOfRange { found: found.to_string(), wanted: WANTED_SIZE }, key)
+    table.require("diameter_m", "the diameter in metres")?;
+    let diameter_m = table.positive("diameter_m")?.unwrap_or_default();
+    Ok(0.25 * PI * diameter_m * diameter_m)
 }
 
 /// Two numbers that mean something together alone.

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::DeArray;
 
 use super::document::bar;
 use super::drawing;
@@ -177,13 +176,10 @@ impl Reading<'_> {
         if self.root.get("bars_file").is_some() {
             return self.bars_of_file();
         }
-        let value = self.root.require("bars", WANTED_BARS)?;
-        let tables = value.get_ref().as_array();
-        let tables: &DeArray<'_> =
-            tables.ok_or_else(|| self.root.wrong_type("bars", value, WANTED_BARS))?;
-        for (k, value) in tables.iter().enumerate() {
-            let table = self.root.table(&format!("bars[{}]", k + 1), value)?;
-            self.tables.push((self.members.len() + 1, value.span()));
+        self.root.require("bars", WANTED_BARS)?;
+        for table in self.root.tables("bars", WANTED_BARS)? {
+            let table = table?;
+            self.tables.push((self.members.len() + 1, table.span.clone()));
             self.run(&table)?;
         }
         Ok(())

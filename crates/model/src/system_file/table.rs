@@ -19,7 +19,7 @@ pub(super) struct Table<'a> {
     source: &'a Source<'a>,
     path: String,
     entries: &'a DeTable<'a>,
-    span: Range<usize>,
+    pub(super) span: Range<usize>,
 }
 
 impl<'a> Table<'a> {
@@ -119,6 +119,20 @@ impl<'a> Table<'a> {
             }
             None => Err(self.wrong_type(key, value, "a table")),
         }
+    }
+
+    /// The tables of an array, if there is one.
+    pub(super) fn tables(
+        &self,
+        key: &str,
+        wanted: &'static str,
+    ) -> Result<impl Iterator<Item = Result<Table<'a>>>> {
+        let items = match self.get(key).map(|value| (value, value.get_ref().as_array())) {
+            Some((value, None)) => return Err(self.wrong_type(key, value, wanted)),
+            items => items.and_then(|(_, items)| items),
+        };
+        let numbered = items.into_iter().flatten().enumerate();
+        Ok(numbered.map(move |(k, value)| self.table(&format!("{key}[{}]", k + 1), value)))
     }
 
     pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>> {

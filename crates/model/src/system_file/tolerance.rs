@@ -3,9 +3,8 @@
 use super::error::{Result, SystemFileError};
 use super::kind::SystemFileErrorKind as Kind;
 use super::row_table::{Row, Wrong};
-use super::strength::{first_of, tables};
 use super::table::Table;
-use crate::system::{Joint, Member, Support, System, ToleranceError};
+use crate::system::{Joint, Member, RangeError, Support, System};
 
 const LENGTH: &str = "length_tolerance_m";
 const STIFFNESS: &str = "stiffness_tolerance";
@@ -14,7 +13,6 @@ const AT: &str = "at_tolerance_m";
 const FORCE: &str = "force_tolerance_n";
 /// The keys of the table.
 const KEYS: &[&str] = &[LENGTH, STIFFNESS, MASS, AT, FORCE];
-const WANTED: &str = "positive and finite";
 
 /// The tolerances of all bars and joints that have none of their own.
 #[derive(Debug, Clone, Copy, Default)]
@@ -31,9 +29,18 @@ pub(super) trait Numbers {
     type Error;
     fn get(&self, key: &'static str) -> Result<Option<f64>, Self::Error>;
     fn wrong(&self, kind: Kind, key: &'static str) -> Self::Error;
-    fn refused(&self, error: ToleranceError) -> Self::Error {
-        let ToleranceError { what, wanted, found } = error;
+    fn refused(&self, error: RangeError) -> Self::Error {
+        let RangeError { what, wanted, found } = error;
         self.wrong(Kind::OutOfRange { found: found.to_string(), wanted }, what)
+    }
+    /// A number that is positive and finite where it is given.
+    fn positive(&self, what: &'static str) -> Result<Option<f64>, Self::Error> {
+        match self.get(what)? {
+            Some(found) if !(found.is_finite() && found > 0.0) => {
+                Err(self.refused(RangeError { what, wanted: "positive and finite", found }))
+            }
+            given => Ok(given),
+        }
     }
 }
 
@@ -62,22 +69,12 @@ pub(super) fn all(root: &Table<'_>) -> Result<Tolerances> {
     let Some(value) = root.get("tolerances") else { return Ok(Tolerances::default()) };
     let table = root.table("tolerances", value)?;
     table.only(KEYS)?;
-    let number = |key: &str| {
-        let number = table.number(key)?;
-        match number.filter(|x| !(x.is_finite() && *x > 0.0)) {
-            None => Ok(number),
-            Some(found) => {
-                let kind = Kind::OutOfRange { found: found.to_string(), wanted: WANTED };
-                Err(table.error(kind, key))
-            }
-        }
-    };
     Ok(Tolerances {
-        length_m: number(LENGTH)?,
-        stiffness: number(STIFFNESS)?,
-        mass_kg: number(MASS)?,
-        at_m: number(AT)?,
-        force_n: number(FORCE)?,
+        length_m: table.positive(LENGTH)?,
+        stiffness: table.positive(STIFFNESS)?,
+        mass_kg: table.positive(MASS)?,
+        at_m: table.positive(AT)?,
+        force_n: table.positive(FORCE)?,
     })
 }
 
@@ -122,34 +119,4 @@ pub(super) fn of_loads(root: &Table<'_>, system: System) -> Result<System> {
     };
     let joints = system.joints().iter().map(joint).collect::<Result<_, _>>()?;
     Ok(system.with_joints(joints))
-}
-
-/// The first key about tolerances that the file of a chain has.
-pub(super) fn given(root: &Table<'_>) -> Option<&'static str> {
-    let of_all = root.get("tolerances").map(|_| "tolerances");
-    of_all.or_else(|| first_of(root, &[LENGTH, MASS]))
-}
-
-/// The chain as a system, with how far its numbers may be off.
-pub(super) fn put(root: &Table<'_>, system: System) -> Result<System> {
-    if given(root).is_none() {
-        return Ok(system);
-    }
-    let all = all(root)?;
-    let mut members = Vec::with_capacity(system.members().len());
-    for table in tables(root)? {
-        let left = &system.members()[members.len()..];
-        for member in left.iter().take(table.count("count")?) {
-            members.push(all.member(member.clone(), &table)?);
-        }
-    }
-    for member in &system.members()[members.len()..] {
-        members.push(all.member(member.clone(), root)?);
-    }
-    let joints = system.joints().iter().map(|joint| all.joint(joint.clone(), root));
-    let joints = joints.collect::<Result<Vec<_>, _>>()?;
-    let known = System::new(system.name(), system.gravity_m_s2(), joints, members);
-    known
-        .map(|known| known.with_cases_of(system))
-        .map_err(|error| root.error(Kind::System(error), "bars"))
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::write::{differ, vector, write_given};
-use crate::system::{Joint, Kind, LoadOn, Member, NamedLoad, Support, System};
+use crate::system::{Joint, Kind, LoadOn, Member, NamedLoad, Strength, Support, System};
 
 /// The system file of a system of bars, every joint with its name and every member on its own.
 ///
@@ -133,37 +133,26 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if member.kind != Kind::Bar {
         let _ = writeln!(text, "kind = \"{}\"", member.kind.name());
     }
-    if let Some(stiffness_n) = member.stiffness_n {
-        let _ = writeln!(text, "stiffness_n = {stiffness_n:?}");
-    }
-    if let Some(prestress_n) = member.prestress_n() {
-        let _ = writeln!(text, "prestress_n = {prestress_n:?}");
-    }
-    if let Some(tolerance_m) = member.length_tolerance_m() {
-        let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
-    }
     let within = member.tolerances.as_deref().copied().unwrap_or_default();
-    for (key, within) in
-        [("stiffness_tolerance", within.stiffness()), ("mass_tolerance_kg", within.mass_kg())]
-    {
-        if within > 0.0 {
-            let _ = writeln!(text, "{key} = {within:?}");
-        }
-    }
-    if let Some(strength) = member.strength.as_deref() {
-        let given =
-            [("strength_n", strength.tension_n()), ("compression_n", strength.compression_n())];
-        let safety = Some(strength.safety()).filter(|safety| differ(&[*safety], &[1.0]));
-        for (key, number) in given.into_iter().chain([("safety", safety)]) {
-            if let Some(number) = number {
-                let _ = writeln!(text, "{key} = {number:?}");
-            }
-        }
+    let positive = |within: f64| Some(within).filter(|within| *within > 0.0);
+    let strength = member.strength.as_deref();
+    let safety = strength.map(Strength::safety).filter(|safety| differ(&[*safety], &[1.0]));
+    let numbers = [
+        ("stiffness_n", member.stiffness_n),
+        ("prestress_n", member.prestress_n()),
+        ("length_tolerance_m", member.length_tolerance_m()),
+        ("stiffness_tolerance", positive(within.stiffness())),
+        ("mass_tolerance_kg", positive(within.mass_kg())),
+        ("strength_n", strength.and_then(Strength::tension_n)),
+        ("compression_n", strength.and_then(Strength::compression_n)),
+        ("safety", safety),
+    ];
+    for (key, number) in numbers.into_iter().filter_map(|(key, number)| Some((key, number?))) {
+        let _ = writeln!(text, "{key} = {number:?}");
     }
     let loads = member.given_loads();
     if !loads.is_empty() {
-        let forces = loads.iter();
-        let forces = forces.map(|load| {
+        let forces = loads.iter().map(|load| {
             let force_n = vector(load.force_n);
             if load.is_spread {
                 format!("{{ force_n = {force_n}, spread = true }}")
