@@ -1,5 +1,7 @@
 //! Why a file of another program cannot be used.
 
+use std::fmt::Display;
+
 use model::budget::OutOfMemory;
 
 /// What is read of a file, or why it cannot be used.
@@ -72,32 +74,72 @@ pub enum Wrong {
 }
 
 impl FormatError {
-    pub(crate) fn new(file: &str, line: Option<usize>, what: Wrong) -> Self {
-        Self { file: file.to_owned(), line, what: Box::new(what), help: None }
-    }
-
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 }
 
-/// A finite number; anything else, `nan` and `inf` too, is an error.
-pub(crate) fn number(file: &str, line: Option<usize>, what: &str, text: &str) -> Result<f64> {
-    let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    parsed.ok_or_else(|| {
-        let (what, found) = (what.to_owned(), shortened(text));
-        FormatError::new(file, line, Wrong::Value { what, wanted: "a finite number", found })
-    })
+/// A file, or a line of it, in which something is wrong.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct At<'a> {
+    pub(crate) file: &'a str,
+    /// The line, from 1.
+    pub(crate) line: Option<usize>,
 }
 
-/// A number above zero.
-pub(crate) fn positive(file: &str, line: Option<usize>, what: &str, text: &str) -> Result<f64> {
-    let found = number(file, line, what, text)?;
-    if found > 0.0 {
-        return Ok(found);
+impl<'a> At<'a> {
+    pub(crate) fn file(file: &'a str) -> Self {
+        Self { file, line: None }
     }
-    let (what, found) = (what.to_owned(), shortened(text));
-    Err(FormatError::new(file, line, Wrong::Value { what, wanted: "positive", found }))
+
+    pub(crate) fn line(file: &'a str, line: usize) -> Self {
+        Self { file, line: Some(line) }
+    }
+
+    pub(crate) fn error(self, what: Wrong) -> FormatError {
+        let Self { file, line } = self;
+        FormatError { file: file.to_owned(), line, what: Box::new(what), help: None }
+    }
+
+    pub(crate) fn missing(self, what: impl Into<String>) -> FormatError {
+        self.error(Wrong::Missing(what.into()))
+    }
+
+    pub(crate) fn unknown(self, what: impl Into<String>) -> FormatError {
+        self.error(Wrong::Unknown(what.into()))
+    }
+
+    pub(crate) fn out_of_scope(self, what: impl Into<String>) -> FormatError {
+        self.error(Wrong::OutOfScope(what.into()))
+    }
+
+    pub(crate) fn repeated(self, what: String) -> FormatError {
+        self.error(Wrong::Repeated(what))
+    }
+
+    pub(crate) fn no_system(self, reason: impl Display) -> FormatError {
+        self.error(Wrong::NoSystem(reason.to_string()))
+    }
+
+    pub(crate) fn memory(self, error: OutOfMemory) -> FormatError {
+        self.error(Wrong::Memory(error))
+    }
+
+    pub(crate) fn value(self, what: &str, wanted: &'static str, found: &str) -> FormatError {
+        self.error(Wrong::Value { what: what.to_owned(), wanted, found: shortened(found) })
+    }
+
+    /// A finite number; anything else, `nan` and `inf` too, is an error.
+    pub(crate) fn number(self, what: &str, text: &str) -> Result<f64> {
+        let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        parsed.ok_or_else(|| self.value(what, "a finite number", text))
+    }
+
+    /// A number above zero.
+    pub(crate) fn positive(self, what: &str, text: &str) -> Result<f64> {
+        let found = self.number(what, text)?;
+        if found > 0.0 { Ok(found) } else { Err(self.value(what, "positive", text)) }
+    }
 }
 
 /// What an error shows of a text.

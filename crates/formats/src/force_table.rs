@@ -52,7 +52,7 @@ impl ForceTable {
             });
             let points = &mut table.joints[number].1.points;
             if points.last().is_some_and(|(before_s, _)| *before_s >= time_s) {
-                return Err(row.error(Wrong::Value {
+                return Err(row.at().error(Wrong::Value {
                     what: "time_s".to_owned(),
                     wanted: "later than the time before of the same joint",
                     found: row.text("time_s").to_owned(),

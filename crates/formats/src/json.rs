@@ -3,7 +3,7 @@
 use model::budget::Budget;
 use serde_json::Value;
 
-use crate::error::{FormatError, Result, Wrong, shortened};
+use crate::error::{At, FormatError, Result, Wrong};
 
 /// Memory that a byte of JSON needs as a tree of values, bytes: some 105 by the sizes of the nodes of the
 /// tree, of a list of objects with one key of no letters.
@@ -13,9 +13,9 @@ const BYTES_PER_BYTE: u64 = 120;
 pub(crate) fn parse(text: &str, file: &str) -> Result<Value> {
     let bytes = (text.len() as u64).saturating_mul(BYTES_PER_BYTE);
     let asked = Budget::default().fits(bytes);
-    asked.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
+    asked.map_err(|error| At::file(file).memory(error))?;
     serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|error| FormatError::new(file, Some(error.line()), Wrong::Json(error.to_string())))
+        .map_err(|error| At::line(file, error.line()).error(Wrong::Json(error.to_string())))
 }
 
 /// Reads the tree of a file, by its name in errors.
@@ -26,12 +26,11 @@ pub(crate) struct Reader<'a> {
 
 impl Reader<'_> {
     pub(crate) fn missing(self, what: &str) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Missing(what.to_owned()))
+        At::file(self.file).missing(what.to_owned())
     }
 
     pub(crate) fn wrong(self, what: &str, wanted: &'static str, found: &Value) -> FormatError {
-        let (what, found) = (what.to_owned(), shortened(&found.to_string()));
-        FormatError::new(self.file, None, Wrong::Value { what, wanted, found })
+        At::file(self.file).value(what, wanted, &found.to_string())
     }
 
     pub(crate) fn number(self, what: &str, value: &Value) -> Result<f64> {

@@ -1,6 +1,6 @@
 //! Comma-separated values with a line of names: RFC 4180, blanks around cells do not count.
 
-use crate::error::{FormatError, Result, Wrong, number, shortened};
+use crate::error::{At, Result, Wrong, shortened};
 
 /// A table: its names, and its rows with the lines they stand in.
 pub(crate) struct Sheet<'a> {
@@ -32,7 +32,7 @@ impl<'a> Sheet<'a> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut rows = records(file, text)?.into_iter();
         let Some((line, head)) = rows.next() else {
-            return Err(FormatError::new(file, None, Wrong::Empty));
+            return Err(At::file(file).error(Wrong::Empty));
         };
         let mut columns = vec![None; names.len()];
         let known = |cell: &String| {
@@ -41,8 +41,7 @@ impl<'a> Sheet<'a> {
         };
         // Such a file is another one, of which nothing is shown.
         if !head.iter().any(known) {
-            let what = "its first line, which names no column,".to_owned();
-            let error = FormatError::new(file, Some(line), Wrong::Unknown(what));
+            let error = At::line(file, line).unknown("its first line, which names no column,");
             return Err(error.with_help(format!("columns are: {}", names.join(", "))));
         }
         for (k, cell) in head.iter().enumerate() {
@@ -53,19 +52,18 @@ impl<'a> Sheet<'a> {
                 let near = model::system_file::nearest(cell, names);
                 let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
                 let help = format!("{near}columns are: {}", names.join(", "));
-                let error = FormatError::new(file, Some(line), Wrong::Unknown(what));
+                let error = At::line(file, line).unknown(what);
                 return Err(error.with_help(help));
             };
             if columns[column].replace(k).is_some() {
-                let what = format!("the column {cell:?}");
-                return Err(FormatError::new(file, Some(line), Wrong::Repeated(what)));
+                return Err(At::line(file, line).repeated(format!("the column {cell:?}")));
             }
         }
         let rows: Vec<_> = rows.collect();
         for (line, cells) in &rows {
             if cells.len() != head.len() {
                 let wrong = Wrong::Count { wanted: head.len(), found: cells.len() };
-                return Err(FormatError::new(file, Some(*line), wrong));
+                return Err(At::line(file, *line).error(wrong));
             }
         }
         Ok(Self { file, columns, names, rows })
@@ -81,8 +79,7 @@ impl<'a> Sheet<'a> {
         if self.has(name) {
             return Ok(());
         }
-        let what = format!("column `{name}`");
-        Err(FormatError::new(self.file, Some(1), Wrong::Missing(what)))
+        Err(At::line(self.file, 1).missing(format!("column `{name}`")))
     }
 
     pub(crate) fn rows(&'a self) -> impl Iterator<Item = Row<'a>> {
@@ -102,7 +99,7 @@ impl Row<'_> {
 
     /// The number of a column.
     pub(crate) fn number(&self, name: &str) -> Result<f64> {
-        number(self.sheet.file, Some(self.line), name, self.text(name))
+        self.at().number(name, self.text(name))
     }
 
     /// The number of a column, 0 where there is no such column or its cell is empty.
@@ -110,9 +107,9 @@ impl Row<'_> {
         if self.text(name).is_empty() { Ok(0.0) } else { self.number(name) }
     }
 
-    /// An error in this row.
-    pub(crate) fn error(&self, wrong: Wrong) -> FormatError {
-        FormatError::new(self.sheet.file, Some(self.line), wrong)
+    /// Where it stands.
+    pub(crate) fn at(&self) -> At<'_> {
+        At::line(self.sheet.file, self.line)
     }
 }
 
@@ -148,8 +145,7 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>> {
         }
     }
     if quoted {
-        let wrong = Wrong::Missing("end of a quoted cell".to_owned());
-        return Err(FormatError::new(file, Some(began), wrong));
+        return Err(At::line(file, began).missing("end of a quoted cell"));
     }
     cells.push(finished(&mut cell, &mut was_quoted));
     push(&mut records, began, &mut cells);

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use model::name_of_cell;
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, Result};
 use crate::sheet::Sheet;
 
 const JOINTS: &[&str] = names! {
@@ -27,7 +27,7 @@ const MEMBERS: &[&str] = names! {
 /// Parse joints as CSV: one answer, or one for each name in the column `solver`.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the reason.
+/// [`FormatError`](crate::FormatError) with the line and the reason.
 pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
     let sheet = Sheet::parse(file, text, JOINTS, &[])?;
     for name in &JOINTS[..4] {
@@ -48,7 +48,7 @@ pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
         let collected = &mut answers[index].1;
         let name = name_of_cell(row.text("joint")).to_owned();
         if name.is_empty() {
-            return Err(row.error(Wrong::Missing("name of the joint".to_owned())));
+            return Err(row.at().missing("name of the joint"));
         }
         let place = [row.number("x_m")?, row.number("y_m")?, row.number("z_m")?];
         if reactions {
@@ -62,7 +62,7 @@ pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>> {
         collected.joints.push((name, place));
     }
     if answers.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing("joint".to_owned())));
+        return Err(At::file(file).missing("joint"));
     }
     let answer = |(source, collected): (String, Collected)| Answer {
         source,
@@ -92,7 +92,7 @@ pub type MemberForces = (Option<String>, Vec<(String, String, f64)>);
 /// one list for all; in the order of the column `bar`, if there is one.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the reason.
+/// [`FormatError`](crate::FormatError) with the line and the reason.
 pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>> {
     let sheet = Sheet::parse(file, text, MEMBERS, &[])?;
     for name in &MEMBERS[..3] {
@@ -113,7 +113,7 @@ pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>> 
         lists[index].1.push((from, to, force));
     }
     if lists.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing("member".to_owned())));
+        return Err(At::file(file).missing("member"));
     }
     Ok(lists)
 }

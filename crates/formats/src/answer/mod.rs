@@ -14,7 +14,7 @@ use std::collections::HashMap;
 
 use model::Vector;
 
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, Result, Wrong};
 
 pub use csv::{MemberForces, parse_csv, parse_member_forces};
 pub use json::parse_json;
@@ -60,7 +60,7 @@ pub enum Forces {
 /// CSV.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the reason.
+/// [`FormatError`](crate::FormatError) with the line and the reason.
 ///
 /// ```
 /// use formats::answer::{Joints, parse};
@@ -71,7 +71,7 @@ pub enum Forces {
 pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>> {
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     match begins.chars().next() {
-        None => Err(FormatError::new(file, None, Wrong::Empty)),
+        None => Err(At::file(file).error(Wrong::Empty)),
         Some('{' | '[') => parse_json(text, file),
         Some('<') => Ok(vec![parse_vtu(text, file)?]),
         Some(_) => parse_csv(text, file),
@@ -94,7 +94,7 @@ pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>> {
 /// # Ok::<(), formats::FormatError>(())
 /// ```
 pub fn attach_forces(answers: &mut [Answer], lists: &[MemberForces], file: &str) -> Result<()> {
-    let missing = |what| Err(FormatError::new(file, None, Wrong::Missing(what)));
+    let missing = |what| Err(At::file(file).missing(what));
     let mut taken = vec![false; lists.len()];
     let numbers: HashMap<_, _> =
         lists.iter().enumerate().map(|(k, (name, _))| (name.as_deref(), k)).collect();

@@ -8,7 +8,7 @@ use model::Vector;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Result, Wrong, as_count, number};
+use crate::error::{At, Result, Wrong, as_count};
 
 /// VTK's numbers for a line of two points, and for one of many.
 const LINES: [usize; 2] = [3, 4];
@@ -20,36 +20,36 @@ const MOST_ATTRIBUTES: usize = 100;
 /// ropes, in the order of their numbers `member` if it has these.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the reason: what is not ASCII, not a line, or not understood.
+/// [`FormatError`](crate::FormatError) with the line and the reason: what is not ASCII, not a line, or not understood.
 pub fn parse_vtu(text: &str, file: &str) -> Result<Answer> {
     check_attributes(text, file)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let line = usize::try_from(error.pos().row).ok();
-        FormatError::new(file, line, Wrong::Xml(error.to_string()))
+        At { file, line }.error(Wrong::Xml(error.to_string()))
     })?;
     let reader = Reader { file };
     let root = document.root_element();
     if !root.has_tag_name("VTKFile") || root.attribute("type") != Some("UnstructuredGrid") {
-        return Err(reader.missing(root, "VTKFile of type UnstructuredGrid"));
+        return Err(reader.at(root).missing("VTKFile of type UnstructuredGrid"));
     }
     let pieces: Vec<_> = root.descendants().filter(|node| node.has_tag_name("Piece")).collect();
     let [piece] = pieces[..] else {
-        return Err(reader.missing(root, "single Piece"));
+        return Err(reader.at(root).missing("single Piece"));
     };
     let points = reader.child(piece, "Points")?;
     let places = reader.array(reader.child(points, "DataArray")?)?;
     if places.is_empty() || places.len() % 3 != 0 {
         let (wanted, found) = (places.len().div_ceil(3).max(1) * 3, places.len());
-        return Err(reader.error(points, Wrong::Count { wanted, found }));
+        return Err(reader.at(points).error(Wrong::Count { wanted, found }));
     }
     let joints: Vec<Vector> = places.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
     let members = reader.lines(piece)?;
     let of_lines = |name| match reader.named(piece, "CellData", name)? {
         Some(found) if found.len() != members.len() => {
             let wrong = Wrong::Count { wanted: members.len(), found: found.len() };
-            Err(reader.error(piece, wrong))
+            Err(reader.at(piece).error(wrong))
         }
         found => Ok(found),
     };
@@ -77,8 +77,7 @@ fn check_attributes(text: &str, file: &str) -> Result<()> {
         return Ok(());
     };
     let line = text[..part.as_ptr().addr() - text.as_ptr().addr()].matches('\n').count() + 1;
-    let what = format!("an element with {found} attributes");
-    Err(FormatError::new(file, Some(line), Wrong::Unknown(what)))
+    Err(At::line(file, line).unknown(format!("an element with {found} attributes")))
 }
 
 struct Reader<'a> {
@@ -86,33 +85,26 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn error(&self, node: Node<'_, '_>, wrong: Wrong) -> FormatError {
+    fn at(&self, node: Node<'_, '_>) -> At<'_> {
         let line = node.document().text_pos_at(node.range().start).row;
-        FormatError::new(self.file, usize::try_from(line).ok(), wrong)
-    }
-
-    fn missing(&self, node: Node<'_, '_>, what: &str) -> FormatError {
-        self.error(node, Wrong::Missing(what.to_owned()))
+        At { file: self.file, line: usize::try_from(line).ok() }
     }
 
     fn child<'n, 'd>(&self, node: Node<'n, 'd>, name: &str) -> Result<Node<'n, 'd>> {
         let child = node.children().find(|child| child.has_tag_name(name));
-        child.ok_or_else(|| self.missing(node, &format!("{name} in {}", node.tag_name().name())))
+        child.ok_or_else(|| self.at(node).missing(format!("{name} in {}", node.tag_name().name())))
     }
 
     /// The numbers of a DataArray.
     fn array(&self, node: Node<'_, '_>) -> Result<Vec<f64>> {
         let format = node.attribute("format").unwrap_or("ascii");
         if format != "ascii" {
-            let what = format!("DataArray of format {format:?}");
-            let error = self.error(node, Wrong::Unknown(what));
+            let error = self.at(node).unknown(format!("DataArray of format {format:?}"));
             return Err(error.with_help("write the file in ASCII"));
         }
-        let line = node.document().text_pos_at(node.range().start).row;
-        let line = usize::try_from(line).ok();
-        let name = node.attribute("Name").unwrap_or("DataArray");
+        let (at, name) = (self.at(node), node.attribute("Name").unwrap_or("DataArray"));
         let text = node.text().unwrap_or_default();
-        text.split_whitespace().map(|word| number(self.file, line, name, word)).collect()
+        text.split_whitespace().map(|word| at.number(name, word)).collect()
     }
 
     /// The DataArray of a name, if it is there.
@@ -129,12 +121,12 @@ impl Reader<'_> {
         let cells = self.child(piece, "Cells")?;
         let found = self.named(piece, "Cells", name)?;
         let found =
-            found.ok_or_else(|| self.missing(cells, &format!("array {name:?} of the cells")))?;
+            found.ok_or_else(|| self.at(cells).missing(format!("array {name:?} of the cells")))?;
         let whole = |x: f64| {
             let wanted = "a whole number";
             let wrong = Wrong::Value { what: name.to_owned(), wanted, found: x.to_string() };
             let fits = x >= 0.0 && x <= f64::from(u32::MAX) && x.fract() <= 0.0;
-            if fits { Ok(as_count(x)) } else { Err(self.error(cells, wrong)) }
+            if fits { Ok(as_count(x)) } else { Err(self.at(cells).error(wrong)) }
         };
         found.into_iter().map(whole).collect()
     }
@@ -146,17 +138,16 @@ impl Reader<'_> {
         let points = self.counts(piece, "connectivity")?;
         if kinds.len() != ends.len() {
             let wrong = Wrong::Count { wanted: ends.len(), found: kinds.len() };
-            return Err(self.error(piece, wrong));
+            return Err(self.at(piece).error(wrong));
         }
         let (mut members, mut start) = (vec![], 0);
         for (end, kind) in ends.into_iter().zip(kinds) {
             if !LINES.contains(&kind) {
-                let what = format!("cell of VTK's type {kind}");
-                return Err(self.error(piece, Wrong::OutOfScope(what)));
+                return Err(self.at(piece).out_of_scope(format!("cell of VTK's type {kind}")));
             }
             let Some(line) = points.get(start..end) else {
                 let wrong = Wrong::Count { wanted: end, found: points.len() };
-                return Err(self.error(piece, wrong));
+                return Err(self.at(piece).error(wrong));
             };
             members.extend(line.windows(2).map(|pair| [pair[0], pair[1]]));
             start = end;

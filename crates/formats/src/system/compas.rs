@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, FormatError, Result};
 use crate::json::{self, Reader};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
@@ -87,7 +87,7 @@ impl<'a> Attributes<'a> {
 
 impl Reader<'_> {
     fn unknown(&self, what: String) -> FormatError {
-        FormatError::new(self.file, None, Wrong::Unknown(what))
+        At::file(self.file).unknown(what)
     }
 
     fn object<'v>(&self, what: &str, value: Option<&'v Value>) -> Result<&'v Map<String, Value>> {
@@ -157,8 +157,7 @@ impl Reader<'_> {
             if let Some(load) = attributes.get(key)
                 && self.number(key, load)?.abs() > 0.0
             {
-                let what = format!("the load {key} on {place}");
-                return Err(FormatError::new(self.file, None, Wrong::OutOfScope(what)));
+                return Err(At::file(self.file).out_of_scope(format!("the load {key} on {place}")));
             }
         }
         let q = attributes.get("q").ok_or_else(|| self.missing(&format!("q of {place}")))?;

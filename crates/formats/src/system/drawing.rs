@@ -14,7 +14,7 @@ use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 use numerics::vector::{minus, norm};
 
-use crate::error::{FormatError, Result, Wrong, shortened};
+use crate::error::{At, Result, shortened};
 use crate::system::ForeignSystem;
 
 /// Ends that are no further apart are one joint, in units of the diagonal of the drawing: what programs round off
@@ -74,12 +74,12 @@ impl<'a> Drawing<'a> {
     /// One more member, in a layer or group of this name.
     pub(super) fn line(&mut self, line: usize, layer: &str, ends_m: [Vector; 2]) -> Result<()> {
         let room = self.budget.fits_members(self.lines.len() + 1, BYTES_PER_MEMBER);
-        room.map_err(|error| FormatError::new(self.file, Some(line), Wrong::Memory(error)))?;
+        room.map_err(|error| self.at(line).memory(error))?;
         let layer = layer.to_lowercase();
         let kind = match () {
             () if layer.contains("rope") => {
                 let what = format!("a rope ({:?}), over whatever it runs,", shortened(&layer));
-                let error = self.error(line, Wrong::Unknown(what));
+                let error = self.at(line).unknown(what);
                 return Err(error.with_help(ROPES));
             }
             () if layer.contains("cable") => Kind::Cable,
@@ -117,7 +117,7 @@ impl<'a> Drawing<'a> {
         if layer.contains(SLIDING) || axes.chars().any(|c| !"xyz".contains(c)) || free == [true; 3]
         {
             let what = format!("a support that slides obliquely ({:?})", shortened(&layer));
-            let error = self.error(line, Wrong::Unknown(what));
+            let error = self.at(line).unknown(what);
             return Err(error.with_help("a name such as supports_free_xz says along which axes"));
         }
         self.anchors.push(Anchor { line, at_m, free });
@@ -168,22 +168,21 @@ impl<'a> Drawing<'a> {
             match seen.entry([a.min(b), a.max(b)]) {
                 Entry::Occupied(other) => {
                     let what = format!("the {word} in line {}", other.get());
-                    return Err(self.error(line.line, Wrong::Repeated(what)));
+                    return Err(self.at(line.line).repeated(what));
                 }
                 Entry::Vacant(free) => free.insert(line.line),
             };
             ends.push((a, b, line));
         }
         if ends.is_empty() {
-            let what = format!("{word} that has a length");
-            return Err(FormatError::new(self.file, None, Wrong::Missing(what)));
+            return Err(At::file(self.file).missing(format!("{word} that has a length")));
         }
         let (names, nameless) = self.named(&places, &ends);
         let joints = self.joints(&places, names, mark)?;
         let members = ends.iter().map(|&(a, b, line)| {
             let length_m = norm(minus(places.at_m[b], places.at_m[a]));
             let body = Bar::homogeneous(length_m, MASS_KG_M * length_m)
-                .map_err(|error| self.no_system(Some(line.line), &error))?;
+                .map_err(|error| self.at(line.line).no_system(error))?;
             Ok(Member::bar(a, b, body).of_kind(line.kind))
         });
         let members = members.collect::<Result<Vec<_>>>()?;
@@ -205,7 +204,7 @@ impl<'a> Drawing<'a> {
         }
         let name = Path::new(self.file).file_stem().unwrap_or_default().to_string_lossy();
         let system = System::new(name, STANDARD_GRAVITY_M_S2, joints, members)
-            .map_err(|error| self.no_system(None, &error))?;
+            .map_err(|error| At::file(self.file).no_system(error))?;
         Ok(ForeignSystem { system, notes, floor_m: None })
     }
 
@@ -253,20 +252,18 @@ impl<'a> Drawing<'a> {
         let mut marked: HashMap<usize, &Anchor> = HashMap::new();
         for anchor in &self.anchors {
             let Some(joint) = places.find(anchor.at_m) else {
-                let what = "line that ends at this anchor".to_owned();
-                return Err(self.error(anchor.line, Wrong::Missing(what)));
+                return Err(self.at(anchor.line).missing("line that ends at this anchor"));
             };
             let other = *marked.entry(joint).or_insert(anchor);
             if other.free != anchor.free {
                 let what = format!("the anchor in line {}, held in another way,", other.line);
-                return Err(self.error(anchor.line, Wrong::Repeated(what)));
+                return Err(self.at(anchor.line).repeated(what));
             }
             let [x, y, z] = anchor.free;
             free[joint] = if places.level { [x, false, y] } else { [x, y, z] };
         }
         if self.anchors.is_empty() {
-            let missing = Wrong::Missing("anchor".to_owned());
-            return Err(FormatError::new(self.file, None, missing).with_help(mark));
+            return Err(At::file(self.file).missing("anchor").with_help(mark));
         }
         let joint = |(k, &at_m): (usize, &Vector)| {
             let name = names[k].take().unwrap_or_else(|| (k + 1).to_string());
@@ -278,12 +275,8 @@ impl<'a> Drawing<'a> {
         Ok(places.at_m.iter().enumerate().map(joint).collect())
     }
 
-    fn error(&self, line: usize, wrong: Wrong) -> FormatError {
-        FormatError::new(self.file, Some(line), wrong)
-    }
-
-    fn no_system(&self, line: Option<usize>, reason: &dyn std::fmt::Display) -> FormatError {
-        FormatError::new(self.file, line, Wrong::NoSystem(reason.to_string()))
+    fn at(&self, line: usize) -> At<'a> {
+        At::line(self.file, line)
     }
 }
 

@@ -17,7 +17,7 @@ use model::Vector;
 
 use self::blocks::Blocks;
 pub(super) use self::letters::decoded;
-use crate::error::{FormatError, Result, Wrong, number, shortened};
+use crate::error::{At, Result, shortened};
 use crate::system::ForeignSystem;
 use crate::system::drawing::Drawing;
 
@@ -93,11 +93,10 @@ struct Sheet<'a> {
 /// Read the lines of a drawing.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the part that is wrong or not understood.
+/// [`FormatError`](crate::FormatError) with the line and the part that is wrong or not understood.
 pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
     if text.starts_with("AutoCAD Binary DXF") {
-        let what = "a binary DXF file".to_owned();
-        let error = FormatError::new(file, None, Wrong::Unknown(what));
+        let error = At::file(file).unknown("a binary DXF file");
         return Err(error.with_help("save the drawing as DXF in ASCII"));
     }
     let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines().enumerate();
@@ -112,8 +111,7 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
     let mut section = "";
     loop {
         let Some(entity) = groups.entity()? else {
-            let missing = Wrong::Missing("end of the drawing (EOF)".to_owned());
-            return Err(FormatError::new(file, None, missing));
+            return Err(At::file(file).missing("end of the drawing (EOF)"));
         };
         match (section, entity.kind) {
             (_, "EOF") => break,
@@ -136,7 +134,7 @@ pub fn parse_dxf(text: &str, file: &str) -> Result<ForeignSystem> {
         }
     }
     if let Some(Polyline { head, .. }) = sheet.open {
-        return Err(head.missing("end of a polyline (SEQEND)"));
+        return Err(head.at().missing("end of a polyline (SEQEND)"));
     }
     sheet.drawing.system("line", MARK, vec![format!("drawn in {}", sheet.unit.1)])
 }
@@ -149,13 +147,10 @@ impl<'a> Groups<'a> {
             if text.is_empty() && self.lines.all(|(_, line)| line.trim().is_empty()) {
                 return Ok(None);
             }
-            let (what, found) = ("a group code".to_owned(), shortened(text));
-            let wrong = Wrong::Value { what, wanted: "a whole number", found };
-            return Err(FormatError::new(self.file, Some(line), wrong));
+            return Err(At::line(self.file, line).value("a group code", "a whole number", text));
         };
         let Some((_, value)) = self.lines.next() else {
-            let what = format!("value of the group {code}");
-            return Err(FormatError::new(self.file, Some(line), Wrong::Missing(what)));
+            return Err(At::line(self.file, line).missing(format!("value of the group {code}")));
         };
         Ok(Some(Group { line, code, value: value.trim() }))
     }
@@ -173,7 +168,7 @@ impl<'a> Groups<'a> {
         }
         let Some(Group { line, code: 0, value: kind }) = head else {
             let (line, what) = (head.map(|head| head.line), "group 0 of an entity".to_owned());
-            return Err(FormatError::new(self.file, line, Wrong::Missing(what)));
+            return Err(At { file: self.file, line }.missing(what));
         };
         let mut groups = vec![];
         while let Some(group) = self.group()? {
@@ -194,7 +189,7 @@ impl<'a> Entity<'a> {
 
     fn value(&self, group: &Group<'_>) -> Result<f64> {
         let what = format!("the group {}", group.code);
-        number(self.file, Some(group.line + 1), &what, group.value)
+        At::line(self.file, group.line + 1).number(&what, group.value)
     }
 
     fn number(&self, code: i32, otherwise: f64) -> Result<f64> {
@@ -205,18 +200,11 @@ impl<'a> Entity<'a> {
     /// Bits of group 70.
     fn flags(&self) -> Result<u32> {
         let text = Some(self.text(70)).filter(|text| !text.is_empty()).unwrap_or("0");
-        text.parse().map_err(|_| {
-            let (what, found) = ("the group 70".to_owned(), shortened(text));
-            self.error(Wrong::Value { what, wanted: "a whole number", found })
-        })
+        text.parse().map_err(|_| self.at().value("the group 70", "a whole number", text))
     }
 
-    fn error(&self, wrong: Wrong) -> FormatError {
-        FormatError::new(self.file, Some(self.line), wrong)
-    }
-
-    fn missing(&self, what: &str) -> FormatError {
-        self.error(Wrong::Missing(what.to_owned()))
+    fn at(&self) -> At<'a> {
+        At::line(self.file, self.line)
     }
 
     /// The point of the groups 10, 20, 30, or 11, 21, 31, m.
@@ -225,7 +213,8 @@ impl<'a> Entity<'a> {
         for (k, x) in (1..).zip(&mut at_m) {
             let code = 10 * k + number;
             if k < 3 && self.groups.iter().all(|group| group.code != code) {
-                return Err(self.missing(&format!("group {code} of a {}", shortened(self.kind))));
+                let what = format!("group {code} of a {}", shortened(self.kind));
+                return Err(self.at().missing(what));
             }
             *x = unit_m * self.number(code, 0.0)?;
         }
@@ -239,8 +228,8 @@ impl<'a> Entity<'a> {
         let Some(group) = rest.next() else { return Ok(None) };
         let unit = UNITS.iter().find(|(number, ..)| *number == group.value);
         unit.copied().map(Some).ok_or_else(|| {
-            let what = format!("the unit {:?} ($INSUNITS)", shortened(group.value));
-            let error = FormatError::new(self.file, Some(group.line + 1), Wrong::Unknown(what));
+            let error = At::line(self.file, group.line + 1)
+                .unknown(format!("the unit {:?} ($INSUNITS)", shortened(group.value)));
             error.with_help("draw in m, dm, cm, mm, km, in, ft or yd")
         })
     }
@@ -269,7 +258,7 @@ impl<'a> Entity<'a> {
                     Some(polyline) => polyline.read(drawing, *unit_m),
                     None => Ok(()),
                 },
-                _ => Err(self.missing("end of the polyline before it (SEQEND)")),
+                _ => Err(self.at().missing("end of the polyline before it (SEQEND)")),
             };
         }
         let (layer, unit_m, unseen) = (self.text(8), *unit_m, self.unseen(off));
@@ -290,7 +279,7 @@ impl<'a> Entity<'a> {
             }
             ("INSERT", _) if !blocks.is_plain(self.text(2)) => {
                 let what = format!("the block {:?}", shortened(self.text(2)));
-                return Err(self.error(Wrong::Unknown(what)).with_help(EXPLODE));
+                return Err(self.at().unknown(what).with_help(EXPLODE));
             }
             (kind, _) => drawing.skip(&shortened(kind)),
         }
@@ -318,9 +307,8 @@ impl<'a> Entity<'a> {
         let bulges = self.groups.iter().filter(|group| group.code == 42);
         for group in bulges {
             if self.value(group)?.abs() > 0.0 {
-                let what = "an arc of a polyline (group 42)".to_owned();
-                let wrong = Wrong::OutOfScope(what);
-                return Err(FormatError::new(self.file, Some(group.line), wrong));
+                let at = At::line(self.file, group.line);
+                return Err(at.out_of_scope("an arc of a polyline (group 42)"));
             }
         }
         Ok(())
@@ -330,8 +318,8 @@ impl<'a> Entity<'a> {
     fn level(&self) -> Result<()> {
         let normal = [self.number(210, 0.0)?, self.number(220, 0.0)?, self.number(230, 1.0)?];
         if normal[0].abs() + normal[1].abs() > 0.0 || normal[2] <= 0.0 {
-            let what = "a polyline in a plane of its own (groups 210 to 230)".to_owned();
-            return Err(self.error(Wrong::Unknown(what)).with_help("draw it in 3D"));
+            let what = "a polyline in a plane of its own (groups 210 to 230)";
+            return Err(self.at().unknown(what).with_help("draw it in 3D"));
         }
         Ok(())
     }

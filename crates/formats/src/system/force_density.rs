@@ -3,7 +3,7 @@
 use model::system::{Joint, Member, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, Result};
 
 /// A net: nodes, and edges that each pull with their force density times their length.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +65,7 @@ impl ForceDensityNet {
     /// certificate made of it.
     ///
     /// # Errors
-    /// [`FormatError`] when the places are not as many as the nodes, two joints of a member meet,
+    /// [`FormatError`](crate::FormatError) when the places are not as many as the nodes, two joints of a member meet,
     /// or it is no system.
     ///
     /// ```
@@ -87,10 +87,10 @@ impl ForceDensityNet {
     /// # Ok::<(), formats::FormatError>(())
     /// ```
     pub fn system_at(&self, places_m: &[Vector], file: &str) -> Result<System> {
-        let no_system = |reason: String| FormatError::new(file, None, Wrong::NoSystem(reason));
+        let at = At::file(file);
         if places_m.len() != self.nodes.len() {
             let (places, nodes) = (places_m.len(), self.nodes.len());
-            return Err(no_system(format!("{places} places for {nodes} nodes")));
+            return Err(at.no_system(format!("{places} places for {nodes} nodes")));
         }
         let joints = self.nodes.iter().map(|node| {
             if node.held {
@@ -108,7 +108,7 @@ impl ForceDensityNet {
             let body = |length_m: f64| {
                 Bar::homogeneous(length_m, 0.0).map_err(|error| {
                     let [from, to] = [edge.from, edge.to].map(|k| &self.nodes[k].name);
-                    no_system(format!("the edge between {from:?} and {to:?}: {error}"))
+                    at.no_system(format!("the edge between {from:?} and {to:?}: {error}"))
                 })
             };
             let q = edge.density_n_m;
@@ -126,6 +126,6 @@ impl ForceDensityNet {
             });
         }
         System::new(&self.name, STANDARD_GRAVITY_M_S2, joints.collect(), members)
-            .map_err(|error| no_system(error.to_string()))
+            .map_err(|error| at.no_system(error))
     }
 }

@@ -34,7 +34,7 @@ pub use nodes::parse_net;
 pub use obj::parse_obj;
 pub use opensees::parse_opensees;
 
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, Result};
 
 /// Whose file a system is read from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,7 +114,7 @@ impl Source {
     /// next to these is wanted.
     ///
     /// # Errors
-    /// [`FormatError`] with the part that is wrong, missing or not understood, and its line where there is one.
+    /// [`FormatError`](crate::FormatError) with the part that is wrong, missing or not understood, and its line where there is one.
     pub fn parse(self, text: &str, file: &str) -> Result<ForeignSystem> {
         match self {
             Self::Dxf => parse_dxf(text, file),
@@ -126,7 +126,7 @@ impl Source {
                 let net = parse_compas(text, file)?;
                 let places_m = net.places_m();
                 let drawn = net.system_at(&places_m, file)?.drawn_at(&places_m);
-                let system = drawn.map_err(|error| no_system(file, &error))?;
+                let system = drawn.map_err(|error| At::file(file).no_system(error))?;
                 let note = "each edge is an elastic member that carries its force density times its length at the places \
                             of the file";
                 let notes = std::iter::once(note.to_owned()).chain(net.held_loads()).collect();
@@ -151,15 +151,15 @@ impl ForeignSystem {
     /// The system above its floor, where that is an equilibrium problem.
     ///
     /// # Errors
-    /// [`FormatError`] with the reason where it is none.
+    /// [`FormatError`](crate::FormatError) with the reason where it is none.
     pub fn above_floor(self, file: &str) -> Result<System> {
         let system = match self.floor_m {
             Some(floor_m) => {
-                self.system.with_floor(floor_m).map_err(|error| no_system(file, &error))?
+                self.system.with_floor(floor_m).map_err(|error| At::file(file).no_system(error))?
             }
             None => self.system,
         };
-        system.refusal().map_err(|refusal| no_system(file, &refusal))?;
+        system.refusal().map_err(|refusal| At::file(file).no_system(refusal))?;
         Ok(system)
     }
 }
@@ -183,8 +183,4 @@ fn held_loads(loads_n: impl Iterator<Item = Vector>) -> Option<String> {
         )
     };
     (count > 0).then(says)
-}
-
-fn no_system(file: &str, reason: &dyn std::fmt::Display) -> FormatError {
-    FormatError::new(file, None, Wrong::NoSystem(reason.to_string()))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{FormatError, Result, Wrong};
+use crate::error::{At, Result};
 use crate::sheet::{Row, Sheet};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
@@ -31,7 +31,7 @@ const DIGITS: f64 = 1e-6;
 /// must be the density times the length. The names of the files of jax_fdm stand for these.
 ///
 /// # Errors
-/// [`FormatError`] with file, line and reason.
+/// [`FormatError`](crate::FormatError) with file, line and reason.
 pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result<ForceDensityNet> {
     let (text, file) = nodes;
     let sheet = Sheet::parse(file, text, NODES, NODE_ALIASES)?;
@@ -43,7 +43,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
     for row in sheet.rows() {
         let node = node(&row)?;
         if numbers.insert(node.name.clone(), found.len()).is_some() {
-            return Err(row.error(Wrong::Repeated(format!("node {:?}", node.name))));
+            return Err(row.at().repeated(format!("node {:?}", node.name)));
         }
         found.push(node);
     }
@@ -62,7 +62,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
     let edges = sheet.rows().map(|row| edge(&row, &numbers, &found, sheet.has("force_n")));
     let edges = edges.collect::<Result<Vec<_>, _>>()?;
     if edges.is_empty() {
-        return Err(FormatError::new(file, None, Wrong::Missing("edge".to_owned())));
+        return Err(At::file(file).missing("edge"));
     }
     Ok(ForceDensityNet { name: name.to_owned(), nodes: found, edges })
 }
@@ -70,7 +70,7 @@ pub fn parse_net(nodes: (&str, &str), edges: (&str, &str), name: &str) -> Result
 fn node(row: &Row<'_>) -> Result<Node> {
     let name = row.text("joint").to_owned();
     if name.is_empty() {
-        return Err(row.error(Wrong::Missing("name of the joint".to_owned())));
+        return Err(row.at().missing("name of the joint"));
     }
     let mut at_m = [row.number("x_m")?, row.number("y_m")?, row.number("z_m")?];
     for (place, moved) in at_m.iter_mut().zip(["u_m", "v_m", "w_m"]) {
@@ -95,7 +95,7 @@ fn edge(
     let end = |column: &str| {
         let name = row.text(column);
         let number = numbers.get(name).copied();
-        number.ok_or_else(|| row.error(Wrong::Missing(format!("node {name:?}"))))
+        number.ok_or_else(|| row.at().missing(format!("node {name:?}")))
     };
     let (from, to, density_n_m) = (end("from")?, end("to")?, row.number("q_n_m")?);
     if with_force {
@@ -103,10 +103,9 @@ fn edge(
         let length_m = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
         let (given, follows) = (row.number("force_n")?, density_n_m * length_m);
         if (given - follows).abs() > DIGITS * given.abs().max(follows.abs()) {
-            let reason = format!(
+            return Err(row.at().no_system(format!(
                 "the force {given} N is not the force density times the length, {follows} N"
-            );
-            return Err(row.error(Wrong::NoSystem(reason)));
+            )));
         }
     }
     Ok(Edge { from, to, density_n_m })

@@ -9,7 +9,7 @@
 
 use model::Vector;
 
-use crate::error::{FormatError, Result, Wrong, number, shortened};
+use crate::error::{At, Result, Wrong, shortened};
 use crate::system::drawing::Drawing;
 use crate::system::{ForeignSystem, among};
 
@@ -24,7 +24,7 @@ const MARK: &str = "mark each anchor by an element `p` of its vertex, in a group
 /// Read the lines of an OBJ file.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the part that is wrong or not understood.
+/// [`FormatError`](crate::FormatError) with the line and the part that is wrong or not understood.
 ///
 /// ```
 /// let text = "v 0 0 0\nv 3 0 0\nv 1 0 -2\ng cables\nl 1 3 2\ng anchors\np 1 2\n";
@@ -37,19 +37,18 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem> {
     let (mut vertices, mut group) = (Vec::<Vector>::new(), "");
     let mut drawing = Drawing::new(file);
     for (k, line) in text.lines().enumerate() {
-        let at = Some(k + 1);
+        let at = At::line(file, k + 1);
         let bare = line.split('#').next().unwrap_or_default().trim();
         let (word, rest) = bare.split_once(char::is_whitespace).unwrap_or((bare, ""));
-        let corner = |word: &str| corner(&vertices, word, file, k + 1);
+        let corner = |word: &str| corner(&vertices, word, at);
         match word {
             "" => {}
             "v" => {
                 let words: Vec<&str> = rest.split_whitespace().collect();
                 let [x, y, z, ..] = words[..] else {
-                    let wrong = Wrong::Count { wanted: 3, found: words.len() };
-                    return Err(FormatError::new(file, at, wrong));
+                    return Err(at.error(Wrong::Count { wanted: 3, found: words.len() }));
                 };
-                let one = |text: &str| number(file, at, "a coordinate", text);
+                let one = |text: &str| at.number("a coordinate", text);
                 vertices.push([one(x)?, one(y)?, one(z)?]);
             }
             "l" => {
@@ -65,8 +64,7 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem> {
             word if SKIPPED.contains(&word) => drawing.skip(word),
             word if among(NO_BEARING, word) => {}
             word => {
-                let what = format!("the element {:?}", shortened(word));
-                return Err(FormatError::new(file, at, Wrong::Unknown(what)));
+                return Err(at.unknown(format!("the element {:?}", shortened(word))));
             }
         }
     }
@@ -74,13 +72,10 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ForeignSystem> {
 }
 
 /// The vertex of a word as `3`, `-1` or `3/2`: negative ones count from the last.
-fn corner(vertices: &[Vector], word: &str, file: &str, line: usize) -> Result<Vector> {
+fn corner(vertices: &[Vector], word: &str, at: At<'_>) -> Result<Vector> {
     let index = word.split('/').next().unwrap_or_default().parse::<i64>().ok();
     let count = i64::try_from(vertices.len()).unwrap_or(i64::MAX);
     let index = index.map(|index| if index < 0 { count.saturating_add(index) } else { index - 1 });
     let vertex = index.and_then(|index| vertices.get(usize::try_from(index).ok()?));
-    vertex.copied().ok_or_else(|| {
-        let what = format!("vertex {:?}", shortened(word));
-        FormatError::new(file, Some(line), Wrong::Missing(what))
-    })
+    vertex.copied().ok_or_else(|| at.missing(format!("vertex {:?}", shortened(word))))
 }

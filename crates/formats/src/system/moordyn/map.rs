@@ -18,7 +18,7 @@ use model::{STANDARD_GRAVITY_M_S2, Vector};
 use super::options::{Options, SEA_WATER};
 use super::sections::{Row, Section, Sections};
 use super::{HELD, LINE_COLUMNS, Line, POINT_COLUMNS};
-use crate::error::{FormatError, Result, Wrong, number, shortened};
+use crate::error::{At, Result, shortened};
 use crate::system::{ForeignSystem, among};
 
 /// Cables of one line: against the catenary the forces at its ends are then wrong by a part of some 1e-4.
@@ -41,7 +41,7 @@ const NO_BEARING: &str = "option options (-) [-] help inner_ftol inner_gtol inne
 /// Read a MAP++ input file.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
+/// [`FormatError`](crate::FormatError) with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
     let sections = Sections::parse(text, file, COMMENTS)?;
     let (gravity_m_s2, density_kg_m3) = (STANDARD_GRAVITY_M_S2, SEA_WATER);
@@ -55,7 +55,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
     let (joints, members) = (nodes.len(), lines.len().saturating_mul(SEGMENTS));
     let copies = joints.saturating_add(members).saturating_mul(angles.len());
     let room = budget.fits_members(copies, BYTES_PER_MEMBER);
-    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
+    room.map_err(|error| At::file(file).memory(error))?;
     lines.iter().try_for_each(flags)?;
     let (mut joints, mut members, mut held_n) = (Vec::new(), Vec::new(), Vec::new());
     let mut numbers = HashMap::new();
@@ -64,7 +64,7 @@ pub fn parse_map(text: &str, file: &str) -> Result<ForeignSystem> {
             let name = numbered(row, copy, nodes.len(), k)?;
             let joint = node(row, name, *angle, &options, &mut held_n)?;
             if numbers.insert(joint.name.to_string(), joints.len()).is_some() {
-                return Err(row.error(Wrong::Repeated(format!("node {}", joint.name))));
+                return Err(row.at().repeated(format!("node {}", joint.name)));
             }
             joints.push(joint);
         }
@@ -108,12 +108,14 @@ fn angles(sections: &Sections<'_>) -> Result<Vec<f64>> {
         let word = words.next().unwrap_or_default().to_lowercase();
         if word == "repeat" {
             for angle in words {
-                let angle_deg = number(sections.file, Some(*line), "an angle of repeat", angle)?;
+                let angle_deg =
+                    At::line(sections.file, *line).number("an angle of repeat", angle)?;
                 angles.push(angle_deg.to_radians());
             }
         } else if !among(NO_BEARING, &word) {
-            let what = format!("the option {:?}", shortened(text));
-            return Err(FormatError::new(sections.file, Some(*line), Wrong::Unknown(what)));
+            return Err(
+                At::line(sections.file, *line).unknown(format!("the option {:?}", shortened(text)))
+            );
         }
     }
     Ok(angles)
@@ -141,8 +143,7 @@ fn node(
         return Ok(Joint::anchor(name, at_m));
     }
     if kind != "connect" {
-        let what = format!("the type {kind:?} of node {name}");
-        return Err(row.error(Wrong::Unknown(what)));
+        return Err(row.at().unknown(format!("the type {kind:?} of node {name}")));
     }
     let mut load = super::load(row, options)?;
     for (column, sum_n) in ["fx", "fy", "fz"].into_iter().zip(&mut load.force_n) {
@@ -151,7 +152,7 @@ fn node(
         // MAP++ takes N, whatever the head of its table says.
         if force_n.abs() > 0.0 && row.unit(column) != "N" {
             let what = format!("the force {column} on node {name} in {:?}", row.unit(column));
-            return Err(row.error(Wrong::Unknown(what)).with_help("MAP++ takes N: write (N)"));
+            return Err(row.at().unknown(what).with_help("MAP++ takes N: write (N)"));
         }
     }
     Ok(Joint::free(name).with_mass(load.mass_kg).with_force(turned(load.force_n)))
@@ -162,7 +163,7 @@ fn flags(row: &Row<'_>) -> Result<()> {
     let read = |flag: &str| among(OUTPUTS, &flag.to_lowercase());
     let known = |flag: &str| read(flag) || flag.eq_ignore_ascii_case(NO_CONTACT);
     let Some(flag) = row.flags().iter().find(|flag| !known(flag)) else { return Ok(()) };
-    let error = row.error(Wrong::Unknown(format!("the flag {:?}", shortened(flag))));
+    let error = row.at().unknown(format!("the flag {:?}", shortened(flag)));
     Err(if flag.eq_ignore_ascii_case(SPRING) {
         error.with_help("a spring without weight is an elastic member: write it into a system file")
     } else {
@@ -174,7 +175,7 @@ fn flags(row: &Row<'_>) -> Result<()> {
 fn place(row: &Row<'_>, column: &str) -> Result<f64> {
     let text = row.text(column)?;
     if text.eq_ignore_ascii_case("depth") {
-        let error = row.error(Wrong::Missing("depth of the water".to_owned()));
+        let error = row.at().missing("depth of the water");
         return Err(error.with_help("write the height of the bottom in the place of `depth`"));
     }
     row.as_number(column, text.strip_prefix('#').unwrap_or(text))
@@ -187,8 +188,7 @@ fn floor_m(lines: &[Row<'_>], joints: &[Joint]) -> Result<Option<f64>> {
         return Ok(None);
     }
     if let Some(row) = lines.iter().find(|row| row.has_flag(NO_CONTACT)) {
-        let what = format!("a bottom for some lines alone ({NO_CONTACT})");
-        return Err(row.error(Wrong::Unknown(what)));
+        return Err(row.at().unknown(format!("a bottom for some lines alone ({NO_CONTACT})")));
     }
     let heights = joints.iter().filter_map(|joint| joint.support.at_m()).map(|at_m| at_m[2]);
     Ok(heights.reduce(f64::min))

@@ -23,7 +23,7 @@ use model::budget::{BYTES_PER_MEMBER, Budget};
 use model::system::{Joint, Member, PointLoad, System};
 use model::{Bar, Vector};
 
-use crate::error::{FormatError, Result, Wrong, as_count};
+use crate::error::{At, Result, as_count};
 use crate::system::{ForeignSystem, among};
 pub use map::parse_map;
 use options::Options;
@@ -102,7 +102,7 @@ struct LineType {
 /// Read a MoorDyn input file.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
+/// [`FormatError`](crate::FormatError) with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
     let sections = Sections::parse(text, file, COMMENTS)?;
     let options = Options::read(&sections)?;
@@ -120,7 +120,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
             held_n.push(load(&row, &options).unwrap_or_default().in_water_n(&options));
         }
         if numbers.insert(joint.name.to_string(), joints.len()).is_some() {
-            return Err(row.error(Wrong::Repeated(format!("point {}", joint.name))));
+            return Err(row.at().repeated(format!("point {}", joint.name)));
         }
         joints.push(joint);
     }
@@ -130,7 +130,7 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem> {
     // Of all lines, before the first is made.
     let all = lines.iter().map(segments).sum::<Result<usize, _>>()?;
     let room = budget.fits_members(all, BYTES_PER_MEMBER);
-    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
+    room.map_err(|error| At::file(file).memory(error))?;
     for row in lines {
         let line = Line {
             id: row.text("id")?.to_owned(),
@@ -153,9 +153,8 @@ fn foreign(
     (mut notes, floor_m): (Vec<String>, Option<f64>),
 ) -> Result<ForeignSystem> {
     notes.push(MOTION.to_owned());
-    let system = System::new(sections.title(), gravity_m_s2, joints, members).map_err(|error| {
-        FormatError::new(sections.file, None, Wrong::NoSystem(error.to_string()))
-    })?;
+    let system = System::new(sections.title(), gravity_m_s2, joints, members)
+        .map_err(|error| At::file(sections.file).no_system(error))?;
     Ok(ForeignSystem { system, notes, floor_m })
 }
 
@@ -167,17 +166,17 @@ fn line_types(sections: &Sections<'_>, options: &Options) -> Result<HashMap<Stri
         let stiffness = row.text("EA")?;
         if stiffness.parse::<f64>().is_err() {
             let what = format!("the stiffness {stiffness:?}, which is no constant,");
-            return Err(row.error(Wrong::OutOfScope(what)));
+            return Err(row.at().out_of_scope(what));
         }
         if let Some(bending) = row.optional("EI")?.filter(|bending| bending.abs() > 0.0) {
             let what = format!("the bending stiffness EI = {bending} N m^2");
-            return Err(row.error(Wrong::OutOfScope(what)));
+            return Err(row.at().out_of_scope(what));
         }
         let area_m2 = 0.25 * std::f64::consts::PI * diameter_m * diameter_m;
         let weight_n_m = (mass_kg_m - options.density_kg_m3 * area_m2) * options.gravity_m_s2;
         let line_type = LineType { weight_n_m, stiffness_n: row.positive("EA")? };
         if types.insert(name.clone(), line_type).is_some() {
-            return Err(row.error(Wrong::Repeated(format!("line type {name:?}"))));
+            return Err(row.at().repeated(format!("line type {name:?}")));
         }
     }
     Ok(types)
@@ -191,17 +190,16 @@ fn bodies(sections: &Sections<'_>) -> Result<HashMap<String, Vector>> {
         let (id, kind) = (row.text("id")?.to_owned(), row.text("type")?.to_lowercase());
         if !among(HELD, &kind) {
             let what = format!("body {id}, which is {kind:?} and not fixed,");
-            return Err(row.error(Wrong::OutOfScope(what)));
+            return Err(row.at().out_of_scope(what));
         }
         for angle in ["roll", "pitch", "yaw"] {
             if row.optional(angle)?.is_some_and(|angle| angle.abs() > 0.0) {
-                let what = format!("the {angle} of body {id}");
-                return Err(row.error(Wrong::Unknown(what)));
+                return Err(row.at().unknown(format!("the {angle} of body {id}")));
             }
         }
         let at_m = [row.number("x")?, row.number("y")?, row.number("z")?];
         if bodies.insert(id.clone(), at_m).is_some() {
-            return Err(row.error(Wrong::Repeated(format!("body {id}"))));
+            return Err(row.at().repeated(format!("body {id}")));
         }
     }
     Ok(bodies)
@@ -215,7 +213,7 @@ fn point(row: &Row<'_>, bodies: &HashMap<String, Vector>, options: &Options) -> 
         if row.optional(force)?.is_some_and(|force| force.abs() > 0.0) {
             // Manual and sample files disagree whether it is in N or kN.
             let what = format!("the force {force} on point {name}, whose unit is not said,");
-            return Err(row.error(Wrong::Unknown(what)));
+            return Err(row.at().unknown(what));
         }
     }
     if among(HELD, &kind) {
@@ -223,14 +221,12 @@ fn point(row: &Row<'_>, bodies: &HashMap<String, Vector>, options: &Options) -> 
     }
     if let Some(body) = kind.strip_prefix("body") {
         let Some(centre) = bodies.get(body) else {
-            let what = format!("body {body:?} of point {name}");
-            return Err(row.error(Wrong::Missing(what)));
+            return Err(row.at().missing(format!("body {body:?} of point {name}")));
         };
         return Ok(Joint::anchor(name, std::array::from_fn(|c| centre[c] + at_m[c])));
     }
     if !FREE.contains(&kind.as_str()) {
-        let what = format!("the type {kind:?} of point {name}");
-        return Err(row.error(Wrong::Unknown(what)));
+        return Err(row.at().unknown(format!("the type {kind:?} of point {name}")));
     }
     let Load { mass_kg, force_n } = load(row, options)?;
     Ok(Joint::free(name).with_mass(mass_kg).with_force(force_n))
@@ -264,8 +260,8 @@ fn load(row: &Row<'_>, options: &Options) -> Result<Load> {
 fn segments(row: &Row<'_>) -> Result<usize> {
     let segments = row.positive("segments")?;
     if segments.fract() > 0.0 || segments > MOST_SEGMENTS {
-        let (what, found) = ("NumSegs".to_owned(), segments.to_string());
-        return Err(row.error(Wrong::Value { what, wanted: "a whole number up to 1e6", found }));
+        let found = segments.to_string();
+        return Err(row.at().value("NumSegs", "a whole number up to 1e6", &found));
     }
     Ok(as_count(segments))
 }
@@ -282,7 +278,7 @@ struct Line<'a> {
 /// The type of a line.
 fn line_type<'a>(row: &Row<'_>, types: &'a HashMap<String, LineType>) -> Result<&'a LineType> {
     let kind = row.text("type")?;
-    types.get(kind).ok_or_else(|| row.error(Wrong::Missing(format!("line type {kind:?}"))))
+    types.get(kind).ok_or_else(|| row.at().missing(format!("line type {kind:?}")))
 }
 
 /// The points at the ends of a line.
@@ -292,7 +288,7 @@ fn ends(row: &Row<'_>, numbers: &HashMap<String, usize>) -> Result<[usize; 2]> {
         let bare = name.to_lowercase();
         let bare = bare.strip_prefix("point").unwrap_or(name);
         let found = numbers.get(bare).copied();
-        found.ok_or_else(|| row.error(Wrong::Missing(format!("point {name:?}"))))
+        found.ok_or_else(|| row.at().missing(format!("point {name:?}")))
     };
     Ok([end("a")?, end("b")?])
 }
@@ -309,12 +305,11 @@ impl Line<'_> {
         let Self { id, kind, ends: [from, to], length_m, count } = self;
         let asked =
             budget.take_members(*count).and_then(|()| budget.take_names(*count, id.len() + DIGITS));
-        asked.map_err(|error| row.error(Wrong::Memory(error)))?;
+        asked.map_err(|error| row.at().memory(error))?;
         let piece_m = length_m / *count as f64;
         let weight_n = kind.weight_n_m * piece_m;
         let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
-        let body = Bar::homogeneous(piece_m, mass_kg)
-            .map_err(|error| row.error(Wrong::NoSystem(error.to_string())))?;
+        let body = Bar::homogeneous(piece_m, mass_kg).map_err(|error| row.at().no_system(error))?;
         let lift =
             PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n], is_spread: true };
         let mut here = *from;

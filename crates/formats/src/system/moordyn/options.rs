@@ -3,7 +3,7 @@
 use model::STANDARD_GRAVITY_M_S2;
 
 use super::sections::{Section, Sections};
-use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
+use crate::error::{At, Result, shortened};
 use crate::system::among;
 
 /// Gravity, water and floor.
@@ -27,36 +27,32 @@ const ZERO: &[&str] = &["wavekin", "currents", "waterkin"];
 impl Options {
     /// Read them; what is not known is refused.
     pub(super) fn read(sections: &Sections<'_>) -> Result<Self> {
-        let file = sections.file;
         let mut options =
             Self { gravity_m_s2: STANDARD_GRAVITY_M_S2, density_kg_m3: SEA_WATER, floor_m: None };
         for (line, text) in sections.lines(Section::Options) {
             let mut words = text.split_whitespace();
             let (value, name) =
                 (words.next().unwrap_or_default(), words.next().unwrap_or_default());
-            let at = Some(*line);
+            let at = At::line(sections.file, *line);
             match name.to_lowercase().as_str() {
-                "g" | "gravity" => options.gravity_m_s2 = positive(file, at, name, value)?,
+                "g" | "gravity" => options.gravity_m_s2 = at.positive(name, value)?,
                 "wtrdnsty" | "rhow" | "rho" => {
-                    options.density_kg_m3 = number(file, at, name, value)?;
+                    options.density_kg_m3 = at.number(name, value)?;
                 }
                 "wtrdpth" | "depth" => {
                     if value.parse::<f64>().is_err() {
-                        let what = format!("the floor {value:?}");
-                        return Err(FormatError::new(file, at, Wrong::OutOfScope(what)));
+                        return Err(at.out_of_scope(format!("the floor {value:?}")));
                     }
-                    options.floor_m = Some(-positive(file, at, name, value)?);
+                    options.floor_m = Some(-at.positive(name, value)?);
                 }
                 known if among(NO_BEARING, known) => {}
                 known if ZERO.contains(&known) => {
                     if value.parse::<f64>().map_or(true, |value| value.abs() > 0.0) {
-                        let what = format!("{name} = {value}");
-                        return Err(FormatError::new(file, at, Wrong::OutOfScope(what)));
+                        return Err(at.out_of_scope(format!("{name} = {value}")));
                     }
                 }
                 _ => {
-                    let what = format!("the option {:?}", shortened(text.trim()));
-                    return Err(FormatError::new(file, at, Wrong::Unknown(what)));
+                    return Err(at.unknown(format!("the option {:?}", shortened(text.trim()))));
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
+use crate::error::{At, Result, Wrong, shortened};
 
 /// The sections that are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -74,7 +74,7 @@ impl<'a> Sections<'a> {
         let mut current = Section::Frame;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
-            return Err(FormatError::new(file, None, Wrong::Empty));
+            return Err(At::file(file).error(Wrong::Empty));
         }
         for (k, line) in text.lines().enumerate() {
             let number = k + 1;
@@ -87,7 +87,7 @@ impl<'a> Sections<'a> {
                 {
                     let what =
                         format!("the section {:?}", shortened(line.trim_matches(['-', ' '])));
-                    return Err(FormatError::new(file, Some(number), Wrong::Repeated(what)));
+                    return Err(At::line(file, number).repeated(what));
                 }
                 sections.tables.entry(current).or_insert_with(table);
                 continue;
@@ -108,8 +108,9 @@ impl<'a> Sections<'a> {
         if let Some(rods) = sections.tables.get(&Section::Rods)
             && let Some((line, rod)) = rods.lines.get(HEAD)
         {
-            let what = format!("the rod {:?}", shortened(rod.trim()));
-            return Err(FormatError::new(file, Some(*line), Wrong::OutOfScope(what)));
+            return Err(
+                At::line(file, *line).out_of_scope(format!("the rod {:?}", shortened(rod.trim())))
+            );
         }
         Ok(sections)
     }
@@ -125,11 +126,10 @@ impl<'a> Sections<'a> {
 
     pub(super) fn need(&self, section: Section) -> Result<&Table<'a>> {
         self.get(section).ok_or_else(|| {
-            let what = format!(
+            At::file(self.file).missing(format!(
                 "section {}",
                 HEADINGS.iter().find(|(_, one)| *one == section).map_or("", |(name, _)| name)
-            );
-            FormatError::new(self.file, None, Wrong::Missing(what))
+            ))
         })
     }
 
@@ -146,8 +146,7 @@ fn heading(line: &str, file: &str, number: usize) -> Result<Section> {
     }
     let known = HEADINGS.iter().find(|(name, _)| text.contains(name));
     known.map(|(_, section)| *section).ok_or_else(|| {
-        let what = format!("the section {:?}", shortened(&text));
-        FormatError::new(file, Some(number), Wrong::Unknown(what))
+        At::line(file, number).unknown(format!("the section {:?}", shortened(&text)))
     })
 }
 
@@ -156,8 +155,9 @@ impl<'a> Table<'a> {
     /// the names that it goes by; those without a name are known and have no bearing on statics.
     pub(super) fn rows(&self, known: &[(&'static str, &[&str])]) -> Result<Vec<Row<'a>>> {
         let Some((line, names)) = self.lines.first() else {
-            let what = "line with the names of the columns".to_owned();
-            return Err(FormatError::new(self.file, Some(self.heading), Wrong::Missing(what)));
+            return Err(
+                At::line(self.file, self.heading).missing("line with the names of the columns")
+            );
         };
         let mut columns = HashMap::new();
         let names: Vec<_> = names.split_whitespace().collect();
@@ -167,12 +167,12 @@ impl<'a> Table<'a> {
             let find = |name: &str| known.iter().find(|(_, aliases)| aliases.contains(&name));
             let column = find(name).or_else(|| find(&lower));
             let Some((column, _)) = column else {
-                let what = format!("the column {:?}", shortened(name));
-                return Err(FormatError::new(self.file, Some(*line), Wrong::Unknown(what)));
+                return Err(
+                    At::line(self.file, *line).unknown(format!("the column {:?}", shortened(name)))
+                );
             };
             if !column.is_empty() && columns.insert(*column, k).is_some() {
-                let what = format!("the column {name:?}");
-                return Err(FormatError::new(self.file, Some(*line), Wrong::Repeated(what)));
+                return Err(At::line(self.file, *line).repeated(format!("the column {name:?}")));
             }
         }
         let wanted = names.len() - usize::from(columns.get(FLAGS) == Some(&(names.len() - 1)));
@@ -181,7 +181,7 @@ impl<'a> Table<'a> {
             let words: Vec<_> = text.split_whitespace().collect();
             if words.len() < wanted {
                 let wrong = Wrong::Count { wanted, found: words.len() };
-                return Err(FormatError::new(self.file, Some(*line), wrong));
+                return Err(At::line(self.file, *line).error(wrong));
             }
             let (file, line) = (self.file, *line);
             Ok(Row { file, line, words, units, columns: columns.clone() })
@@ -191,14 +191,13 @@ impl<'a> Table<'a> {
 }
 
 impl Row<'_> {
-    pub(super) fn error(&self, wrong: Wrong) -> FormatError {
-        FormatError::new(self.file, Some(self.line), wrong)
+    pub(super) fn at(&self) -> At<'_> {
+        At::line(self.file, self.line)
     }
 
     pub(super) fn text(&self, column: &str) -> Result<&str> {
         let place = self.columns.get(column).copied();
-        let place =
-            place.ok_or_else(|| self.error(Wrong::Missing(format!("column for {column}"))))?;
+        let place = place.ok_or_else(|| self.at().missing(format!("column for {column}")))?;
         Ok(self.words[place])
     }
 
@@ -226,7 +225,7 @@ impl Row<'_> {
 
     /// A part of a column as a number.
     pub(super) fn as_number(&self, column: &str, text: &str) -> Result<f64> {
-        number(self.file, Some(self.line), column, text)
+        self.at().number(column, text)
     }
 
     /// The number of a column that need not be there.
@@ -235,6 +234,6 @@ impl Row<'_> {
     }
 
     pub(super) fn positive(&self, column: &str) -> Result<f64> {
-        positive(self.file, Some(self.line), column, self.text(column)?)
+        self.at().positive(column, self.text(column)?)
     }
 }

@@ -23,7 +23,7 @@ use model::system::{Joint, Member, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2, Vector};
 use numerics::vector::{minus, norm};
 
-use crate::error::{FormatError, Result, Wrong, number, positive, shortened};
+use crate::error::{At, Result, Wrong, shortened};
 use crate::system::drawing::support;
 use crate::system::{ForeignSystem, among};
 use tcl::{Command, Script, Variables};
@@ -63,7 +63,7 @@ struct Deck<'a> {
 /// Read a deck.
 ///
 /// # Errors
-/// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
+/// [`FormatError`](crate::FormatError) with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_opensees(text: &str, file: &str) -> Result<ForeignSystem> {
     let mut deck = Deck {
         file,
@@ -92,30 +92,22 @@ struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    fn error(&self, wrong: Wrong) -> FormatError {
-        FormatError::new(self.file, Some(self.command.line), wrong)
-    }
-
-    fn unknown(&self, what: String) -> FormatError {
-        self.error(Wrong::Unknown(what))
-    }
-
-    fn missing(&self, what: String) -> FormatError {
-        self.error(Wrong::Missing(what))
+    fn at(&self) -> At<'a> {
+        At::line(self.file, self.command.line)
     }
 
     fn get(&self, k: usize) -> Result<&'a str> {
         let words = &self.command.words;
         let wrong = Wrong::Count { wanted: k + 1, found: words.len() };
-        words.get(k).map(String::as_str).ok_or_else(|| self.error(wrong))
+        words.get(k).map(String::as_str).ok_or_else(|| self.at().error(wrong))
     }
 
     fn number(&self, k: usize, what: &str) -> Result<f64> {
-        number(self.file, Some(self.command.line), what, self.get(k)?)
+        self.at().number(what, self.get(k)?)
     }
 
     fn positive(&self, k: usize, what: &str) -> Result<f64> {
-        positive(self.file, Some(self.command.line), what, self.get(k)?)
+        self.at().positive(what, self.get(k)?)
     }
 
     /// The number behind an option, from the word `first` on.
@@ -128,7 +120,7 @@ impl<'a> Words<'a> {
     fn options(&self, first: usize, known: &[&str]) -> Result<()> {
         let words = self.command.words.iter().skip(first).step_by(2);
         match words.into_iter().find(|word| !known.contains(&word.as_str())) {
-            Some(word) => Err(self.unknown(format!("the word {:?}", shortened(word)))),
+            Some(word) => Err(self.at().unknown(format!("the word {:?}", shortened(word)))),
             None => Ok(()),
         }
     }
@@ -142,7 +134,7 @@ impl Deck<'_> {
             return Ok(());
         }
         if let Some(executed) = &words.command.executed {
-            return Err(words.unknown(format!("the command [{executed}] within another")));
+            return Err(words.at().unknown(format!("the command [{executed}] within another")));
         }
         match name {
             "model" => self.model(words),
@@ -153,7 +145,7 @@ impl Deck<'_> {
             "element" => self.element(words),
             "timeSeries" => self.series(words),
             "pattern" => self.pattern(words),
-            _ => Err(words.unknown(format!("the command {:?}", shortened(name)))),
+            _ => Err(words.at().unknown(format!("the command {:?}", shortened(name)))),
         }
     }
 
@@ -163,7 +155,7 @@ impl Deck<'_> {
         let is = |known: f64| dimensions.is_some_and(|n| (n - known).abs() <= 0.0);
         self.dimensions = if is(2.0) { 2 } else { 3 * usize::from(is(3.0)) };
         if self.dimensions == 0 {
-            return Err(words.unknown("a model that has not -ndm 2 or 3".to_owned()));
+            return Err(words.at().unknown("a model that has not -ndm 2 or 3"));
         }
         Ok(())
     }
@@ -172,7 +164,7 @@ impl Deck<'_> {
     fn vector(&self, words: &Words<'_>, first: usize, what: &str) -> Result<Vector> {
         let one = |k: usize| words.number(first + k, what);
         match self.dimensions {
-            0 => Err(words.missing("model before it".to_owned())),
+            0 => Err(words.at().missing("model before it")),
             2 => Ok([one(0)?, 0.0, one(1)?]),
             _ => Ok([one(0)?, one(1)?, one(2)?]),
         }
@@ -181,22 +173,22 @@ impl Deck<'_> {
     /// The number of a node.
     fn known(&self, words: &Words<'_>, tag: &str) -> Result<usize> {
         let number = self.numbers.get(tag).copied();
-        number.ok_or_else(|| words.missing(format!("node {:?}", shortened(tag))))
+        number.ok_or_else(|| words.at().missing(format!("node {:?}", shortened(tag))))
     }
 
     fn node(&mut self, words: &Words<'_>) -> Result<()> {
         let room = self.budget.fits_members(self.nodes.len() + 1, BYTES_PER_MEMBER);
-        room.map_err(|error| words.error(Wrong::Memory(error)))?;
+        room.map_err(|error| words.at().memory(error))?;
         let (name, at_m) = (words.get(1)?.to_owned(), self.vector(words, 2, "a coordinate")?);
         if self.numbers.insert(name.clone(), self.nodes.len()).is_some() {
-            return Err(words.error(Wrong::Repeated(format!("node {name}"))));
+            return Err(words.at().repeated(format!("node {name}")));
         }
         let free = [true, self.dimensions == 3, true];
         self.nodes.push(Node { name, at_m, free, mass_kg: 0.0, force_n: [0.0; 3] });
         match words.command.words.get(2 + self.dimensions).map(String::as_str) {
             None => Ok(()),
             Some("-mass") => self.mass(words, words.get(1)?, 3 + self.dimensions),
-            Some(word) => Err(words.unknown(format!("the word {:?}", shortened(word)))),
+            Some(word) => Err(words.at().unknown(format!("the word {:?}", shortened(word)))),
         }
     }
 
@@ -216,8 +208,8 @@ impl Deck<'_> {
         let same = |(mass, free): (f64, bool)| !free || (mass - mass_kg).abs() <= 0.0;
         let free = [true, self.dimensions == 3, true];
         if mass_kg < 0.0 || !masses.into_iter().zip(free).all(same) {
-            let what = "a mass that differs by direction, or a negative one,".to_owned();
-            return Err(words.error(Wrong::OutOfScope(what)));
+            let what = "a mass that differs by direction, or a negative one,";
+            return Err(words.at().out_of_scope(what));
         }
         self.nodes[node].mass_kg = mass_kg;
         Ok(())
@@ -228,11 +220,12 @@ impl Deck<'_> {
         // What follows is damping, and another modulus in compression.
         if kind != "Elastic" || words.command.words.len() > 5 {
             let what = format!("the material {:?}", shortened(&words.command.words[1..].join(" ")));
-            return Err(words.unknown(what).with_help("known is: uniaxialMaterial Elastic TAG E"));
+            let error = words.at().unknown(what);
+            return Err(error.with_help("known is: uniaxialMaterial Elastic TAG E"));
         }
         let (tag, young_pa) = (words.get(2)?.to_owned(), words.positive(3, "E")?);
         if self.materials.insert(tag.clone(), young_pa).is_some() {
-            return Err(words.error(Wrong::Repeated(format!("material {tag}"))));
+            return Err(words.at().repeated(format!("material {tag}")));
         }
         Ok(())
     }
@@ -240,23 +233,21 @@ impl Deck<'_> {
     fn element(&mut self, words: &Words<'_>) -> Result<()> {
         let kind = words.get(1)?.to_lowercase();
         if kind != "truss" && kind != "corottruss" {
-            return Err(words.unknown(format!("the element {:?}", shortened(words.get(1)?))));
+            return Err(words.at().unknown(format!("the element {:?}", shortened(words.get(1)?))));
         }
         let room = self.budget.fits_members(self.members.len() + 1, BYTES_PER_MEMBER);
-        room.map_err(|error| words.error(Wrong::Memory(error)))?;
+        room.map_err(|error| words.at().memory(error))?;
         words.options(7, &["-rho", "-cMass", "-doRayleigh"])?;
         let [a, b] = [self.known(words, words.get(3)?)?, self.known(words, words.get(4)?)?];
         let (area_m2, material) = (words.positive(5, "A")?, words.get(6)?);
         let Some(young_pa) = self.materials.get(material) else {
-            return Err(words.missing(format!("material {:?}", shortened(material))));
+            return Err(words.at().missing(format!("material {:?}", shortened(material))));
         };
         if words.option(7, "-cMass")?.is_some_and(|full| full.abs() > 0.0) {
-            let what = "a mass that is not at the nodes (-cMass)".to_owned();
-            return Err(words.error(Wrong::OutOfScope(what)));
+            return Err(words.at().out_of_scope("a mass that is not at the nodes (-cMass)"));
         }
         let length_m = norm(minus(self.nodes[b].at_m, self.nodes[a].at_m));
-        let body = Bar::homogeneous(length_m, 0.0)
-            .map_err(|error| words.error(Wrong::NoSystem(error.to_string())))?;
+        let body = Bar::homogeneous(length_m, 0.0).map_err(|error| words.at().no_system(error))?;
         self.members.push(Member::bar(a, b, body).with_stiffness(young_pa * area_m2));
         let half_kg = 0.5 * words.option(7, "-rho")?.unwrap_or_default() * length_m;
         for node in [a, b] {
@@ -269,7 +260,7 @@ impl Deck<'_> {
     fn series(&mut self, words: &Words<'_>) -> Result<()> {
         let kind = words.get(1)?;
         if kind != "Linear" && kind != "Constant" {
-            return Err(words.unknown(format!("the time series {:?}", shortened(kind))));
+            return Err(words.at().unknown(format!("the time series {:?}", shortened(kind))));
         }
         words.options(3, &["-factor"])?;
         let factor = words.option(3, "-factor")?.unwrap_or(1.0);
@@ -282,37 +273,39 @@ impl Deck<'_> {
         let all = &words.command.words;
         let (kind, series) = (words.get(1)?, words.get(3)?);
         let (Some(line), Some(body)) = (words.command.body, all.last()) else {
-            return Err(words.missing("body of the pattern, in braces".to_owned()));
+            return Err(words.at().missing("body of the pattern, in braces"));
         };
         if kind != "Plain" {
-            return Err(words.unknown(format!("the pattern {:?}", shortened(kind))));
+            return Err(words.at().unknown(format!("the pattern {:?}", shortened(kind))));
         }
         let factor = match series {
             "Linear" | "Constant" => 1.0,
             tag => *self
                 .series
                 .get(tag)
-                .ok_or_else(|| words.missing(format!("time series {:?}", shortened(tag))))?,
+                .ok_or_else(|| words.at().missing(format!("time series {:?}", shortened(tag))))?,
         };
         let factor = match &all[4..all.len() - 1] {
             [] => factor,
             [fact, by] if fact == "-fact" || fact == "-factor" => {
-                factor * number(self.file, Some(line), fact, by)?
+                factor * At::line(self.file, line).number(fact, by)?
             }
-            [word, ..] => return Err(words.unknown(format!("the word {:?}", shortened(word)))),
+            [word, ..] => {
+                return Err(words.at().unknown(format!("the word {:?}", shortened(word))));
+            }
         };
         let mut script = Script::new(self.file, body, line);
         while let Some(command) = script.next(&mut self.variables)? {
             let words = Words { file: self.file, command: &command };
             if words.get(0)? != "load" || command.executed.is_some() {
                 let what = format!("the load {:?}", shortened(&command.words.join(" ")));
-                return Err(words.unknown(what));
+                return Err(words.at().unknown(what));
             }
             let node = self.known(&words, words.get(1)?)?;
             let force_n = self.vector(&words, 2, "a load")?;
             for k in 2 + self.dimensions..command.words.len() {
                 if words.number(k, "a moment")?.abs() > 0.0 {
-                    return Err(words.error(Wrong::OutOfScope("a moment".to_owned())));
+                    return Err(words.at().out_of_scope("a moment"));
                 }
             }
             for (sum, force_n) in self.nodes[node].force_n.iter_mut().zip(force_n) {
@@ -323,8 +316,7 @@ impl Deck<'_> {
     }
 
     fn system(self) -> Result<ForeignSystem> {
-        let missing =
-            |what: &str| Err(FormatError::new(self.file, None, Wrong::Missing(what.to_owned())));
+        let missing = |what: &str| Err(At::file(self.file).missing(what.to_owned()));
         if self.members.is_empty() {
             return missing("element");
         }
@@ -350,7 +342,7 @@ impl Deck<'_> {
         let joints = self.nodes.into_iter().map(joint).collect();
         let name = Path::new(self.file).file_stem().unwrap_or_default().to_string_lossy();
         let system = System::new(name, STANDARD_GRAVITY_M_S2, joints, self.members);
-        let system = system.map_err(|error| super::no_system(self.file, &error))?;
+        let system = system.map_err(|error| At::file(self.file).no_system(error))?;
         Ok(ForeignSystem { system, notes, floor_m: None })
     }
 }

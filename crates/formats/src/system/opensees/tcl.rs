@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::expr;
-use crate::error::{FormatError, Result, Wrong, shortened};
+use crate::error::{At, Result, shortened};
 
 /// Letters of one word, with the values of its variables: no number has more.
 const MOST_LETTERS: usize = 1000;
@@ -111,12 +111,11 @@ impl<'a> Script<'a> {
             }
             if word.len() > MOST_LETTERS {
                 let what = format!("a word of more than {MOST_LETTERS} letters");
-                return Err(self.error(Wrong::Unknown(what)));
+                return Err(self.at().unknown(what));
             }
         }
         if quoted {
-            let missing = Wrong::Missing("end of a text in quotes".to_owned());
-            return Err(FormatError::new(self.file, Some(begun), missing));
+            return Err(At::line(self.file, begun).missing("end of a text in quotes"));
         }
         Ok(word)
     }
@@ -132,8 +131,7 @@ impl<'a> Script<'a> {
         };
         let value = variables.get(name).map(String::as_str);
         value.ok_or_else(|| {
-            let what = format!("value of the variable {:?}", shortened(name));
-            self.error(Wrong::Missing(what))
+            self.at().missing(format!("value of the variable {:?}", shortened(name)))
         })
     }
 
@@ -162,8 +160,7 @@ impl<'a> Script<'a> {
             }
         }
         expr::value(&text).ok_or_else(|| {
-            let what = format!("the arithmetic {:?}", shortened(inner));
-            FormatError::new(self.file, Some(line), Wrong::Unknown(what))
+            At::line(self.file, line).unknown(format!("the arithmetic {:?}", shortened(inner)))
         })
     }
 
@@ -181,7 +178,7 @@ impl<'a> Script<'a> {
             }
             escaped = !escaped && c == '\\';
         }
-        Err(self.error(Wrong::Missing(format!("{close:?} that closes {open:?}"))))
+        Err(self.at().missing(format!("{close:?} that closes {open:?}")))
     }
 
     /// A comment, which goes on behind a backslash at the end of its line.
@@ -206,8 +203,8 @@ impl<'a> Script<'a> {
         taken
     }
 
-    fn error(&self, wrong: Wrong) -> FormatError {
-        FormatError::new(self.file, Some(self.line), wrong)
+    fn at(&self) -> At<'a> {
+        At::line(self.file, self.line)
     }
 }
 
