@@ -68,27 +68,23 @@ impl Modes {
         /// How many threads share the census, 0 (the default) for those of the pool that it is called
         /// from. The answer does not depend on it.
         threads: usize,
-    }
-
-    /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all
-    /// modes of systems of up to 100 joints, and the lowest 20 of larger ones.
-    ///
-    /// ```
-    /// use funicular::prelude::*;
-    /// let problem = Problem::parse(
-    ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
-    ///      bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]",
-    ///     "long.toml",
-    /// )?;
-    /// let found = Modes::new().lowest(4).run(&problem)?;
-    /// let hanging = &found.equilibria[0];
-    /// // 199 joints, two directions, 200 lengths kept in the plane.
-    /// assert_eq!((hanging.modes.len(), hanging.modes_in_all), (4, 199 + 198));
-    /// # Ok::<(), Error>(())
-    /// ```
-    #[must_use]
-    pub fn lowest(self, count: usize) -> Self {
-        Self { lowest: Some(count), ..self }
+        /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all
+        /// modes of systems of up to 100 joints, and the lowest 20 of larger ones.
+        ///
+        /// ```
+        /// use funicular::prelude::*;
+        /// let problem = Problem::parse(
+        ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+        ///      bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]",
+        ///     "long.toml",
+        /// )?;
+        /// let found = Modes::new().lowest(4).run(&problem)?;
+        /// let hanging = &found.equilibria[0];
+        /// // 199 joints, two directions, 200 lengths kept in the plane.
+        /// assert_eq!((hanging.modes.len(), hanging.modes_in_all), (4, 199 + 198));
+        /// # Ok::<(), Error>(())
+        /// ```
+        lowest: usize => Some(lowest),
     }
 
     /// Find equilibria and their modes.

@@ -114,32 +114,6 @@ impl Trace {
         self
     }
 
-    /// From branch points of a load path follows the paths that branch off as well, from theirs too if
-    /// `depth` is 2, and so on; 0 (the default) follows none. Where several modes meet in one branch
-    /// point so many directions are tried, and there may be more paths.
-    ///
-    /// ```
-    /// use funicular::prelude::*;
-    /// // A gable so steep that its apex sways to a side before it snaps through.
-    /// let gable = Problem::parse(
-    ///     "[joints]\n\
-    ///      A = { at_m = [-1, 0, 0] }\n\
-    ///      B = { at_m = [1, 0, 0] }\n\
-    ///      P = { at_m = [0, 0, 3], near_m = [0, 0, 3], free = \"xz\", force_n = [0, 0, -1] }\n\
-    ///      [[bars]]\nmass_kg = 0\nfrom = \"A\"\nto = \"P\"\nstiffness_n = 5\n\
-    ///      [[bars]]\nmass_kg = 0\nfrom = \"P\"\nto = \"B\"\nstiffness_n = 5",
-    ///     "gable.toml",
-    /// )?;
-    /// let found = Trace::new().vary("loads=0..3")?.branches(1).run(&gable)?;
-    /// // To the left and to the right.
-    /// assert_eq!(found.load_paths().expect("load paths").paths().len(), 1 + 2);
-    /// # Ok::<(), Error>(())
-    /// ```
-    #[must_use]
-    pub fn branches(self, depth: usize) -> Self {
-        Self { branches: depth, ..self }
-    }
-
     /// Estimates beside a load path where it loses its stability, as linear buckling does: where the
     /// stiffness at its start, extrapolated along the load, is singular.
     #[must_use]
@@ -157,11 +131,32 @@ impl Trace {
             || !self.parameters.keep_row(problem)
     }
 
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called
-    /// from.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        Self { threads, ..self }
+    setters! {
+        /// From branch points of a load path follows the paths that branch off as well, from theirs too if
+        /// this depth is 2, and so on; 0 (the default) follows none. Where several modes meet in one branch
+        /// point so many directions are tried, and there may be more paths.
+        ///
+        /// ```
+        /// use funicular::prelude::*;
+        /// // A gable so steep that its apex sways to a side before it snaps through.
+        /// let gable = Problem::parse(
+        ///     "[joints]\n\
+        ///      A = { at_m = [-1, 0, 0] }\n\
+        ///      B = { at_m = [1, 0, 0] }\n\
+        ///      P = { at_m = [0, 0, 3], near_m = [0, 0, 3], free = \"xz\", force_n = [0, 0, -1] }\n\
+        ///      [[bars]]\nmass_kg = 0\nfrom = \"A\"\nto = \"P\"\nstiffness_n = 5\n\
+        ///      [[bars]]\nmass_kg = 0\nfrom = \"P\"\nto = \"B\"\nstiffness_n = 5",
+        ///     "gable.toml",
+        /// )?;
+        /// let found = Trace::new().vary("loads=0..3")?.branches(1).run(&gable)?;
+        /// // To the left and to the right.
+        /// assert_eq!(found.load_paths().expect("load paths").paths().len(), 1 + 2);
+        /// # Ok::<(), Error>(())
+        /// ```
+        branches: usize,
+        /// How many threads share the work, 0 (the default) for those of the pool that it is called
+        /// from.
+        threads: usize,
     }
 
     /// The paths of a chain, before any of them is followed.

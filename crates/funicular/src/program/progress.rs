@@ -1,5 +1,6 @@
 //! Progress on standard error, only where a person watches.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,6 +25,15 @@ impl Progress {
     /// Say what is going on now.
     pub fn say(&self, what: &str) {
         self.0.set_message(what.to_owned());
+    }
+
+    /// Says how many of all are done, each time that it is called.
+    pub fn counter(&self, all: usize, what: &'static str) -> impl Fn() + Sync {
+        let done = AtomicUsize::new(0);
+        move || {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            self.say(&format!("{done} of {all} {what}"));
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! `funicular study`: the hanging shape over a parameter.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 use funicular::Study;
@@ -121,11 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit> {
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     output::check(arguments.csv.iter().chain(&figures), &files)?;
     let progress = Progress::start();
-    let done = AtomicUsize::new(0);
-    let found = study.run_watched(&problem, &|| {
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress.say(&format!("{done} of {points} points"));
-    })?;
+    let found = study.run_watched(&problem, &progress.counter(points, "points"))?;
     drop(progress);
     // Results are replaced by results alone: a refusal comes before any file.
     if let Some(reason) = found.refused_everywhere() {
