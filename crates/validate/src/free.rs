@@ -12,6 +12,7 @@ use std::ops::{Range, RangeInclusive};
 
 use model::{Bar, Chain, Vector};
 use numerics::DoubleDouble;
+use numerics::vector::{minus, norm};
 
 use crate::lever::carried_kg;
 use crate::systems::STORED_ULPS;
@@ -80,7 +81,8 @@ fn stands_below(chain: &Chain, joints_m: &[Vector], run: &Range<usize>, enough_m
 /// Whether both ends of these bars are straight above or below their anchors.
 fn hangs_plumb(chain: &Chain, joints_m: &[Vector], run: &Range<usize>, enough_m: f64) -> bool {
     let [start, end] = plumb(chain, joints_m, run);
-    distance(joints_m[run.start], start) <= enough_m && distance(joints_m[run.end], end) <= enough_m
+    norm(minus(joints_m[run.start], start)) <= enough_m
+        && norm(minus(joints_m[run.end], end)) <= enough_m
 }
 
 /// Where the ends of the bars of a run are with all other bars plumb, each up or down as it is.
@@ -104,7 +106,7 @@ fn has_room(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> bool {
     let reach_m = model::sum(lengths());
     let longest_m = lengths().fold(0.0, f64::max);
     let [start, end] = plumb(chain, joints_m, run);
-    let gap_m = distance(start, end);
+    let gap_m = norm(minus(start, end));
     let rounding_m = ROUNDINGS * f64::EPSILON * chain.total_length_m() + stored_rounding_m(chain);
     // How much longer one bar is than the others: with a gap of that the run lies folded on one
     // line.
@@ -140,11 +142,6 @@ fn squares(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> [DoubleDou
     let folded = point(longest_m) + point(longest_m) - reach;
     let [x, y, z] = gap.map(DoubleDouble::square);
     [x + y + z, reach.square(), folded.square()]
-}
-
-fn distance(a: Vector, b: Vector) -> f64 {
-    let [x, y, z] = std::array::from_fn(|k| a[k] - b[k]);
-    f64::hypot(x, y).hypot(z)
 }
 
 #[cfg(test)]

@@ -9,12 +9,10 @@ use serde::Serialize;
 use super::best_forces::{BestForces, best_forces};
 use super::bounds::Bounds;
 use super::digits::printed;
-use super::floor::{above_floor, laid};
+use super::floor::laid;
 use super::given::ForeignAnswer;
 use super::nearest::{Nearest, NearestEquilibrium, nearest};
-use super::violation::{
-    Measured, Violation, balance_found, balance_given, geometry_and_laws, tensions, whole,
-};
+use super::violation::{Held, Measured, Violation};
 use crate::systems::placed::{largest_n, placed};
 use crate::systems::{ABSURD, Scale, SystemStatics, certify, judge};
 use numerics::vector::norm;
@@ -246,11 +244,7 @@ fn trial(system: &System, answer: &ForeignAnswer, tolerance: f64, watch: &dyn Fn
     let given = answer.reactions_n.iter().flatten();
     let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
     let bounds = bounds.with_largest_force(largest);
-    let measured = |bounds: &Bounds| {
-        let mut measured = measure([system, &laid], answer, &completed, &forces, bounds);
-        above_floor(system, &completed, bounds, &mut measured);
-        measured
-    };
+    let measured = |bounds: &Bounds| measure([system, &laid], answer, &completed, &forces, bounds);
     let strict = measured(&bounds);
     let of_forces = strict.violations.iter().all(|violation| violation.law.unit() == "N");
     if answer.axial_n.is_some() && of_forces && !strict.violations.is_empty() {
@@ -291,7 +285,7 @@ fn confirmed_at(
     })
 }
 
-/// Every law but those of the floor: lengths and supports of the system, balances of what is laid on it.
+/// Every law: lengths, supports and floor of the system, balances of what is laid on it.
 fn measure(
     [system, laid]: [&System; 2],
     answer: &ForeignAnswer,
@@ -300,20 +294,20 @@ fn measure(
     bounds: &Bounds,
 ) -> Measured {
     let given = *forces == ForcesJudged::Given;
-    let mut measured = geometry_and_laws(system, completed, given, bounds);
-    let reactions_n = answer.reactions_n.as_deref();
+    let held = Held { system, answer: completed, bounds };
+    let mut measured = held.geometry_and_laws(given);
+    let (laid, reactions_n) = (Held { system: laid, ..held }, answer.reactions_n.as_deref());
     match forces {
         ForcesJudged::Given => {
-            tensions(system, answer, bounds, &mut measured);
-            balance_given(laid, completed, reactions_n, bounds, &mut measured);
+            held.tensions(answer, &mut measured);
+            laid.balance_given(reactions_n, &mut measured);
         }
-        ForcesJudged::Found(best) => {
-            balance_found(laid, completed, best, bounds, &mut measured);
-        }
+        ForcesJudged::Found(best) => laid.balance_found(best, &mut measured),
     }
     if let Some(reactions_n) = reactions_n {
-        whole(laid, reactions_n, bounds, &mut measured);
+        laid.whole(reactions_n, &mut measured);
     }
+    held.above_floor(&mut measured);
     measured
 }
 

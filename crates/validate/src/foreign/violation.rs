@@ -128,25 +128,186 @@ impl Measured {
     }
 }
 
-/// Supports, lengths and members' laws.
-pub(super) fn geometry_and_laws(
-    system: &System,
-    answer: &SystemEquilibrium,
-    given: bool,
-    bounds: &Bounds,
-) -> Measured {
-    let mut found = Measured::default();
-    for (k, joint) in system.joints().iter().enumerate() {
-        if let Some(off_m) = off_support_m(&joint.support, answer.joints_m[k]) {
-            found.note(Place::Joint(k), Law::Support, off_m, bounds.position_m);
+/// An answer that is held against the laws of a system.
+#[derive(Clone, Copy)]
+pub(super) struct Held<'a> {
+    pub(super) system: &'a System,
+    pub(super) answer: &'a SystemEquilibrium,
+    pub(super) bounds: &'a Bounds,
+}
+
+impl Held<'_> {
+    /// Supports, lengths and members' laws.
+    pub(super) fn geometry_and_laws(&self, given: bool) -> Measured {
+        let Self { system, answer, bounds } = *self;
+        let mut found = Measured::default();
+        for (k, joint) in system.joints().iter().enumerate() {
+            if let Some(off_m) = off_support_m(&joint.support, answer.joints_m[k]) {
+                found.note(Place::Joint(k), Law::Support, off_m, bounds.position_m);
+            }
+        }
+        for (k, member) in system.members().iter().enumerate() {
+            let distance_m = spans::length_m(member, &answer.joints_m);
+            let force_n = given.then(|| answer.axial_n[k]);
+            law(member, distance_m, force_n, bounds, Place::Member(k + 1), &mut found);
+        }
+        found
+    }
+
+    /// The tension of each rope whose spans have forces of their own: on both sides of a joint each may be off.
+    pub(super) fn tensions(&self, answer: &ForeignAnswer, found: &mut Measured) {
+        let Self { system, bounds, .. } = *self;
+        for (k, spans_n) in &answer.spans_n {
+            for (joint, sides_n) in system.members()[*k].via().iter().zip(spans_n.windows(2)) {
+                let [before_n, after_n] = [sides_n[0], sides_n[1]];
+                let law = Law::Tension { member: k + 1, sides_n: [before_n, after_n] };
+                let off_n = (before_n - after_n).abs();
+                found.note(Place::Joint(*joint), law, off_n, 2.0 * bounds.force_n);
+            }
         }
     }
-    for (k, member) in system.members().iter().enumerate() {
-        let distance_m = spans::length_m(member, &answer.joints_m);
-        let force_n = given.then(|| answer.axial_n[k]);
-        law(member, distance_m, force_n, bounds, Place::Member(k + 1), &mut found);
+
+    /// What is left over at every joint along its free motions, and what the bounds explain there when
+    /// no force is larger than the answer's, or than `at_most_n` if that is given. A span whose joints have
+    /// run together bears anything up to its tension, or where forces are found what was found.
+    pub(super) fn balances(&self, at_most_n: Option<f64>) -> Vec<(Vector, f64)> {
+        let Self { system, answer, bounds } = *self;
+        let mut left: Vec<(Vector, f64)> =
+            system.joint_loads_n().into_iter().map(|load| (load, bounds.force_n)).collect();
+        let joints_m = &answer.joints_m;
+        for (member, force) in system.members().iter().zip(&answer.axial_n) {
+            for [a, b] in member.spans() {
+                let distance_m = norm(minus(joints_m[b], joints_m[a]));
+                let (pull, open_n) = if bounds.meet(member, [a, b], joints_m) {
+                    ([0.0; 3], at_most_n.map_or(force.abs(), |_| 0.0))
+                } else {
+                    let pull = times(*force, spans::unit([a, b], joints_m));
+                    let most_n =
+                        at_most_n.map_or(force.abs(), |n| n.min(most_n(member, joints_m, bounds)));
+                    (pull, most_n * bounds.turn(distance_m))
+                };
+                let explained = bounds.force_n + open_n;
+                left[a] = (plus(left[a].0, pull), left[a].1 + explained);
+                left[b] = (minus(left[b].0, pull), left[b].1 + explained);
+            }
+        }
+        left
     }
-    found
+
+    /// Joints that have run together on a rope: the span between them bears what one of them is out of balance by, up to its
+    /// tension, but nothing of what all of them together are. The first joint of each such group, what is left
+    /// over along the motions that all of their supports leave free, and what the bounds explain.
+    fn balances_of_groups(&self) -> Vec<(usize, Vector, f64)> {
+        let Self { system, answer, bounds } = *self;
+        let at_m = &answer.joints_m;
+        let spans = system
+            .members()
+            .iter()
+            .flat_map(|member| member.spans().map(move |span| (member, span)));
+        let tied: Vec<[usize; 2]> = spans
+            .filter(|(member, span)| bounds.meet(member, *span, at_m))
+            .map(|(_, span)| span)
+            .collect();
+        if tied.is_empty() {
+            return Vec::new();
+        }
+        let mut group: Vec<usize> = (0..at_m.len()).collect();
+        for [a, b] in tied {
+            let (into, from) = (group[a], group[b]);
+            group.iter_mut().filter(|of| **of == from).for_each(|of| *of = into);
+        }
+        let mut left: Vec<(Vector, f64)> = vec![([0.0; 3], 0.0); at_m.len()];
+        for (load, of) in system.joint_loads_n().into_iter().zip(&group) {
+            left[*of] = (plus(left[*of].0, load), left[*of].1 + bounds.force_n);
+        }
+        for (member, force) in system.members().iter().zip(&answer.axial_n) {
+            for [a, b] in member.spans().filter(|[a, b]| group[*a] != group[*b]) {
+                let distance_m = norm(minus(at_m[b], at_m[a]));
+                let pull = times(*force, spans::unit([a, b], at_m));
+                let explained = bounds.force_n + force.abs() * bounds.turn(distance_m);
+                for (of, pull) in [(group[a], pull), (group[b], times(-1.0, pull))] {
+                    left[of] = (plus(left[of].0, pull), left[of].1 + explained);
+                }
+            }
+        }
+        let mut joints: Vec<Vec<usize>> = vec![Vec::new(); at_m.len()];
+        for (joint, of) in group.into_iter().enumerate() {
+            joints[of].push(joint);
+        }
+        let groups = joints.into_iter().zip(left).filter(|(all, _)| all.len() > 1);
+        let of_group = |(all, (left_n, allowed)): (Vec<usize>, (Vector, f64))| {
+            // Which motions are left is a matter of directions: the places differ by what the bounds explain.
+            let support = |joint: &usize| {
+                let mut support = system.joints()[*joint].support;
+                support.at_m_mut().into_iter().for_each(|at_m| *at_m = [0.0; 3]);
+                support
+            };
+            let both = |a: Support, b: Support| a.meeting(&b).unwrap_or(a);
+            let left_n = all.iter().map(support).fold(Support::Free, both).free_part(left_n);
+            (all[0], left_n, allowed)
+        };
+        groups.map(of_group).collect()
+    }
+
+    /// The balance of joints whose forces are given.
+    pub(super) fn balance_given(&self, reactions_n: Option<&[Vector]>, found: &mut Measured) {
+        let Self { system, .. } = *self;
+        for (k, (left, allowed)) in self.balances(None).into_iter().enumerate() {
+            let support = &system.joints()[k].support;
+            let left_n = support.free_part(left);
+            if !support.is_fixed() {
+                found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), allowed);
+            }
+            if let Some(given) = reactions_n {
+                let (given_n, wanted_n) = (given[k], times(-1.0, minus(left, left_n)));
+                let off = norm(minus(given_n, wanted_n));
+                found.note(Place::Joint(k), Law::Reaction { given_n, wanted_n }, off, allowed);
+            }
+        }
+        for (first, left_n, allowed) in self.balances_of_groups() {
+            found.note(Place::Joint(first), Law::Balance { left_n }, norm(left_n), allowed);
+        }
+    }
+
+    /// The balance of joints whose forces were found: all of them together, since no other forces leave
+    /// less than [`BestForces::least_n`].
+    ///
+    /// A violation where forces up to [`BestForces::up_to_n`] cannot explain that; the joints are those
+    /// where most is left over. Open too where a span without length would bear more than its tension.
+    pub(super) fn balance_found(&self, best: &BestForces, found: &mut Measured) {
+        let Self { system, .. } = *self;
+        let balances = self.balances(Some(best.up_to_n));
+        let movable = || {
+            let joints = system.joints().iter().zip(&balances).enumerate();
+            joints.filter(|(_, (joint, _))| !joint.support.is_fixed())
+        };
+        let explained_n =
+            model::sum(movable().map(|(_, (_, (_, allowed)))| allowed * allowed)).sqrt();
+        if best.least_n > 0.0 {
+            found.largest = found.largest.max(best.least_n / explained_n);
+        }
+        if best.least_n <= explained_n {
+            let torn = |jam: &Jam| norm(jam.pull_n) > best.axial_n[jam.member].abs() + explained_n;
+            found.open = best.residual_n > explained_n || best.jams.iter().any(torn);
+            return;
+        }
+        // At least one joint is above its share, or they would not be together.
+        for (k, (_, (_, allowed))) in movable() {
+            let left_n = best.left_n[k];
+            found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), *allowed);
+        }
+    }
+
+    /// Given forces of the ground against all loads. No position enters, so every digit counts.
+    pub(super) fn whole(&self, reactions_n: &[Vector], found: &mut Measured) {
+        let Self { system, bounds, .. } = *self;
+        let loads = system.joint_loads_n();
+        let all = || loads.iter().chain(reactions_n);
+        let left_n: Vector = std::array::from_fn(|c| model::sum(all().map(|force| force[c])));
+        let supported = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
+        let allowed = bounds.force_n * supported.count().max(1) as f64;
+        found.note(Place::Whole, Law::Whole { left_n }, norm(left_n), allowed);
+    }
 }
 
 /// How far a joint is from its support; nothing for a free one.
@@ -188,54 +349,6 @@ fn law(
     }
 }
 
-/// The tension of each rope whose spans have forces of their own: on both sides of a joint each may be off.
-pub(super) fn tensions(
-    system: &System,
-    answer: &ForeignAnswer,
-    bounds: &Bounds,
-    found: &mut Measured,
-) {
-    for (k, spans_n) in &answer.spans_n {
-        for (joint, sides_n) in system.members()[*k].via().iter().zip(spans_n.windows(2)) {
-            let [before_n, after_n] = [sides_n[0], sides_n[1]];
-            let law = Law::Tension { member: k + 1, sides_n: [before_n, after_n] };
-            let off_n = (before_n - after_n).abs();
-            found.note(Place::Joint(*joint), law, off_n, 2.0 * bounds.force_n);
-        }
-    }
-}
-
-/// What is left over at every joint along its free motions, and what the bounds explain there when
-/// no force is larger than the answer's, or than `at_most_n` if that is given. A span whose joints have
-/// run together bears anything up to its tension, or where forces are found what was found.
-pub(super) fn balances(
-    system: &System,
-    answer: &SystemEquilibrium,
-    at_most_n: Option<f64>,
-    bounds: &Bounds,
-) -> Vec<(Vector, f64)> {
-    let mut left: Vec<(Vector, f64)> =
-        system.joint_loads_n().into_iter().map(|load| (load, bounds.force_n)).collect();
-    let joints_m = &answer.joints_m;
-    for (member, force) in system.members().iter().zip(&answer.axial_n) {
-        for [a, b] in member.spans() {
-            let distance_m = norm(minus(joints_m[b], joints_m[a]));
-            let (pull, open_n) = if bounds.meet(member, [a, b], joints_m) {
-                ([0.0; 3], at_most_n.map_or(force.abs(), |_| 0.0))
-            } else {
-                let pull = times(*force, spans::unit([a, b], joints_m));
-                let most_n =
-                    at_most_n.map_or(force.abs(), |n| n.min(most_n(member, joints_m, bounds)));
-                (pull, most_n * bounds.turn(distance_m))
-            };
-            let explained = bounds.force_n + open_n;
-            left[a] = (plus(left[a].0, pull), left[a].1 + explained);
-            left[b] = (minus(left[b].0, pull), left[b].1 + explained);
-        }
-    }
-    left
-}
-
 /// What a member may bear by its law at lengths that the bounds allow: nothing where it is slack, what its elongation tells
 /// where it is elastic.
 fn most_n(member: &Member, joints_m: &[Vector], bounds: &Bounds) -> f64 {
@@ -250,135 +363,6 @@ fn most_n(member: &Member, joints_m: &[Vector], bounds: &Bounds) -> f64 {
         (None, Kind::Strut) if distance_m > length_m + reach_m => 0.0,
         _ => f64::INFINITY,
     }
-}
-
-/// Joints that have run together on a rope: the span between them bears what one of them is out of balance by, up to its
-/// tension, but nothing of what all of them together are. The first joint of each such group, what is left
-/// over along the motions that all of their supports leave free, and what the bounds explain.
-fn balances_of_groups(
-    system: &System,
-    answer: &SystemEquilibrium,
-    bounds: &Bounds,
-) -> Vec<(usize, Vector, f64)> {
-    let at_m = &answer.joints_m;
-    let spans =
-        system.members().iter().flat_map(|member| member.spans().map(move |span| (member, span)));
-    let tied: Vec<[usize; 2]> = spans
-        .filter(|(member, span)| bounds.meet(member, *span, at_m))
-        .map(|(_, span)| span)
-        .collect();
-    if tied.is_empty() {
-        return Vec::new();
-    }
-    let mut group: Vec<usize> = (0..at_m.len()).collect();
-    for [a, b] in tied {
-        let (into, from) = (group[a], group[b]);
-        group.iter_mut().filter(|of| **of == from).for_each(|of| *of = into);
-    }
-    let mut left: Vec<(Vector, f64)> = vec![([0.0; 3], 0.0); at_m.len()];
-    for (load, of) in system.joint_loads_n().into_iter().zip(&group) {
-        left[*of] = (plus(left[*of].0, load), left[*of].1 + bounds.force_n);
-    }
-    for (member, force) in system.members().iter().zip(&answer.axial_n) {
-        for [a, b] in member.spans().filter(|[a, b]| group[*a] != group[*b]) {
-            let distance_m = norm(minus(at_m[b], at_m[a]));
-            let pull = times(*force, spans::unit([a, b], at_m));
-            let explained = bounds.force_n + force.abs() * bounds.turn(distance_m);
-            for (of, pull) in [(group[a], pull), (group[b], times(-1.0, pull))] {
-                left[of] = (plus(left[of].0, pull), left[of].1 + explained);
-            }
-        }
-    }
-    let mut joints: Vec<Vec<usize>> = vec![Vec::new(); at_m.len()];
-    for (joint, of) in group.into_iter().enumerate() {
-        joints[of].push(joint);
-    }
-    let groups = joints.into_iter().zip(left).filter(|(all, _)| all.len() > 1);
-    let of_group = |(all, (left_n, allowed)): (Vec<usize>, (Vector, f64))| {
-        // Which motions are left is a matter of directions: the places differ by what the bounds explain.
-        let support = |joint: &usize| {
-            let mut support = system.joints()[*joint].support;
-            support.at_m_mut().into_iter().for_each(|at_m| *at_m = [0.0; 3]);
-            support
-        };
-        let both = |a: Support, b: Support| a.meeting(&b).unwrap_or(a);
-        let left_n = all.iter().map(support).fold(Support::Free, both).free_part(left_n);
-        (all[0], left_n, allowed)
-    };
-    groups.map(of_group).collect()
-}
-
-/// The balance of joints whose forces are given.
-pub(super) fn balance_given(
-    system: &System,
-    answer: &SystemEquilibrium,
-    reactions_n: Option<&[Vector]>,
-    bounds: &Bounds,
-    found: &mut Measured,
-) {
-    for (k, (left, allowed)) in balances(system, answer, None, bounds).into_iter().enumerate() {
-        let support = &system.joints()[k].support;
-        let left_n = support.free_part(left);
-        if !support.is_fixed() {
-            found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), allowed);
-        }
-        if let Some(given) = reactions_n {
-            let (given_n, wanted_n) = (given[k], times(-1.0, minus(left, left_n)));
-            let off = norm(minus(given_n, wanted_n));
-            found.note(Place::Joint(k), Law::Reaction { given_n, wanted_n }, off, allowed);
-        }
-    }
-    for (first, left_n, allowed) in balances_of_groups(system, answer, bounds) {
-        found.note(Place::Joint(first), Law::Balance { left_n }, norm(left_n), allowed);
-    }
-}
-
-/// The balance of joints whose forces were found: all of them together, since no other forces leave
-/// less than [`BestForces::least_n`].
-///
-/// A violation where forces up to [`BestForces::up_to_n`] cannot explain that; the joints are those
-/// where most is left over. Open too where a span without length would bear more than its tension.
-pub(super) fn balance_found(
-    system: &System,
-    answer: &SystemEquilibrium,
-    best: &BestForces,
-    bounds: &Bounds,
-    found: &mut Measured,
-) {
-    let balances = balances(system, answer, Some(best.up_to_n), bounds);
-    let movable = || {
-        let joints = system.joints().iter().zip(&balances).enumerate();
-        joints.filter(|(_, (joint, _))| !joint.support.is_fixed())
-    };
-    let explained_n = model::sum(movable().map(|(_, (_, (_, allowed)))| allowed * allowed)).sqrt();
-    if best.least_n > 0.0 {
-        found.largest = found.largest.max(best.least_n / explained_n);
-    }
-    if best.least_n <= explained_n {
-        let torn = |jam: &Jam| norm(jam.pull_n) > best.axial_n[jam.member].abs() + explained_n;
-        found.open = best.residual_n > explained_n || best.jams.iter().any(torn);
-        return;
-    }
-    // At least one joint is above its share, or they would not be together.
-    for (k, (_, (_, allowed))) in movable() {
-        let left_n = best.left_n[k];
-        found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), *allowed);
-    }
-}
-
-/// Given forces of the ground against all loads. No position enters, so every digit counts.
-pub(super) fn whole(
-    system: &System,
-    reactions_n: &[Vector],
-    bounds: &Bounds,
-    found: &mut Measured,
-) {
-    let loads = system.joint_loads_n();
-    let all = || loads.iter().chain(reactions_n);
-    let left_n: Vector = std::array::from_fn(|c| model::sum(all().map(|force| force[c])));
-    let supported = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
-    let allowed = bounds.force_n * supported.count().max(1) as f64;
-    found.note(Place::Whole, Law::Whole { left_n }, norm(left_n), allowed);
 }
 
 #[cfg(test)]

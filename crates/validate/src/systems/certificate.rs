@@ -202,7 +202,8 @@ impl<'a> Below<'a> {
     pub(super) fn pull(&mut self, [a, b]: [usize; 2], pull: Vector, size_n: f64) {
         self.gradient_n[b].0 = plus(self.gradient_n[b].0, pull);
         self.gradient_n[a].0 = minus(self.gradient_n[a].0, pull);
-        [a, b].into_iter().for_each(|joint| self.gradient_n[joint].1 += size_n);
+        self.gradient_n[a].1 += size_n;
+        self.gradient_n[b].1 += size_n;
     }
 
     /// A lower bound of the value, J, and upper bounds of the gradient by the places that each joint may take, N,

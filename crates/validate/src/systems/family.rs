@@ -390,7 +390,7 @@ fn size(vector: &[f64]) -> f64 {
 }
 
 /// A vector of unit length; without value of one that vanishes.
-fn normalised(vector: &[f64]) -> Option<Vec<f64>> {
+pub(super) fn normalised(vector: &[f64]) -> Option<Vec<f64>> {
     let size = size(vector);
     (size > 0.0).then(|| vector.iter().map(|x| x / size).collect())
 }

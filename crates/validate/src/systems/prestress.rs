@@ -23,6 +23,7 @@ use matrices::dense::{Kernels, eigen, eigenvalues};
 use model::Vector;
 use model::system::{Kind, Support, System};
 
+use super::family::normalised;
 use nalgebra::DMatrix;
 use numerics::vector::{cross, dot, minus, norm, times};
 
@@ -173,7 +174,7 @@ impl<'a> Geometry<'a> {
         }
         let free = |support: &Support| match standing {
             Standing::Supported => support.motions(),
-            Standing::Free => vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Standing::Free => Support::Free.motions(),
         };
         let joints = system.joints().iter().enumerate();
         let coordinates: Vec<_> = joints
@@ -218,7 +219,7 @@ impl<'a> Geometry<'a> {
         let count = self.joints_m.len() as f64;
         let middle = [0, 1, 2].map(|c| self.joints_m.iter().map(|x| x[c]).sum::<f64>() / count);
         let size = self.joints_m.iter().map(|x| norm(minus(*x, middle))).fold(0.0, f64::max);
-        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let axes = Support::Free.motions();
         let field = |at: &dyn Fn(usize) -> Vector| {
             self.coordinates.iter().map(|(joint, axis)| dot(*axis, at(*joint))).collect()
         };
@@ -327,7 +328,7 @@ impl Form {
         let mut best: Option<(f64, Vec<f64>)> = None;
         // What all members together would like: cables pull, struts push.
         let wish: Vec<f64> = system.members().iter().map(|member| sign(member.kind)).collect();
-        let mut z = unit(&onto(&wish)).or_else(|| unit(&vec![1.0; basis.len()]))?;
+        let mut z = normalised(&onto(&wish)).or_else(|| normalised(&vec![1.0; basis.len()]))?;
         // Of one stress there are two directions, and nothing between them.
         let steps = if basis.len() == 1 { 2 } else { STEPS };
         for step in 1..=steps {
@@ -353,10 +354,10 @@ impl Form {
                 z = vec![-z[0]];
                 continue;
             }
-            let Some(uphill) = unit(&uphill) else { break };
+            let Some(uphill) = normalised(&uphill) else { break };
             let part = 1.0 / f64::from(step).sqrt();
             let next: Vec<f64> = z.iter().zip(&uphill).map(|(z, up)| z + part * up).collect();
-            z = unit(&next)?;
+            z = normalised(&next)?;
         }
         best.map(|(_, axial)| axial)
     }
@@ -366,12 +367,6 @@ impl Form {
 fn scaled(axial: Vec<f64>) -> Option<Vec<f64>> {
     let largest = axial.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
     (largest > 0.0).then(|| axial.into_iter().map(|n| n / largest).collect())
-}
-
-/// A vector of unit length; nothing of one that vanishes.
-fn unit(vector: &[f64]) -> Option<Vec<f64>> {
-    let size = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (size > 0.0).then(|| vector.iter().map(|x| x / size).collect())
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ fn a_floor_that_is_passed_or_pulls_is_told() {
         let laid = laid(&floored, &joints_m, &KNOWN);
         let answer = placed(&laid, &SolverName::new("a table"), &joints_m, &[axial_n; 2]);
         let mut found = Measured::default();
-        above_floor(&floored, &answer, &KNOWN, &mut found);
+        Held { system: &floored, answer: &answer, bounds: &KNOWN }.above_floor(&mut found);
         found.violations
     };
     assert_eq!(told(-3.0, 0.0), []);

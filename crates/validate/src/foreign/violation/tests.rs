@@ -93,6 +93,10 @@ fn lamp_with(axial_n: [f64; 2]) -> (System, SystemEquilibrium) {
     (system, answer)
 }
 
+fn held<'a>(system: &'a System, answer: &'a SystemEquilibrium) -> Held<'a> {
+    Held { system, answer, bounds: &KNOWN }
+}
+
 const KNOWN: Bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.125 };
 
 /// Each joint is known to 1/8 N of its load and of each member, and to the turn of its forces. 5 N
@@ -105,15 +109,15 @@ fn a_balance_is_known_to_the_forces_that_meet_and_their_turns() {
         assert!(norm(minus(found.0, wanted.0)) < 1e-14, "{found:?}, not {wanted:?}");
         assert!((found.1 - wanted.1).abs() < 1e-14, "{found:?}, not {wanted:?}");
     };
-    let [a, b, p] = balances(&system, &answer, None, &KNOWN)[..] else { panic!() };
+    let [a, b, p] = held(&system, &answer).balances(None)[..] else { panic!() };
     close(a, ([3.0, 0.0, -4.0], 0.25 + 5.0 * turn));
     close(b, ([-6.0, 0.0, -8.0], 0.25 + 10.0 * turn));
     close(p, ([3.0, 0.0, 10.0], 0.375 + 15.0 * turn));
-    let [_, _, p] = balances(&system, &answer, Some(100.0), &KNOWN)[..] else { panic!() };
+    let [_, _, p] = held(&system, &answer).balances(Some(100.0))[..] else { panic!() };
     close(p, ([3.0, 0.0, 10.0], 0.375 + 200.0 * turn));
 
     let mut found = Measured::default();
-    balance_given(&system, &answer, None, &KNOWN, &mut found);
+    held(&system, &answer).balance_given(None, &mut found);
     let [left] = found.violations[..] else { panic!("{found:?}") };
     assert_eq!(left.place, Place::Joint(2));
     assert!((left.value - 109.0_f64.sqrt()).abs() < 1e-14);
@@ -121,7 +125,7 @@ fn a_balance_is_known_to_the_forces_that_meet_and_their_turns() {
     // The ground is asked for the opposite of what comes to it, and is 13 N off at A.
     let given = [[-3.0, 5.0, 16.0], [6.0, 0.0, 8.0], [0.0; 3]];
     let mut found = Measured::default();
-    balance_given(&system, &answer, Some(&given), &KNOWN, &mut found);
+    held(&system, &answer).balance_given(Some(&given), &mut found);
     let [reaction, _] = found.violations[..] else { panic!("{found:?}") };
     assert_eq!(reaction.place, Place::Joint(0));
     assert!((reaction.value - 13.0).abs() < 1e-14, "{reaction:?}");
@@ -149,7 +153,7 @@ fn what_forces_found_leave_is_a_violation_where_it_is_proved_and_none_explain_it
     };
     let measured = |least_n: f64, up_to_n: f64| {
         let mut found = Measured::default();
-        balance_found(&system, &answer, &best(least_n, up_to_n), &KNOWN, &mut found);
+        held(&system, &answer).balance_found(&best(least_n, up_to_n), &mut found);
         let allowed = 0.375 + 2.0 * up_to_n * 0.5 / 4.75;
         assert!((found.largest - least_n / allowed).abs() < 1e-13, "{found:?}");
         found
@@ -170,10 +174,10 @@ fn what_forces_found_leave_is_a_violation_where_it_is_proved_and_none_explain_it
 /// (3, 4, 12) N too much of the ground beside 2 N of weight; two anchors know 1/8 N each.
 #[test]
 fn the_whole_is_known_to_the_forces_of_its_supports() {
-    let (system, _) = lamp_with([1.25; 2]);
+    let (system, answer) = lamp_with([1.25; 2]);
     let mut found = Measured::default();
     let reactions = [[1.0, 4.0, 13.0], [2.0, 0.0, 1.0], [0.0; 3]];
-    whole(&system, &reactions, &KNOWN, &mut found);
+    held(&system, &answer).whole(&reactions, &mut found);
     let [told] = found.violations[..] else { panic!("{found:?}") };
     assert_eq!((told.place, told.law), (Place::Whole, Law::Whole { left_n: [3.0, 4.0, 12.0] }));
     assert_eq!((told.value, told.allowed, found.largest), (13.0, 0.25, 52.0));

@@ -101,8 +101,8 @@ fn cables_pull_and_struts_push_to_rounding() {
 
 #[test]
 fn vectors_are_scaled_to_one() {
-    assert_eq!(unit(&[3.0, -4.0]), Some(vec![0.6, -0.8]));
-    assert_eq!((unit(&[0.0, 0.0]), unit(&[])), (None, None));
+    assert_eq!(normalised(&[3.0, -4.0]), Some(vec![0.6, -0.8]));
+    assert_eq!((normalised(&[0.0, 0.0]), normalised(&[])), (None, None));
     assert_eq!(scaled(vec![3.0, -4.0]), Some(vec![0.75, -1.0]));
     assert_eq!((scaled(vec![0.0]), scaled(vec![])), (None, None));
 }
