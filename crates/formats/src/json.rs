@@ -21,16 +21,12 @@ pub(crate) fn parse(text: &str, file: &str) -> Result<Value> {
 /// Reads the tree of a file, by its name in errors.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'a> {
-    pub file: &'a str,
+    pub at: At<'a>,
 }
 
 impl Reader<'_> {
-    pub(crate) fn missing(self, what: &str) -> FormatError {
-        At::file(self.file).missing(what.to_owned())
-    }
-
     pub(crate) fn wrong(self, what: &str, wanted: &'static str, found: &Value) -> FormatError {
-        At::file(self.file).value(what, wanted, &found.to_string())
+        self.at.value(what, wanted, &found.to_string())
     }
 
     pub(crate) fn number(self, what: &str, value: &Value) -> Result<f64> {

@@ -4,7 +4,7 @@ use model::Vector;
 use serde_json::{Map, Value};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::Result;
+use crate::error::{At, Result};
 use crate::json::{self, Reader};
 
 /// Parse JSON: every equilibrium of `solve --json` or `census --json`, or one object with the same
@@ -14,13 +14,13 @@ use crate::json::{self, Reader};
 /// [`FormatError`](crate::FormatError) with the reason.
 pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>> {
     let root = json::parse(text, file)?;
-    let reader = Reader { file };
+    let reader = Reader { at: At::file(file) };
     let Some(object) = root.as_object() else {
         return Err(reader.wrong("the text", "a JSON object", &root));
     };
     match object.get("equilibria") {
         None => Ok(vec![reader.answer(object, file)?]),
-        Some(Value::Array(list)) if list.is_empty() => Err(reader.missing("equilibrium")),
+        Some(Value::Array(list)) if list.is_empty() => Err(reader.at.missing("equilibrium")),
         Some(Value::Array(list)) => list
             .iter()
             .enumerate()
@@ -57,7 +57,7 @@ impl Reader<'_> {
                 Joints::InOrder(list.map(|v| self.vector("joints_m", v)).collect::<Result<_, _>>()?)
             }
             (None, None) => {
-                let error = self.missing("list `joints` or `joints_m`");
+                let error = self.at.missing("list `joints` or `joints_m`");
                 return Err(error.with_help("an answer printed with --summary has no joints"));
             }
         };
@@ -78,7 +78,7 @@ impl Reader<'_> {
 
     fn text(&self, what: &str, object: &Value, key: &str) -> Result<String> {
         let text = object.get(key).and_then(Value::as_str).map(str::to_owned);
-        text.ok_or_else(|| self.missing(&format!("text `{key}` in {what}")))
+        text.ok_or_else(|| self.at.missing(format!("text `{key}` in {what}")))
     }
 
     fn named_joints(&self, value: &Value) -> Result<Vec<(String, Vector)>> {
@@ -87,7 +87,7 @@ impl Reader<'_> {
             .map(|(k, joint)| {
                 let what = format!("joints[{k}]");
                 let at =
-                    joint.get("at_m").ok_or_else(|| self.missing(&format!("at_m in {what}")))?;
+                    joint.get("at_m").ok_or_else(|| self.at.missing(format!("at_m in {what}")))?;
                 Ok((self.text(&what, joint, "name")?, self.vector(&format!("{what}.at_m"), at)?))
             })
             .collect()
@@ -98,7 +98,7 @@ impl Reader<'_> {
         for (k, bar) in self.list("bars", value)?.iter().enumerate() {
             let what = format!("bars[{k}]");
             let axial =
-                bar.get("axial_n").ok_or_else(|| self.missing(&format!("axial_n in {what}")))?;
+                bar.get("axial_n").ok_or_else(|| self.at.missing(format!("axial_n in {what}")))?;
             let axial = self.number(&format!("{what}.axial_n"), axial)?;
             forces.push((self.text(&what, bar, "from")?, self.text(&what, bar, "to")?, axial));
         }

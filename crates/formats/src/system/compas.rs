@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 
-use crate::error::{At, FormatError, Result};
+use crate::error::{At, Result};
 use crate::json::{self, Reader};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
@@ -27,16 +27,16 @@ const EDGE_RESULTS: &[&str] = &["length", "force", "_l", "_f"];
 /// Read a network, graph or mesh.
 ///
 /// # Errors
-/// [`FormatError`] with the part that is wrong, missing or not understood.
+/// [`FormatError`](crate::FormatError) with the part that is wrong, missing or not understood.
 pub fn parse_compas(text: &str, file: &str) -> Result<ForceDensityNet> {
     let root = json::parse(text, file)?;
-    let reader = Reader { file };
+    let reader = Reader { at: At::file(file) };
     let kind = root.get("dtype").or_else(|| root.get("datatype")).and_then(Value::as_str);
-    let kind = kind.ok_or_else(|| reader.missing("text `dtype`"))?;
+    let kind = kind.ok_or_else(|| reader.at.missing("text `dtype`"))?;
     let data = reader.object("data", root.get("data"))?;
     let mesh = kind.ends_with("Mesh");
     if !mesh && !kind.ends_with("Network") && !kind.ends_with("Graph") {
-        return Err(reader.unknown(format!("the data of type {kind:?}")));
+        return Err(reader.at.unknown(format!("the data of type {kind:?}")));
     }
     let (nodes_key, node_defaults) = if mesh {
         ("vertex", "default_vertex_attributes")
@@ -58,7 +58,7 @@ pub fn parse_compas(text: &str, file: &str) -> Result<ForceDensityNet> {
         reader.graph_edges(data, &numbers, defaults)?
     };
     if edges.is_empty() {
-        return Err(reader.missing("edge"));
+        return Err(reader.at.missing("edge"));
     }
     let name = data.get("attributes").and_then(|a| a.get("name")).and_then(Value::as_str);
     Ok(ForceDensityNet { name: name.unwrap_or("unnamed").to_owned(), nodes, edges })
@@ -86,12 +86,8 @@ impl<'a> Attributes<'a> {
 }
 
 impl Reader<'_> {
-    fn unknown(&self, what: String) -> FormatError {
-        At::file(self.file).unknown(what)
-    }
-
     fn object<'v>(&self, what: &str, value: Option<&'v Value>) -> Result<&'v Map<String, Value>> {
-        let value = value.ok_or_else(|| self.missing(&format!("object `{what}`")))?;
+        let value = value.ok_or_else(|| self.at.missing(format!("object `{what}`")))?;
         value.as_object().ok_or_else(|| self.wrong(what, "an object", value))
     }
 
@@ -109,7 +105,7 @@ impl Reader<'_> {
             for (x, name) in vector.iter_mut().zip(keys) {
                 match attributes.get(name) {
                     Some(value) => *x = self.number(&format!("{name} of node {key}"), value)?,
-                    None if needed => return Err(self.missing(&format!("{name} of node {key}"))),
+                    None if needed => return Err(self.at.missing(format!("{name} of node {key}"))),
                     None => {}
                 }
             }
@@ -132,7 +128,7 @@ impl Reader<'_> {
         match own.keys().find(|key| !known().any(|name| name == key.as_str())) {
             None => Ok(()),
             Some(key) => {
-                let error = self.unknown(format!("the attribute {key:?} of {place}"));
+                let error = self.at.unknown(format!("the attribute {key:?} of {place}"));
                 Err(error
                     .with_help(format!("known are: {}", known().collect::<Vec<_>>().join(", "))))
             }
@@ -140,7 +136,7 @@ impl Reader<'_> {
     }
 
     fn end(&self, key: &str, numbers: &HashMap<String, usize>) -> Result<usize> {
-        numbers.get(key).copied().ok_or_else(|| self.missing(&format!("node {key:?}")))
+        numbers.get(key).copied().ok_or_else(|| self.at.missing(format!("node {key:?}")))
     }
 
     fn edge(
@@ -157,10 +153,10 @@ impl Reader<'_> {
             if let Some(load) = attributes.get(key)
                 && self.number(key, load)?.abs() > 0.0
             {
-                return Err(At::file(self.file).out_of_scope(format!("the load {key} on {place}")));
+                return Err(self.at.out_of_scope(format!("the load {key} on {place}")));
             }
         }
-        let q = attributes.get("q").ok_or_else(|| self.missing(&format!("q of {place}")))?;
+        let q = attributes.get("q").ok_or_else(|| self.at.missing(format!("q of {place}")))?;
         Ok(Edge {
             from: self.end(from, numbers)?,
             to: self.end(to, numbers)?,
@@ -200,7 +196,7 @@ impl Reader<'_> {
                     .filter(|part| !part.is_empty())
                     .collect();
                 let [from, to] = ends[..] else {
-                    return Err(self.unknown(format!("the key {key:?} of edgedata")));
+                    return Err(self.at.unknown(format!("the key {key:?} of edgedata")));
                 };
                 let ends = [self.end(from, numbers)?, self.end(to, numbers)?];
                 own.insert(sorted(ends), self.object(&format!("edgedata {key}"), Some(value))?);
