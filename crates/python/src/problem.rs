@@ -149,7 +149,7 @@ impl Problem {
             let members = bodies.into_iter().enumerate().map(|(k, body)| {
                 Member::bar(from[k], to[k], body)
                     .of_kind(kind(kinds[k]))
-                    .stretching(stiffnesses.as_ref().map(|all| all[k]).filter(|x| !x.is_nan()))
+                    .with_stiffness(stiffnesses.as_ref().map(|all| all[k]).filter(|x| !x.is_nan()))
             });
             let system = System::new(name, gravity_m_s2, joints, members.collect())?;
             system.refusal()?;

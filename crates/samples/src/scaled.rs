@@ -45,7 +45,7 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
             .held_by(support)
             .with_mass(joint.mass_kg * mass)
             .with_force(times(joint.force_n, force))
-            .drawn(joint.near_m.map(|at_m| times(at_m, length)));
+            .near(joint.near_m.map(|at_m| times(at_m, length)));
         let within = joint.tolerances.as_deref().copied().unwrap_or_default();
         let [by_kg, by_m, by_n] =
             [within.mass_kg() * mass, within.at_m() * length, within.force_n() * force];
@@ -66,7 +66,7 @@ pub fn scaled(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
         let within = original.tolerances.as_deref().copied().unwrap_or_default();
         let stiffness_n = original.stiffness_n.map(|stiffness_n| stiffness_n * force);
         let loads = original.loads.iter().map(load).collect();
-        let mut scaled = original.clone().stretching(stiffness_n).with_loads(loads);
+        let mut scaled = original.clone().with_stiffness(stiffness_n).with_loads(loads);
         scaled.body = body.expect("a bar in other units");
         scaled.tolerances = None;
         scaled.set_length_tolerance(within_m);

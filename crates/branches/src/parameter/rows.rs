@@ -190,7 +190,7 @@ fn joints_between(
     let drawn = joints.iter().any(|joint| joint.near_m.is_some());
     let ends_m = joints[from].drawn_m().zip(joints[to].drawn_m()).filter(|_| drawn);
     let joint = |k: usize| {
-        Joint::free(format!("{row}.{k}")).held_by(support).drawn(ends_m.map(|(a, b)| {
+        Joint::free(format!("{row}.{k}")).held_by(support).near(ends_m.map(|(a, b)| {
             let part = k as f64 / count as f64;
             std::array::from_fn(|c| a[c] + part * (b[c] - a[c]))
         }))

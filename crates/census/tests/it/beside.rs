@@ -297,7 +297,7 @@ fn linkage(random: &mut ChaCha8Rng, winds: bool, stiffness_n: Option<f64>) -> Sy
         Member::bar(1, 2, light(range(1.1, 1.4))),
         Member::bar(2, 3, light(range(1.4, 1.7))),
     ];
-    members.push(rope(&[1, 4, 2], range(3.0, 3.4)).stretching(stiffness_n));
+    members.push(rope(&[1, 4, 2], range(3.0, 3.4)).with_stiffness(stiffness_n));
     system(joints, members)
 }
 

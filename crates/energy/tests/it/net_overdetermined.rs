@@ -170,7 +170,7 @@ impl Drawn {
     fn system(&self, change: impl Fn(usize) -> f64, tolerance_m: Option<f64>) -> System {
         let members = self.members.iter().enumerate().map(|(e, &(from, to, stiffness_n))| {
             let length = norm(difference(self.shape[to], self.shape[from])) * (1.0 + change(e));
-            let mut member = bar(from, to, length, 0.0).stretching(stiffness_n);
+            let mut member = bar(from, to, length, 0.0).with_stiffness(stiffness_n);
             member.set_length_tolerance(tolerance_m.filter(|_| stiffness_n.is_none()));
             member
         });

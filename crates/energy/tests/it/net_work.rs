@@ -53,7 +53,7 @@ fn variants(system: System) -> [System; 6] {
     let struts = with(&system, |e, bar| {
         let stiffness_n = (e % 3 == 1).then_some(500.0);
         let kind = if e % 3 == 2 { Kind::Bar } else { Kind::Strut };
-        bar.clone().of_kind(kind).stretching(stiffness_n)
+        bar.clone().of_kind(kind).with_stiffness(stiffness_n)
     });
     let lowest = system.joints().iter().filter_map(|joint| match joint.support {
         Support::Fixed { at_m } => Some(at_m[2]),

@@ -25,7 +25,7 @@ fn mixed(system: &System) -> System {
     let members = system.members().iter().enumerate().map(|(k, member)| {
         let kind = if k % 2 == 1 { Kind::Cable } else { Kind::Bar };
         let stiffness_n = (k % 3 == 2).then_some(300.0);
-        member.clone().of_kind(kind).stretching(stiffness_n)
+        member.clone().of_kind(kind).with_stiffness(stiffness_n)
     });
     let joints = system.joints().iter().enumerate().map(|(k, joint)| {
         joint.clone().with_force(if k == 2 { [0.5, -1.5, 0.25] } else { joint.force_n })

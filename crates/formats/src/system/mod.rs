@@ -153,13 +153,10 @@ impl ForeignSystem {
     /// # Errors
     /// [`FormatError`](crate::FormatError) with the reason where it is none.
     pub fn above_floor(self, file: &str) -> Result<System> {
-        let system = match self.floor_m {
-            Some(floor_m) => {
-                self.system.with_floor(floor_m).map_err(|error| At::file(file).no_system(error))?
-            }
-            None => self.system,
-        };
-        system.refusal().map_err(|refusal| At::file(file).no_system(refusal))?;
+        let at = At::file(file);
+        let above = self.system.with_floor(self.floor_m);
+        let system = above.map_err(|error| at.no_system(error))?;
+        system.refusal().map_err(|refusal| at.no_system(refusal))?;
         Ok(system)
     }
 }

@@ -211,11 +211,8 @@ impl Held {
         let body = Bar::homogeneous(length_m, 0.0).map_err(|error| said(&error))?;
         let spring = Member::cable(joints.len() - 1, joint, body).with_stiffness(weight_n);
         members.push(spring);
-        let held = System::new(system.name(), system.gravity_m_s2(), joints, members)
-            .map_err(|error| said(&error))?;
-        match system.floor_m() {
-            Some(floor_m) => held.with_floor(floor_m).map_err(|error| said(&error)),
-            None => Ok(held),
-        }
+        let held = System::new(system.name(), system.gravity_m_s2(), joints, members);
+        let held = held.and_then(|held| held.with_floor(system.floor_m()));
+        held.map_err(|error| said(&error))
     }
 }

@@ -23,7 +23,7 @@ fn rig(change: impl Fn(&mut Vec<Joint>, &mut Vec<Member>)) -> System {
     let member = |from, to, kind, length_m, mass_kg, stiffness_n| {
         Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
             .of_kind(kind)
-            .stretching(stiffness_n)
+            .with_stiffness(stiffness_n)
     };
     let mut members = vec![
         member(0, 1, Kind::Bar, 1.3, 0.4, None),
@@ -187,7 +187,7 @@ fn drawings_say_what_is_taut() {
     let along = |from, kind, length_m, stiffness_n| {
         Member::bar(from, 1, Bar::homogeneous(length_m, 0.0).unwrap())
             .of_kind(kind)
-            .stretching(stiffness_n)
+            .with_stiffness(stiffness_n)
     };
     // P stands 2 m below A and 3 m above B.
     let members = vec![

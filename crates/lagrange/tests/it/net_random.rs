@@ -74,7 +74,7 @@ pub fn random(seed: u64, kinds: &[Kind], elastic: bool) -> System {
         };
         let body = Bar::homogeneous(distance * factor, rng.random_range(0.1..2.0)).unwrap();
         let stiffness_n = elastic.then(|| rng.random_range(20.0..2000.0));
-        Member::bar(from, to, body).of_kind(kind).stretching(stiffness_n)
+        Member::bar(from, to, body).of_kind(kind).with_stiffness(stiffness_n)
     });
     let members = members.collect();
     System::new(format!("random {seed}"), 1.0, joints, members).unwrap()

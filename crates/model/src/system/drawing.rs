@@ -57,7 +57,7 @@ impl System {
         members: Vec<Member>,
     ) -> Result<Self, SystemError> {
         let joints = self.joints.iter().enumerate();
-        let joints = joints.map(|(k, joint)| joint.clone().held_by(support(k, joint)).drawn(None));
+        let joints = joints.map(|(k, joint)| joint.clone().held_by(support(k, joint)).near(None));
         Self::new(self.name.clone(), self.gravity_m_s2, joints.collect(), members)
     }
 

@@ -373,16 +373,10 @@ impl Joint {
         self
     }
 
-    /// The same joint, drawn at this place, m.
+    /// The same joint, drawn at this place, m; with `None` not drawn.
     #[must_use]
-    pub fn near(self, near_m: Vector) -> Self {
-        self.drawn(Some(near_m))
-    }
-
-    /// The same joint, drawn at this place, m, or not drawn.
-    #[must_use]
-    pub fn drawn(mut self, near_m: Option<Vector>) -> Self {
-        self.near_m = near_m;
+    pub fn near(mut self, near_m: impl Into<Option<Vector>>) -> Self {
+        self.near_m = near_m.into();
         self
     }
 

@@ -216,16 +216,10 @@ impl Member {
         self
     }
 
-    /// The same member with an axial stiffness `EA`, N.
+    /// The same member with an axial stiffness `EA`, N; with `None` inextensible.
     #[must_use]
-    pub fn with_stiffness(self, stiffness_n: f64) -> Self {
-        self.stretching(Some(stiffness_n))
-    }
-
-    /// The same member with an axial stiffness `EA`, N, or inextensible.
-    #[must_use]
-    pub fn stretching(mut self, stiffness_n: Option<f64>) -> Self {
-        self.stiffness_n = stiffness_n;
+    pub fn with_stiffness(mut self, stiffness_n: impl Into<Option<f64>>) -> Self {
+        self.stiffness_n = stiffness_n.into();
         self
     }
 
@@ -245,10 +239,10 @@ impl Member {
         self
     }
 
-    /// The same member with a length known to within this, m.
+    /// The same member with a length known to within this, m; with `None` nothing is known of it.
     #[must_use]
-    pub fn with_length_tolerance(mut self, length_tolerance_m: f64) -> Self {
-        self.set_length_tolerance(Some(length_tolerance_m));
+    pub fn with_length_tolerance(mut self, length_tolerance_m: impl Into<Option<f64>>) -> Self {
+        self.set_length_tolerance(length_tolerance_m.into());
         self
     }
 

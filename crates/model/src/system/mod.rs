@@ -130,7 +130,7 @@ impl System {
 
     /// The same system above a flat floor without friction: no joint gets below the height
     /// `floor_m`, m, and what lies there the floor pushes up. Members are straight: where both ends
-    /// are above the floor all of them is.
+    /// are above the floor all of them is. With `None` there is no floor.
     ///
     /// # Errors
     /// [`SystemError`] when the height is not finite, or a support holds a joint below it.
@@ -145,9 +145,10 @@ impl System {
     /// assert!(system.with_floor(4.0).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn with_floor(self, floor_m: f64) -> Result<Self, SystemError> {
-        error::check_floor(floor_m, &self.joints)?;
-        Ok(Self { floor_m: Some(floor_m), row: row::Once::default(), ..self })
+    pub fn with_floor(self, floor_m: impl Into<Option<f64>>) -> Result<Self, SystemError> {
+        let floor_m = floor_m.into();
+        floor_m.map_or(Ok(()), |floor_m| error::check_floor(floor_m, &self.joints))?;
+        Ok(Self { floor_m, row: row::Once::default(), ..self })
     }
 
     /// The same system after the loss of a member, from 0, and the numbers that its joints had before: an

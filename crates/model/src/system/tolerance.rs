@@ -268,7 +268,7 @@ impl System {
             (member.tolerances, member.prestress) = (None, None);
         }
         let system = Self::new(self.name(), self.gravity_m_s2(), joints, members)?;
-        self.floor_m().map_or(Ok(system.clone()), |floor_m| system.with_floor(floor_m))
+        system.with_floor(self.floor_m())
     }
 }
 

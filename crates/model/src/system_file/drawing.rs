@@ -75,7 +75,7 @@ pub(super) fn between(name: Name, from: &Joint, to: &Joint, k: usize, count: usi
         let part = k as f64 / count as f64;
         std::array::from_fn(|c| start_m[c] + part * (end_m[c] - start_m[c]))
     });
-    Joint::free(name).drawn(near_m)
+    Joint::free(name).near(near_m)
 }
 
 fn ends_m(from: &Joint, to: &Joint) -> Option<[Vector; 2]> {

@@ -26,12 +26,8 @@ pub(super) fn of_chain(root: &Table<'_>, system: System) -> Result<System> {
     let last = system.joints().len() - 1;
     let system = put(root, system, &|table, value| numbered(table, value, last))?;
     let system = tolerance::of_loads(root, system)?;
-    match root.number("floor_m")? {
-        None => Ok(system),
-        Some(floor_m) => {
-            system.with_floor(floor_m).map_err(|error| root.error(Kind::System(error), "floor_m"))
-        }
-    }
+    let system = system.with_floor(root.number("floor_m")?);
+    system.map_err(|error| root.error(Kind::System(error), "floor_m"))
 }
 
 /// The number of a joint between the anchors of a chain.

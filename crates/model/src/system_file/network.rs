@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use toml::Spanned;
-
 use super::document::bar;
 use super::drawing;
 use super::error::Result;
@@ -332,12 +330,8 @@ impl Reading<'_> {
             })?;
         }
         let floor_m = root.number("floor_m")?;
-        let above_floor = |system: System| match floor_m {
-            Some(floor_m) => system.with_floor(floor_m),
-            None => Ok(system),
-        };
         let system = System::new(name, gravity_m_s2, joints, members)
-            .and_then(above_floor)
+            .and_then(|system| system.with_floor(floor_m))
             .map_err(|error| match error {
                 SystemError::Floor(_) => root.error(Kind::System(error), "floor_m"),
                 SystemError::Gravity(_) => root.error(Kind::System(error), "gravity_m_s2"),
@@ -413,7 +407,7 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint> {
         return Err(table.error(Kind::Conflict { key: "near_m", other: "at_m" }, "near_m"));
     }
     let (force_n, mass_kg) = (force_n.unwrap_or_default(), mass.unwrap_or(0.0));
-    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).drawn(near_m))
+    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).near(near_m))
 }
 
 fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support> {
@@ -506,7 +500,7 @@ fn member(
     loads.extend(material::spread(table, length_m, body.length_m())?);
     let stiffness_n = material::stiffness_n(table)?;
     let strength = strength::of(table, body.length_m(), safety)?;
-    let member = Member::bar(0, 0, body).of_kind(kind).stretching(stiffness_n);
+    let member = Member::bar(0, 0, body).of_kind(kind).with_stiffness(stiffness_n);
     let mut member = member.bearing(strength).with_loads(loads);
     member.by_length = material::by_length(table)?;
     network_rows::prestressed(member, table.number("prestress_n")?)
@@ -521,14 +515,12 @@ fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad> {
     table.check_load(None, Some(force_n), "force_n")?;
     let is_spread = table.boolean("spread")?.unwrap_or(false);
     let at_m = table.number("at_m")?.unwrap_or(0.5 * length_m);
-    let span = || table.get("at_m").map_or(0..0, Spanned::span);
     if is_spread && table.get("at_m").is_some() {
-        let kind = Kind::Conflict { key: "at_m", other: "spread" };
-        return Err(table.error_at(kind, "at_m", span()));
+        return Err(table.error(Kind::Conflict { key: "at_m", other: "spread" }, "at_m"));
     }
     if !(0.0..=length_m).contains(&at_m) {
         let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
-        return Err(table.error_at(kind, "at_m", span()));
+        return Err(table.error(kind, "at_m"));
     }
     Ok(PointLoad { at_m, force_n, is_spread })
 }

@@ -99,7 +99,7 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
     if support.is_fixed() && near_m.is_some() {
         return Err((Some(NEAR[0]), Kind::Conflict { key: NEAR[0], other: PLACE[0] }));
     }
-    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).drawn(near_m))
+    Ok(Joint::free(name).held_by(support).with_mass(mass_kg).with_force(force_n).near(near_m))
 }
 
 /// A joint with a place is held there, unless `fixed` says that the place is only where it was
@@ -203,7 +203,7 @@ pub(super) fn member(
     let loads = load(row, length_m)?;
     let bar = Member::bar(from, to, body).over(via);
     let strength = strength::of(row, length_m, safety)?;
-    let member = bar.of_kind(kind).stretching(stiffness_n).bearing(strength).with_loads(loads);
+    let member = bar.of_kind(kind).with_stiffness(stiffness_n).bearing(strength).with_loads(loads);
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 

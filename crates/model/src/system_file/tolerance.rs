@@ -85,8 +85,7 @@ impl Tolerances {
         let length_tolerance_m = own.get(LENGTH)?.or(self.length_m);
         let stiffness = own.get(STIFFNESS)?.or(self.stiffness.filter(|_| elastic));
         let mass_kg = own.get(MASS)?.or(self.mass_kg.filter(|_| heavy));
-        let mut member = member;
-        member.set_length_tolerance(length_tolerance_m);
+        let member = member.with_length_tolerance(length_tolerance_m);
         member.with_tolerances(stiffness, mass_kg).map_err(|error| own.refused(error))
     }
 

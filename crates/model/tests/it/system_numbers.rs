@@ -123,7 +123,7 @@ fn totals_are_numbers_with_digits_to_spare() {
     assert_eq!(error(4.0, joints(), bar(1.0, 0.26e150)), large("total load"));
     assert!(accepted(4.0, joints(), bar(1.0, 0.24e150)));
     assert_eq!(error(4.0, joints(), bar(1e80, 1e80)), large("total load times total length"));
-    let stiff = vec![bar(1.0, 1.0).stretching(Some(1.1e150))];
+    let stiff = vec![bar(1.0, 1.0).with_stiffness(Some(1.1e150))];
     let stiff = System::new("", 1.0, joints().to_vec(), stiff).map(|_| ());
     assert_eq!(stiff, Err(large("total stiffness")));
     // The two ends of the reach may be on both sides of zero.

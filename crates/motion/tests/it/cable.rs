@@ -40,7 +40,7 @@ fn cable(n: usize, sag: f64, stiffness: Option<f64>) -> Cable {
         at.push([x + l * h / t, 0.0, z + l * vertical(k) / t]);
         let bar = Bar::homogeneous(length_m, 1.0 / n as f64).unwrap();
         let bar = Member::bar(k, k + 1, bar);
-        members.push(bar.stretching(stiffness.map(|s| s * h)));
+        members.push(bar.with_stiffness(stiffness.map(|s| s * h)));
     }
     for (k, at) in at.iter().enumerate() {
         let name = k.to_string();

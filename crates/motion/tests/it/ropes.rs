@@ -472,7 +472,7 @@ fn the_lowest_modes_of_many_rings() {
     let length_m: f64 = (0..=n).map(|k| unit(k, k + 1).0).sum();
     for stiffness_n in [None, Some(1e4)] {
         let stretch = 1.0 + stiffness_n.map_or(0.0, |k| tension_n / k);
-        let long = rope(&path, length_m / stretch).stretching(stiffness_n);
+        let long = rope(&path, length_m / stretch).with_stiffness(stiffness_n);
         let springs = (1..=n).map(|k| {
             let body = Bar::homogeneous(unit(k, n + 2).0 / 1.01, 0.0).unwrap();
             Member::bar(n + 2, k, body).with_stiffness(100.0 * spring_n)

@@ -334,7 +334,7 @@ fn forces_are_searched_within_the_reach_of_the_places() {
     // its bounds is left over.
     let force = |kind: Kind, stiffness_n: Option<f64>, length_m: f64, up_n: f64| {
         let body = Bar::homogeneous(length_m, 0.0).unwrap();
-        let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
+        let member = Member::bar(0, 1, body).of_kind(kind).with_stiffness(stiffness_n);
         let joints =
             vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_force([0.0, 0.0, up_n])];
         let system = System::new("one", 10.0, joints, vec![member]).unwrap();

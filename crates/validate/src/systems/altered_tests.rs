@@ -154,7 +154,7 @@ fn net(stiffness_n: Option<f64>) -> (System, SystemEquilibrium) {
             if other < 25 && in_row && !(held(k) && held(other)) {
                 let length_m = if stiffness_n.is_some() { 0.9 } else { 1.15 };
                 let cable = Member::cable(k, other, Bar::homogeneous(length_m, 0.05).unwrap());
-                members.push(cable.stretching(stiffness_n));
+                members.push(cable.with_stiffness(stiffness_n));
             }
         }
     }

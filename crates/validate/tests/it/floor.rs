@@ -69,7 +69,7 @@ fn mooring(n: usize, [a, d, l]: [f64; 3], stiffness_n: Option<f64>) -> System {
         _ if k == n => Joint::anchor("ship", [far, 0.0, d]),
         _ => Joint::free(k.to_string()),
     };
-    let member = |k| Member::cable(k, k + 1, bar).stretching(stiffness_n);
+    let member = |k| Member::cable(k, k + 1, bar).with_stiffness(stiffness_n);
     let joints = (0..=n).map(joint).collect();
     let system = System::new("mooring", 10.0, joints, (0..n).map(member).collect()).unwrap();
     system.with_floor(0.0).unwrap()

@@ -302,7 +302,7 @@ fn both_solvers_agree_on_stiff_bodies_that_hang_from_one_hook() {
                 if from == 0 || random.random_range(0..10) > 0 {
                     let length_m = norm(minus(places_m[from], places_m[to]));
                     let body = Bar::homogeneous(length_m, random.random_range(0.0..5.0)).unwrap();
-                    members.push(Member::bar(from, to, body).stretching(Some(stiffness_n)));
+                    members.push(Member::bar(from, to, body).with_stiffness(Some(stiffness_n)));
                 }
             }
         }

@@ -22,7 +22,7 @@ fn post(azimuths: &[f64], radius_m: f64, stiffness_n: Option<f64>) -> System {
         let (sin, cos) = azimuth.to_radians().sin_cos();
         joints.push(Joint::anchor(format!("G{k}"), [radius_m * cos, radius_m * sin, 0.0]));
         let guy = Member::bar(2 + k, 1, bar(radius_m.hypot(4.0))).of_kind(Kind::Cable);
-        members.push(guy.stretching(stiffness_n));
+        members.push(guy.with_stiffness(stiffness_n));
     }
     System::new("post", G, joints, members).unwrap()
 }
@@ -117,7 +117,7 @@ fn bays_with_two_diagonals_stand_on_a_rail_too() {
         let member = |from, to, kind| {
             let length_m = if kind == Kind::Cable { 8.0_f64.sqrt() } else { 2.0 };
             let body = Bar::homogeneous(length_m, 0.0).unwrap();
-            Member::bar(from, to, body).of_kind(kind).stretching(stiffness_n)
+            Member::bar(from, to, body).of_kind(kind).with_stiffness(stiffness_n)
         };
         let bars = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| member(a, b, Kind::Bar));
         let cables = [(0, 2), (1, 3)].map(|(a, b)| member(a, b, Kind::Cable));
@@ -195,7 +195,7 @@ fn tower(levels: usize, top_m: f64, wind_n: [f64; 3], is_rigid: bool) -> System 
         let body = Bar::homogeneous(norm(minus(x, y)), 0.0).unwrap();
         let [a, b] = [a, b].map(|(level, k)| 4 * level + k % 4);
         let member = Member::bar(a, b, body).of_kind(kind);
-        members.push(member.stretching((!is_rigid).then_some(stiffness_n)));
+        members.push(member.with_stiffness((!is_rigid).then_some(stiffness_n)));
     };
     for level in 0..levels {
         for k in 0..4 {
@@ -351,7 +351,7 @@ fn towers_stand_by_two_cables_a_storey_and_fall_with_one() {
             let bars = [(l, above_l), (r, above_r), (above_l, above_r)];
             let bars = bars.map(|(a, b)| member(a, b, Kind::Bar));
             let cables = [(l, above_r), (r, above_l)].into_iter().take(cables);
-            let cable = |(a, b)| member(a, b, Kind::Cable).stretching(stiffness_n);
+            let cable = |(a, b)| member(a, b, Kind::Cable).with_stiffness(stiffness_n);
             bars.into_iter().chain(cables.map(cable))
         });
         let system = System::new("tower", G, joints.collect(), members.collect()).unwrap();

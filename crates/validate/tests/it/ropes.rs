@@ -231,7 +231,7 @@ fn net(random: &mut ChaCha8Rng) -> System {
         let (first, last) = (path[0], path[path.len() - 1]);
         let body = Bar::homogeneous(part * apart(&path), 0.0).unwrap();
         let member = Member::cable(first, last, body).over(path[1..path.len() - 1].to_vec());
-        members.push(member.stretching(stiffness_n));
+        members.push(member.with_stiffness(stiffness_n));
     };
     // One rope over all rings, past an anchor that is a pulley, and a second one over the first ring.
     let mut path = vec![0];

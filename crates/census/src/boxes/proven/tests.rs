@@ -24,7 +24,7 @@ fn springs_between_anchors_have_the_force_of_their_elongation() {
     let places: [Vector; 2] = [[0.0; 3], [2.0, 3.0, 6.0]].map(|at| at.map(Interval::point));
     let force = |kind: Kind, length_m: f64, stiffness_n: Option<f64>| {
         let body = Bar::homogeneous(length_m, 0.0).unwrap();
-        let member = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
+        let member = Member::bar(0, 1, body).of_kind(kind).with_stiffness(stiffness_n);
         idle_n(&member, &places, 2.0)
     };
     let [long, short] = [8.0, 16.0];

@@ -214,7 +214,7 @@ fn the_laws_of_members_are_those_of_their_kinds() {
             let local = Local { rounding_n: 0.5, most_n: BORNE * acts_n, least_n: 0.0 };
             let body = Bar::homogeneous(8.0, 0.0).unwrap();
             let (system, mut answer) = crooked(|_, bar| {
-                *bar = Member::bar(0, 1, body).of_kind(kind).stretching(stiffness_n);
+                *bar = Member::bar(0, 1, body).of_kind(kind).with_stiffness(stiffness_n);
             });
             answer.axial_n[0] = axial_n;
             let mut judging = judging(&system, &answer, UNITS);
