@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 
 use super::bordered::Row;
-use super::here::{Here, Metric, correct};
-use super::singular::{ITERATIONS, null_space};
+use super::here::{Here, Metric, Space, correct};
+use super::singular::ITERATIONS;
 use super::{End, Equations, LoadPath, NoPath, Parent, Settings};
 use crate::load::walk::{Walk, begin};
 
@@ -54,13 +54,6 @@ pub(super) struct Crossing<S> {
     pub(super) known: Vec<Row>,
 }
 
-/// The unit vector from one point to another.
-pub(super) fn towards(metric: Metric, from: &Here, to: &Here) -> Row {
-    let (y, t) = (&to.y - &from.y, to.t - from.t);
-    let norm = metric.norm(&y, t).max(f64::MIN_POSITIVE);
-    Row { y: y / norm, t: t / norm }
-}
-
 /// Follow the path from an equilibrium at $t = 0$ next to `start`, and the paths that branch from it,
 /// from those, and so on to a depth: 0 for the first one alone. `watch` is told the numbers of
 /// paths and of points of the last one so far.
@@ -78,20 +71,20 @@ pub fn follow<Q: Equations>(
     settings: Settings,
     watch: &dyn Fn(usize, usize),
 ) -> Result<Vec<LoadPath<Q>>, NoPath<Q::Error>> {
-    let (metric, here) = begin(equations, start)?;
-    let mut walk = Walk::new(equations, settings, metric);
+    let (space, here) = begin(equations, start)?;
+    let mut walk = Walk::new(space, settings);
     let mut all = vec![walk.path(&here, None, &|points| watch(0, points))];
     // What branches off moves where the first path stands still.
-    let metric = metric.coarse();
-    walk.metric = metric;
+    let metric = walk.space.metric.coarse();
+    walk.space.metric = metric;
     let mut next = 0;
     while let Some(crossing) = walk.crossings.get(next).cloned() {
         if crossing.depth < settings.branches && all.len() < MOST_PATHS {
             walk.set(&crossing.switched).map_err(NoPath::Numbers)?;
-            for first in starts(walk.equations, metric, &crossing) {
+            for first in walk.space.starts(&crossing) {
                 // Another one of them may have led back to here.
                 let known = &walk.crossings[next].known;
-                let direction = towards(metric, &crossing.at, &first);
+                let direction = metric.towards(&crossing.at, &first);
                 if all.len() == MOST_PATHS
                     || known.iter().any(|known| alike(metric, known, &direction))
                 {
@@ -113,54 +106,44 @@ fn alike(metric: Metric, a: &Row, b: &Row) -> bool {
     metric.along(a).dot(&b.y, b.t) >= ALIKE
 }
 
-/// First points of other paths through a branch point, outward.
-fn starts<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    crossing: &Crossing<Q::Side>,
-) -> Vec<Here> {
-    let mut found: Vec<(Here, Row)> = vec![];
-    for direction in
-        directions(&null_space(equations, metric, &crossing.at, (crossing.modes, ITERATIONS)))
-    {
-        let Some(first) = first(equations, metric, crossing, &direction) else { continue };
-        let way = towards(metric, &crossing.at, &first);
-        let again = found.iter().map(|(_, known)| known).chain(&crossing.known);
-        if !again.into_iter().any(|known| alike(metric, known, &way)) {
-            found.push((first, way));
+impl<Q: Equations> Space<'_, Q> {
+    /// First points of other paths through a branch point, outward.
+    fn starts(&mut self, crossing: &Crossing<Q::Side>) -> Vec<Here> {
+        let mut found: Vec<(Here, Row)> = vec![];
+        for direction in directions(&self.null_space(&crossing.at, crossing.modes, ITERATIONS)) {
+            let Some(first) = self.first(&crossing.at, &direction) else { continue };
+            let way = self.metric.towards(&crossing.at, &first);
+            let again = found.iter().map(|(_, known)| known).chain(&crossing.known);
+            if !again.into_iter().any(|known| alike(self.metric, known, &way)) {
+                found.push((first, way));
+            }
         }
+        found.into_iter().map(|(first, _)| first).collect()
     }
-    found.into_iter().map(|(first, _)| first).collect()
-}
 
-/// A point of another path in a direction.
-fn first<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
-    crossing: &Crossing<Q::Side>,
-    direction: &DVector<f64>,
-) -> Option<Here> {
-    let at = &crossing.at;
-    let row = metric.along(&Row { y: direction.clone(), t: 0.0 });
-    for away in AWAY {
-        for beside in BESIDE {
-            let guess = (&at.y + direction * away, at.t + beside * away);
-            let Ok(column) = equations.by_parameter(&guess.0, guess.1) else { continue };
-            let found = correct(equations, (&guess.0, guess.1), &column, &row);
-            let Ok(Ok(found)) = found else { continue };
-            // Straight on is the path that is known.
-            let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
-            let far = metric.norm(&new.y, new.t);
-            let along = metric.along(&at.tangent).dot(&new.y, new.t).abs();
-            if far > FARTHEST * away || along > ALIKE * far {
-                continue;
-            }
-            if let Ok(Some(here)) = Here::new(equations, metric, found, [&row, &row]) {
-                return Some(here);
+    /// A point of another path through one, in a direction.
+    fn first(&mut self, at: &Here, direction: &DVector<f64>) -> Option<Here> {
+        let metric = self.metric;
+        let row = metric.along(&Row { y: direction.clone(), t: 0.0 });
+        for away in AWAY {
+            for beside in BESIDE {
+                let guess = (&at.y + direction * away, at.t + beside * away);
+                let found = correct(self.equations, (&guess.0, guess.1), &row);
+                let Ok(Ok(found)) = found else { continue };
+                // Straight on is the path that is known.
+                let new = Row { y: &found.0 - &at.y, t: found.1 - at.t };
+                let far = metric.norm(&new.y, new.t);
+                let along = metric.along(&at.tangent).dot(&new.y, new.t).abs();
+                if far > FARTHEST * away || along > ALIKE * far {
+                    continue;
+                }
+                if let Ok(Some(here)) = self.here(found, [&row, &row]) {
+                    return Some(here);
+                }
             }
         }
+        None
     }
-    None
 }
 
 /// Directions to try in a space.
@@ -188,18 +171,14 @@ pub(super) fn joins<E, S>(
     // It may have several of its own one after another, but does not turn round at once.
     let new = |crossing: &Crossing<S>| crossing.of.path == number && point < crossing.point + ROUND;
     let metric = metric.coarse();
-    let far = |from: &Here, to: &Here| {
-        let way = from.towards(to);
-        metric.norm(&way.y, way.t)
-    };
-    let near = SAME * far(before, after);
+    let near = SAME * metric.apart(before, after);
     let others = crossings.iter_mut().filter(|crossing| !new(crossing));
-    let others = others.map(|crossing| (far(&crossing.at, at), crossing));
+    let others = others.map(|crossing| (metric.apart(&crossing.at, at), crossing));
     let (distance, known) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
     if distance > near {
         return None;
     }
-    known.known.push(towards(metric, at, before));
+    known.known.push(metric.towards(at, before));
     Some(End::Joins(known.of))
 }
 

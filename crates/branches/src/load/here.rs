@@ -39,6 +39,12 @@ pub(super) struct Metric {
 /// branch off.
 const LARGE: f64 = 0.05;
 
+/// The equations, and what measures a way along their paths.
+pub(super) struct Space<'a, Q> {
+    pub(super) equations: &'a mut Q,
+    pub(super) metric: Metric,
+}
+
 impl Metric {
     /// In which small changes of places do not count for more than large ones of the parameter.
     pub(super) fn coarse(self) -> Self {
@@ -47,6 +53,24 @@ impl Metric {
 
     pub(super) fn norm(&self, y: &DVector<f64>, t: f64) -> f64 {
         (self.square * y.rows(0, self.places).norm_squared() + t * t).sqrt()
+    }
+
+    /// In this direction, of unit length.
+    pub(super) fn unit(&self, y: DVector<f64>, t: f64) -> Row {
+        let norm = self.norm(&y, t).max(f64::MIN_POSITIVE);
+        Row { y: y / norm, t: t / norm }
+    }
+
+    /// How far two points are apart.
+    pub(super) fn apart(&self, a: &Here, b: &Here) -> f64 {
+        let way = a.towards(b);
+        self.norm(&way.y, way.t)
+    }
+
+    /// The unit vector from one point to another.
+    pub(super) fn towards(&self, from: &Here, to: &Here) -> Row {
+        let way = from.towards(to);
+        self.unit(way.y, way.t)
     }
 
     /// The row that measures along a direction.
@@ -82,9 +106,9 @@ pub fn difference<Q: Equations + ?Sized>(
 pub(super) fn correct<Q: Equations>(
     equations: &mut Q,
     guess: (&DVector<f64>, f64),
-    column: &DVector<f64>,
     row: &Row,
 ) -> Result<Corrected, Q::Error> {
+    let column = equations.by_parameter(guess.0, guess.1)?;
     let (mut y, mut t) = (equations.onto(guess.0, guess.1)?, guess.1);
     let (mut last, mut best, mut least) = (f64::INFINITY, None, f64::INFINITY);
     for _ in 0..ITERATIONS {
@@ -101,7 +125,7 @@ pub(super) fn correct<Q: Equations>(
             break;
         }
         let off = row.dot(&(&y - guess.0), t - guess.1);
-        let step = Bordered::new(equations, column, row).solve(equations, (&-left, -off));
+        let step = Bordered::new(equations, &column, row).solve(equations, (&-left, -off));
         let Some((dy, dt)) = step else { break };
         t += dt;
         y = equations.onto(&(y + dy), t)?;
@@ -127,53 +151,53 @@ fn polished<Q: Equations>(
     Ok(if after < size { (better, later) } else { (y, t) })
 }
 
-impl Here {
-    /// The point, corrected across the first row, with its tangent, of which the second says the direction;
+impl<Q: Equations> Space<'_, Q> {
+    /// A point, corrected across the first row, with its tangent, of which the second says the direction;
     /// `None` when it has none.
-    pub(super) fn new<Q: Equations>(
-        equations: &mut Q,
-        metric: Metric,
+    pub(super) fn here(
+        &mut self,
         (y, t): (DVector<f64>, f64),
         [across, row]: [&Row; 2],
-    ) -> Result<Option<Self>, Q::Error> {
-        let column = equations.by_parameter(&y, t)?;
-        let Some(index) = equations.factorise(&y, t)? else { return Ok(None) };
-        let mut bordered = Bordered::new(equations, &column, across);
-        let (y, t) = polished(equations, (y, t), &bordered)?;
+    ) -> Result<Option<Here>, Q::Error> {
+        let column = self.equations.by_parameter(&y, t)?;
+        let Some(index) = self.equations.factorise(&y, t)? else { return Ok(None) };
+        let mut bordered = Bordered::new(self.equations, &column, across);
+        let (y, t) = polished(self.equations, (y, t), &bordered)?;
         // Most often both rows are one, and so is the factor.
         if !std::ptr::eq(across, row) {
-            bordered = Bordered::new(equations, &column, row);
+            bordered = Bordered::new(self.equations, &column, row);
         }
-        let zero = DVector::zeros(y.len());
-        let tangent = bordered.solve(equations, (&zero, 1.0));
-        let tangent = tangent.map(|(dy, dt)| {
-            let norm = metric.norm(&dy, dt);
-            Row { y: dy / norm, t: dt / norm }
-        });
-        let given = equations.given(&y, t)?;
+        let tangent = bordered.solve(self.equations, (&DVector::zeros(y.len()), 1.0));
+        let tangent = tangent.map(|(dy, dt)| self.metric.unit(dy, dt));
+        let given = self.equations.given(&y, t)?;
         let tangent = tangent.map(|tangent| match given {
             None => tangent,
-            Some(given) => {
-                let dy = tangent.y + given * tangent.t;
-                let norm = metric.norm(&dy, tangent.t);
-                Row { y: dy / norm, t: tangent.t / norm }
-            }
+            Some(given) => self.metric.unit(tangent.y + given * tangent.t, tangent.t),
         });
         let finite = tangent.filter(|tangent| tangent.t.is_finite() && tangent.y.sum().is_finite());
-        Ok(finite.map(|tangent| Self { y, t, tangent, index }))
+        Ok(finite.map(|tangent| Here { y, t, tangent, index }))
     }
 
-    /// The point with the tangent on the chord from here to another, at this part of it.
-    pub(super) fn between<Q: Equations>(
-        &self,
-        equations: &mut Q,
-        metric: Metric,
-        other: &Self,
-        part: f64,
-    ) -> Option<Self> {
-        self.next_to(equations, metric, other, (&self.towards(other), part))
+    /// The point with the tangent on the chord between two others, at this part of it.
+    pub(super) fn between(&mut self, from: &Here, to: &Here, part: f64) -> Option<Here> {
+        self.next_to([from, to], (&from.towards(to), part))
     }
 
+    /// The point with the tangent next to what is at this part of the way between two others, across a chord.
+    pub(super) fn next_to(
+        &mut self,
+        [from, to]: [&Here; 2],
+        (chord, part): (&Row, f64),
+    ) -> Option<Here> {
+        let row = self.metric.along(chord);
+        let way = from.towards(to);
+        let guess = (&from.y + &way.y * part, from.t + way.t * part);
+        let found = correct(self.equations, (&guess.0, guess.1), &row).ok()?.ok()?;
+        self.here(found, [&row, &row]).ok()?
+    }
+}
+
+impl Here {
     /// The same with the tangent the other way.
     pub(super) fn turned(self) -> Self {
         Self { tangent: Row { y: -self.tangent.y, t: -self.tangent.t }, ..self }
@@ -182,21 +206,5 @@ impl Here {
     /// The vector to another point.
     pub(super) fn towards(&self, other: &Self) -> Row {
         Row { y: &other.y - &self.y, t: other.t - self.t }
-    }
-
-    /// The point with the tangent next to what is at this part of the way to another, across a chord.
-    pub(super) fn next_to<Q: Equations>(
-        &self,
-        equations: &mut Q,
-        metric: Metric,
-        other: &Self,
-        (chord, part): (&Row, f64),
-    ) -> Option<Self> {
-        let row = metric.along(chord);
-        let way = self.towards(other);
-        let guess = (&self.y + &way.y * part, self.t + way.t * part);
-        let column = equations.by_parameter(&guess.0, guess.1).ok()?;
-        let found = correct(equations, (&guess.0, guess.1), &column, &row).ok()?.ok()?;
-        Self::new(equations, metric, found, [&row, &row]).ok()?
     }
 }

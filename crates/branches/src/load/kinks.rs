@@ -1,8 +1,7 @@
 //! Where one-sided conditions change sides.
 
 use super::Equations;
-use super::events::located;
-use super::here::{Here, Metric};
+use super::here::{Here, Space};
 
 /// A condition below this has changed sides; above it, it is at zero to rounding.
 pub(super) const WRONG: f64 = 1e-10;
@@ -17,14 +16,13 @@ const VANISHES: f64 = 1e-3;
 /// none does. Without conditions where they change without coming to zero, as the force of a row that is pulled straight jumps
 /// from one infinity to the other: then the points are not of one path.
 pub(super) fn kink<Q: Equations>(
-    equations: &mut Q,
-    metric: Metric,
+    space: &mut Space<'_, Q>,
     a: &Here,
     b: &Here,
 ) -> Result<Option<Switching<Q::Side>>, Q::Error> {
-    let begin = equations.sides(&a.y, a.t)?;
+    let begin = space.equations.sides(&a.y, a.t)?;
     let mut end = b.clone();
-    let mut at_end = equations.sides(&b.y, b.t)?;
+    let mut at_end = space.equations.sides(&b.y, b.t)?;
     let wrong: Vec<bool> = at_end.iter().map(|(_, value)| *value < -WRONG).collect();
     if !wrong.contains(&true) {
         return Ok(None);
@@ -42,11 +40,11 @@ pub(super) fn kink<Q: Equations>(
             at_end = begin;
             break;
         }
-        let found = located(equations, metric, [a, &end], |equations, here| {
-            Some(equations.sides(&here.y, here.t).ok()?[first].1)
+        let found = space.located([a, &end], |space, here| {
+            Some(space.equations.sides(&here.y, here.t).ok()?[first].1)
         });
         let Some(at) = found else { break };
-        at_end = equations.sides(&at.y, at.t)?;
+        at_end = space.equations.sides(&at.y, at.t)?;
         end = at;
     }
     let changed = |k: &usize| wrong[*k] && at_end[*k].1 <= WRONG;

@@ -36,11 +36,10 @@ pub fn linear_buckling<Q: Equations>(
     equations: &mut Q,
     start: &DVector<f64>,
 ) -> Result<Option<f64>, NoPath<Q::Error>> {
-    let (_, here) = begin(equations, start)?;
+    let (space, here) = begin(equations, start)?;
     let mut slope = Row { y: &here.tangent.y / here.tangent.t, t: 1.0 };
-    let places = equations.places();
-    slope.y.rows_mut(0, places).fill(0.0);
-    let mut operator = |v: &DVector<f64>| change(equations, &here, &slope, v);
+    slope.y.rows_mut(0, space.metric.places).fill(0.0);
+    let mut operator = |v: &DVector<f64>| change(space.equations, &here, &slope, v);
     let Some(basis) = arnoldi(&mut operator, here.y.len()).map_err(NoPath::Numbers)? else {
         return Ok(None);
     };

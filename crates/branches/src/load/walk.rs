@@ -3,9 +3,9 @@ use std::mem::take;
 use nalgebra::DVector;
 
 use super::bordered::Row;
-use super::crossings::{Crossing, joins, towards};
-use super::events::{Singular, smooth};
-use super::here::{Here, Metric, correct};
+use super::crossings::{Crossing, joins};
+use super::events::Singular;
+use super::here::{Here, Metric, Space, correct};
 use super::kinks::kink;
 use super::singular::without_symmetry;
 use super::{End, Equations, Event, Kind, LoadPath, NoPath, Parent, Point, Settings};
@@ -55,9 +55,8 @@ enum Across {
 }
 
 pub(super) struct Walk<'a, Q: Equations> {
-    pub(super) equations: &'a mut Q,
+    pub(super) space: Space<'a, Q>,
     settings: Settings,
-    pub(super) metric: Metric,
     points: Vec<Point<Q::Record>>,
     events: Vec<Event<Q::Side>>,
     /// Conditions that have changed sides since the start of the first path, as often as they did.
@@ -70,46 +69,34 @@ pub(super) struct Walk<'a, Q: Equations> {
 }
 
 /// The start with its tangent, and the measure in which places and parameter change alike there.
-pub(super) fn begin<Q: Equations>(
-    equations: &mut Q,
+pub(super) fn begin<'a, Q: Equations>(
+    equations: &'a mut Q,
     start: &DVector<f64>,
-) -> Result<(Metric, Here), NoPath<Q::Error>> {
+) -> Result<(Space<'a, Q>, Here), NoPath<Q::Error>> {
     let places = equations.places();
     let row = Row::parameter(start.len());
-    let column = equations.by_parameter(start, 0.0).map_err(NoPath::Numbers)?;
-    let found = correct(equations, (start, 0.0), &column, &row).map_err(NoPath::Numbers)?;
+    let found = correct(equations, (start, 0.0), &row).map_err(NoPath::Numbers)?;
     let found = found.map_err(|residual| NoPath::Start { residual })?;
-    let only = Metric { places, square: 0.0 };
-    let here = Here::new(equations, only, found, [&row, &row]).map_err(NoPath::Numbers)?;
+    let mut space = Space { equations, metric: Metric { places, square: 0.0 } };
+    let here = space.here(found, [&row, &row]).map_err(NoPath::Numbers)?;
     let mut here = here.ok_or(NoPath::Singular)?;
     let change = here.tangent.y.rows(0, places).norm();
     // Forces alone: a unit of length would be an enormous load.
     let mut push = without_symmetry(start.len());
     push.rows_mut(places, start.len() - places).fill(0.0);
-    let gives = equations.solve(&push).rows(0, places).amax();
+    let gives = space.equations.solve(&push).rows(0, places).amax();
     if change.max(gives) > SINGULAR {
         return Err(NoPath::Singular);
     }
-    let metric = Metric { places, square: change.max(STILL).powi(-2) };
-    let norm = metric.norm(&here.tangent.y, here.tangent.t);
-    here.tangent = Row { y: here.tangent.y / norm, t: here.tangent.t / norm };
-    Ok((metric, here))
+    space.metric.square = change.max(STILL).powi(-2);
+    here.tangent = space.metric.unit(here.tangent.y, here.tangent.t);
+    Ok((space, here))
 }
 
 impl<'a, Q: Equations> Walk<'a, Q> {
-    pub(super) fn new(equations: &'a mut Q, settings: Settings, metric: Metric) -> Self {
+    pub(super) fn new(space: Space<'a, Q>, settings: Settings) -> Self {
         let (points, events, switched, crossings) = (vec![], vec![], vec![], vec![]);
-        Self {
-            equations,
-            settings,
-            metric,
-            points,
-            events,
-            switched,
-            crossings,
-            depth: 0,
-            paths: 0,
-        }
+        Self { space, settings, points, events, switched, crossings, depth: 0, paths: 0 }
     }
 
     /// The path from a point on; of a branch point where it begins in one.
@@ -133,7 +120,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     /// As at the start of the first path, but for these changes of sides.
     pub(super) fn set(&mut self, switched: &[Q::Side]) -> Result<(), Q::Error> {
         for side in take(&mut self.switched).iter().chain(switched) {
-            self.equations.switch(*side)?;
+            self.space.equations.switch(*side)?;
         }
         self.switched = switched.to_vec();
         Ok(())
@@ -141,7 +128,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
 
     fn switch(&mut self, side: Q::Side) -> Result<bool, Q::Error> {
         self.switched.push(side);
-        self.equations.switch(side)
+        self.space.equations.switch(side)
     }
 
     fn run(&mut self, mut here: Here, watch: &dyn Fn(usize)) -> Result<End<Q::Error>, Q::Error> {
@@ -158,7 +145,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 continue;
             };
             let turn = self.turn(&here, &next);
-            let kink = kink(self.equations, self.metric, &here, &next)?;
+            let kink = kink(&mut self.space, &here, &next)?;
             let passed = match &kink {
                 Some((_, sides)) if sides.is_empty() => Passed::Gap,
                 Some((at, _)) => self.smooth(&here, at)?,
@@ -192,7 +179,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
 
     /// Cosine of the angle between two tangents.
     fn turn(&self, a: &Here, b: &Here) -> f64 {
-        self.metric.along(&a.tangent).dot(&b.tangent.y, b.tangent.t)
+        self.space.metric.along(&a.tangent).dot(&b.tangent.y, b.tangent.t)
     }
 
     /// The next point, and whether it is at an end of the range; nothing where the step is too long.
@@ -218,37 +205,35 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         across: Across,
         long: f64,
     ) -> Result<Option<Here>, Q::Error> {
-        let along = self.metric.along(&here.tangent);
+        let along = self.space.metric.along(&here.tangent);
         let parameter = Row::parameter(guess.0.len());
         let row = match across {
             Across::Tangent => &along,
             Across::Parameter => &parameter,
         };
-        let column = self.equations.by_parameter(guess.0, guess.1)?;
-        let Ok(found) = correct(self.equations, guess, &column, row)? else { return Ok(None) };
-        let moved = self.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
+        let Ok(found) = correct(self.space.equations, guess, row)? else { return Ok(None) };
+        let moved = self.space.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
         if moved > (CORRECTION * long).max(ROUNDING) {
             return Ok(None);
         }
-        let next = Here::new(self.equations, self.metric, found, [row, &along])?;
+        let next = self.space.here(found, [row, &along])?;
         Ok(next.filter(|next| self.turn(here, next) >= STRAIGHT_ENOUGH && self.one_arc(here, next)))
     }
 
     /// Whether the chord of two points points as the mean of their tangents, as that of an arc does: between
     /// different paths, or over a bend and back, it does not.
     fn one_arc(&self, a: &Here, b: &Here) -> bool {
-        let chord = towards(self.metric, a, b);
-        let (y, t) = (&a.tangent.y + &b.tangent.y, a.tangent.t + b.tangent.t);
-        let norm = self.metric.norm(&y, t);
-        let off = self.metric.norm(&(chord.y - y / norm), chord.t - t / norm);
-        let way = a.towards(b);
-        off <= SKEW || off * self.metric.norm(&way.y, way.t) <= ROUNDING
+        let metric = self.space.metric;
+        let chord = metric.towards(a, b);
+        let mean = metric.unit(&a.tangent.y + &b.tangent.y, a.tangent.t + b.tangent.t);
+        let off = metric.norm(&(chord.y - mean.y), chord.t - mean.t);
+        off <= SKEW || off * metric.apart(a, b) <= ROUNDING
     }
 
     /// Limit points and branch points between two points; the end of the path where it comes to a
     /// branch point that is known.
     fn smooth(&mut self, a: &Here, b: &Here) -> Result<Passed<Q::Error>, Q::Error> {
-        let Some(all) = smooth(self.equations, self.metric, a, b) else { return Ok(Passed::Gap) };
+        let Some(all) = self.space.smooth(a, b) else { return Ok(Passed::Gap) };
         for found in all {
             let Singular { at, kind, index, turns, mode, load_on_mode } = found;
             let event = Event {
@@ -262,12 +247,12 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 load_on_mode,
             };
             // There the tangent is that of two paths at once.
-            let tangent = towards(self.metric, a, b);
+            let tangent = self.space.metric.towards(a, b);
             let at = Here { index: index[0], tangent, ..at };
             self.keep(&at, Some(event))?;
             if kind == Kind::Branch {
                 let here = (self.paths, self.points.len());
-                let end = joins(self.metric, &mut self.crossings, [a, &at, b], here);
+                let end = joins(self.space.metric, &mut self.crossings, [a, &at, b], here);
                 if let Some(end) = end {
                     return Ok(Passed::End(end));
                 }
@@ -315,12 +300,12 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     }
 
     fn beyond(&mut self, at: &Here, sides: &[Q::Side]) -> Result<Option<Here>, Q::Error> {
-        let row = self.metric.along(&at.tangent);
-        let here = Here::new(self.equations, self.metric, (at.y.clone(), at.t), [&row, &row])?;
+        let row = self.space.metric.along(&at.tangent);
+        let here = self.space.here((at.y.clone(), at.t), [&row, &row])?;
         let Some(mut here) = here else { return Ok(None) };
         let ahead = &here.y + &here.tangent.y * BESIDE;
-        let there = self.equations.sides(&ahead, here.t + here.tangent.t * BESIDE)?;
-        let now = self.equations.sides(&here.y, here.t)?;
+        let there = self.space.equations.sides(&ahead, here.t + here.tangent.t * BESIDE)?;
+        let now = self.space.equations.sides(&here.y, here.t)?;
         let rises = there.iter().zip(&now).filter(|((side, _), _)| sides.contains(side));
         let rises: Vec<bool> = rises.map(|((_, there), (_, now))| there >= now).collect();
         if rises.contains(&true) && rises.contains(&false) {
@@ -333,7 +318,7 @@ impl<'a, Q: Equations> Walk<'a, Q> {
     }
 
     fn keep(&mut self, here: &Here, event: Option<Event<Q::Side>>) -> Result<(), Q::Error> {
-        let record = self.equations.record(&here.y, here.t, here.index)?;
+        let record = self.space.equations.record(&here.y, here.t, here.index)?;
         let number = event.map(|event| {
             self.events.push(event);
             self.events.len() - 1
