@@ -3,7 +3,7 @@ use model::system::System;
 
 use crate::parameter::apply::PointError;
 use crate::parameter::base::{check, resolved};
-use crate::parameter::error::ParameterError;
+use crate::parameter::error::{ParameterError, Result};
 use crate::parameter::number::Number;
 use crate::parameter::system::{self, Unchecked};
 use crate::parameter::values::{MAX_POINTS, Parameter};
@@ -62,11 +62,7 @@ impl Variation {
     /// assert!(Variation::new(paper.chain(), &vary, Combine::Zip).is_err());
     /// # Ok::<(), branches::ParameterError>(())
     /// ```
-    pub fn new(
-        base: impl Into<System>,
-        vary: &[Parameter],
-        combine: Combine,
-    ) -> Result<Self, ParameterError> {
+    pub fn new(base: impl Into<System>, vary: &[Parameter], combine: Combine) -> Result<Self> {
         let base = base.into();
         for one in vary {
             check(&base, one)?;
@@ -80,11 +76,7 @@ impl Variation {
     /// # Errors
     ///
     /// As [`new`](Self::new).
-    pub fn along(
-        base: impl Into<System>,
-        vary: &[Parameter],
-        combine: Combine,
-    ) -> Result<Self, ParameterError> {
+    pub fn along(base: impl Into<System>, vary: &[Parameter], combine: Combine) -> Result<Self> {
         let base = base.into();
         for (k, one) in vary.iter().enumerate() {
             check(&base, one)?;
@@ -199,7 +191,7 @@ fn too_many(vary: &[Parameter]) -> ParameterError {
     )
 }
 
-fn product(vary: &[Parameter]) -> Result<Vec<Vec<Vec<f64>>>, ParameterError> {
+fn product(vary: &[Parameter]) -> Result<Vec<Vec<Vec<f64>>>> {
     let points = vary.iter().try_fold(1_usize, |points, one| points.checked_mul(one.values.len()));
     if points.is_none_or(|points| points > MAX_POINTS) {
         return Err(too_many(vary));
@@ -224,7 +216,7 @@ fn product(vary: &[Parameter]) -> Result<Vec<Vec<Vec<f64>>>, ParameterError> {
     Ok(fixed.iter().map(path).collect())
 }
 
-fn zip(vary: &[Parameter]) -> Result<Vec<Vec<f64>>, ParameterError> {
+fn zip(vary: &[Parameter]) -> Result<Vec<Vec<f64>>> {
     let length = vary.first().map_or(1, |one| one.values.len());
     for one in vary {
         if one.values.len() != length {

@@ -11,7 +11,7 @@ use std::io::{BufRead, BufReader, Write as _};
 use std::path::Path;
 
 use crate::atomic::AtomicFile;
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 use crate::source::open;
 use crate::table::{Data, Schema};
 
@@ -27,12 +27,12 @@ pub struct CsvWriter {
 }
 
 impl CsvWriter {
-    pub fn new(path: &Path, mut file: AtomicFile, schema: &Schema) -> Result<Self, ColumnsError> {
+    pub fn new(path: &Path, mut file: AtomicFile, schema: &Schema) -> Result<Self> {
         writeln!(file, "{}", header(schema)).map_err(|error| ColumnsError::file(path, error))?;
         Ok(Self { file, text: String::new() })
     }
 
-    pub fn write(&mut self, path: &Path, columns: &[Data]) -> Result<(), ColumnsError> {
+    pub fn write(&mut self, path: &Path, columns: &[Data]) -> Result<()> {
         self.text.clear();
         for row in 0..columns.first().map_or(0, Data::len) {
             for (k, column) in columns.iter().enumerate() {
@@ -76,11 +76,7 @@ fn cell(text: &mut String, column: &Data, row: usize) {
     };
 }
 
-pub fn read(
-    path: &Path,
-    schema: &Schema,
-    each: &mut dyn FnMut(&[Data]),
-) -> Result<(), ColumnsError> {
+pub fn read(path: &Path, schema: &Schema, each: &mut dyn FnMut(&[Data])) -> Result<()> {
     let mut lines = Lines { path, file: BufReader::new(open(path)?), line: String::new(), row: 0 };
     let names = lines.next()?.unwrap_or_default().to_owned();
     if names != header(schema) {
@@ -115,7 +111,7 @@ struct Lines<'a> {
 
 impl Lines<'_> {
     /// The next line without its end; a last line without one was cut off.
-    fn next(&mut self) -> Result<Option<&str>, ColumnsError> {
+    fn next(&mut self) -> Result<Option<&str>> {
         self.line.clear();
         let mut reader = std::io::Read::take(&mut self.file, MAX_LINE);
         let read = reader.read_line(&mut self.line);
@@ -129,7 +125,7 @@ impl Lines<'_> {
         Ok(Some(self.line.trim_end_matches('\n')))
     }
 
-    fn append_to(&self, batch: &mut [Data], schema: &Schema) -> Result<(), ColumnsError> {
+    fn append_to(&self, batch: &mut [Data], schema: &Schema) -> Result<()> {
         let line = self.line.trim_end_matches('\n');
         let mut cells = line.split(',');
         for (data, column) in batch.iter_mut().zip(&schema.columns) {

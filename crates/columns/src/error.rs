@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::table::{Mismatch, Schema};
 
+/// What reading or writing columns leads to.
+pub(crate) type Result<T, E = ColumnsError> = std::result::Result<T, E>;
+
 /// Why columns cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

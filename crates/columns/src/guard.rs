@@ -6,7 +6,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::Once;
 
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 
 thread_local! {
     /// Whether this thread is inside [`guarded`].
@@ -18,10 +18,7 @@ thread_local! {
 /// The `parquet` crate returns errors for most damage, and panics on some: a flag of a page header
 /// turned so that levels run past their buffer, for one (found by turning every byte of a file).
 /// The panic hook stays silent about those, and is what it was for every other panic.
-pub fn guarded<T>(
-    path: &Path,
-    decode: impl FnOnce() -> Result<T, ColumnsError>,
-) -> Result<T, ColumnsError> {
+pub fn guarded<T>(path: &Path, decode: impl FnOnce() -> Result<T>) -> Result<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let others = panic::take_hook();

@@ -14,7 +14,7 @@ use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use crate::atomic::AtomicFile;
 use crate::cells::{Cells, Values, type_of};
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 use crate::guard::guarded;
 use crate::source::Source;
 use crate::table::{Column, Data, Kind, Schema, Spread};
@@ -39,7 +39,7 @@ pub struct ParquetWriter {
 }
 
 impl ParquetWriter {
-    pub fn new(path: &Path, file: AtomicFile, schema: &Schema) -> Result<Self, ColumnsError> {
+    pub fn new(path: &Path, file: AtomicFile, schema: &Schema) -> Result<Self> {
         fields(schema)
             .and_then(|fields| Type::group_type_builder("table").with_fields(fields).build())
             .and_then(|root| {
@@ -49,7 +49,7 @@ impl ParquetWriter {
             .map_err(|error| write_error(path, error))
     }
 
-    pub fn write(&mut self, path: &Path, columns: Vec<Data>) -> Result<(), ColumnsError> {
+    pub fn write(&mut self, path: &Path, columns: Vec<Data>) -> Result<()> {
         if columns.first().is_none_or(Data::is_empty) {
             return Ok(());
         }
@@ -67,7 +67,7 @@ impl ParquetWriter {
         group.close().map(|_| ())
     }
 
-    pub fn finish(self, path: &Path) -> Result<AtomicFile, ColumnsError> {
+    pub fn finish(self, path: &Path) -> Result<AtomicFile> {
         // Writes the description at the end of the file, too.
         let mut file = self.writer.into_inner().map_err(|error| write_error(path, error))?;
         file.flush().map_err(|error| ColumnsError::file(path, error))?;
@@ -171,7 +171,7 @@ fn data(kind: Kind, cells: &Cells) -> Option<Data> {
 }
 
 /// The notes kept with a table, in order, and behind them what is said of its columns.
-pub fn notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
+pub fn notes(path: &Path) -> Result<Vec<(String, String)>> {
     guarded(path, || {
         let source = Source::open(path)?;
         let pairs = source.metadata.file_metadata().key_value_metadata();
@@ -180,11 +180,7 @@ pub fn notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
     })
 }
 
-pub fn read(
-    path: &Path,
-    schema: &Schema,
-    each: &mut dyn FnMut(&[Data]),
-) -> Result<(), ColumnsError> {
+pub fn read(path: &Path, schema: &Schema, each: &mut dyn FnMut(&[Data])) -> Result<()> {
     guarded(path, || {
         let source = Source::open(path)?;
         if !fields(schema).is_ok_and(|fields| fields == source.fields()) {

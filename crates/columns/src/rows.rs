@@ -5,7 +5,7 @@ use std::path::Path;
 use model::system_file::{Cell, Rows};
 
 use crate::cells::Cells;
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 use crate::guard::guarded;
 use crate::source::Source;
 
@@ -17,7 +17,7 @@ const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers), te
 /// # Errors
 ///
 /// [`ColumnsError`] with the file. What `rows` refuses is for it to tell: reading ends there.
-pub fn read_rows(path: impl AsRef<Path>, rows: &mut dyn Rows) -> Result<(), ColumnsError> {
+pub fn read_rows(path: impl AsRef<Path>, rows: &mut dyn Rows) -> Result<()> {
     let path = path.as_ref();
     guarded(path, || {
         let source = Source::open(path)?;

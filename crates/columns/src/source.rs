@@ -17,7 +17,7 @@ use model::system_file::{most_bars_of_file, most_file_bytes};
 
 use crate::budget::{Budget, Share};
 use crate::cells::{Cells, Holds, type_of};
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 use crate::pages::{Pages, shared};
 use crate::unpack::COMPRESSIONS;
 
@@ -31,7 +31,7 @@ pub struct Source<'p> {
 }
 
 /// Open a regular file with something in it.
-pub fn open(path: &Path) -> Result<File, ColumnsError> {
+pub fn open(path: &Path) -> Result<File> {
     let io = |error| ColumnsError::file(path, error);
     let file = open_input(path).map_err(|error| match error.kind() {
         ErrorKind::IsADirectory => ColumnsError::Folder { path: path.to_owned() },
@@ -46,7 +46,7 @@ pub fn open(path: &Path) -> Result<File, ColumnsError> {
 impl<'p> Source<'p> {
     /// Read the description at the end of a file. What a writer says there about its own types
     /// (`ARROW:schema`) is left aside: the types of the format itself are enough.
-    pub fn open(path: &'p Path) -> Result<Self, ColumnsError> {
+    pub fn open(path: &'p Path) -> Result<Self> {
         let file = open(path)?;
         check_end(path, &file)?;
         let metadata = ParquetMetaDataReader::new()
@@ -58,7 +58,7 @@ impl<'p> Source<'p> {
     }
 
     /// What cannot be unpacked is not damaged.
-    fn check_compressions(&self) -> Result<(), ColumnsError> {
+    fn check_compressions(&self) -> Result<()> {
         use CompressionCodec::{BROTLI, GZIP, LZ4, LZ4_RAW, LZO, SNAPPY, UNCOMPRESSED, ZSTD};
         let groups = self.metadata.row_groups().iter();
         for column in groups.flat_map(RowGroupMetaData::columns) {
@@ -83,7 +83,7 @@ impl<'p> Source<'p> {
     }
 
     /// See that every column holds something that is wanted.
-    pub fn check_types(&self, wanted: &'static str) -> Result<(), ColumnsError> {
+    pub fn check_types(&self, wanted: &'static str) -> Result<()> {
         match self.fields().iter().find(|field| Holds::of(field).is_none()) {
             None => Ok(()),
             Some(field) => Err(ColumnsError::WrongType {
@@ -96,7 +96,7 @@ impl<'p> Source<'p> {
     }
 
     /// Refuse more rows than a system may have bars.
-    pub fn check_rows(&self) -> Result<(), ColumnsError> {
+    pub fn check_rows(&self) -> Result<()> {
         let (path, rows, limit) = (self.path.to_owned(), self.rows()?, most_bars_of_file());
         if rows <= limit as u64 {
             return Ok(());
@@ -105,7 +105,7 @@ impl<'p> Source<'p> {
     }
 
     /// How many rows there are, by the file and by its groups.
-    fn rows(&self) -> Result<u64, ColumnsError> {
+    fn rows(&self) -> Result<u64> {
         let said = self.metadata.file_metadata().num_rows();
         let mut groups = self.metadata.row_groups().iter().map(RowGroupMetaData::num_rows);
         let sum = groups.try_fold(0_u64, |sum, rows| sum.checked_add(rows.try_into().ok()?));
@@ -115,10 +115,7 @@ impl<'p> Source<'p> {
     }
 
     /// Hand over the rows, some at a time with how many they are, until `each` wants no more.
-    pub fn read(
-        &self,
-        mut each: impl FnMut(usize, &[Cells]) -> Result<bool, ColumnsError>,
-    ) -> Result<(), ColumnsError> {
+    pub fn read(&self, mut each: impl FnMut(usize, &[Cells]) -> Result<bool>) -> Result<()> {
         self.rows()?;
         let budget = Budget::of(self.path);
         for group in self.metadata.row_groups() {
@@ -152,7 +149,7 @@ impl<'p> Source<'p> {
         chunk: &ColumnChunkMetaData,
         rows: usize,
         budget: &Arc<Budget>,
-    ) -> Result<Cells, ColumnsError> {
+    ) -> Result<Cells> {
         let (start, length) = chunk.byte_range();
         let whole = self.file.metadata().map_err(|error| ColumnsError::file(self.path, error))?;
         if start.checked_add(length).is_none_or(|end| end > whole.len()) {
@@ -185,7 +182,7 @@ impl<'p> Source<'p> {
 }
 
 /// See that a file ends as one of Parquet, in a description of which there is not too much.
-fn check_end(path: &Path, mut file: &File) -> Result<(), ColumnsError> {
+fn check_end(path: &Path, mut file: &File) -> Result<()> {
     let io = |error| ColumnsError::file(path, error);
     let length = file.metadata().map_err(io)?.len();
     let Some(start) = length.checked_sub(FOOTER_SIZE as u64) else {

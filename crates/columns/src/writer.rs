@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic::AtomicFile;
 use crate::csv::CsvWriter;
-use crate::error::ColumnsError;
+use crate::error::{ColumnsError, Result};
 use crate::parquet::ParquetWriter;
 use crate::table::{Data, Kind, Schema};
 
@@ -69,7 +69,7 @@ impl TableWriter {
     /// # Errors
     ///
     /// [`ColumnsError`] if the file cannot be made.
-    pub fn create(path: &Path, format: Format, schema: &Schema) -> Result<Self, ColumnsError> {
+    pub fn create(path: &Path, format: Format, schema: &Schema) -> Result<Self> {
         let file = AtomicFile::create(path).map_err(|error| ColumnsError::file(path, error))?;
         let output = match format {
             Format::Parquet => Output::Parquet(Box::new(ParquetWriter::new(path, file, schema)?)),
@@ -83,7 +83,7 @@ impl TableWriter {
     /// # Errors
     ///
     /// [`ColumnsError`] if the disk does not take them, or they are not of this table.
-    pub fn write(&mut self, columns: Vec<Data>) -> Result<(), ColumnsError> {
+    pub fn write(&mut self, columns: Vec<Data>) -> Result<()> {
         let path = || self.path.clone();
         self.schema
             .rows(&columns)
@@ -99,7 +99,7 @@ impl TableWriter {
     /// # Errors
     ///
     /// [`ColumnsError`] if the disk does not take the rest.
-    pub fn finish(self) -> Result<(), ColumnsError> {
+    pub fn finish(self) -> Result<()> {
         let file = match self.output {
             Output::Parquet(inner) => inner.finish(&self.path)?,
             Output::Csv(inner) => inner.finish(),
@@ -118,7 +118,7 @@ pub fn read_table(
     format: Format,
     schema: &Schema,
     each: &mut dyn FnMut(&[Data]),
-) -> Result<(), ColumnsError> {
+) -> Result<()> {
     if let Some(text) = schema.columns.iter().find(|column| column.kind == Kind::Utf8) {
         // Nothing that is read back holds text.
         let (column, wanted) = (text.name.clone(), "numbers, to be read back");
@@ -151,6 +151,6 @@ pub fn read_table(
 /// assert!(read_notes(&path)?.contains(&note));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn read_notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
+pub fn read_notes(path: &Path) -> Result<Vec<(String, String)>> {
     crate::parquet::notes(path)
 }

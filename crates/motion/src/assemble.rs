@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::contacts::Contacts;
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::force::Forces;
 use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
@@ -39,7 +39,7 @@ const GUESSES: u64 = 50;
 /// }
 /// # Ok::<(), motion::MotionError>(())
 /// ```
-pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>> {
     let Some(mut contacts) = Contacts::of(system) else { return closed(system, guess_m) };
     // What cannot hold where it is has to hold, until all that does not has room.
     for _ in 0..=contacts.list.len() {
@@ -57,7 +57,7 @@ pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, Moti
 /// # Errors
 ///
 /// [`MotionError`] when the system cannot be moved here, or no guess of fifty can be closed.
-pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, MotionError> {
+pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>> {
     let mut failed = MotionError::NotClosed { iterations: 0, off: f64::NAN };
     for stream in 0..GUESSES {
         match assemble(system, &guess(system, seed, stream)) {
@@ -83,7 +83,7 @@ pub fn random_places(system: &System, seed: u64) -> Vec<Vector> {
 }
 
 /// The same with what holds; inextensible cables and struts that are left are slack.
-fn closed(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+fn closed(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>> {
     let mechanism = Mechanism::for_places(system)?;
     let mut stepper = Stepper::new(&mechanism)?;
     let mut state = State::at_rest(mechanism.places(guess_m)?);

@@ -17,7 +17,7 @@
 use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::Mechanism;
 use crate::simulation::CLOSED_TOLERANCE;
 use crate::state::{State, curvature, half_excess, rate, squared};
@@ -93,7 +93,7 @@ impl Contacts {
     /// Close what is closed at the places of a beginning, world frame, m.
     /// [`MotionError::NotClosed`] where a gap is negative by more than the rounding of printed
     /// digits.
-    pub(crate) fn begin(&mut self, joints_m: &[Vector]) -> Result<(), MotionError> {
+    pub(crate) fn begin(&mut self, joints_m: &[Vector]) -> Result<()> {
         for k in 0..self.list.len() {
             let gap = self.gap_at(self.list[k], joints_m);
             if gap.is_nan() || gap < -CLOSED_TOLERANCE {
@@ -149,7 +149,7 @@ impl Contacts {
 
     /// The system with bars and supports for what holds, and nothing else in its place; ropes stay,
     /// those that do not hold without stiffness.
-    pub(crate) fn held(&self) -> Result<System, MotionError> {
+    pub(crate) fn held(&self) -> Result<System> {
         let supports = self.system.joints().iter().map(|joint| joint.support);
         let (mut supports, mut members): (Vec<Support>, _) =
             (supports.collect(), self.system.members().to_vec());

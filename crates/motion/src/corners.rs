@@ -15,7 +15,7 @@
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
 
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::inertia::EndInertia;
 use numerics::vector::{add_times, cross, dot, minus, norm, plus, times};
 
@@ -77,7 +77,7 @@ pub(crate) fn second_axis(d: Vector) -> Vector {
 /// Add corners to all bars whose moments across differ.
 /// [`MotionError::UnequalMoments`] where a bar with a stiffness has such moments, or where one of
 /// the three is not less than the sum of the other two: a body has none such, or lies in a plane.
-pub(crate) fn expand(system: &System) -> Result<Expanded, MotionError> {
+pub(crate) fn expand(system: &System) -> Result<Expanded> {
     let (mut joints, mut members) = (system.joints().to_vec(), system.members().to_vec());
     let mut inertia: Vec<EndInertia> = members.iter().map(|m| EndInertia::new(&m.body)).collect();
     let mut cornered = Vec::new();

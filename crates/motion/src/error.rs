@@ -3,6 +3,9 @@
 use model::number::Brief;
 use model::system::RunTogether;
 
+/// What a step of a motion leads to.
+pub(crate) type Result<T, E = MotionError> = std::result::Result<T, E>;
+
 /// Why a system cannot be set in motion, or a step cannot be taken.
 ///
 /// Members are counted from 1, joints are named.

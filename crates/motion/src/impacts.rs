@@ -13,7 +13,7 @@ use model::Vector;
 
 use crate::contacts::{CLOSED, Contacts, Impact};
 use crate::damping;
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::simulation::{Simulation, at_the_beginning};
@@ -48,7 +48,7 @@ const STILL: f64 = 1e-10;
 
 impl Simulation {
     /// A step, with the impacts in it.
-    pub(crate) fn step_with_impacts(&mut self, step_s: f64) -> Result<(), MotionError> {
+    pub(crate) fn step_with_impacts(&mut self, step_s: f64) -> Result<()> {
         if step_s < 0.0 {
             let reason = "what is lost in impacts does not come back".to_owned();
             return Err(MotionError::Input { what: "a step back in time", reason });
@@ -77,7 +77,7 @@ impl Simulation {
         before: &(State, f64),
         left_s: f64,
         step_s: f64,
-    ) -> Result<Option<(f64, Vec<usize>)>, MotionError> {
+    ) -> Result<Option<(f64, Vec<usize>)>> {
         let mut high = (left_s, self.least_gap());
         if high.1 >= -CLOSED {
             return Ok(None);
@@ -128,20 +128,20 @@ impl Simulation {
         (0..gaps.len()).filter(is_closing).collect()
     }
 
-    fn go_back(&mut self, (state, time_s): &(State, f64)) -> Result<(), MotionError> {
+    fn go_back(&mut self, (state, time_s): &(State, f64)) -> Result<()> {
         self.state.clone_from(state);
         self.time_s = *time_s;
         self.arrive()
     }
 
-    fn arrive(&mut self) -> Result<(), MotionError> {
+    fn arrive(&mut self) -> Result<()> {
         self.stepper
             .arrive(&self.mechanism, &self.state, &self.forces, self.time_s)
             .map_err(|failure| at_the_beginning(&self.mechanism, failure))
     }
 
     /// Change what holds.
-    fn hold(&mut self, contacts: &Contacts) -> Result<(), MotionError> {
+    fn hold(&mut self, contacts: &Contacts) -> Result<()> {
         let reference_m = self.mechanism.reference_m;
         self.mechanism = Mechanism::for_motion(&contacts.held()?, reference_m)?;
         self.stepper = Stepper::new(&self.mechanism)?;
@@ -149,11 +149,7 @@ impl Simulation {
     }
 
     /// The plastic impact of what closes, with what holds; or a push, N s by slot, under them.
-    pub(crate) fn collide(
-        &mut self,
-        closing: &[usize],
-        push: Option<&[Vector]>,
-    ) -> Result<(), MotionError> {
+    pub(crate) fn collide(&mut self, closing: &[usize], push: Option<&[Vector]>) -> Result<()> {
         let Some(mut contacts) = self.contacts.take() else { return Ok(()) };
         let energy_j = self.energy_j();
         let solved = self.impulses(&mut contacts, closing, push);
@@ -173,7 +169,7 @@ impl Simulation {
         contacts: &mut Contacts,
         closing: &[usize],
         push: Option<&[Vector]>,
-    ) -> Result<(), MotionError> {
+    ) -> Result<()> {
         let held = contacts.holds.clone();
         let closed = |k: usize| held[k] || closing.contains(&k);
         for (k, holds) in contacts.holds.iter_mut().enumerate() {
@@ -215,7 +211,7 @@ impl Simulation {
     }
 
     /// Let go of what would have to hold with a force of the wrong sign.
-    pub(crate) fn let_go(&mut self, in_turn: bool) -> Result<(), MotionError> {
+    pub(crate) fn let_go(&mut self, in_turn: bool) -> Result<()> {
         let Some(mut contacts) = self.contacts.take() else { return Ok(()) };
         let energy_j = self.energy_j();
         let done = self.let_go_of(&mut contacts, in_turn);
@@ -229,7 +225,7 @@ impl Simulation {
 
     /// What is closed and stays closed by the velocities bears a force of the right sign, or opens
     /// with its acceleration: one goes or comes at a time until both are so.
-    fn let_go_of(&mut self, contacts: &mut Contacts, in_turn: bool) -> Result<(), MotionError> {
+    fn let_go_of(&mut self, contacts: &mut Contacts, in_turn: bool) -> Result<()> {
         let unit_n: f64 = self.mechanism.load.iter().map(|f| norm(*f)).sum();
         let gaps = contacts.gaps(&self.mechanism, &self.state);
         let rates = contacts.rates(&self.mechanism, &self.state);

@@ -4,7 +4,7 @@ use model::Vector;
 use model::system::{Kind, System};
 
 use crate::corners::{Cornered, Expanded, expand};
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::inertia::EndInertia;
 use crate::order::order;
 use crate::unequal::smaller;
@@ -98,20 +98,20 @@ impl Mechanism {
     ///
     /// [`MotionError`] when the system has members or joints whose motion is indeterminate:
     /// inextensible cables and struts, moments that no body has, joints without inertia.
-    pub fn new(system: &System) -> Result<Self, MotionError> {
+    pub fn new(system: &System) -> Result<Self> {
         refuse_inextensible(system)?;
         Self::for_small_motions(system)
     }
 
     /// The same, where inextensible cables and struts are slack.
-    pub(crate) fn for_small_motions(system: &System) -> Result<Self, MotionError> {
+    pub(crate) fn for_small_motions(system: &System) -> Result<Self> {
         let inertia = smaller(system)?;
         let expanded = Expanded { system: system.clone(), inertia, cornered: Vec::new() };
         Self::build(expanded, None, system.reference_m())
     }
 
     /// For places alone, where nothing depends on how bars spin.
-    pub(crate) fn for_places(system: &System) -> Result<Self, MotionError> {
+    pub(crate) fn for_places(system: &System) -> Result<Self> {
         let inertia = system.members().iter().map(|m| EndInertia::new(&m.body)).collect();
         let expanded = Expanded { system: system.clone(), inertia, cornered: Vec::new() };
         Self::build(expanded, None, system.reference_m())
@@ -119,17 +119,13 @@ impl Mechanism {
 
     /// For motions: with corners at bars whose moments across differ. Inextensible cables and
     /// struts are slack.
-    pub(crate) fn for_motion(system: &System, reference_m: Vector) -> Result<Self, MotionError> {
+    pub(crate) fn for_motion(system: &System, reference_m: Vector) -> Result<Self> {
         let expanded = expand(system)?;
         let given = (!expanded.cornered.is_empty()).then(|| system.clone());
         Self::build(expanded, given, reference_m)
     }
 
-    fn build(
-        expanded: Expanded,
-        given: Option<System>,
-        reference_m: Vector,
-    ) -> Result<Self, MotionError> {
+    fn build(expanded: Expanded, given: Option<System>, reference_m: Vector) -> Result<Self> {
         let Expanded { system, inertia, cornered } = expanded;
         if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
@@ -281,7 +277,7 @@ impl Mechanism {
 
     /// Places by slot, relative to the reference, of places by joint in the world frame.
     /// [`MotionError::Input`] when their number is not that of the joints, or one is not finite.
-    pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+    pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>> {
         let reference = self.reference_m;
         self.check_vectors(joints_m, "places of the joints")?;
         let mut joints_m = joints_m.to_vec();
@@ -300,18 +296,14 @@ impl Mechanism {
     }
 
     /// Vectors by slot of vectors by joint; none at corners.
-    pub(crate) fn by_slot(
-        &self,
-        by_joint: &[Vector],
-        what: &'static str,
-    ) -> Result<Vec<Vector>, MotionError> {
+    pub(crate) fn by_slot(&self, by_joint: &[Vector], what: &'static str) -> Result<Vec<Vector>> {
         self.check_vectors(by_joint, what)?;
         let of = |&joint: &usize| by_joint.get(joint).copied().unwrap_or_default();
         Ok(self.joint_at.iter().map(of).collect())
     }
 
     /// Refuse vectors that are not as many as the joints as given, or not finite.
-    fn check_vectors(&self, by_joint: &[Vector], what: &'static str) -> Result<(), MotionError> {
+    fn check_vectors(&self, by_joint: &[Vector], what: &'static str) -> Result<()> {
         let [joints, _] = self.given();
         if by_joint.len() != joints {
             let reason = format!("{} given for {joints} joints", by_joint.len());

@@ -12,7 +12,7 @@
 
 use model::Vector;
 
-use crate::error::MotionError;
+use crate::error::Result;
 use crate::force::Forces;
 use crate::krylov;
 use crate::mechanism::{Link, Mechanism, Rigid};
@@ -72,7 +72,7 @@ pub(crate) enum Failure {
 }
 
 impl Stepper {
-    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
+    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self> {
         let rows = mechanism.constraints();
         let slots = mechanism.joint_at.len();
         Ok(Self {

@@ -1,4 +1,4 @@
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 
 /// Order of the integrator.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Settings {
     /// # Errors
     ///
     /// [`MotionError::Input`] when a damping is negative or not finite.
-    pub fn validate(&self) -> Result<(), MotionError> {
+    pub fn validate(&self) -> Result<()> {
         let dampings = [
             ("damping, 1/s", self.damping_1_s),
             ("friction in the joints, N m s", self.friction_n_m_s),

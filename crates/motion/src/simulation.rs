@@ -4,7 +4,7 @@ use model::system::{RunTogether, System};
 use crate::composition::parts;
 use crate::contacts::{Contacts, Impact};
 use crate::damping;
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::force::{ForceOfTime, Forces, MomentOfTime, kinetic_j, potential_j};
 use crate::mechanism::Mechanism;
 use crate::rattle::{Failure, Stepper};
@@ -73,11 +73,7 @@ impl Simulation {
     /// [`MotionError`] when the system cannot be moved here, a setting is out of range, the places
     /// violate a length by more than [`CLOSED_TOLERANCE`], or the constraints do not determine
     /// their forces there.
-    pub fn new(
-        system: &System,
-        joints_m: &[Vector],
-        settings: Settings,
-    ) -> Result<Self, MotionError> {
+    pub fn new(system: &System, joints_m: &[Vector], settings: Settings) -> Result<Self> {
         settings.validate()?;
         let mut contacts = Contacts::of(system);
         let held = match &mut contacts {
@@ -123,7 +119,7 @@ impl Simulation {
     /// # Errors
     ///
     /// [`MotionError::Input`] when there is no such joint.
-    pub fn add_force(&mut self, joint: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
+    pub fn add_force(&mut self, joint: usize, of_time: ForceOfTime) -> Result<()> {
         let Some(&slot) = self.mechanism.slot_of.get(joint) else {
             let reason = format!("there is no joint number {joint}");
             return Err(MotionError::Input { what: "a force of time", reason });
@@ -140,7 +136,7 @@ impl Simulation {
     ///
     /// [`MotionError::Input`] when there is no such member, it is a rope, or its moments across
     /// differ: then its spin is not apart.
-    pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
+    pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<()> {
         let refused = |reason| MotionError::Input { what: "a moment of time", reason };
         let system = self.mechanism.system();
         let Some(of) = system.members().get(member) else {
@@ -164,7 +160,7 @@ impl Simulation {
     /// # Errors
     ///
     /// [`MotionError`] when they are not as many as the joints, or not finite.
-    pub fn set_velocities(&mut self, velocities_m_s: &[Vector]) -> Result<(), MotionError> {
+    pub fn set_velocities(&mut self, velocities_m_s: &[Vector]) -> Result<()> {
         let mut velocity = self.mechanism.by_slot(velocities_m_s, "velocities of the joints")?;
         velocity[self.mechanism.moving..].fill([0.0; 3]);
         for cornered in &self.mechanism.cornered {
@@ -190,12 +186,12 @@ impl Simulation {
     /// # Errors
     ///
     /// [`MotionError`] when they are not as many as the joints, or not finite.
-    pub fn push(&mut self, impulses_n_s: &[Vector]) -> Result<(), MotionError> {
+    pub fn push(&mut self, impulses_n_s: &[Vector]) -> Result<()> {
         let impulses = self.mechanism.by_slot(impulses_n_s, "impulses on the joints")?;
         self.push_slots(&impulses)
     }
 
-    fn push_slots(&mut self, impulses: &[Vector]) -> Result<(), MotionError> {
+    fn push_slots(&mut self, impulses: &[Vector]) -> Result<()> {
         if self.contacts.is_some() {
             self.collide(&[], Some(impulses))?;
             return self.let_go(false);
@@ -231,7 +227,7 @@ impl Simulation {
     /// # Errors
     ///
     /// [`MotionError::Stiff`] when they are more than ten thousand.
-    pub fn parts_of(&self, step_s: f64) -> Result<u32, MotionError> {
+    pub fn parts_of(&self, step_s: f64) -> Result<u32> {
         let parts = (step_s.abs() / self.longest_s).ceil().max(1.0);
         if parts > MOST_PARTS {
             let (longest_s, most_s) = (self.longest_s, MOST_PARTS * self.longest_s);
@@ -248,7 +244,7 @@ impl Simulation {
     ///
     /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on
     /// a taut line.
-    pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
+    pub fn step(&mut self, step_s: f64) -> Result<()> {
         let parts = self.parts_of(step_s)?;
         let part_s = step_s / f64::from(parts);
         for _ in 0..parts {
@@ -262,7 +258,7 @@ impl Simulation {
     }
 
     /// A step with what holds at its beginning.
-    pub(crate) fn whole(&mut self, step_s: f64) -> Result<(), MotionError> {
+    pub(crate) fn whole(&mut self, step_s: f64) -> Result<()> {
         for k in 0..self.parts.len() {
             self.part(self.parts[k] * step_s)?;
         }
@@ -270,7 +266,7 @@ impl Simulation {
     }
 
     /// A symmetric step of order two: half of the damping, RATTLE, half of the damping.
-    fn part(&mut self, h: f64) -> Result<(), MotionError> {
+    fn part(&mut self, h: f64) -> Result<()> {
         self.damp(0.5 * h)?;
         let stepped =
             self.stepper.step(&self.mechanism, &mut self.state, &self.forces, self.time_s, h);
@@ -283,7 +279,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn damp(&mut self, h: f64) -> Result<(), MotionError> {
+    fn damp(&mut self, h: f64) -> Result<()> {
         damping::damp(&self.mechanism, &self.settings, &mut self.state, &mut self.stepper, h)
             .map_err(|failure| self.told(failure, h))
     }

@@ -12,7 +12,7 @@
 
 use model::Vector;
 
-use crate::error::MotionError;
+use crate::error::Result;
 use crate::mechanism::Mechanism;
 use crate::saddle::Saddle;
 use numerics::vector::{add_times, dot, minus, times};
@@ -28,7 +28,7 @@ const ITERATIONS: usize = 40;
 
 /// The longest step, s; infinite where no member is elastic.
 /// [`MotionError::Massless`] where the inertia is singular.
-pub(crate) fn longest_step_s(mechanism: &Mechanism) -> Result<f64, MotionError> {
+pub(crate) fn longest_step_s(mechanism: &Mechanism) -> Result<f64> {
     if mechanism.springs.iter().all(|spring| spring.stiffness_n <= 0.0) {
         return Ok(f64::INFINITY);
     }

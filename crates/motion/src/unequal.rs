@@ -16,7 +16,7 @@
 use model::system::{Kind, System};
 
 use crate::corners::{is_symmetric, second_axis, unequal};
-use crate::error::MotionError;
+use crate::error::Result;
 use crate::inertia::EndInertia;
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
@@ -43,7 +43,7 @@ pub(crate) struct Excess {
 /// The inertia of all members for small motions: with the smaller moment across.
 /// [`MotionError::UnequalMoments`] where the moments across a member that may stretch or go slack
 /// differ, or where no body has such moments.
-pub(crate) fn smaller(system: &System) -> Result<Vec<EndInertia>, MotionError> {
+pub(crate) fn smaller(system: &System) -> Result<Vec<EndInertia>> {
     let members = system.members().iter().enumerate();
     let inertia = members.map(|(number, member)| {
         let body = &member.body;

@@ -8,7 +8,7 @@
 use model::system::{Joint, Kind, System};
 
 use crate::contacts::{hold, let_go};
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::Mechanism;
 use crate::modes::LeftOver;
 use model::Vector;
@@ -29,7 +29,7 @@ pub(crate) fn inextensible(system: &System, number: usize) -> Option<&'static st
 }
 
 /// Refuse inextensible cables and struts.
-pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
+pub(crate) fn refuse_inextensible(system: &System) -> Result<()> {
     let first = (0..system.members().len()).find_map(|k| Some((k + 1, inextensible(system, k)?)));
     first.map_or(Ok(()), |(member, kind)| Err(MotionError::Unilateral { member, kind }))
 }
@@ -38,7 +38,7 @@ pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
 /// position, world frame, m, and without a floor: joints that lie on it slide in its level. Ropes
 /// that are not slack stay.
 /// [`MotionError::Input`] where there are not as many places as joints, or one is below the floor.
-pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System, MotionError> {
+pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System> {
     let refused = |reason| MotionError::Input { what: "places of the joints", reason };
     if joints_m.len() != system.joints().len() {
         let (given, joints) = (joints_m.len(), system.joints().len());
@@ -92,7 +92,7 @@ pub(crate) fn check_pushes(
     mechanism: &Mechanism,
     joints_m: &[Vector],
     left: &LeftOver,
-) -> Result<(), MotionError> {
+) -> Result<()> {
     for (k, joint) in system.joints().iter().enumerate() {
         let left_n = left.forces[mechanism.slot_of[k]];
         let push_n = joint.support.upright_part(left_n).map_or(0.0, |part_n| -part_n);
@@ -118,7 +118,7 @@ pub(crate) fn check_forces(
     mechanism: &Mechanism,
     joints_m: &[Vector],
     densities: &[f64],
-) -> Result<(), MotionError> {
+) -> Result<()> {
     let axial = || mechanism.bars.iter().zip(densities).map(|(bar, rho)| rho * bar.length_m);
     let loads = mechanism.load.iter().map(|f| norm(*f));
     let unit_n = axial().map(f64::abs).chain(loads).fold(0.0, worse);

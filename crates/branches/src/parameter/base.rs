@@ -3,7 +3,7 @@
 use model::system::System;
 use model::system_file::nearest;
 
-use crate::parameter::error::ParameterError;
+use crate::parameter::error::{ParameterError, Result};
 use crate::parameter::number::{AnchorEnd, BarField, JointField, Number, Which, equals};
 use crate::parameter::rows;
 use crate::parameter::values::Parameter;
@@ -39,7 +39,7 @@ pub fn resolved(system: &System, number: &Number) -> Number {
 /// # Errors
 ///
 /// [`ParameterError`] with what is missing and what there is.
-pub fn check(system: &System, parameter: &Parameter) -> Result<(), ParameterError> {
+pub fn check(system: &System, parameter: &Parameter) -> Result<()> {
     match &parameter.number {
         Number::Loads | Number::Lengths | Number::Gravity | Number::Floor => Ok(()),
         Number::Bar(which, _) => bar(parameter, *which, system.members().len()),
@@ -77,7 +77,7 @@ pub fn check(system: &System, parameter: &Parameter) -> Result<(), ParameterErro
 }
 
 /// Refuse a count of bars that are not of one row.
-fn one_row(parameter: &Parameter, resolved: &Number) -> Result<(), ParameterError> {
+fn one_row(parameter: &Parameter, resolved: &Number) -> Result<()> {
     match resolved {
         Number::Bar(Which::Range(..), BarField::Count) => Ok(()),
         number if number.is_count() => {
@@ -89,12 +89,7 @@ fn one_row(parameter: &Parameter, resolved: &Number) -> Result<(), ParameterErro
 }
 
 /// Whether a joint has the number: places are those of supports, anchors bear no loads.
-fn held(
-    parameter: &Parameter,
-    system: &System,
-    joint: usize,
-    field: JointField,
-) -> Result<(), ParameterError> {
+fn held(parameter: &Parameter, system: &System, joint: usize, field: JointField) -> Result<()> {
     let joint = &system.joints()[joint];
     let name = &joint.name;
     match field {
@@ -115,7 +110,7 @@ fn held(
 }
 
 /// Whether there are so many bars.
-fn bar(parameter: &Parameter, which: Which, bars: usize) -> Result<(), ParameterError> {
+fn bar(parameter: &Parameter, which: Which, bars: usize) -> Result<()> {
     match which {
         Which::One(bar) | Which::Range(_, bar) if bar > bars => {
             let path = path(parameter);

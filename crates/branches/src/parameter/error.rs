@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// What reading a parameter leads to.
+pub(crate) type Result<T, E = ParameterError> = std::result::Result<T, E>;
+
 /// Why a text describes no parameter: what is wrong, where, and what would be allowed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}`, character {}: {what}", self.column())]

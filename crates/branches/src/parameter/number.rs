@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use model::system_file::nearest;
 
-use crate::parameter::error::ParameterError;
+use crate::parameter::error::{ParameterError, Result};
 
 /// One number of a system file, or the same number of every bar.
 ///
@@ -191,7 +191,7 @@ impl Number {
     }
 
     /// The number that the beginning of `text`, up to `end`, is the path of.
-    pub(super) fn parse(text: &str, end: usize) -> Result<Self, ParameterError> {
+    pub(super) fn parse(text: &str, end: usize) -> Result<Self> {
         let mut parts = Parts { text, rest: words(text, end)?, end };
         let top = parts.key(TOP, "a path")?;
         let number = match top {
@@ -300,7 +300,7 @@ pub(super) fn equals(text: &str) -> Option<usize> {
 
 /// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around
 /// numbers. What stands in quotes is one word.
-fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
+fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>> {
     const HELP: &str = "brackets enclose one number, as in `bars[2].mass_kg`";
     let mut words = vec![];
     let mut start = 0;
@@ -368,11 +368,7 @@ impl Parts<'_> {
         ParameterError::new(self.text, span, what, format!("allowed here: {allowed}"))
     }
 
-    fn next(
-        &mut self,
-        owner: &str,
-        allowed: &str,
-    ) -> Result<(String, Range<usize>), ParameterError> {
+    fn next(&mut self, owner: &str, allowed: &str) -> Result<(String, Range<usize>)> {
         if self.rest.is_empty() {
             let span = self.end..self.end;
             let what = format!("{owner} is not a number: a part of it is missing");
@@ -382,11 +378,7 @@ impl Parts<'_> {
         Ok((self.text[span.clone()].trim().to_owned(), span))
     }
 
-    fn key(
-        &mut self,
-        allowed: &'static [&'static str],
-        owner: &str,
-    ) -> Result<&'static str, ParameterError> {
+    fn key(&mut self, allowed: &'static [&'static str], owner: &str) -> Result<&'static str> {
         let list = allowed.join(", ");
         let (word, span) = self.next(owner, &list)?;
         if let Some(key) = allowed.iter().find(|key| **key == word) {
@@ -399,7 +391,7 @@ impl Parts<'_> {
         Err(ParameterError::new(self.text, span, format!("unknown key `{word}`"), help))
     }
 
-    fn axis(&mut self) -> Result<usize, ParameterError> {
+    fn axis(&mut self) -> Result<usize> {
         const ALLOWED: &str = "x, y, z (or [1], [2], [3])";
         let (word, span) = self.next("a vector", ALLOWED)?;
         let axis = AXES.iter().position(|axis| *axis == word).or_else(|| {
@@ -408,7 +400,7 @@ impl Parts<'_> {
         axis.ok_or_else(|| self.wrong(span, format!("unknown component `{word}`"), ALLOWED))
     }
 
-    fn joint(&mut self) -> Result<String, ParameterError> {
+    fn joint(&mut self) -> Result<String> {
         const ALLOWED: &str = "the name of a joint, with dots in quotes";
         let (word, span) = self.next("`joints`", ALLOWED)?;
         let quoted = word.strip_prefix('"').and_then(|word| word.strip_suffix('"'));
@@ -419,7 +411,7 @@ impl Parts<'_> {
         Ok(name.to_owned())
     }
 
-    fn bars(&mut self) -> Result<Bars, ParameterError> {
+    fn bars(&mut self) -> Result<Bars> {
         const ALLOWED: &str =
             "the number of a bar, from 1, a range 1-20, a row FROM-TO.*, or * for all";
         let (word, span) = self.next("`bars`", ALLOWED)?;

@@ -1,7 +1,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use crate::parameter::error::ParameterError;
+use crate::parameter::error::{ParameterError, Result};
 use crate::parameter::number::{Number, equals};
 
 /// Most values of one parameter, and most points of a variation: each costs a census.
@@ -40,7 +40,7 @@ impl Parameter {
     /// # Errors
     ///
     /// [`ParameterError`] at the end of the text.
-    pub fn with_points(&self) -> Result<&Self, ParameterError> {
+    pub fn with_points(&self) -> Result<&Self> {
         let (text, help) = (self.text(), "write `from..to:points`, as `-2.9..-0.1:500`");
         let span = text.len()..text.len();
         let what = "the number of points is missing";
@@ -67,7 +67,7 @@ impl Parameter {
 impl FromStr for Parameter {
     type Err = ParameterError;
 
-    fn from_str(text: &str) -> Result<Self, ParameterError> {
+    fn from_str(text: &str) -> Result<Self> {
         let Some(equals) = equals(text) else {
             let span = text.len()..text.len();
             return Err(ParameterError::new(text, span, "`=` and the values are missing", VALUES));
@@ -83,7 +83,7 @@ impl FromStr for Parameter {
 }
 
 /// Counts of bars: a list, or all of a range.
-fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
+fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>> {
     const COUNTS: &str =
         "counts are whole numbers from 1: a list, `2,5,10`, or all of a range, `2..10`";
     let wrong = |span: Range<usize>| {
@@ -114,7 +114,7 @@ fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
     if list.len() > MAX_POINTS { Err(wrong(all)) } else { Ok(list) }
 }
 
-fn values(text: &str, all: Range<usize>) -> Result<(Vec<f64>, bool), ParameterError> {
+fn values(text: &str, all: Range<usize>) -> Result<(Vec<f64>, bool)> {
     let part = &text[all.clone()];
     if let Some(dots) = part.find("..") {
         let from = number(text, all.start..all.start + dots)?;
@@ -164,7 +164,7 @@ fn range(from: f64, to: f64, points: usize) -> Vec<f64> {
         .collect()
 }
 
-fn number(text: &str, span: Range<usize>) -> Result<f64, ParameterError> {
+fn number(text: &str, span: Range<usize>) -> Result<f64> {
     let word = text[span.clone()].trim();
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -176,7 +176,7 @@ fn number(text: &str, span: Range<usize>) -> Result<f64, ParameterError> {
     }
 }
 
-fn points(text: &str, span: Range<usize>) -> Result<usize, ParameterError> {
+fn points(text: &str, span: Range<usize>) -> Result<usize> {
     let word = text[span.clone()].trim();
     match word.parse::<usize>() {
         Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),

@@ -2,7 +2,7 @@
 
 use model::Vector;
 
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
 use crate::unilateral::BALANCE;
@@ -45,7 +45,7 @@ impl LeftOver {
 
     /// Largest force that no support bears, relative to the largest force.
     /// [`MotionError::NotInBalance`] where it is more than rounding.
-    pub(super) fn off(&self, mechanism: &Mechanism) -> Result<f64, MotionError> {
+    pub(super) fn off(&self, mechanism: &Mechanism) -> Result<f64> {
         let mut left = self.forces.clone();
         for slide in &mechanism.slides {
             let f = left[slide.slot];

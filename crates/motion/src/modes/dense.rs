@@ -8,7 +8,7 @@ use super::lanczos::length;
 use super::planes::{Sector, space};
 use super::solved::{Solved, ZERO};
 use super::stiffness::{Entry, Stiffness};
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::Mechanism;
 
 /// Rows of the constraints whose part independent of the others is less than this, relative, are
@@ -20,7 +20,7 @@ const WORK: f64 = 1e-9;
 
 /// All modes whose displacements are along the axes of a sector.
 /// [`MotionError::Massless`] where the inertia is not positive definite.
-pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved, MotionError> {
+pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved> {
     let entries = stiffness.entries(sector);
     let size = entries.size;
     let inertia = matrix(size, size, &entries.inertia);
@@ -71,7 +71,7 @@ pub(super) fn bound<'a>(
     mechanism: &'a Mechanism,
     is_one_sided: impl Fn(usize) -> bool,
     stressed: impl Fn(Vec<f64>) -> Stiffness<'a>,
-) -> Result<Vec<Vec<Vector>>, MotionError> {
+) -> Result<Vec<Vec<Vector>>> {
     let sector = space();
     let without = stressed(vec![0.0; mechanism.bars.len()]).entries(&sector);
     let size = without.size;

@@ -14,7 +14,7 @@ use super::planes::Sector;
 use super::shifted::Shifted;
 use super::solved::{Solved, ZERO};
 use super::stiffness::{Entries, Stiffness};
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 
 /// Shift of the first attempt, in units of [`Stiffness::unit`]: below zero, where a mode may be.
 const FIRST_SHIFT: f64 = -0.1;
@@ -41,11 +41,7 @@ const ONE_FREQUENCY: f64 = 1e-6;
 pub(super) const LEAST_SIZE: usize = 160;
 
 /// The lowest `count` modes of a sector.
-pub(super) fn solve(
-    stiffness: &Stiffness<'_>,
-    sector: &Sector,
-    count: usize,
-) -> Result<Solved, MotionError> {
+pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector, count: usize) -> Result<Solved> {
     let entries = stiffness.entries(sector);
     let axes = sector.axes.len();
     let unit = stiffness.unit();
@@ -85,7 +81,7 @@ struct Pair {
 }
 
 /// A shift below all modes.
-fn below_all(entries: &Entries, axes: usize, unit: f64) -> Result<(f64, Shifted), MotionError> {
+fn below_all(entries: &Entries, axes: usize, unit: f64) -> Result<(f64, Shifted)> {
     let mut shift = FIRST_SHIFT * if unit > 0.0 { unit } else { 1.0 };
     for _ in 0..MOST_SHIFTS {
         if let Some(shifted) = Shifted::new(entries, axes, shift)
@@ -122,7 +118,7 @@ fn counting_shift(pairs: &[Pair], count: usize, total: usize, unit: f64) -> (f64
 }
 
 /// Number of all modes with `ω² < 0`: where those found reach above zero, they are the ones.
-fn negative(entries: &Entries, axes: usize, pairs: &[Pair]) -> Result<usize, MotionError> {
+fn negative(entries: &Entries, axes: usize, pairs: &[Pair]) -> Result<usize> {
     let leaving = pairs.iter().filter(|pair| pair.omega2 < 0.0 && !pair.is_zero).count();
     match pairs.last() {
         Some(last) if last.omega2 < 0.0 && !last.is_zero => {

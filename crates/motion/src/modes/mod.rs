@@ -38,7 +38,7 @@ use model::Vector;
 use model::system::System;
 use nalgebra::DMatrix;
 
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::force;
 use crate::mechanism::Mechanism;
 use crate::rattle::{Stepper, no_jam};
@@ -170,11 +170,7 @@ const DENSE_JOINTS: usize = 60;
 /// assert!((upright.modes[0].omega2_s2 + 1.5 * 9.81).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn modes(
-    system: &System,
-    joints_m: &[Vector],
-    axial_n: Option<&[f64]>,
-) -> Result<Modes, MotionError> {
+pub fn modes(system: &System, joints_m: &[Vector], axial_n: Option<&[f64]>) -> Result<Modes> {
     let mechanism = about_equilibrium(system, joints_m)?;
     if mechanism.moving > MOST_JOINTS {
         return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
@@ -239,7 +235,7 @@ pub fn lowest_modes(
     joints_m: &[Vector],
     axial_n: Option<&[f64]>,
     count: usize,
-) -> Result<Modes, MotionError> {
+) -> Result<Modes> {
     let mechanism = about_equilibrium(system, joints_m)?;
     let is_small = mechanism.moving <= DENSE_JOINTS;
     let mut found = about(system, &mechanism, joints_m, axial_n, &|stiffness, sector| {
@@ -256,15 +252,12 @@ pub fn lowest_modes(
 
 /// The mechanics of a system next to an equilibrium, where taut cables and struts are bars, and
 /// joints that lie on a floor slide in its level.
-pub(crate) fn about_equilibrium(
-    system: &System,
-    joints_m: &[Vector],
-) -> Result<Mechanism, MotionError> {
+pub(crate) fn about_equilibrium(system: &System, joints_m: &[Vector]) -> Result<Mechanism> {
     Mechanism::for_small_motions(&with_what_holds(system, joints_m)?)
 }
 
 /// At rest at places where every span of a taut rope has a direction.
-fn at_rest(mechanism: &Mechanism, joints_m: &[Vector]) -> Result<State, MotionError> {
+fn at_rest(mechanism: &Mechanism, joints_m: &[Vector]) -> Result<State> {
     let state = State::at_rest(mechanism.places(joints_m)?);
     no_jam(mechanism, &state).map_err(|failure| at_the_beginning(mechanism, failure))?;
     Ok(state)
@@ -276,8 +269,8 @@ fn about(
     mechanism: &Mechanism,
     joints_m: &[Vector],
     axial_n: Option<&[f64]>,
-    solve: &dyn Fn(&Stiffness<'_>, &Sector) -> Result<Solved, MotionError>,
-) -> Result<Modes, MotionError> {
+    solve: &dyn Fn(&Stiffness<'_>, &Sector) -> Result<Solved>,
+) -> Result<Modes> {
     let state = at_rest(mechanism, joints_m)?;
     let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
     let off = state.rows(mechanism, &mut vectors);
@@ -314,7 +307,7 @@ pub(crate) fn approximate_modes(
     mechanism: &Mechanism,
     joints_m: &[Vector],
     axial_n: &[f64],
-) -> Result<DMatrix<f64>, MotionError> {
+) -> Result<DMatrix<f64>> {
     let state = at_rest(mechanism, joints_m)?;
     let mut vectors = vec![[0.0; 3]; mechanism.vectors()];
     state.rows(mechanism, &mut vectors);
@@ -343,7 +336,7 @@ fn densities(
     mechanism: &Mechanism,
     state: &State,
     axial_n: Option<&[f64]>,
-) -> Result<(Vec<f64>, bool), MotionError> {
+) -> Result<(Vec<f64>, bool)> {
     let mut stepper = Stepper::new(mechanism)?;
     let forces = force::Forces::default();
     match stepper.arrive(mechanism, state, &forces, 0.0) {

@@ -14,7 +14,7 @@ mod sparse;
 
 use model::Vector;
 
-use crate::error::MotionError;
+use crate::error::{MotionError, Result};
 use crate::mechanism::{Link, Mechanism};
 use forest::Forest;
 use sparse::Sparse;
@@ -100,7 +100,7 @@ pub(crate) enum Saddle {
 impl Saddle {
     /// Prepare the elimination of a mechanism.
     /// [`MotionError::Massless`] where `M` itself is singular, [`MotionError::Memory`].
-    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
+    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self> {
         // Without rows the same elimination tells whether every joint has inertia of its own.
         Self::inertia(mechanism)?;
         Self::of(&Layout::new(mechanism), mechanism.is_forest)
@@ -108,7 +108,7 @@ impl Saddle {
 
     /// The matrix `M` alone, factorised.
     /// [`MotionError::Massless`] where it is singular, [`MotionError::Memory`].
-    pub(crate) fn inertia(mechanism: &Mechanism) -> Result<Self, MotionError> {
+    pub(crate) fn inertia(mechanism: &Mechanism) -> Result<Self> {
         let Layout { mass, mut edges, .. } = Layout::new(mechanism);
         for edge in &mut edges {
             edge.row = None;
@@ -123,7 +123,7 @@ impl Saddle {
         Ok(found)
     }
 
-    fn of(layout: &Layout, is_forest: bool) -> Result<Self, MotionError> {
+    fn of(layout: &Layout, is_forest: bool) -> Result<Self> {
         if is_forest {
             return Ok(Self::Forest(Forest::new(layout)));
         }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::store::error::{StoreError, regular};
+use crate::store::error::{Result, StoreError, regular};
 
 /// Version of the folder's form; raised when a key or a column changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;
@@ -23,14 +23,14 @@ pub(crate) const DIGESTS: &str = ".digests";
 /// [`MOST_PARTS`](crate::store::shard::MOST_PARTS) parts.
 pub(crate) const MAX_DESCRIPTION: u64 = 64 << 20;
 
-pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     let description = |reason: String| StoreError::Description { path: path.to_owned(), reason };
     let text = serde_json::to_string_pretty(value).map_err(|e| description(e.to_string()))? + "\n";
     columns::write_whole(path, text.as_bytes()).map_err(|error| StoreError::file(path, error))
 }
 
 /// Read a description; one of another version of the form is told as that, whatever is in it.
-pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
+pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T> {
     let fail = |reason: String| StoreError::Description { path: path.to_owned(), reason };
     let io = |error: std::io::Error| match error.kind() {
         ErrorKind::InvalidData => fail("it is not UTF-8 text".to_owned()),

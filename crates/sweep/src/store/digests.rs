@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
-use crate::store::error::{StoreError, regular};
+use crate::store::error::{Result, StoreError, regular};
 use crate::store::finished::{PartRecord, StoreSummary};
 use crate::store::manifest::{Manifest, digest};
 use crate::store::part;
@@ -29,7 +29,7 @@ impl Digests {
     ///
     /// A summary that cannot be read is an error: without it all parts would be computed again,
     /// which is for the user to decide.
-    pub(crate) fn open(folder: &Path, manifest: &Manifest) -> Result<Self, StoreError> {
+    pub(crate) fn open(folder: &Path, manifest: &Manifest) -> Result<Self> {
         let path = folder.join(DIGESTS);
         if folder.join(SUMMARY).exists() {
             let summary: StoreSummary = read_json(&folder.join(SUMMARY))?;
@@ -58,7 +58,7 @@ impl Digests {
     }
 
     /// See that a part that was there is the one that was written.
-    pub(crate) fn check(&self, folder: &Path, found: &PartRecord) -> Result<(), StoreError> {
+    pub(crate) fn check(&self, folder: &Path, found: &PartRecord) -> Result<()> {
         let reason = match self.known.get(&found.file) {
             Some(said) if *said == found.sha256 => return Ok(()),
             Some(said) => format!("its SHA-256 is {}, and was {said}", found.sha256),
@@ -68,11 +68,7 @@ impl Digests {
     }
 
     /// Whether a file is the one that was written, and if not, why; `None` if nothing is there.
-    pub(crate) fn holds(
-        &self,
-        folder: &Path,
-        file: &str,
-    ) -> Result<Option<Result<(), StoreError>>, StoreError> {
+    pub(crate) fn holds(&self, folder: &Path, file: &str) -> Result<Option<Result<()>>> {
         let path = folder.join(file);
         regular(&path)?;
         if !path.exists() {
@@ -83,7 +79,7 @@ impl Digests {
     }
 
     /// Write down a part that is whole now.
-    pub(crate) fn add(&self, made: &PartRecord) -> Result<(), StoreError> {
+    pub(crate) fn add(&self, made: &PartRecord) -> Result<()> {
         if let Some(Ok(mut list)) = self.list.as_ref().map(Mutex::lock) {
             list.write_all(line(&made.sha256, &made.file).as_bytes())
                 .map_err(|error| StoreError::file(&self.path, error))?;

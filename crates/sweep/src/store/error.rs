@@ -7,6 +7,9 @@ use columns::ColumnsError;
 
 use crate::store::shard::{MOST_PARTS, MOST_SEEDS, Shard};
 
+/// What work on a store leads to.
+pub(crate) type Result<T, E = StoreError> = std::result::Result<T, E>;
+
 /// Why a sweep cannot be written, continued or joined.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -87,7 +90,7 @@ pub(crate) const NAMED: usize = 10;
 
 /// See that what stands under a name is a regular file, or nothing: a pipe would wait for somebody
 /// at its other end.
-pub(crate) fn regular(path: &Path) -> Result<(), StoreError> {
+pub(crate) fn regular(path: &Path) -> Result<()> {
     match std::fs::metadata(path) {
         Ok(about) if !about.is_file() => Err(StoreError::NotRegular { path: path.to_owned() }),
         Ok(_) => Ok(()),

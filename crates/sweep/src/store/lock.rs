@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
-use crate::store::error::{StoreError, regular};
+use crate::store::error::{Result, StoreError, regular};
 use crate::store::manifest::Manifest;
 use crate::store::open;
 
@@ -22,11 +22,7 @@ impl Lock {
     /// process left.
     ///
     /// The lock comes first: what is seen before it may be gone or half written a moment later.
-    pub(crate) fn take(
-        folder: &Path,
-        manifest: &Manifest,
-        resume: bool,
-    ) -> Result<Self, StoreError> {
+    pub(crate) fn take(folder: &Path, manifest: &Manifest, resume: bool) -> Result<Self> {
         let io = |error| StoreError::file(folder, error);
         fs::create_dir_all(folder).map_err(io)?;
         let lock = Self::hold(folder)?;
@@ -53,7 +49,7 @@ impl Lock {
     }
 
     /// The lock alone.
-    fn hold(folder: &Path) -> Result<Self, StoreError> {
+    fn hold(folder: &Path) -> Result<Self> {
         let path = folder.join(LOCK);
         let io = |error| StoreError::file(&path, error);
         loop {
@@ -109,7 +105,7 @@ fn is_at(_: &File, _: &Path) -> io::Result<bool> {
 }
 
 /// Remove what killed processes left unfinished of this sweep, and nothing else.
-fn remove_unfinished(folder: &Path, manifest: &Manifest) -> Result<(), StoreError> {
+fn remove_unfinished(folder: &Path, manifest: &Manifest) -> Result<()> {
     for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
         let entry = entry.map_err(|error| StoreError::file(folder, error))?;
         let name = entry.file_name();
@@ -133,7 +129,7 @@ fn is_ours(name: &str, manifest: &Manifest) -> bool {
 }
 
 /// Something in a folder that no unfinished sweep leaves there.
-fn foreign(folder: &Path) -> Result<Option<String>, StoreError> {
+fn foreign(folder: &Path) -> Result<Option<String>> {
     for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
         let name = entry.map_err(|error| StoreError::file(folder, error))?.file_name();
         let name = name.to_string_lossy();

@@ -13,7 +13,7 @@ use crate::reached::Reached;
 use crate::store::description::{MANIFEST, read_json};
 use crate::store::shard::{Shard, part_seeds};
 
-use crate::store::error::StoreError;
+use crate::store::error::{Result, StoreError};
 use crate::summary::{Comparison, Summary};
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
@@ -140,7 +140,7 @@ impl Manifest {
     /// # Errors
     ///
     /// [`StoreError`] if there is none, or none that this program understands.
-    pub fn read(folder: &Path) -> Result<Self, StoreError> {
+    pub fn read(folder: &Path) -> Result<Self> {
         let path = folder.join(MANIFEST);
         if !path.exists() {
             return Err(StoreError::NoSweep { path: folder.to_owned(), missing: MANIFEST });
@@ -180,7 +180,7 @@ impl Manifest {
     }
 
     /// Nothing reached yet, of a sweep with a list that grows; none of others.
-    pub(crate) fn nothing_reached(&self) -> Result<Option<Reached>, StoreError> {
+    pub(crate) fn nothing_reached(&self) -> Result<Option<Reached>> {
         // Of starts in space the list is whole before the first is followed.
         let in_space = self.release.is_some() || self.source == Self::PLACES;
         if self.equilibria_complete || in_space {

@@ -9,7 +9,7 @@ use crate::identify::Member;
 use crate::reached::{Discovered, Renumbering};
 use crate::store::description::{SUMMARY, read_json, write_json};
 use crate::store::digests::Digests;
-use crate::store::error::{NAMED, StoreError, regular};
+use crate::store::error::{NAMED, Result, StoreError, regular};
 use crate::store::finished::{PartRecord, StoreSummary};
 use crate::store::lock::Lock;
 use crate::store::manifest::Manifest;
@@ -43,7 +43,7 @@ pub fn merge(
     threads: usize,
     stop: &AtomicBool,
     done: &(dyn Fn(u64) + Sync),
-) -> Result<Option<StoreSummary>, StoreError> {
+) -> Result<Option<StoreSummary>> {
     merge_shard(folders, out, Shard::WHOLE, threads, stop, done)
 }
 
@@ -60,7 +60,7 @@ pub fn merge_shard(
     threads: usize,
     stop: &AtomicBool,
     done: &(dyn Fn(u64) + Sync),
-) -> Result<Option<StoreSummary>, StoreError> {
+) -> Result<Option<StoreSummary>> {
     let inputs = complete(folders.iter().map(|folder| Input::read(folder)), shard)?;
     let Some(first) = inputs.values().next() else { return Err(StoreError::Nothing) };
     let whole = first.manifest.clone().with_shard(shard);
@@ -131,13 +131,13 @@ pub fn merge_shard(
 }
 
 /// A part as it is there, and what it counts.
-type Proved = Result<(PartRecord, Summary), StoreError>;
+type Proved = Result<(PartRecord, Summary)>;
 
 /// What was discovered, and the way to its numbers from those of every shard.
 type Joined = (Discovered, BTreeMap<u64, Renumbering>);
 
 /// Join what the shards discovered, in their order; nothing where lists are complete.
-fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined>, StoreError> {
+fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined>> {
     let Some(mut all) = whole.nothing_reached()? else { return Ok(None) };
     for input in inputs.values() {
         let list = input.summary.discovered.as_ref();
@@ -157,9 +157,9 @@ fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined
 
 /// Every shard that makes `whole`, by its number.
 fn complete(
-    inputs: impl Iterator<Item = Result<Input, StoreError>>,
+    inputs: impl Iterator<Item = Result<Input>>,
     whole: Shard,
-) -> Result<BTreeMap<u64, Input>, StoreError> {
+) -> Result<BTreeMap<u64, Input>> {
     let mut all: BTreeMap<u64, Input> = BTreeMap::new();
     for input in inputs {
         let input = input?;
@@ -196,7 +196,7 @@ fn complete(
 }
 
 impl Input {
-    fn read(folder: &Path) -> Result<Self, StoreError> {
+    fn read(folder: &Path) -> Result<Self> {
         let path = || folder.to_owned();
         let manifest = Manifest::read(folder)?;
         let as_it_should = manifest.clone().with_shard(manifest.shard);
@@ -211,7 +211,7 @@ impl Input {
     }
 
     /// Whether it is a shard of the same sweep.
-    fn belongs_to(&self, first: &Self) -> Result<(), StoreError> {
+    fn belongs_to(&self, first: &Self) -> Result<()> {
         let (shard, of) = (self.manifest.shard, first.manifest.shard.of);
         let ours = self.manifest.clone().with_shard(Shard::WHOLE);
         let theirs = first.manifest.clone().with_shard(Shard::WHOLE);
@@ -266,7 +266,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
 }
 
 /// Copy a file, and see that it is still the one that was proved.
-fn copy(from: &Path, to: &Path, wanted: &str) -> Result<(), StoreError> {
+fn copy(from: &Path, to: &Path, wanted: &str) -> Result<()> {
     let io = |error| StoreError::file(to, error);
     let mut writer = columns::AtomicFile::create(to).map_err(io)?;
     if part::copied(from, &mut writer, io)?.1 != wanted {

@@ -16,7 +16,7 @@ use crate::reached::{Discovered, Reached};
 use crate::store::compute::Compute;
 use crate::store::description::{SCHEMA_VERSION, SUMMARY, read_json, write_json};
 use crate::store::digests::Digests;
-use crate::store::error::{StoreError, regular};
+use crate::store::error::{Result, StoreError, regular};
 use crate::store::finished::StoreSummary;
 use crate::store::manifest::Manifest;
 use crate::store::part::{self, Watch};
@@ -56,7 +56,7 @@ pub(crate) fn run(
     settings: &RunSettings<'_>,
     digests: &Digests,
     nothing: &Reached,
-) -> Result<Run, StoreError> {
+) -> Result<Run> {
     let before: Option<StoreSummary> = match folder.join(SUMMARY) {
         path if path.exists() => Some(read_json(&path)?),
         _ => None,
@@ -88,7 +88,7 @@ impl Parts<'_> {
         &self,
         compute: &impl Compute,
         settings: &RunSettings<'_>,
-    ) -> Result<BTreeMap<u64, Whole>, StoreError> {
+    ) -> Result<BTreeMap<u64, Whole>> {
         let Self { folder, manifest, digests, .. } = *self;
         // For those who watch; the list that counts is joined in the order of the parts.
         let so_far = Mutex::new(self.nothing.nothing());
@@ -157,7 +157,7 @@ impl Parts<'_> {
         &self,
         whole: &BTreeMap<u64, Whole>,
         settings: &RunSettings<'_>,
-    ) -> Result<Option<StoreSummary>, StoreError> {
+    ) -> Result<Option<StoreSummary>> {
         let Self { folder, manifest, digests, .. } = *self;
         let mut all = self.nothing.nothing();
         if let Some(finished) = &self.finished {
@@ -204,7 +204,7 @@ impl Parts<'_> {
         Ok(Some(summary))
     }
 
-    fn list_of(&self, part: u64) -> Result<PartList, StoreError> {
+    fn list_of(&self, part: u64) -> Result<PartList> {
         let [_, file] = files_of(self.manifest, part);
         let path = self.folder.join(file);
         let list: PartList = read_json(&path)?;

@@ -13,7 +13,7 @@ use crate::identify::Member;
 use crate::reached::{Reached, Renumbering};
 use crate::record::{Chunk, Failure, Outcomes};
 use crate::store::compute::Compute;
-use crate::store::error::StoreError;
+use crate::store::error::{Result, StoreError};
 use crate::store::finished::PartRecord;
 use crate::store::manifest::{Manifest, hexadecimal};
 use crate::summary::Summary;
@@ -104,7 +104,7 @@ pub fn write(
     compute: &impl Compute,
     mut reached: Option<&mut Reached>,
     watch: &Watch<'_>,
-) -> Result<Option<Summary>, StoreError> {
+) -> Result<Option<Summary>> {
     let seeds = manifest.seeds_of(part);
     let mut summary = manifest.summary(&[]);
     let mut table = TableWriter::create(path, format(manifest), &schema(manifest))?;
@@ -164,7 +164,7 @@ pub fn renumber(
     to: &Path,
     manifest: &Manifest,
     renumbering: &Renumbering,
-) -> Result<(), StoreError> {
+) -> Result<()> {
     let (format, schema) = (format(manifest), schema(manifest));
     let mut table = TableWriter::create(to, format, &schema)?;
     let mut rows: Vec<Data> = Vec::new();
@@ -242,7 +242,7 @@ pub fn read(
     manifest: &Manifest,
     discovered: &[Member],
     part: u64,
-) -> Result<(PartRecord, Summary), StoreError> {
+) -> Result<(PartRecord, Summary)> {
     let path = folder.join(manifest.file_of(part));
     let wanted = manifest.seeds_of(part);
     let entries = manifest.equilibria.len() + discovered.len();
@@ -315,7 +315,7 @@ fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
 }
 
 /// Length and digest of a file, of these seeds.
-pub fn record(path: &Path, file: String, seeds: Range<u64>) -> Result<PartRecord, StoreError> {
+pub fn record(path: &Path, file: String, seeds: Range<u64>) -> Result<PartRecord> {
     let (bytes, sha256) =
         copied(path, &mut std::io::sink(), |error| StoreError::file(path, error))?;
     Ok(PartRecord { file, seeds, bytes, sha256 })
@@ -326,7 +326,7 @@ pub fn copied(
     from: &Path,
     to: &mut impl Write,
     unwritten: impl Fn(std::io::Error) -> StoreError,
-) -> Result<(u64, String), StoreError> {
+) -> Result<(u64, String)> {
     let unread = |error| StoreError::file(from, error);
     let mut reader = File::open(from).map_err(unread)?;
     let mut hasher = Sha256::new();

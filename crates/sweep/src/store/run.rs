@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use crate::store::compute::Compute;
 use crate::store::description::{SUMMARY, write_json};
 use crate::store::digests::Digests;
-use crate::store::error::{StoreError, regular};
+use crate::store::error::{Result, StoreError, regular};
 use crate::store::finished::StoreSummary;
 use crate::store::lock::Lock;
 use crate::store::manifest::Manifest;
@@ -62,7 +62,7 @@ pub fn run(
     manifest: &Manifest,
     compute: &impl Compute,
     settings: &RunSettings<'_>,
-) -> Result<Run, StoreError> {
+) -> Result<Run> {
     if manifest.seeds == 0 {
         return Err(StoreError::NoSeeds);
     }
@@ -146,8 +146,8 @@ pub(crate) fn for_each_part<T: Send>(
     parts: Range<u64>,
     threads: usize,
     stop: &AtomicBool,
-    work: &(dyn Fn(u64) -> Result<Option<T>, StoreError> + Sync),
-) -> Result<BTreeMap<u64, T>, StoreError> {
+    work: &(dyn Fn(u64) -> Result<Option<T>> + Sync),
+) -> Result<BTreeMap<u64, T>> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
