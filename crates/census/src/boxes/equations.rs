@@ -169,12 +169,8 @@ impl Equations {
                 let direction = acting.direction(span);
                 for (joint, k, axis, sign) in self.axes(*ends) {
                     // What pulls one end pulls the other one the other way.
-                    entries.push((
-                        joint.first + k,
-                        row,
-                        -product(sign, dot(axis, direction.along)),
-                    ));
-                    entries.push((row, joint.first + k, product(sign, dot(axis, direction.along))));
+                    let by = product(sign, dot(axis, direction.along));
+                    entries.extend([(joint.first + k, row, -by), (row, joint.first + k, by)]);
                     for (other, i, towards, other_sign) in self.axes(*ends) {
                         let pull = dot(axis, direction.turned(force, towards));
                         let pull = -product(product(sign, other_sign), pull);

@@ -89,11 +89,10 @@ impl Frame {
     /// What the lever rule leaves one end of a member of its loads, in units.
     pub(crate) fn share(&self, system: &System, member: &Member, is_start: bool) -> Vector {
         let body = &member.body;
-        let end = if is_start { End::Start } else { End::End };
         let mut share =
             self.weight_share(system, member, Interval::point(body.mass_kg()), is_start);
         for load in &member.loads {
-            let force = times(end.share(body, load.at_m), points(load.force_n));
+            let force = times(part(body, load.at_m, is_start), points(load.force_n));
             share = plus(share, force.map(|part| self.force(part)));
         }
         share
@@ -107,8 +106,7 @@ impl Frame {
         mass_kg: Interval,
         is_start: bool,
     ) -> Vector {
-        let end = if is_start { End::Start } else { End::End };
-        let part = end.share(&member.body, member.body.centre_m());
+        let part = part(&member.body, member.body.centre_m(), is_start);
         if mass_kg == Interval::ZERO || part == Interval::ZERO {
             return NOWHERE;
         }
@@ -133,24 +131,15 @@ impl Frame {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-enum End {
-    Start,
-    End,
-}
-
-impl End {
-    /// The part of a load at a point of a bar that this end takes; exactly 0 if the point is the
-    /// other end.
-    fn share(self, bar: &Bar, at_m: f64) -> Interval {
-        let (length, at) = (Interval::point(bar.length_m()), Interval::point(at_m));
-        match self {
-            Self::Start if at_m >= bar.length_m() => Interval::ZERO,
-            Self::Start => lever(length, at)[0],
-            Self::End if at_m <= 0.0 => Interval::ZERO,
-            Self::End => lever(length, at)[1],
-        }
+/// The part of a load at a point of a bar that one of its ends takes; exactly 0 if the point is the
+/// other end.
+fn part(bar: &Bar, at_m: f64, is_start: bool) -> Interval {
+    let is_other = if is_start { at_m >= bar.length_m() } else { at_m <= 0.0 };
+    if is_other {
+        return Interval::ZERO;
     }
+    let [start, end] = lever(Interval::point(bar.length_m()), Interval::point(at_m));
+    if is_start { start } else { end }
 }
 
 #[cfg(test)]
@@ -162,13 +151,13 @@ mod tests {
     #[test]
     fn loads_over_an_end_are_borne_there_alone() {
         let bar = Bar::homogeneous(3.0, 1.0).unwrap();
-        assert_eq!(End::Start.share(&bar, 3.0), Interval::ZERO);
-        assert_eq!(End::End.share(&bar, 0.0), Interval::ZERO);
+        assert_eq!(part(&bar, 3.0, true), Interval::ZERO);
+        assert_eq!(part(&bar, 0.0, false), Interval::ZERO);
         let cases = [(0.0, [1.0, 0.0]), (1.0, [2.0 / 3.0, 1.0 / 3.0]), (3.0, [0.0, 1.0])];
         for (at_m, expected) in cases {
-            for (end, part) in [End::Start, End::End].into_iter().zip(expected) {
-                let share = end.share(&bar, at_m);
-                assert!(share.contains(part) && share.width() < 1e-15, "{at_m}: {share:?}");
+            for (is_start, expected) in [true, false].into_iter().zip(expected) {
+                let share = part(&bar, at_m, is_start);
+                assert!(share.contains(expected) && share.width() < 1e-15, "{at_m}: {share:?}");
             }
         }
     }

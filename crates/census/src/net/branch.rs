@@ -9,12 +9,12 @@ use model::NoCensus;
 use model::system::{Kind, System};
 use numerics::Interval;
 
-use super::choice::Choice;
+use super::choice::{Choice, Measured};
 use super::loaded_chain::LoadedChain;
 use super::parts::{Core, Part, parts};
 use crate::boxes::arithmetic::{NOWHERE, Vector, plus};
-use crate::boxes::frame::Frame;
 use crate::boxes::proven::reach;
+use crate::net::Result;
 
 /// Most sets of slack members.
 const MOST: usize = 64;
@@ -27,10 +27,9 @@ pub(super) struct Branch {
 
 /// A part with each set of its members slack that holds its loads, none of them slack first.
 pub(super) fn branches(
-    system: &System,
-    frame: &Frame,
+    Measured { system, frame }: Measured<'_>,
     taut: Part,
-) -> Result<Vec<Branch>, NoCensus> {
+) -> Result<Vec<Branch>> {
     let (one_sided, joints) = (taut.one_sided(system), taut.joints.clone());
     let loads = frame.loads(system);
     let mut found = vec![Branch { slack: vec![], parts: vec![taut] }];
@@ -78,7 +77,7 @@ fn falls(part: &Part, loads: &[Vector]) -> bool {
 
 /// Whether the taut members of a position pull or push as their kinds do.
 /// [`NoCensus::Limp`], of a member that may bear nothing.
-pub(super) fn signs_hold(system: &System, choice: &Choice) -> Result<bool, NoCensus> {
+pub(super) fn signs_hold(system: &System, choice: &Choice) -> Result<bool> {
     let signed = choice.axial.iter().filter_map(|(member, axial)| {
         let borne = match system.members()[*member].kind {
             Kind::Bar => return None,
@@ -90,7 +89,7 @@ pub(super) fn signs_hold(system: &System, choice: &Choice) -> Result<bool, NoCen
     hold(signed)
 }
 
-fn hold(signed: impl Iterator<Item = (usize, Interval)>) -> Result<bool, NoCensus> {
+fn hold(signed: impl Iterator<Item = (usize, Interval)>) -> Result<bool> {
     let mut open = None;
     for (member, spare) in signed {
         if spare.hi() < 0.0 {
@@ -106,24 +105,11 @@ fn hold(signed: impl Iterator<Item = (usize, Interval)>) -> Result<bool, NoCensu
 impl Branch {
     /// Whether the slack cables of a position are longer than they reach, and the slack struts shorter.
     /// [`NoCensus::Limp`], of a member that may be taut.
-    pub(super) fn has(
-        &self,
-        system: &System,
-        frame: &Frame,
-        choice: &Choice,
-    ) -> Result<bool, NoCensus> {
-        let mut places: Vec<Vector> = system
-            .joints()
-            .iter()
-            .map(|joint| joint.support.at_m().map_or(NOWHERE, |at_m| frame.place(at_m)))
-            .collect();
-        for (joint, place) in &choice.places {
-            places[*joint] = *place;
-        }
+    pub(super) fn has(&self, of: Measured<'_>, choice: &Choice) -> Result<bool> {
+        let places = of.places(choice);
         hold(self.slack.iter().map(|number| {
-            let member = &system.members()[*number];
-            let length = frame.length(Interval::point(member.body.length_m()));
-            let spare = length - reach(member, &places);
+            let member = &of.system.members()[*number];
+            let spare = of.length(*number) - reach(member, &places);
             (*number, if member.kind == Kind::Strut { -spare } else { spare })
         }))
     }

@@ -4,8 +4,35 @@ use model::system::System;
 use numerics::Interval;
 
 use super::parts::Part;
-use crate::boxes::arithmetic::{Vector, product};
+use crate::boxes::arithmetic::{NOWHERE, Vector, product};
 use crate::boxes::frame::Frame;
+
+/// A system with the units in which its census counts.
+#[derive(Clone, Copy)]
+pub(super) struct Measured<'a> {
+    pub(super) system: &'a System,
+    pub(super) frame: &'a Frame,
+}
+
+impl Measured<'_> {
+    pub(super) fn length(self, member: usize) -> Interval {
+        self.frame.length(Interval::point(self.system.members()[member].body.length_m()))
+    }
+
+    /// Places of all joints in a position.
+    pub(super) fn places(self, choice: &Choice) -> Vec<Vector> {
+        let held = |at_m| self.frame.place(at_m);
+        let joints = self.system.joints().iter();
+        let mut places: Vec<_> =
+            joints.map(|joint| joint.support.at_m().map_or(NOWHERE, held)).collect();
+        for (joint, place) in &choice.places {
+            if !self.system.joints()[*joint].support.is_fixed() {
+                places[*joint] = *place;
+            }
+        }
+        places
+    }
+}
 
 /// One position of some joints and the forces of some members, in the units of the frame.
 #[derive(Debug, Clone, Default)]
@@ -20,7 +47,7 @@ pub(super) struct Choice {
 
 impl Choice {
     /// The anchors on which the trees of a part hang.
-    pub(super) fn anchor(system: &System, frame: &Frame, part: &Part) -> Self {
+    pub(super) fn anchor(Measured { system, frame }: Measured<'_>, part: &Part) -> Self {
         let place =
             |joint: usize| Some((joint, frame.place(system.joints()[joint].support.at_m()?)));
         let places = part.hanging.iter().filter_map(|hanging| place(hanging.parent)).collect();

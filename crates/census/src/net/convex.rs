@@ -16,7 +16,7 @@ use model::Vector;
 use model::system::{Kind, System};
 use numerics::Interval;
 
-use super::choice::Choice;
+use super::choice::{Choice, Measured};
 use super::{PartCensus, SystemCensus, SystemPosition};
 use crate::boxes::arithmetic::difference;
 use crate::boxes::frame::Frame;
@@ -69,7 +69,7 @@ impl SystemCensus {
             axial: found.axial_n.iter().map(|force| frame.force(*force)).enumerate().collect(),
             ..Choice::default()
         };
-        let position = SystemPosition::new(system, &frame, &choice, false);
+        let position = SystemPosition::new(Measured { system, frame: &frame }, &choice, false);
         let part = PartCensus { positions: 1, ..PartCensus::default() };
         Some(Self {
             equilibria: vec![position],

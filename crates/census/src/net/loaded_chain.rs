@@ -13,6 +13,7 @@ use super::choice::Choice;
 use super::parts::Hanging;
 use super::weights::{shared_kg, weights_kg};
 use crate::boxes::frame::Frame;
+use crate::net::Result;
 use crate::run::Census;
 use crate::run::check::CheckError;
 use crate::run::equilibrium::ProvenEquilibrium;
@@ -36,7 +37,7 @@ impl LoadedChain {
         joints: &[usize],
         members: &[usize],
         hanging: &[Hanging],
-    ) -> Result<Self, NoCensus> {
+    ) -> Result<Self> {
         for number in members {
             let member = &system.members()[*number];
             if member.stiffness_n.is_some() {
@@ -88,11 +89,7 @@ impl LoadedChain {
         Ok(Self { chain, loads, whole: own.iter().all(Option::is_some) })
     }
 
-    pub(super) fn census(
-        &self,
-        settings: &Settings,
-        watch: &dyn Fn(Progress),
-    ) -> Result<Census, NoCensus> {
+    pub(super) fn census(&self, settings: &Settings, watch: &dyn Fn(Progress)) -> Result<Census> {
         Census::of_chain(&self.chain, &self.loads, settings, watch).map_err(|error| error.reason())
     }
 

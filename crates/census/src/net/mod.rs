@@ -70,7 +70,7 @@ pub use self::position::SystemPosition;
 pub use self::row::LoadedRow;
 
 use self::branch::{Branch, branches, signs_hold};
-use self::choice::Choice;
+use self::choice::{Choice, Measured};
 use self::loaded_chain::{LoadedChain, choices};
 use self::parts::{Core, Part, parts};
 use self::tree::{borne, hung};
@@ -91,6 +91,8 @@ const MOST_JOINTS: usize = 1000;
 
 /// Most positions that are listed, if several parts or trees make them together.
 pub const MAX_POSITIONS: usize = 4096;
+
+type Result<T, E = NoCensus> = std::result::Result<T, E>;
 
 /// All equilibria of a system, and how far that is proved.
 #[derive(Debug, Clone, PartialEq)]
@@ -170,7 +172,7 @@ impl SystemCensus {
     /// assert!(census.equilibria[1].energy_j.contains(8.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn take(system: &System, settings: &Settings) -> Result<Self, NoCensus> {
+    pub fn take(system: &System, settings: &Settings) -> Result<Self> {
         Self::take_watched(system, settings, &|_| {})
     }
 
@@ -183,7 +185,7 @@ impl SystemCensus {
         system: &System,
         settings: &Settings,
         watch: &dyn Fn(Progress),
-    ) -> Result<Self, NoCensus> {
+    ) -> Result<Self> {
         let start = Instant::now();
         system.refusal().map_err(|_| NoCensus::Refused)?;
         if system.floor_m().is_some() {
@@ -196,8 +198,8 @@ impl SystemCensus {
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {
             return Err(NoCensus::Slider { joint: joint + 1 });
         }
-        let frame = Frame::new(system, &[]);
-        let parts = parts(system, &[]);
+        let frame = &Frame::new(system, &[]);
+        let (of, parts) = (Measured { system, frame }, parts(system, &[]));
         let is_net = |part: &Part| matches!(part.core, Core::Net { .. });
         if let Some(part) = parts.iter().find(|part| planar.is_some() && is_net(part)) {
             return Err(NoCensus::Slider { joint: part.joints[0] + 1 });
@@ -210,17 +212,17 @@ impl SystemCensus {
         let (count, mut found) = (parts.len(), vec![]);
         for part in parts {
             let mut own = vec![];
-            refusal(system, &frame, &part, settings)?;
-            let branches = branches(system, &frame, part)?;
+            refusal(of, &part, settings)?;
+            let branches = branches(of, part)?;
             for part in branches[1..].iter().flat_map(|branch| &branch.parts) {
-                refusal(system, &frame, part, settings)?;
+                refusal(of, part, settings)?;
             }
             // The searches of all sets take no longer together than one.
             let nets = branches.iter().flat_map(|branch| &branch.parts).filter(|part| is_net(part));
             let tests = settings.max_tests_per_pattern / nets.count().max(1) as u64;
             let shared = Settings { max_tests_per_pattern: tests.max(1), ..*settings };
             for branch in branches {
-                own.extend(of_branch(system, &frame, &branch, &shared, watch, &mut found)?);
+                own.extend(of_branch(of, &branch, &shared, watch, &mut found)?);
             }
             if let Some((_, level)) = planar {
                 own = own.into_iter().flat_map(|choice| choice.in_plane(system, level)).collect();
@@ -236,7 +238,7 @@ impl SystemCensus {
             if planar.is_some() {
                 choice.index[1] = 0;
             }
-            equilibria.push(SystemPosition::new(system, &frame, &choice, plane));
+            equilibria.push(SystemPosition::new(of, &choice, plane));
         }
         equilibria.sort_by(|a, b| a.energy_j.mid().total_cmp(&b.energy_j.mid()));
         let proved = |part: &PartCensus| {
@@ -305,7 +307,7 @@ fn in_plane(system: &System) -> Option<(System, usize)> {
 }
 
 /// Each of these positions with each of those.
-fn combined(all: &[Choice], own: &[Choice]) -> Result<Vec<Choice>, NoCensus> {
+fn combined(all: &[Choice], own: &[Choice]) -> Result<Vec<Choice>> {
     let alone = all.len() <= 1 || own.len() <= 1;
     if !alone && all.len().saturating_mul(own.len()) > MAX_POSITIONS {
         return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
@@ -314,20 +316,15 @@ fn combined(all: &[Choice], own: &[Choice]) -> Result<Vec<Choice>, NoCensus> {
 }
 
 /// Why a part has no census, as far as that is known before any search.
-fn refusal(
-    system: &System,
-    frame: &Frame,
-    part: &Part,
-    settings: &Settings,
-) -> Result<(), NoCensus> {
+fn refusal(of: Measured<'_>, part: &Part, settings: &Settings) -> Result<()> {
     match &part.core {
         _ if !part.grounded => Err(NoCensus::Loose { joint: part.joints[0] + 1 }),
         Core::Net { joints, members } if joints.len() > MOST_JOINTS => {
             let closures = members.len().saturating_sub(joints.len());
             Err(NoCensus::Closures { closures })
         }
-        Core::Net { joints, members } if framing(system, joints, members).is_none() => {
-            let loads = borne(system, frame, &part.hanging);
+        Core::Net { joints, members } if framing(of.system, joints, members).is_none() => {
+            let (Measured { system, frame }, loads) = (of, borne(of, &part.hanging));
             let core = knots::Core { system, frame, joints, members, loads: &loads };
             knots::refusal(&core, settings)
         }
@@ -340,23 +337,22 @@ fn refusal(
 
 /// The positions of a part with some members slack.
 fn of_branch(
-    system: &System,
-    frame: &Frame,
+    of: Measured<'_>,
     branch: &Branch,
     settings: &Settings,
     watch: &dyn Fn(Progress),
     found: &mut Vec<PartCensus>,
-) -> Result<Vec<Choice>, NoCensus> {
+) -> Result<Vec<Choice>> {
     let axial = branch.slack.iter().map(|member| (*member, Interval::ZERO)).collect();
     let mut positions = vec![Choice { axial, ..Choice::default() }];
     for part in &branch.parts {
-        let (part, own) = of_part(system, frame, part, settings, watch)?;
+        let (part, own) = of_part(of, part, settings, watch)?;
         positions = combined(&positions, &own)?;
         found.push(PartCensus { slack: branch.slack.clone(), ..part });
     }
     let mut kept = vec![];
     for choice in positions {
-        if branch.has(system, frame, &choice)? {
+        if branch.has(of, &choice)? {
             kept.push(choice);
         }
     }
@@ -369,19 +365,19 @@ fn framing(system: &System, joints: &[usize], members: &[usize]) -> Option<Vec<t
 }
 
 fn of_part(
-    system: &System,
-    frame: &Frame,
+    of: Measured<'_>,
     part: &Part,
     settings: &Settings,
     watch: &dyn Fn(Progress),
-) -> Result<(PartCensus, Vec<Choice>), NoCensus> {
+) -> Result<(PartCensus, Vec<Choice>)> {
+    let Measured { system, frame } = of;
     let (mut chain, mut framed, mut net) = (None, 0, None);
     let cores = match &part.core {
         Core::Net { joints, members } => {
-            let loads = borne(system, frame, &part.hanging);
+            let loads = borne(of, &part.hanging);
             if let Some(order) = framing(system, joints, members) {
                 framed = joints.len();
-                positions(system, frame, &order, &loads, MAX_POSITIONS)?
+                positions(of, &order, &loads)?
             } else {
                 let core = knots::Core { system, frame, joints, members, loads: &loads };
                 let (taken, cores) = knots::taken(&core, settings, watch)?;
@@ -389,7 +385,7 @@ fn of_part(
                 cores
             }
         }
-        Core::Anchor => vec![Choice::anchor(system, frame, part)],
+        Core::Anchor => vec![Choice::anchor(of, part)],
         Core::Chain { joints, members } => {
             let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
             let census = loaded.census(settings, watch)?;
@@ -404,7 +400,7 @@ fn of_part(
         }
     };
     let mut positions = vec![];
-    for choice in hung(system, frame, &part.hanging, cores, MAX_POSITIONS)? {
+    for choice in hung(of, &part.hanging, cores)? {
         if signs_hold(system, &choice)? {
             positions.push(choice);
         }

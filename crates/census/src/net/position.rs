@@ -5,7 +5,7 @@ use model::{
 };
 use numerics::Interval;
 
-use super::choice::Choice;
+use super::choice::{Choice, Measured};
 use super::{PartCensus, SystemCensus};
 use crate::boxes::arithmetic::{
     NOWHERE, Vector, dot, minus, norm, over, plus, product, sum, times,
@@ -36,17 +36,8 @@ pub struct SystemPosition {
 
 impl SystemPosition {
     /// A position of all parts in metres and newtons.
-    pub(super) fn new(system: &System, frame: &Frame, choice: &Choice, plane: bool) -> Self {
-        let mut places: Vec<_> = system
-            .joints()
-            .iter()
-            .map(|joint| joint.support.at_m().map_or(NOWHERE, |at_m| frame.place(at_m)))
-            .collect();
-        for (joint, place) in &choice.places {
-            if !system.joints()[*joint].support.is_fixed() {
-                places[*joint] = *place;
-            }
-        }
+    pub(super) fn new(of: Measured<'_>, choice: &Choice, plane: bool) -> Self {
+        let (Measured { system, frame }, places) = (of, of.places(choice));
         let mut axial: Vec<Interval> = system
             .members()
             .iter()

@@ -8,13 +8,13 @@
 //! its force makes it, $l_e (1 + s_e |F_e|/EA)$.
 
 use model::NoCensus;
-use model::system::{Kind, System};
+use model::system::Kind;
 use numerics::Interval;
 
-use super::choice::Choice;
+use super::choice::{Choice, Measured};
 use super::parts::Hanging;
+use super::{MAX_POSITIONS, Result};
 use crate::boxes::arithmetic::{Vector, norm, plus, product, sum, times};
-use crate::boxes::frame::Frame;
 
 /// A member of a tree with the force that it carries.
 struct Carrying {
@@ -31,8 +31,8 @@ struct Way {
 }
 
 /// Loads of all joints with all that hangs on them in trees.
-pub(super) fn borne(system: &System, frame: &Frame, hanging: &[Hanging]) -> Vec<Vector> {
-    let mut loads = frame.loads(system);
+pub(super) fn borne(of: Measured<'_>, hanging: &[Hanging]) -> Vec<Vector> {
+    let mut loads = of.frame.loads(of.system);
     // Outermost first.
     for at in hanging.iter().rev() {
         loads[at.parent] = plus(loads[at.parent], loads[at.child]);
@@ -42,18 +42,15 @@ pub(super) fn borne(system: &System, frame: &Frame, hanging: &[Hanging]) -> Vec<
 
 /// Whatever positions the trees of a part can be in, once for each position of what they hang on.
 pub(super) fn hung(
-    system: &System,
-    frame: &Frame,
+    of: Measured<'_>,
     hanging: &[Hanging],
-    cores: Vec<Choice>,
-    most: usize,
-) -> Result<Vec<Choice>, NoCensus> {
-    let borne = borne(system, frame, hanging);
-    let mut choices = cores;
+    mut choices: Vec<Choice>,
+) -> Result<Vec<Choice>> {
+    let borne = borne(of, hanging);
     for at in hanging {
-        let member = carrying(system, frame, *at, borne[at.child])?;
-        if choices.len().saturating_mul(member.ways.len()) > most {
-            return Err(NoCensus::TooManyPositions { limit: most });
+        let member = carrying(of, *at, borne[at.child])?;
+        if choices.len().saturating_mul(member.ways.len()) > MAX_POSITIONS {
+            return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
         }
         choices = choices
             .iter()
@@ -63,18 +60,13 @@ pub(super) fn hung(
     Ok(choices)
 }
 
-fn carrying(
-    system: &System,
-    frame: &Frame,
-    at: Hanging,
-    force: Vector,
-) -> Result<Carrying, NoCensus> {
+fn carrying(of: Measured<'_>, at: Hanging, force: Vector) -> Result<Carrying> {
     let size = norm(force);
     // Less than what rounding leaves of the loads is no direction.
     if size.lo() <= 0.0 {
         return Err(NoCensus::Limp { member: at.member + 1 });
     }
-    let member = &system.members()[at.member];
+    let member = &of.system.members()[at.member];
     let direction = force.map(|part| {
         let upright = force.iter().filter(|other| **other != Interval::ZERO).count() == 1;
         match part {
@@ -88,12 +80,11 @@ fn carrying(
         Kind::Cable => &[Interval::ONE],
         Kind::Strut => &[Interval::ONE.negated()],
     };
-    let length = frame.length(Interval::point(member.body.length_m()));
     let mut ways = vec![];
     for sign in signs {
         let axial = product(*sign, size);
         // Density times distance: l + (l/EA) N.
-        let distance = sum(length, product(frame.compliance(member), axial));
+        let distance = sum(of.length(at.member), product(of.frame.compliance(member), axial));
         match distance.sign() {
             Some(1) => ways.push(Way { axial, reach: product(*sign, distance) }),
             // Pushed together to less than nothing: no position.

@@ -17,11 +17,11 @@ use model::NoCensus;
 use model::system::{Member, System};
 use numerics::Interval;
 
-use super::choice::Choice;
+use super::choice::{Choice, Measured};
+use super::{MAX_POSITIONS, Result};
 use crate::boxes::arithmetic::{
     Vector, cross, difference, dot, factors, minus, norm, plus, product, squared, sum, times,
 };
-use crate::boxes::frame::Frame;
 
 /// A joint with the members that hold it, and where they begin.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,22 +74,20 @@ pub(super) fn order(system: &System, joints: &[usize], members: &[usize]) -> Opt
 
 /// All positions of a frame under these loads of its joints.
 pub(super) fn positions(
-    system: &System,
-    frame: &Frame,
+    of: Measured<'_>,
     order: &[Placed],
     loads: &[Vector],
-    most: usize,
-) -> Result<Vec<Choice>, NoCensus> {
-    let places = system.joints().iter().enumerate();
+) -> Result<Vec<Choice>> {
+    let (places, frame) = (of.system.joints().iter().enumerate(), of.frame);
     let anchors = places.filter_map(|(k, joint)| Some((k, frame.place(joint.support.at_m()?))));
     let mut choices = vec![Choice { places: anchors.collect(), ..Choice::default() }];
     for placed in order {
         let mut next = vec![];
         for choice in &choices {
-            next.extend(placed_on(system, frame, choice, placed, loads)?);
+            next.extend(placed_on(of, choice, placed, loads)?);
         }
-        if next.len() > most {
-            return Err(NoCensus::TooManyPositions { limit: most });
+        if next.len() > MAX_POSITIONS {
+            return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
         }
         choices = next;
     }
@@ -101,17 +99,15 @@ pub(super) fn positions(
 
 /// A position with one more joint, in both ways.
 fn placed_on(
-    system: &System,
-    frame: &Frame,
+    of: Measured<'_>,
     choice: &Choice,
     placed: &Placed,
     loads: &[Vector],
-) -> Result<Vec<Choice>, NoCensus> {
+) -> Result<Vec<Choice>> {
     let flat = NoCensus::Flat { joint: placed.joint + 1 };
     let mut spheres = vec![];
     for (member, other) in &placed.held_by {
-        let radius = frame.length(Interval::point(system.members()[*member].body.length_m()));
-        spheres.push((choice.place(*other).ok_or(flat)?, radius));
+        spheres.push((choice.place(*other).ok_or(flat)?, of.length(*member)));
     }
     // The place of the joint on the plane or line of the others, and how far off it is in which
     // direction.
@@ -192,7 +188,7 @@ fn off_plane(a: Sphere, b: Sphere, c: Sphere) -> Result<(Vector, Vector), Miss> 
 }
 
 /// The axial forces, from the joints placed last to the first.
-fn balance(choice: &mut Choice, order: &[Placed], loads: &[Vector]) -> Result<(), NoCensus> {
+fn balance(choice: &mut Choice, order: &[Placed], loads: &[Vector]) -> Result<()> {
     let mut forces = loads.to_vec();
     for placed in order.iter().rev() {
         let flat = NoCensus::Flat { joint: placed.joint + 1 };

@@ -1,5 +1,6 @@
 //! Loads of joints that are weights alone, to twice the usual precision.
 
+use crate::net::Result;
 use model::system::{Member, PointLoad, System};
 use model::{NoCensus, Vector};
 use numerics::{DoubleDouble, lever};
@@ -10,7 +11,7 @@ pub(super) fn weights_kg(
     system: &System,
     joints: &[usize],
     own: &[usize],
-) -> Result<Vec<Option<DoubleDouble>>, NoCensus> {
+) -> Result<Vec<Option<DoubleDouble>>> {
     let mut weights = Weights { system, kg: vec![None; system.joints().len()] };
     for joint in joints {
         let own = &system.joints()[*joint];
@@ -83,12 +84,7 @@ impl Weights<'_> {
         }
     }
 
-    fn add_force(
-        &mut self,
-        joint: usize,
-        [x, y, z]: Vector,
-        share: DoubleDouble,
-    ) -> Result<(), NoCensus> {
+    fn add_force(&mut self, joint: usize, [x, y, z]: Vector, share: DoubleDouble) -> Result<()> {
         if x.abs() > 0.0 || y.abs() > 0.0 {
             return Err(NoCensus::LoadsNotDown { joint: joint + 1 });
         }

@@ -12,7 +12,7 @@ use super::super::newton::{Refined, refine_within};
 use super::Cover;
 use super::numbers::{Effect, within};
 use super::outputs::{Output, Over};
-use super::region::{Change, Plane, Region, Step};
+use super::region::{Change, Region, Step};
 
 /// How much wider each room is than the one that the last would need: little, since in a wider one
 /// derivatives vary more.
@@ -182,8 +182,7 @@ impl Leaf {
     }
 
     fn region(&self, fixed: &Equations) -> Region {
-        let (middle, steps, offs) = (&self.at, &self.steps, &self.offs());
-        Region::around(fixed, &Plane { middle, steps, offs }, &self.room)
+        Region::around(fixed, &self.at, (&self.steps, &self.offs()), &self.room)
     }
 
     /// Find room around the plane that is mapped into itself.

@@ -44,14 +44,6 @@ impl Step {
     }
 }
 
-/// All points $\tilde x + S \delta + r$ with each number in its part and $|r|$ within the room.
-pub(super) struct Plane<'a> {
-    pub(super) middle: &'a [Interval],
-    pub(super) steps: &'a [Step],
-    /// The numbers less those of the middle.
-    pub(super) offs: &'a [Interval],
-}
-
 impl Region {
     /// Of points that are independent of each other.
     pub(super) fn new(equations: &Equations, unknowns: Vec<Interval>) -> Self {
@@ -60,12 +52,18 @@ impl Region {
         Self { unknowns, places, spans }
     }
 
-    /// Around a plane, whose middle has these equations.
-    pub(super) fn around(fixed: &Equations, plane: &Plane<'_>, room: &[f64]) -> Self {
-        let mut found = Self::new(fixed, plane.middle.to_vec());
+    /// All points $\tilde x + S \delta + r$ of a plane, whose middle has these equations, with the numbers off the middle
+    /// by $\delta$, and $|r|$ within the room.
+    pub(super) fn around(
+        fixed: &Equations,
+        middle: &[Interval],
+        (steps, offs): (&[Step], &[Interval]),
+        room: &[f64],
+    ) -> Self {
+        let mut found = Self::new(fixed, middle.to_vec());
         let room = room.iter().map(|by| Interval::around(0.0, *by)).collect();
         let rest = Step::new(fixed, &Effect::default(), room);
-        let all = plane.steps.iter().zip(plane.offs.iter().copied());
+        let all = steps.iter().zip(offs.iter().copied());
         for (step, off) in all.chain([(&rest, Interval::ONE)]) {
             let add = |to: &mut Interval, by: &Interval| *to = sum(*to, product(*by, off));
             let add_all = |to: &mut Vector, by: Vector| {

@@ -96,18 +96,6 @@ impl<const N: usize> Mul for Jet<N> {
 /// Three components.
 pub(super) type Jets<const N: usize> = [Jet<N>; 3];
 
-pub(super) fn minus<const N: usize>(a: Jets<N>, b: Jets<N>) -> Jets<N> {
-    from_fn(|k| a[k] - b[k])
-}
-
-pub(super) fn plus<const N: usize>(a: Jets<N>, b: Jets<N>) -> Jets<N> {
-    from_fn(|k| a[k] + b[k])
-}
-
-pub(super) fn scaled<const N: usize>(c: Jet<N>, a: Jets<N>) -> Jets<N> {
-    a.map(|part| c * part)
-}
-
 pub(super) fn squared<const N: usize>(a: Jets<N>) -> Jet<N> {
     a.into_iter().map(Jet::square).fold(Jet::ZERO, Add::add)
 }
@@ -122,13 +110,6 @@ pub(super) fn across<const N: usize>(a: Jets<N>, f: [Interval; 3]) -> Jets<N> {
     from_fn(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a[i].times(f[j]) - a[j].times(f[i])
-    })
-}
-
-pub(super) fn cross<const N: usize>(a: Jets<N>, b: Jets<N>) -> Jets<N> {
-    from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
     })
 }
 

@@ -21,8 +21,9 @@
 use std::array::from_fn;
 
 use numerics::Interval;
+use numerics::vector::{cross, minus, plus, times};
 
-use super::jet::{Jet, Jets, across, along, cross, minus, plus, scaled, squared, values};
+use super::jet::{Jet, Jets, across, along, squared, values};
 use super::layout::{End, Swing};
 use crate::boxes::arithmetic::{self, Vector, product, quotient, sum};
 
@@ -203,14 +204,14 @@ impl<const N: usize> Parts<N> {
         let (turned, off, sheer) = if dim == 2 {
             let turned = [-span[1], span[0], Jet::ZERO];
             let sheer = along(swing.load, turned);
-            (turned, scaled(sheer, turned), sheer)
+            (turned, times(sheer, turned), sheer)
         } else {
             let turned = across(span, swing.load);
             (turned, cross(turned, span), Jet::ZERO)
         };
         let one = Jet::constant(Interval::ONE);
         let base =
-            plus(scaled((one - bars.alpha) * rho, span), scaled(bars.alpha * bars.inverse, off));
+            plus(times((one - bars.alpha) * rho, span), times(bars.alpha * bars.inverse, off));
         Self { dim, span, bars: *bars, rho, turned, off, sheer, base }
     }
 
@@ -271,8 +272,8 @@ impl<const N: usize> Parts<N> {
         let root = self.bars.inverse.sqrt();
         let taken = if self.dim == 2 {
             plus(
-                scaled(self.sheer * leverage * root, self.span),
-                scaled(self.rho * height * root, self.turned),
+                times(self.sheer * leverage * root, self.span),
+                times(self.rho * height * root, self.turned),
             )
         } else {
             let square = squared(self.turned);
@@ -281,8 +282,8 @@ impl<const N: usize> Parts<N> {
             }
             let size = square.sqrt();
             plus(
-                scaled(size * leverage * root, self.span),
-                scaled(self.rho * height * root * size.inverse(), self.off),
+                times(size * leverage * root, self.span),
+                times(self.rho * height * root * size.inverse(), self.off),
             )
         };
         let finite = |jets: &Jets<N>| {
