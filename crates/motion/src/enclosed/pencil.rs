@@ -227,50 +227,42 @@ impl Pencil {
         for member in &self.members {
             let ends: Vec<_> = (0..count).map(|c| (at(member.a, c), at(member.b, c))).collect();
             let by: Vec<_> = ends.iter().map(|(a, b)| minus(*b, *a)).collect();
-            for j in 0..count {
-                for i in 0..=j {
-                    let mut k = member.density * dot(by[i], by[j]);
-                    if let Some((slope, u)) = member.along {
-                        k = k + slope * (dot(u, by[i]) * dot(u, by[j]));
-                    }
-                    stiffness[(i, j)] = stiffness[(i, j)] + k;
-                    let crossed = dot(ends[i].0, ends[j].1) + dot(ends[i].1, ends[j].0);
-                    inertia[(i, j)] = inertia[(i, j)] + member.between * crossed;
-                }
-            }
+            add(&mut stiffness, |i, j| {
+                let k = member.density * dot(by[i], by[j]);
+                let Some((slope, u)) = member.along else { return k };
+                k + slope * (dot(u, by[i]) * dot(u, by[j]))
+            });
+            let crossed =
+                |i: usize, j: usize| dot(ends[i].0, ends[j].1) + dot(ends[i].1, ends[j].0);
+            add(&mut inertia, |i, j| member.between * crossed(i, j));
         }
         for (slope, gradient) in &self.lengths {
             let by = |c: usize| -> Interval { gradient.iter().map(|(k, g)| *g * x[(*k, c)]).sum() };
             let by: Vec<_> = (0..count).map(by).collect();
-            for j in 0..count {
-                for i in 0..=j {
-                    stiffness[(i, j)] = stiffness[(i, j)] + *slope * (by[i] * by[j]);
-                }
-            }
+            add(&mut stiffness, |i, j| *slope * (by[i] * by[j]));
         }
         for excess in &self.excesses {
             let along = |c: usize| dot(excess.axis, minus(at(excess.b, c), at(excess.a, c)));
             let along: Vec<_> = (0..count).map(along).collect();
-            for j in 0..count {
-                for i in 0..=j {
-                    let own = excess.inertia * (along[i] * along[j]);
-                    inertia[(i, j)] = inertia[(i, j)] + own;
-                }
-            }
+            add(&mut inertia, |i, j| excess.inertia * (along[i] * along[j]));
         }
         for slot in 0..self.moving {
             let columns: Vec<_> = (0..count).map(|c| at(slot, c)).collect();
-            for j in 0..count {
-                for i in 0..=j {
-                    let own = self.mass[slot] * dot(columns[i], columns[j]);
-                    inertia[(i, j)] = inertia[(i, j)] + own;
-                }
-            }
+            add(&mut inertia, |i, j| self.mass[slot] * dot(columns[i], columns[j]));
         }
         for matrix in [&mut stiffness, &mut inertia] {
             matrix.fill_lower_triangle_with_upper_triangle();
         }
         (stiffness, inertia)
+    }
+}
+
+/// Add a symmetric form to the upper triangle of a matrix.
+fn add(matrix: &mut DMatrix<Interval>, form: impl Fn(usize, usize) -> Interval) {
+    for j in 0..matrix.ncols() {
+        for i in 0..=j {
+            matrix[(i, j)] = matrix[(i, j)] + form(i, j);
+        }
     }
 }
 
