@@ -79,7 +79,7 @@
 //!
 //! Up to which *n* does it keep up? The time is linear in *n* as far as memory goes: nothing is
 //! stored but a few vectors of length *n*, and the number of iterations on the chain itself does
-//! not grow. `cargo bench -p benches --bench chains` shows it.
+//! not grow. `cargo run --profile dist -p benches --bin bars` shows it.
 //! A pass over the bars costs a square root and a division per bar, and an iteration takes about
 //! five passes (system, step, two or three corrections of the closure); a method with three
 //! unknowns instead of 2 n needs one pass and stays ahead by that factor and by the coarser chains.
