@@ -42,7 +42,7 @@
 //! # Cost
 //!
 //! Processor time of one core (AMD EPYC), by
-//! `cargo run --release -p energy --example network_minimise_speed KIND n ...`:
+//! `cargo run --release -p validate --example network_speed energy KIND n ...`:
 //!
 //! | kind | members | factorisations | time / s | µs a member |
 //! |---|---|---|---|---|

@@ -14,7 +14,7 @@
 //! | a net | a sparse matrix over the joints, minimum degree first (`order`) | the factor of a planar graph |
 //!
 //! Processor's time of one solve on one core of a server, as
-//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 50 71 100 141 200 316`
+//! `cargo run --release -p validate --example network_speed lagrange net 32 50 71 100 141 200 316`
 //! and the same with `bridle 10000 100000` and `tree 100000 1000000` print it:
 //!
 //! | system | members | factorisations | time |
