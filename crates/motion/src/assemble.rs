@@ -10,7 +10,6 @@ use crate::error::{MotionError, Result};
 use crate::force::Forces;
 use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
-use crate::simulation::at_the_beginning;
 use crate::state::State;
 use numerics::vector::{add_times, dot, minus, norm, plus, times};
 
@@ -84,14 +83,14 @@ pub fn random_places(system: &System, seed: u64) -> Vec<Vector> {
 
 /// The same with what holds; inextensible cables and struts that are left are slack.
 fn closed(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>> {
-    let mechanism = Mechanism::for_places(system)?;
-    let mut stepper = Stepper::new(&mechanism)?;
-    let mut state = State::at_rest(mechanism.places(guess_m)?);
-    let told = |failure| at_the_beginning(&mechanism, failure);
-    stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(told)?;
+    let mut stepper = Stepper::new(Mechanism::for_places(system)?)?;
+    let mut state = State::at_rest(stepper.mechanism.places(guess_m)?);
+    let assembled = stepper.assemble(&mut state, MOST_CORRECTIONS);
+    stepper.told(assembled)?;
     // A position where forces are indeterminate is no beginning.
-    stepper.arrive(&mechanism, &state, &Forces::default(), 0.0).map_err(told)?;
-    Ok(world(&mechanism, &state))
+    let arrived = stepper.arrive(&state, &Forces::default(), 0.0);
+    stepper.told(arrived)?;
+    Ok(world(&stepper.mechanism, &state))
 }
 
 fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {

@@ -143,7 +143,6 @@ fn vector(state: &State, link: &Link) -> Vector {
 /// The medium is exact. Friction is a linear equation for the velocities, taken to the fourth
 /// order; where the energy does not fall with it the step is too long.
 pub(crate) fn damp(
-    mechanism: &Mechanism,
     settings: &Settings,
     state: &mut State,
     stepper: &mut Stepper,
@@ -156,17 +155,17 @@ pub(crate) fn damp(
     if settings.friction_n_m_s <= 0.0 {
         return Ok(());
     }
-    let before_j = kinetic_j(mechanism, state);
+    let before_j = kinetic_j(&stepper.mechanism, state);
     let only_friction = Settings { damping_1_s: 0.0, ..*settings };
     // exp(h F) v to the fourth order: v + h F (v + h/2 F (v + h/3 F (v + h/4 F v))).
     let begin = state.velocity.clone();
     for part in [4.0, 3.0, 2.0, 1.0] {
-        let force = forces(mechanism, &only_friction, state).total();
+        let force = forces(&stepper.mechanism, &only_friction, state).total();
         let impulse: Vec<Vector> = force.iter().map(|f| times(h / part, *f)).collect();
         state.velocity.clone_from(&begin);
-        stepper.push(mechanism, state, &impulse)?;
+        stepper.push(state, &impulse)?;
     }
-    let after_j = kinetic_j(mechanism, state);
+    let after_j = kinetic_j(&stepper.mechanism, state);
     if h > 0.0 && after_j > before_j {
         return Err(Failure::NotMet { corrections: 0, off: after_j / before_j - 1.0 });
     }

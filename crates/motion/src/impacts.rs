@@ -16,7 +16,7 @@ use crate::damping;
 use crate::error::{MotionError, Result};
 use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
-use crate::simulation::{Simulation, at_the_beginning};
+use crate::simulation::Simulation;
 use crate::state::State;
 use numerics::vector::{norm, worse};
 
@@ -114,7 +114,7 @@ impl Simulation {
     /// The least gap of what does not hold.
     fn least_gap(&self) -> f64 {
         let Some(contacts) = &self.contacts else { return f64::INFINITY };
-        let gaps = contacts.gaps(&self.mechanism, &self.state);
+        let gaps = contacts.gaps(self.mechanism(), &self.state);
         let open = gaps.into_iter().zip(&contacts.holds).filter(|(_, holds)| !**holds);
         open.map(|(gap, _)| gap).fold(f64::INFINITY, f64::min)
     }
@@ -122,8 +122,8 @@ impl Simulation {
     /// What does not hold, has no gap, and closes.
     fn closing(&self) -> Vec<usize> {
         let Some(contacts) = &self.contacts else { return Vec::new() };
-        let gaps = contacts.gaps(&self.mechanism, &self.state);
-        let rates = contacts.rates(&self.mechanism, &self.state);
+        let gaps = contacts.gaps(self.mechanism(), &self.state);
+        let rates = contacts.rates(self.mechanism(), &self.state);
         let is_closing = |k: &usize| !contacts.holds[*k] && gaps[*k] <= CLOSED && rates[*k] < 0.0;
         (0..gaps.len()).filter(is_closing).collect()
     }
@@ -135,16 +135,14 @@ impl Simulation {
     }
 
     fn arrive(&mut self) -> Result<()> {
-        self.stepper
-            .arrive(&self.mechanism, &self.state, &self.forces, self.time_s)
-            .map_err(|failure| at_the_beginning(&self.mechanism, failure))
+        let arrived = self.stepper.arrive(&self.state, &self.forces, self.time_s);
+        self.stepper.told(arrived)
     }
 
     /// Change what holds.
     fn hold(&mut self, contacts: &Contacts) -> Result<()> {
-        let reference_m = self.mechanism.reference_m;
-        self.mechanism = Mechanism::for_motion(&contacts.held()?, reference_m)?;
-        self.stepper = Stepper::new(&self.mechanism)?;
+        let reference_m = self.mechanism().reference_m;
+        self.stepper = Stepper::new(Mechanism::for_motion(&contacts.held()?, reference_m)?)?;
         self.arrive()
     }
 
@@ -177,26 +175,26 @@ impl Simulation {
         }
         self.hold(contacts)?;
         if !closing.is_empty() {
-            let assembled = self.stepper.assemble(&self.mechanism, &mut self.state, 20);
-            assembled.map_err(|failure| at_the_beginning(&self.mechanism, failure))?;
+            let assembled = self.stepper.assemble(&mut self.state, 20);
+            self.stepper.told(assembled)?;
             self.arrive()?;
         }
-        let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
+        let nothing = vec![[0.0; 3]; self.mechanism().joint_at.len()];
         let push = push.unwrap_or(&nothing);
         let (before, speed) = (self.state.velocity.clone(), self.state.largest_speed());
         // One goes or comes at a time: each choice of what bears is seen once if the impulses are
         // determined at all.
         for _ in 0..=4 * held.len() {
-            let multipliers = self.stepper.impulses(&self.mechanism, &self.state, push);
-            let impulses = contacts.forces(&self.mechanism, &multipliers);
+            let multipliers = self.stepper.impulses(&self.state, push);
+            let impulses = contacts.forces(self.mechanism(), &multipliers);
             if let Some(k) = most_wrong(&contacts.holds, &impulses) {
                 contacts.holds[k] = false;
                 self.hold(contacts)?;
                 continue;
             }
-            let pushed = self.stepper.push(&self.mechanism, &mut self.state, push);
-            pushed.map_err(|failure| at_the_beginning(&self.mechanism, failure))?;
-            let rates = contacts.rates(&self.mechanism, &self.state);
+            let pushed = self.stepper.push(&mut self.state, push);
+            self.stepper.told(pushed)?;
+            let rates = contacts.rates(self.mechanism(), &self.state);
             // What an impact stops is left with the rounding of its speed.
             let least = -NOTHING * speed.max(self.state.largest_speed());
             let back = (0..held.len())
@@ -226,12 +224,12 @@ impl Simulation {
     /// What is closed and stays closed by the velocities bears a force of the right sign, or opens
     /// with its acceleration: one goes or comes at a time until both are so.
     fn let_go_of(&mut self, contacts: &mut Contacts, in_turn: bool) -> Result<()> {
-        let unit_n: f64 = self.mechanism.load.iter().map(|f| norm(*f)).sum();
-        let gaps = contacts.gaps(&self.mechanism, &self.state);
-        let rates = contacts.rates(&self.mechanism, &self.state);
+        let unit_n: f64 = self.mechanism().load.iter().map(|f| norm(*f)).sum();
+        let gaps = contacts.gaps(self.mechanism(), &self.state);
+        let rates = contacts.rates(self.mechanism(), &self.state);
         let (gap, rate) = if in_turn { (HARDLY_OPEN, HARDLY_MOVES) } else { (CLOSED, STILL) };
         let still = rate * self.state.largest_speed();
-        let fall = self.mechanism.load.iter().zip(&self.mechanism.mass);
+        let fall = self.mechanism().load.iter().zip(&self.mechanism().mass);
         let fall = fall.filter(|(_, mass)| **mass > 0.0).map(|(load, mass)| norm(*load) / mass);
         let fall = fall.fold(0.0, f64::max);
         let stays = |k: usize| gaps[k] <= gap && rates[k].abs() <= still;
@@ -240,10 +238,9 @@ impl Simulation {
             if !closed.contains(&true) {
                 return Ok(());
             }
-            let damping = damping::forces(&self.mechanism, &self.settings, &self.state);
-            let (acceleration, rho) =
-                self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());
-            let forces = contacts.forces(&self.mechanism, &rho);
+            let damping = damping::forces(self.mechanism(), &self.settings, &self.state);
+            let (acceleration, rho) = self.stepper.accelerations(&self.state, &damping.total());
+            let forces = contacts.forces(self.mechanism(), &rho);
             let wrong = most_wrong(&contacts.holds, &forces);
             if let Some(k) = wrong.filter(|&k| forces[k] < -NOTHING * unit_n) {
                 contacts.holds[k] = false;
@@ -252,7 +249,7 @@ impl Simulation {
             }
             // What is held still has the rounding of its free fall.
             let largest = acceleration.iter().map(|a| norm(*a)).fold(fall, worse);
-            let opening = contacts.accelerations(&self.mechanism, &self.state, &acceleration);
+            let opening = contacts.accelerations(self.mechanism(), &self.state, &acceleration);
             let back = (0..closed.len())
                 .filter(|&k| closed[k] && !contacts.holds[k] && opening[k] < -STILL * largest)
                 .min_by(|&i, &j| opening[i].total_cmp(&opening[j]));
@@ -262,9 +259,9 @@ impl Simulation {
                 continue;
             }
             if in_turn {
-                let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
-                let pushed = self.stepper.push(&self.mechanism, &mut self.state, &nothing);
-                pushed.map_err(|failure| at_the_beginning(&self.mechanism, failure))?;
+                let nothing = vec![[0.0; 3]; self.mechanism().joint_at.len()];
+                let pushed = self.stepper.push(&mut self.state, &nothing);
+                self.stepper.told(pushed)?;
             }
             return Ok(());
         }

@@ -17,6 +17,7 @@ use crate::force::Forces;
 use crate::krylov;
 use crate::mechanism::{Link, Mechanism, Rigid};
 use crate::saddle::{Saddle, Singular};
+use crate::simulation::at_the_beginning;
 use crate::state::{State, curvature, half_excess, squared};
 use numerics::vector::{dot, minus, norm, plus, worse};
 
@@ -42,6 +43,7 @@ const NO_SPAN: f64 = 1e-9;
 
 /// What a step needs and keeps.
 pub(crate) struct Stepper {
+    pub mechanism: Mechanism,
     saddle: Saddle,
     /// Vectors of the rows at the present places, factorised: one for each rigid span and slide.
     pub vectors: Vec<Vector>,
@@ -72,66 +74,71 @@ pub(crate) enum Failure {
 }
 
 impl Stepper {
-    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self> {
-        let rows = mechanism.constraints();
+    pub(crate) fn new(mechanism: Mechanism) -> Result<Self> {
         let slots = mechanism.joint_at.len();
         Ok(Self {
-            saddle: Saddle::new(mechanism)?,
+            saddle: Saddle::new(&mechanism)?,
             vectors: vec![[0.0; 3]; mechanism.vectors()],
             force: mechanism.load.clone(),
             by: vec![[0.0; 3]; slots],
             x: vec![[0.0; 3]; slots],
-            rows: vec![0.0; rows],
+            rows: vec![0.0; mechanism.constraints()],
             off: [0.0; 2],
             corrections: 0,
+            mechanism,
         })
+    }
+
+    /// What came of it where no step was asked for.
+    pub(crate) fn told<T>(&self, done: Result<T, Failure>) -> Result<T> {
+        done.map_err(|failure| at_the_beginning(&self.mechanism, failure))
     }
 
     /// Take over the places: vectors of the rows, their factors, the forces.
     pub(crate) fn arrive(
         &mut self,
-        mechanism: &Mechanism,
         state: &State,
         forces: &Forces,
         time_s: f64,
     ) -> Result<(), Failure> {
-        self.off[0] = state.rows(mechanism, &mut self.vectors);
-        no_jam(mechanism, state)?;
-        forces.at(mechanism, state, time_s, &mut self.force);
+        self.off[0] = state.rows(&self.mechanism, &mut self.vectors);
+        no_jam(&self.mechanism, state)?;
+        forces.at(&self.mechanism, state, time_s, &mut self.force);
         self.saddle.factor(&self.vectors).map_err(Failure::Singular)
     }
 
     /// A step of the length `h`, of either sign.
     pub(crate) fn step(
         &mut self,
-        mechanism: &Mechanism,
         state: &mut State,
         forces: &Forces,
         time_s: f64,
         h: f64,
     ) -> Result<(), Failure> {
-        let moving = mechanism.moving;
+        let moving = self.mechanism.moving;
         for (by, v) in self.by.iter_mut().zip(&state.velocity) {
             *by = v.map(|v| h * v);
         }
-        let before = self.excess(mechanism, state);
+        let before = self.excess(state);
         for (x, f) in self.x[..moving].iter_mut().zip(&self.force) {
             *x = f.map(|f| 0.5 * h * h * f);
         }
         self.correct(moving);
-        let met = self.meet(mechanism, state, before);
+        let met = self.meet(state, before);
         // A span that has turned round has passed the joint at its end.
-        jammed(mechanism, state, |s, d| dot(d, plus(d, minus(self.by[s.b], self.by[s.a]))) <= 0.0)?;
+        jammed(&self.mechanism, state, |s, d| {
+            dot(d, plus(d, minus(self.by[s.b], self.by[s.a]))) <= 0.0
+        })?;
         met?;
         state.displace(&self.by[..moving]);
         for (v, by) in state.velocity.iter_mut().zip(&self.by) {
             *v = by.map(|by| by / h);
         }
-        self.arrive(mechanism, state, forces, time_s + h)?;
+        self.arrive(state, forces, time_s + h)?;
         for (x, f) in self.x[..moving].iter_mut().zip(&self.force) {
             *x = f.map(|f| 0.5 * h * f);
         }
-        self.settle(mechanism, state)?;
+        self.settle(state)?;
         if self.off[0].is_nan() || self.off[0] > CONSTRAINT_TOLERANCE {
             return Err(Failure::NotMet { corrections: self.corrections, off: self.off[0] });
         }
@@ -139,16 +146,11 @@ impl Stepper {
     }
 
     /// Correct the displacement until the lengths are met.
-    fn meet(
-        &mut self,
-        mechanism: &Mechanism,
-        state: &State,
-        mut before: f64,
-    ) -> Result<(), Failure> {
-        let moving = mechanism.moving;
+    fn meet(&mut self, state: &State, mut before: f64) -> Result<(), Failure> {
+        let moving = self.mechanism.moving;
         for corrections in 1.. {
             self.corrections = corrections;
-            let off = self.excess(mechanism, state);
+            let off = self.excess(state);
             // Rounding may stay above its usual size; then corrections gain nothing.
             let stalled = off <= 0.01 * CONSTRAINT_TOLERANCE && off >= 0.5 * before;
             if off <= ROUNDING || stalled {
@@ -161,9 +163,9 @@ impl Stepper {
             if corrections > 1 && off > SLOW * before {
                 if off > before {
                     self.undo(moving);
-                    self.excess(mechanism, state);
+                    self.excess(state);
                 }
-                self.newton(mechanism, state).map_err(|()| Failure::NotMet { corrections, off })?;
+                self.newton(state).map_err(|()| Failure::NotMet { corrections, off })?;
             } else {
                 self.x[..moving].fill([0.0; 3]);
                 self.correct(moving);
@@ -174,11 +176,11 @@ impl Stepper {
     }
 
     /// Right-hand sides `−g` at the displaced places; the largest violation.
-    fn excess(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
+    fn excess(&mut self, state: &State) -> f64 {
         let (mut off, by) = (0.0, &self.by);
         let moved = |s: &Link, d: Vector| plus(d, minus(by[s.b], by[s.a]));
-        for (bar, row) in mechanism.bars.iter().zip(&mut self.rows) {
-            let squared = match mechanism.of(&bar.spans) {
+        for (bar, row) in self.mechanism.bars.iter().zip(&mut self.rows) {
+            let squared = match self.mechanism.of(&bar.spans) {
                 // The span is the vector of the row.
                 [span] => {
                     let d = moved(span, self.vectors[bar.spans.start]);
@@ -190,8 +192,8 @@ impl Stepper {
             *row = -excess * bar.length_m * bar.length_m;
             off = worse(off, excess.abs());
         }
-        let rows = &mut self.rows[mechanism.bars.len()..];
-        for (slide, row) in mechanism.slides.iter().zip(rows) {
+        let rows = &mut self.rows[self.mechanism.bars.len()..];
+        for (slide, row) in self.mechanism.slides.iter().zip(rows) {
             *row = -dot(slide.normal, self.by[slide.slot]);
         }
         off
@@ -219,18 +221,18 @@ impl Stepper {
     /// The equation `R₁ M⁻¹ R₀ᵀ ν = −g` is solved with the factors of `R₀ M⁻¹ R₀ᵀ` as
     /// preconditioner. The product of the two has its eigenvalues near 1 and, for the directions
     /// that lose their constraint at a distance `δ` from where they do, near `δ₁/δ₀`: two clusters.
-    fn newton(&mut self, mechanism: &Mechanism, state: &State) -> Result<(), ()> {
-        let moving = mechanism.moving;
-        let rigid = &mechanism.spans[..mechanism.rigid_spans()];
+    fn newton(&mut self, state: &State) -> Result<(), ()> {
+        let moving = self.mechanism.moving;
+        let rigid = &self.mechanism.spans[..self.mechanism.rigid_spans()];
         let turned = |span: &Link| norm(minus(self.by[span.b], self.by[span.a])) / span.length_m;
         if rigid.iter().any(|span| turned(span) > LARGEST_TURN) {
             return Err(());
         }
         let (mut displaced, mut ahead) = (state.clone(), self.vectors.clone());
         displaced.displace(&self.by[..moving]);
-        displaced.rows(mechanism, &mut ahead);
-        let far = mechanism.system.total_length_m();
-        let bars = mechanism.bars.iter();
+        displaced.rows(&self.mechanism, &mut ahead);
+        let far = self.mechanism.system.total_length_m();
+        let bars = self.mechanism.bars.iter();
         let mut unit: Vec<f64> = bars.map(|bar| bar.length_m * bar.length_m).collect();
         unit.resize(self.rows.len(), far);
         let right: Vec<f64> = self.rows.iter().zip(&unit).map(|(row, unit)| row / unit).collect();
@@ -242,9 +244,9 @@ impl Stepper {
             x[..moving].fill([0.0; 3]);
             saddle.solve(&mut x[..moving], rows);
             // Slots of anchors are never displaced.
-            let bars = mechanism.bars.iter();
-            let mut out: Vec<f64> = bars.map(|bar| rate(mechanism, bar, &ahead, x)).collect();
-            out.extend(mechanism.slides.iter().map(|slide| dot(slide.normal, x[slide.slot])));
+            let bars = self.mechanism.bars.iter();
+            let mut out: Vec<f64> = bars.map(|bar| rate(&self.mechanism, bar, &ahead, x)).collect();
+            out.extend(self.mechanism.slides.iter().map(|slide| dot(slide.normal, x[slide.slot])));
             out.iter_mut().zip(&unit).for_each(|(out, unit)| *out /= unit);
             out
         };
@@ -258,21 +260,17 @@ impl Stepper {
 
     /// Add `x` to the velocities as an impulse (its inertia divided out), and take out what changes
     /// lengths.
-    pub(crate) fn settle(
-        &mut self,
-        mechanism: &Mechanism,
-        state: &mut State,
-    ) -> Result<(), Failure> {
-        let moving = mechanism.moving;
+    pub(crate) fn settle(&mut self, state: &mut State) -> Result<(), Failure> {
+        let moving = self.mechanism.moving;
         let mut corrections = 0;
-        self.rates(mechanism, state);
+        self.rates(state);
         loop {
             self.saddle.solve(&mut self.x[..moving], &mut self.rows);
             for (v, x) in state.velocity.iter_mut().zip(&self.x[..moving]) {
                 *v = plus(*v, *x);
             }
             corrections += 1;
-            let rate = self.rates(mechanism, state);
+            let rate = self.rates(state);
             let speed = state.largest_speed();
             self.off[1] = if speed > 0.0 { rate / speed } else { rate };
             if self.off[1] <= 0.1 * CONSTRAINT_TOLERANCE {
@@ -286,16 +284,16 @@ impl Stepper {
     }
 
     /// Right-hand sides `−R v`; the largest `d · w / l`, a speed.
-    fn rates(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
+    fn rates(&mut self, state: &State) -> f64 {
         let v = &state.velocity;
         let mut off = 0.0;
-        for (bar, row) in mechanism.bars.iter().zip(&mut self.rows) {
-            let rate = rate(mechanism, bar, &self.vectors, v);
+        for (bar, row) in self.mechanism.bars.iter().zip(&mut self.rows) {
+            let rate = rate(&self.mechanism, bar, &self.vectors, v);
             *row = -rate;
             off = worse(off, rate.abs() / bar.length_m);
         }
-        let rows = &mut self.rows[mechanism.bars.len()..];
-        for (slide, row) in mechanism.slides.iter().zip(rows) {
+        let rows = &mut self.rows[self.mechanism.bars.len()..];
+        for (slide, row) in self.mechanism.slides.iter().zip(rows) {
             let rate = dot(slide.normal, v[slide.slot]);
             *row = -rate;
             off = worse(off, rate.abs());
@@ -305,29 +303,19 @@ impl Stepper {
 
     /// The multipliers of the rows that a push makes, N s/m: of a member its axial impulse over its
     /// length, tension positive.
-    pub(crate) fn impulses(
-        &mut self,
-        mechanism: &Mechanism,
-        state: &State,
-        impulses: &[Vector],
-    ) -> Vec<f64> {
-        let moving = mechanism.moving;
-        self.rates(mechanism, state);
+    pub(crate) fn impulses(&mut self, state: &State, impulses: &[Vector]) -> Vec<f64> {
+        let moving = self.mechanism.moving;
+        self.rates(state);
         self.x[..moving].copy_from_slice(&impulses[..moving]);
         self.saddle.solve(&mut self.x[..moving], &mut self.rows);
         self.rows.clone()
     }
 
     /// Change the velocities by impulses, N s by slot, under the constraints.
-    pub(crate) fn push(
-        &mut self,
-        mechanism: &Mechanism,
-        state: &mut State,
-        impulses: &[Vector],
-    ) -> Result<(), Failure> {
-        let moving = mechanism.moving;
+    pub(crate) fn push(&mut self, state: &mut State, impulses: &[Vector]) -> Result<(), Failure> {
+        let moving = self.mechanism.moving;
         self.x[..moving].copy_from_slice(&impulses[..moving]);
-        self.settle(mechanism, state)
+        self.settle(state)
     }
 
     /// Accelerations by slot, m/s², and multipliers `ρ` of the rows: `M a + Rᵀ ρ = f`, `R a = −Ṙ
@@ -337,7 +325,6 @@ impl Stepper {
     /// positive.
     pub(crate) fn accelerations(
         &mut self,
-        mechanism: &Mechanism,
         state: &State,
         extra: &[Vector],
     ) -> (Vec<Vector>, Vec<f64>) {
@@ -345,27 +332,22 @@ impl Stepper {
         let mut a: Vec<Vector> =
             self.force.iter().zip(extra).map(|(force, extra)| plus(*force, *extra)).collect();
         let mut rho = vec![0.0; self.rows.len()];
-        for (bar, row) in mechanism.bars.iter().zip(&mut rho) {
-            let spans = mechanism.of(&bar.spans).iter();
+        for (bar, row) in self.mechanism.bars.iter().zip(&mut rho) {
+            let spans = self.mechanism.of(&bar.spans).iter();
             *row = -curvature(spans.map(|s| [state.between(s.a, s.b), minus(v[s.b], v[s.a])]));
         }
-        self.saddle.solve(&mut a[..mechanism.moving], &mut rho);
-        a[mechanism.moving..].fill([0.0; 3]);
+        self.saddle.solve(&mut a[..self.mechanism.moving], &mut rho);
+        a[self.mechanism.moving..].fill([0.0; 3]);
         (a, rho)
     }
 
     /// Bring places onto the lengths by corrections that are least in the metric of the inertia.
-    pub(crate) fn assemble(
-        &mut self,
-        mechanism: &Mechanism,
-        state: &mut State,
-        most: usize,
-    ) -> Result<(), Failure> {
-        let moving = mechanism.moving;
+    pub(crate) fn assemble(&mut self, state: &mut State, most: usize) -> Result<(), Failure> {
+        let moving = self.mechanism.moving;
         let mut off = f64::NAN;
         for corrections in 0..=most {
             let before = off;
-            off = state.rows(mechanism, &mut self.vectors);
+            off = state.rows(&self.mechanism, &mut self.vectors);
             // Corrections past the rounding would not end.
             if off <= ROUNDING || (off <= 0.1 * CONSTRAINT_TOLERANCE && off >= 0.5 * before) {
                 return Ok(());
@@ -375,14 +357,14 @@ impl Stepper {
             }
             self.saddle.factor(&self.vectors).map_err(Failure::Singular)?;
             self.by.fill([0.0; 3]);
-            self.excess(mechanism, state);
-            let rows = &mut self.rows[mechanism.bars.len()..];
-            for (slide, row) in mechanism.slides.iter().zip(rows) {
+            self.excess(state);
+            let rows = &mut self.rows[self.mechanism.bars.len()..];
+            for (slide, row) in self.mechanism.slides.iter().zip(rows) {
                 *row = -dot(slide.normal, minus(state.at[slide.slot], slide.at));
             }
             self.x[..moving].fill([0.0; 3]);
             self.saddle.solve(&mut self.x[..moving], &mut self.rows);
-            let part = self.part_of_correction(mechanism);
+            let part = self.part_of_correction();
             for x in &mut self.x[..moving] {
                 *x = x.map(|x| part * x);
             }
@@ -395,8 +377,8 @@ impl Stepper {
     pub(crate) const LARGEST_CORRECTION: f64 = 0.3;
 
     /// How much of a correction is taken: the linear part of a length is good for a part of a bar.
-    fn part_of_correction(&self, mechanism: &Mechanism) -> f64 {
-        let changes = mechanism.spans[..mechanism.rigid_spans()].iter().map(|link| {
+    fn part_of_correction(&self) -> f64 {
+        let changes = self.mechanism.spans[..self.mechanism.rigid_spans()].iter().map(|link| {
             let change = minus(self.x[link.b], self.x[link.a]);
             dot(change, change).sqrt() / link.length_m
         });

@@ -50,7 +50,6 @@ const MOST_CORRECTIONS: usize = 20;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    pub(crate) mechanism: Mechanism,
     pub(crate) settings: Settings,
     /// Lengths of the steps of RATTLE in a step, in units of it.
     parts: Vec<f64>,
@@ -85,20 +84,20 @@ impl Simulation {
         };
         let mechanism = Mechanism::for_motion(&held, system.reference_m())?;
         let mut state = State::at_rest(mechanism.places(joints_m)?);
-        let mut stepper = Stepper::new(&mechanism)?;
-        let off = state.rows(&mechanism, &mut stepper.vectors);
+        let mut stepper = Stepper::new(mechanism)?;
+        let off = state.rows(&stepper.mechanism, &mut stepper.vectors);
         if off.is_nan() || off > CLOSED_TOLERANCE {
             return Err(MotionError::NotClosed { iterations: 0, off });
         }
-        let begin = |failure| at_the_beginning(&mechanism, failure);
-        stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(begin)?;
+        let assembled = stepper.assemble(&mut state, MOST_CORRECTIONS);
+        stepper.told(assembled)?;
         let forces = Forces::default();
-        stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
+        let arrived = stepper.arrive(&state, &forces, 0.0);
+        stepper.told(arrived)?;
         let parts = parts(settings.order);
-        let longest_s = longest_step_s(&mechanism)?;
+        let longest_s = longest_step_s(&stepper.mechanism)?;
         let impacts = Vec::new();
         let mut found = Self {
-            mechanism,
             settings,
             parts,
             longest_s,
@@ -120,12 +119,12 @@ impl Simulation {
     ///
     /// [`MotionError::Input`] when there is no such joint.
     pub fn add_force(&mut self, joint: usize, of_time: ForceOfTime) -> Result<()> {
-        let Some(&slot) = self.mechanism.slot_of.get(joint) else {
+        let Some(&slot) = self.mechanism().slot_of.get(joint) else {
             let reason = format!("there is no joint number {joint}");
             return Err(MotionError::Input { what: "a force of time", reason });
         };
         self.forces.of_time.push((slot, of_time));
-        self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
+        self.forces.at(&self.stepper.mechanism, &self.state, self.time_s, &mut self.stepper.force);
         Ok(())
     }
 
@@ -138,19 +137,19 @@ impl Simulation {
     /// differ: then its spin is not apart.
     pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<()> {
         let refused = |reason| MotionError::Input { what: "a moment of time", reason };
-        let system = self.mechanism.system();
+        let system = self.mechanism().system();
         let Some(of) = system.members().get(member) else {
             return Err(refused(format!("there is no member number {member}")));
         };
         if of.rope.is_some() {
             return Err(refused(format!("a rope, member number {member}, bears none")));
         }
-        if self.mechanism.cornered.iter().any(|cornered| cornered.member == member) {
+        if self.mechanism().cornered.iter().any(|cornered| cornered.member == member) {
             return Err(refused(format!("the moments across member number {member} differ")));
         }
-        let [a, b] = [of.from, of.to].map(|joint| self.mechanism.slot_of[joint]);
+        let [a, b] = [of.from, of.to].map(|joint| self.mechanism().slot_of[joint]);
         self.forces.moments.push(MomentOfTime { a, b, member, of_time });
-        self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
+        self.forces.at(&self.stepper.mechanism, &self.state, self.time_s, &mut self.stepper.force);
         Ok(())
     }
 
@@ -161,12 +160,12 @@ impl Simulation {
     ///
     /// [`MotionError`] when they are not as many as the joints, or not finite.
     pub fn set_velocities(&mut self, velocities_m_s: &[Vector]) -> Result<()> {
-        let mut velocity = self.mechanism.by_slot(velocities_m_s, "velocities of the joints")?;
-        velocity[self.mechanism.moving..].fill([0.0; 3]);
-        for cornered in &self.mechanism.cornered {
-            let slot = |joint: usize| self.mechanism.slot_of[joint];
+        let mut velocity = self.mechanism().by_slot(velocities_m_s, "velocities of the joints")?;
+        velocity[self.mechanism().moving..].fill([0.0; 3]);
+        for cornered in &self.mechanism().cornered {
+            let slot = |joint: usize| self.mechanism().slot_of[joint];
             let [a, b, p] = cornered.joints.map(slot);
-            let body = &self.mechanism.system.members()[cornered.member].body;
+            let body = &self.mechanism().system.members()[cornered.member].body;
             let d = self.state.between(a, b);
             let omega = times(1.0 / dot(d, d), cross(d, minus(velocity[b], velocity[a])));
             let f = body.centre_m() / body.length_m();
@@ -177,7 +176,7 @@ impl Simulation {
             }
         }
         self.state.velocity = velocity;
-        let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
+        let nothing = vec![[0.0; 3]; self.mechanism().joint_at.len()];
         self.push_slots(&nothing)
     }
 
@@ -187,7 +186,7 @@ impl Simulation {
     ///
     /// [`MotionError`] when they are not as many as the joints, or not finite.
     pub fn push(&mut self, impulses_n_s: &[Vector]) -> Result<()> {
-        let impulses = self.mechanism.by_slot(impulses_n_s, "impulses on the joints")?;
+        let impulses = self.mechanism().by_slot(impulses_n_s, "impulses on the joints")?;
         self.push_slots(&impulses)
     }
 
@@ -196,7 +195,7 @@ impl Simulation {
             self.collide(&[], Some(impulses))?;
             return self.let_go(false);
         }
-        let pushed = self.stepper.push(&self.mechanism, &mut self.state, impulses);
+        let pushed = self.stepper.push(&mut self.state, impulses);
         pushed.map_err(|failure| self.told(failure, 0.0))
     }
 
@@ -268,8 +267,7 @@ impl Simulation {
     /// A symmetric step of order two: half of the damping, RATTLE, half of the damping.
     fn part(&mut self, h: f64) -> Result<()> {
         self.damp(0.5 * h)?;
-        let stepped =
-            self.stepper.step(&self.mechanism, &mut self.state, &self.forces, self.time_s, h);
+        let stepped = self.stepper.step(&mut self.state, &self.forces, self.time_s, h);
         stepped.map_err(|failure| self.told(failure, h))?;
         self.damp(0.5 * h)?;
         if !self.state.largest_speed().is_finite() {
@@ -280,7 +278,7 @@ impl Simulation {
     }
 
     fn damp(&mut self, h: f64) -> Result<()> {
-        damping::damp(&self.mechanism, &self.settings, &mut self.state, &mut self.stepper, h)
+        damping::damp(&self.settings, &mut self.state, &mut self.stepper, h)
             .map_err(|failure| self.told(failure, h))
     }
 
@@ -292,7 +290,7 @@ impl Simulation {
                 iterations: corrections,
                 off,
             },
-            failure => at_the_beginning(&self.mechanism, failure),
+            failure => at_the_beginning(self.mechanism(), failure),
         }
     }
 
@@ -329,7 +327,7 @@ impl Simulation {
 
     /// The mechanics of the system, with what holds at the present time.
     pub fn mechanism(&self) -> &Mechanism {
-        &self.mechanism
+        &self.stepper.mechanism
     }
 
     /// Time since the beginning, s.
@@ -339,24 +337,24 @@ impl Simulation {
 
     /// Places of the joints, world frame, m.
     pub fn joints_m(&self) -> Vec<Vector> {
-        let reference = self.mechanism.reference_m;
-        let places = self.mechanism.by_joint(&self.state.at);
+        let reference = self.mechanism().reference_m;
+        let places = self.mechanism().by_joint(&self.state.at);
         places.into_iter().map(|x| plus(x, reference)).collect()
     }
 
     /// Velocities of the joints, m/s.
     pub fn velocities_m_s(&self) -> Vec<Vector> {
-        self.mechanism.by_joint(&self.state.velocity)
+        self.mechanism().by_joint(&self.state.velocity)
     }
 
     /// Kinetic energy, J.
     pub fn kinetic_j(&self) -> f64 {
-        kinetic_j(&self.mechanism, &self.state)
+        kinetic_j(self.mechanism(), &self.state)
     }
 
     /// Potential energy relative to [`System::reference_m`], J; the forces of time are not in it.
     pub fn potential_j(&self) -> f64 {
-        potential_j(&self.mechanism, &self.state)
+        potential_j(self.mechanism(), &self.state)
     }
 
     /// Mechanical energy, J.
@@ -377,8 +375,8 @@ impl Simulation {
 
     /// Everything at the present time: places, velocities, accelerations, forces, energies.
     pub fn snapshot(&mut self) -> Snapshot {
-        let damping = damping::forces(&self.mechanism, &self.settings, &self.state);
-        let solved = self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());
+        let damping = damping::forces(self.mechanism(), &self.settings, &self.state);
+        let solved = self.stepper.accelerations(&self.state, &damping.total());
         Snapshot::new(self, &solved.0, &solved.1, &damping)
     }
 
@@ -392,7 +390,7 @@ impl Simulation {
 
     /// Moments of time by member at the present time, N m.
     pub(crate) fn moments_of_time(&self) -> Vec<Vector> {
-        let mut found = vec![[0.0; 3]; self.mechanism.given()[1]];
+        let mut found = vec![[0.0; 3]; self.mechanism().given()[1]];
         for moment in &self.forces.moments {
             found[moment.member] = plus(found[moment.member], (moment.of_time)(self.time_s));
         }
@@ -401,7 +399,7 @@ impl Simulation {
 
     /// Forces of time by slot at the present time, N.
     pub(crate) fn forces_of_time(&self) -> Vec<Vector> {
-        let mut found = vec![[0.0; 3]; self.mechanism.joint_at.len()];
+        let mut found = vec![[0.0; 3]; self.mechanism().joint_at.len()];
         for (slot, of_time) in &self.forces.of_time {
             found[*slot] = plus(found[*slot], of_time(self.time_s));
         }

@@ -337,12 +337,12 @@ fn densities(
     state: &State,
     axial_n: Option<&[f64]>,
 ) -> Result<(Vec<f64>, bool)> {
-    let mut stepper = Stepper::new(mechanism)?;
+    let mut stepper = Stepper::new(mechanism.clone())?;
     let forces = force::Forces::default();
-    match stepper.arrive(mechanism, state, &forces, 0.0) {
+    match stepper.arrive(state, &forces, 0.0) {
         Ok(()) => {
             let nothing = vec![[0.0; 3]; mechanism.joint_at.len()];
-            let (_, mut rho) = stepper.accelerations(mechanism, state, &nothing);
+            let (_, mut rho) = stepper.accelerations(state, &nothing);
             rho.truncate(mechanism.bars.len());
             Ok((rho, true))
         }
