@@ -52,7 +52,7 @@
 //! | net of 316 x 316 | 199,080 | 16 | 11.4 | 57 |
 //! | bridle of three strands | 300,000 | 7 | 1.3 | 4 |
 //! | ten branchings | 999,999 | 8 | 5.2 | 5 |
-//! | random tree | 1,000,000 | 6 | 6.9 | 7 |
+//! | random tree, drawn by an earlier program | 1,000,000 | 6 | 6.9 | 7 |
 //! | a chain | 1,000,000 | 7 | 4.9 | 5 |
 //!
 //! From 19,800 to 199,080 members of a net the time grows with the power 1.35 of their number.
