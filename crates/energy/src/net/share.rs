@@ -11,6 +11,9 @@
 //! self-stress. The misfits `e` of the lengths, as spring forces `W e`, are split in the same way:
 //! what a change of the shape takes up, and what no change of it does.
 //!
+//! Which of the members resist that do so on one side alone is found by Newton's method for the least of the convex energy
+//! `sum s² / 2l - r · y` over their stretches `s = R y` on that side; a step ends where the energy falls no more.
+//!
 //! Motions that keep the lengths make `Rᵀ W R` singular. A soft spring on every joint holds them;
 //! a few solutions for the rest of `r` remove its effect on all others. Motions that strain the
 //! members by less than that spring's softness count as such motions.

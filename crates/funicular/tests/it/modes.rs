@@ -85,6 +85,27 @@ fn a_mode_that_is_proved_to_be_zero_is_called_a_turn() {
     assert!(modes[0].get("frequency_hz").is_none(), "{modes:?}");
 }
 
+/// A ring that hangs on the floor from an elastic bar, beside a slack rope: rounding makes the `ω²` of its turn negative, and the
+/// proof says that it is zero.
+#[test]
+fn a_direction_is_counted_as_it_is_proved() {
+    let text = "floor_m = -0.2\n\
+        joints = { H0 = { at_m = [-1.9172193654414924, 1.4510621147504525, 2.302123657957715] }, \
+        H1 = { at_m = [-0.942842988772572, 0.4322336618884375, 2.1424758268699327] }, R0 = { mass_kg = 4.586960867649749 } }\n\
+        bars = [{ from = \"H1\", via = [\"R0\", \"H0\"], to = \"R0\", kind = \"cable\", length_m = 10.72230128347486, \
+        stiffness_n = 540.7908575765497 }, { from = \"H1\", to = \"R0\", length_m = 2.5141960798629315, mass_kg = 0.1, \
+        stiffness_n = 1476.5834080884542 }]\n";
+    let folder = holding([("ring.toml", text)]);
+    let output = run(&folder, 1, &["modes", "ring.toml", "--json"]);
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ring = &found["equilibria"][0];
+    assert_eq!(
+        (&ring["enclosed"]["inertia"]["negative"], &ring["index_by_modes"]),
+        (&0.into(), &0.into())
+    );
+    assert_eq!(output.status.code(), Some(0));
+}
+
 #[test]
 fn closed_forms_lie_in_the_enclosures_and_large_systems_say_that_they_have_none() {
     let folder = holding([("double.toml", DOUBLE)]);

@@ -140,6 +140,23 @@ fn ranges_and_modes_of_another_shape_than_is_drawn_say_so() {
     assert_eq!((code, &found["is_neighbour"]), (Some(3), &serde_json::Value::Bool(false)));
 }
 
+/// A weight pushed aside has a mirror image in the plane of its push, of the same energy: draws are solved next to the one shown.
+#[test]
+fn draws_do_not_go_to_the_mirror_image() {
+    let text = r#"
+floor_m = 0
+joints = { A = { at_m = [0, 0, 0] }, C = { at_m = [0, 0, 3] }, F = { mass_kg = 1, force_n = [14.1, -1.8, 0] }, T = { mass_kg = 5, mass_tolerance_kg = 0.1 } }
+bars = [{ from = "A", to = "F", kind = "cable", length_m = 1.976, mass_kg = 0.2, stiffness_n = 1e4, length_tolerance_m = 4e-3 },
+  { from = "F", to = "T", length_m = 1.825, mass_kg = 1, length_tolerance_m = 6e-3 },
+  { from = "C", to = "T", kind = "cable", length_m = 1.8, mass_kg = 0.1, stiffness_n = 2000 },
+  { from = "A", to = "T", length_m = 1.9, mass_kg = 0.1, stiffness_n = 5000, length_tolerance_m = 5e-3 }]
+"#;
+    let folder = holding([("pushed.toml", text)]);
+    let random = ["--tolerances", "--monte-carlo", "100", "--distribution", "ends"];
+    let said = good(&folder, &[&["solve", "pushed.toml"][..], &random].concat());
+    says(&said, &["100 with an answer, none of"]);
+}
+
 #[test]
 fn what_has_no_ranges_says_why() {
     let folder = tempfile::tempdir().unwrap();

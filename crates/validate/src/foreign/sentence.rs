@@ -237,8 +237,10 @@ impl Judgement {
             } else {
                 "in the same places".to_owned()
             };
+            let falls = one.equilibrium.stability.index_in_space > 0;
+            let what = if falls { "an unstable equilibrium" } else { "an equilibrium" };
             format!(
-                "{}, {start}, finds an equilibrium ({rung}) {away}{forces}.{proved}",
+                "{}, {start}, finds {what} ({rung}) {away}{forces}.{proved}",
                 one.equilibrium.solver
             )
         });

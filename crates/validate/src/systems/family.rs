@@ -342,6 +342,14 @@ fn roots(system: &System) -> Vec<f64> {
 /// Whether more inextensible members have their lengths than joints have motions, by two at least: some of the forces are open
 /// then, as in a shape whose self-stresses are counted.
 pub(super) fn has_more_lengths(system: &System, answer: &SystemEquilibrium) -> bool {
+    let of_all: usize = system.joints().iter().map(|joint| joint.support.motions().len()).sum();
+    // A floor takes one of each joint at most; long chains have far more, and need no lists.
+    let least =
+        of_all - if system.floor_m().is_some() { system.joints().len().min(of_all) } else { 0 };
+    let rigid = system.members().iter().filter(|member| member.stiffness_n.is_none());
+    if rigid.count() < least + 2 {
+        return false;
+    }
     let motions = motions_above_floor(system, answer).iter().map(Vec::len).sum::<usize>();
     let members = system.members().iter().zip(&answer.axial_n);
     let kept = members.filter(|(member, axial_n)| {

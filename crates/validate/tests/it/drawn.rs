@@ -259,7 +259,7 @@ fn the_dome_snaps_through_beyond_its_limit_load_and_that_is_said() {
     }
 }
 
-fn written(text: &str) -> System {
+pub fn written(text: &str) -> System {
     match parse(text, "drawn.toml").unwrap() {
         Described::System(system) => system,
         Described::Chain(_) => panic!("joints by name"),

@@ -94,6 +94,7 @@ fn a_judgement_is_told_in_sentences() {
     first.proved = Some(ProvedError { joints_m: [2.0, 4.0], forces_n: [0.0, 8.0] });
     (second.joints_m, second.joint, second.member, second.proved) = (0.75, 7, 0, None);
     second.equilibrium.evidence.ladder = model::Ladder::default();
+    second.equilibrium.stability.index_in_space = 1;
     let rung = first.equilibrium.evidence.rung().unwrap().to_string();
     let [told, other] = &judged.error_sentences(&system)[..] else { panic!() };
     assert_eq!(
@@ -104,7 +105,7 @@ fn a_judgement_is_told_in_sentences() {
              between 1.999 and 4.002 m, of a force between 0 and 8.004 N."
         )
     );
-    let wanted = "finds an equilibrium (no rung) up to 0.75 m away, at joint .";
+    let wanted = "finds an unstable equilibrium (no rung) up to 0.75 m away, at joint .";
     assert_eq!(*other, format!("energy, from the answer, {wanted}"));
     // A member that is not there is not named.
     judged.nearest.equilibria[1].member = 3;
