@@ -17,7 +17,6 @@ use std::time::Instant;
 use benches::equal_bars;
 use lagrange::condensed::{Condensed, Settings, Solver};
 use model::{Bar, Problem};
-use samples::process::thread_s;
 
 /// Seconds of measuring, unless told.
 const SECONDS: f64 = 30.0;
@@ -46,6 +45,13 @@ struct Timer {
     rounds: u32,
 }
 
+/// Time that this thread has had a processor, s.
+fn processor_s() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: u64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds as f64 * 1e-9)
+}
+
 impl Timer {
     fn new(name: &'static str, bars: usize, run: impl FnMut() + 'static) -> Self {
         let calls = if bars < 1_000 { SHORT_CALLS } else { 1 };
@@ -65,14 +71,14 @@ impl Timer {
     }
 
     fn measure(&mut self) {
-        let begun = thread_s();
+        let begun = processor_s();
         let clock = Instant::now();
         for _ in 0..self.calls {
             (self.run)();
         }
         let elapsed = clock.elapsed();
         self.rounds += 1;
-        let spent = begun.zip(thread_s()).map(|(begun, ended)| ended - begun);
+        let spent = begun.zip(processor_s()).map(|(begun, ended)| ended - begun);
         self.processor = self.processor.zip(spent).map(|(sum, spent)| sum + spent);
         self.least = self.least.min(elapsed.as_secs_f64() / f64::from(self.calls));
     }
