@@ -34,9 +34,6 @@ use crate::vector::scaled;
 /// after every solution, so that it is as rigid as supports are.
 const FLOOR: f64 = 1e4;
 
-/// Stiffness of what is slack, over its own: far less than what counts as a motion in a first reading.
-const SLACK: f64 = 1e-8;
-
 /// Solutions for one distribution: the first one, and corrections; as many more as leave less of it than this part each, as where
 /// a tall truss bends, which strains its members by little.
 const SOLUTIONS: usize = 8;
@@ -129,18 +126,12 @@ impl Share {
         self.taut = rods.map(|(rod, taut)| *taut && !rod.elastic()).collect();
         self.excess = frame.excesses(x);
         let sizes = frame.sizes(|e| if self.taut[e] { 1.0 } else { 0.0 });
-        // What is slack holds a little, or of all that is slack the first alone would come back; corrections take it out.
-        let along = |e: usize| {
-            let rod = &frame.rods[e];
-            let slack = !self.taut[e] && !rod.elastic() && !rod.ground;
-            if slack { SLACK / rod.length } else { self.weight(e) }
-        };
         let blocks: Vec<Block> = (0..frame.rods.len())
             .map(|e| Block {
                 isotropic: 0.0,
-                along: along(e),
+                along: self.weight(e),
                 direction: self.excess[e].gradient,
-                stretch: along(e),
+                stretch: self.weight(e),
             })
             .collect();
         frame.fill(

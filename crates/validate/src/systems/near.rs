@@ -192,8 +192,9 @@ pub(super) fn next_to(
         let elsewhere = || first.is_neighbour || differs();
         let keeps = !stays && there.moved <= FAR;
         let both_stay = stays && found.stability.index_in_space == 0;
-        let as_near = there.barrier_j.is_none() && there.moved <= TWICE * first.moved;
-        between |= both_stay && as_near && differs();
+        let falls = there.barrier_j.is_none() && first.barrier_j.is_none();
+        let as_near = worse(there.moved, first.moved) <= TWICE * there.moved.min(first.moved);
+        between |= both_stay && falls && as_near && differs();
         if found.solver == SolverName::ENERGY && !there.is_neighbour && !keeps && elsewhere() {
             let Near { joint, moved_m, .. } = there;
             *answer = Err(energy::Error::NoMinimumNear { joint, moved_m }.into());
