@@ -195,11 +195,10 @@ pub(super) fn above(
 
 /// Whether there may be an equilibrium with other joints on the floor.
 pub(super) fn catches(error: &Error) -> bool {
-    use Error::{Escapes, Falls, Floor, HeldMisfit, Jammed, Misfit, NotConverged, Unstable};
+    use Error::{Escapes, Floor, HeldMisfit, Jammed, Misfit, NotConverged, Unstable};
     matches!(
         error,
         Escapes { .. }
-            | Falls { .. }
             | Floor { .. }
             | HeldMisfit { .. }
             | Jammed(_)

@@ -75,7 +75,7 @@ pub struct Near {
     pub barrier_j: Option<f64>,
     /// Whether it is the neighbour of the drawing: no joint has moved by half a member, or no member has turned by a
     /// quarter of its length, and no barrier lies between; or it is the only one, of cables alone; or the lowest of all, and the
-    /// energy falls all the way there.
+    /// energy falls all the way there. Never where the other solver comes to rest at another stable one that is about as near.
     pub is_neighbour: bool,
     /// The energy of a lower equilibrium, J, where one was looked for and found.
     pub lower_j: Option<f64>,
@@ -154,7 +154,8 @@ pub(super) fn as_drawn(system: &System, drawing_m: &[Vector], answer: &mut Syste
             return;
         }
     }
-    if answer.stability.neutral > 0 {
+    // What lies on a floor has more motions than turns.
+    if answer.stability.neutral > 0 && system.floor_m().is_none() {
         let nothing = vec![false; drawing_m.len()];
         let turned = turned_onto(system, &drawn, answer, &nothing).0.into_owned();
         *answer = turned;
@@ -183,6 +184,7 @@ pub(super) fn next_to(
     let near = |answer: &SystemEquilibrium| Near::of(system, drawing_m, answer);
     let nearest = answers.iter().flatten().next()?;
     let (places_m, stays) = (nearest.joints_m.clone(), nearest.stability.index_in_space == 0);
+    let nearest_j = nearest.energy_j;
     let first = near(nearest);
     let mut between = false;
     for answer in answers {
@@ -194,7 +196,10 @@ pub(super) fn next_to(
         let both_stay = stays && found.stability.index_in_space == 0;
         let falls = there.barrier_j.is_none() && first.barrier_j.is_none();
         let as_near = worse(there.moved, first.moved) <= TWICE * there.moved.min(first.moved);
-        between |= both_stay && falls && as_near && differs();
+        // What slides freely is as high in both.
+        let unit_j = system.total_load_n() * system.total_length_m();
+        let apart = (found.energy_j - nearest_j).abs() > LOWER * unit_j;
+        between |= both_stay && falls && as_near && apart && differs();
         if found.solver == SolverName::ENERGY && !there.is_neighbour && !keeps && elsewhere() {
             let Near { joint, moved_m, .. } = there;
             *answer = Err(energy::Error::NoMinimumNear { joint, moved_m }.into());
