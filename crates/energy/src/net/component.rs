@@ -70,11 +70,12 @@ pub(super) fn check_held(system: &System, frame: &Frame) -> Result<(), Error> {
         space[root] = Some(if spot.freedom == 3 { here } else { left_free(here, spot) });
         load[root] = along(load[root], 1.0, frame.loads[joint]);
     }
+    let has_floor = frame.has_floor();
     for (joint, space) in space.into_iter().enumerate() {
         let free = space.unwrap_or_default();
         let onto = |v: Vector| free.iter().fold([0.0; 3], |sum, b| along(sum, dot(v, *b), *b));
         let (mut way, down) = (onto(load[joint]), onto([0.0, 0.0, -1.0]));
-        if frame.has_floor() && way[2] < 0.0 {
+        if has_floor && way[2] < 0.0 {
             // The floor ends what falls.
             way = along(way, -dot(way, down) / dot(down, down), down);
         }
