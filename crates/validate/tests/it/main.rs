@@ -26,6 +26,7 @@ mod judged;
 mod just_taut;
 mod moving;
 mod near_slack;
+mod neighbours;
 mod network_properties;
 mod networks;
 mod networks_census;
