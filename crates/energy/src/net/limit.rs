@@ -82,6 +82,11 @@ impl Limit {
         self.misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m)
     }
 
+    /// The softness of its reading.
+    pub(super) fn softness(&self) -> f64 {
+        SOFT * self.rank * self.rank
+    }
+
     /// The largest misfit over its tolerance.
     fn ratio(&self) -> f64 {
         self.misfits.first().map_or(0.0, |worst| worst.misfit_m.abs() / worst.within_m)
@@ -211,7 +216,8 @@ impl Newton {
         let mut softness = (SOFT * within).min(SOFTEST);
         let mut best: Option<Limit> = None;
         while softness >= HARDEST {
-            match self.reading(&mut share, shape, softness) {
+            let read = self.reading(&mut share, shape, softness);
+            match read {
                 Reading::Found(found) if found.fits() => return Ok(Reading::Found(found)),
                 Reading::Found(found) => {
                     if best.as_ref().is_none_or(|best| found.ratio() < best.ratio()) {
@@ -271,7 +277,10 @@ impl Newton {
                 continue;
             }
             let stiffness = frame.force_scale(&shape.force) / strain;
-            shape = self.chord(&shape, stiffness, &holding);
+            // What no change of the shape takes up is no reason to change it.
+            let excess = frame.excesses(&shape.x);
+            let off = share.in_no_shape(|e| excess[e].value);
+            shape = self.chord(&shape, stiffness, &holding, &off);
             // Forces of what goes slack are borne by the others before they move anything.
             let Some(changes) = settle_taut(&frame, share, &mut shape, &mut taut, softness) else {
                 return Reading::Astray;

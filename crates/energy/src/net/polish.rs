@@ -114,7 +114,7 @@ impl Newton {
                 return Polished::Astray;
             }
             for chord in 0..CHORDS {
-                let next = self.chord(&shape, stiffness, &active);
+                let next = self.chord(&shape, stiffness, &active, &[]);
                 let there = frame.slope(&next);
                 let (before, after) = (error(&slope), error(&there));
                 if !after.is_finite() {
@@ -192,10 +192,17 @@ impl Newton {
         self.factor.definite()
     }
 
-    /// One step with the factorisation at hand.
-    pub(super) fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
+    /// One step with the factorisation at hand, towards lengths that are longer by what they are to be `off`, if anything.
+    pub(super) fn chord(
+        &mut self,
+        shape: &Shape,
+        stiffness: f64,
+        active: &[bool],
+        off: &[f64],
+    ) -> Shape {
         let frame = Arc::clone(&self.frame);
-        let excess = frame.excesses(&shape.x);
+        let mut excess = frame.excesses(&shape.x);
+        excess.iter_mut().zip(off).for_each(|(excess, off)| excess.value -= off);
         let soft: Vec<Softened> = (0..frame.rods.len())
             .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]))
             .collect();

@@ -207,6 +207,19 @@ impl Share {
         Shared { force: stretch.iter().enumerate().map(bears).collect(), stretch, work }
     }
 
+    /// The part of the excesses of the taut inextensible members that no change of the shape takes up.
+    pub(super) fn in_no_shape(&mut self, excess: impl Fn(usize) -> f64) -> Vec<f64> {
+        let frame = Arc::clone(&self.frame);
+        let of_taut = |e: usize| if self.taut[e] { excess(e) } else { 0.0 };
+        let mut rest: Vec<f64> = (0..self.taut.len()).map(of_taut).collect();
+        let springs = frame.rods.iter().zip(&rest).map(|(rod, excess)| weight(rod) * excess);
+        let taken = self.shared(&springs.collect::<Vec<_>>()).stretch;
+        for ((rest, taken), taut) in rest.iter_mut().zip(taken).zip(&self.taut) {
+            *rest = if *taut { *rest - taken } else { 0.0 };
+        }
+        rest
+    }
+
     /// For each member whether it takes part in a self-stress, shown by forces without any order.
     /// `None` where there is no self-stress.
     pub(super) fn self_stressed(&mut self) -> Option<Vec<bool>> {

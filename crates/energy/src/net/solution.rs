@@ -76,11 +76,7 @@ impl Solution {
     ) -> Result<Self, Error> {
         let Minimum { shape, mut factor, effort, limit } = minimum;
         let least = limit.is_some();
-        let settled = if least {
-            Settled::as_is(frame, shape)
-        } else {
-            weak::settled(system, frame, &mut factor, shape)
-        };
+        let settled = weak::settled(system, frame, &mut factor, shape, limit.as_ref());
         let shape = &settled.shape;
         let slope = frame.slope(shape);
         let second = second_order(frame, shape, limit.as_ref(), &mut factor, settings.dense);

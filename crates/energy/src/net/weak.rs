@@ -12,15 +12,19 @@
 //! rounding, with the members' own stiffnesses, or stiff springs where none has its own; its minimum gives the
 //! forces, and is found by steps with one factorisation.
 
+use std::sync::Arc;
+
 use model::Vector;
 use model::system::System;
 
 use crate::net::factor::Factor;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
+use crate::net::limit::Limit;
 use crate::net::near::RIGID;
 use crate::net::polish::{NEUTRAL, STIFF_STRAIN};
 use crate::net::shape::{NO_STRAIN, Shape, largest};
+use crate::net::share::Share;
 use crate::thresholds::{PROGRESS, SETTLED};
 use crate::vector::{along, dot, norm, scaled};
 
@@ -33,6 +37,9 @@ const BORNE: [f64; 2] = [1e-2, 1e2];
 /// Steps at most; few are enough.
 const STEPS: usize = 12;
 
+/// Springs in place of rigid members, one after the other.
+const STIFFER: [f64; 3] = [1.0, 1e3, 1e6];
+
 /// Displacements from the places of a shape, m.
 struct Displaced<'a> {
     frame: &'a Frame,
@@ -40,6 +47,8 @@ struct Displaced<'a> {
     lengths: &'a [f64],
     x: &'a [Vector],
     u: Vec<Vector>,
+    /// Of each member what no change of the shape takes off its excess.
+    off: Vec<f64>,
     /// Axial forces in the unit of the frame.
     force: Vec<f64>,
 }
@@ -65,6 +74,7 @@ pub(super) fn settled(
     frame: &Frame,
     factor: &mut Factor,
     shape: Shape,
+    limit: Option<&Limit>,
 ) -> Settled {
     let stiffest = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
     let stiffest = stiffest.fold(0.0, f64::max);
@@ -78,29 +88,45 @@ pub(super) fn settled(
     let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
         (false, _) => 0.0,
         (true, true) => 1.0 / frame.rods[e].flexibility,
-        (true, false) => rigid,
+        (true, false) => rigid / frame.rods[e].length,
     };
     let lengths: Vec<f64> = system.members().iter().map(|m| m.body.length_m()).collect();
     let (x, u): (Vec<_>, Vec<_>) =
         (0..shape.x.len()).map(|k| place_m(system, frame, &shape, k)).unzip();
-    let mut here = Displaced { frame, lengths: &lengths, x: &x, u, force: shape.force.clone() };
+    let off = vec![0.0; frame.rods.len()];
+    let mut here =
+        Displaced { frame, lengths: &lengths, off, x: &x, u, force: shape.force.clone() };
+    if let Some(limit) = limit {
+        if stiffest <= 0.0 {
+            return Settled::as_is(frame, shape);
+        }
+        match here.in_no_shape(&shape, limit) {
+            Some(off) => here.off = off,
+            None => return Settled::as_is(frame, shape),
+        }
+    }
     let mut error = here.error(&active);
     if error <= 1.0 {
         return Settled::as_is(frame, shape);
     }
     let neutral = NEUTRAL * frame.largest_force(&shape.force);
-    frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
-    if !factor.definite() {
-        return Settled::as_is(frame, shape);
-    }
-    for _ in 0..STEPS {
-        let next = here.stepped(factor, &active, &stiffness);
-        let left = next.error(&active);
-        // NaN is no progress.
-        if left.is_nan() || left >= PROGRESS * error {
+    // Lengths that the shape hardly feels need stiffer springs beside elastic members.
+    for times in &STIFFER[..if stiffest > 0.0 { STIFFER.len() } else { 1 }] {
+        let stiffness =
+            |e: usize| if frame.rods[e].elastic() { stiffness(e) } else { times * stiffness(e) };
+        frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
+        if !factor.definite() {
             break;
         }
-        (here, error) = (next, left);
+        for _ in 0..STEPS {
+            let next = here.stepped(factor, &active, &stiffness);
+            let left = next.error(&active);
+            // NaN is no progress.
+            if left.is_nan() || left >= PROGRESS * error {
+                break;
+            }
+            (here, error) = (next, left);
+        }
     }
     let back = |(x, u): (&Vector, &Vector)| -> Vector {
         std::array::from_fn(|k| ((x[k] - frame.origin_m[k]) + u[k]) / frame.length_m)
@@ -147,7 +173,18 @@ impl Displaced<'_> {
         let Some(&length_m) = self.lengths.get(e) else { return (whole.value, whole.gradient) };
         let squares = difference_of_squares(ends, apart, length_m);
         let both = if rod.elastic() { norm(span_m) + length_m } else { 2.0 * length_m };
-        (squares / both * unit, whole.gradient)
+        (squares / both * unit - self.off[e], whole.gradient)
+    }
+
+    /// What no change of the shape takes off the excesses of the rigid members that overdetermine it; `None` where that
+    /// is not to be had.
+    fn in_no_shape(&self, shape: &Shape, limit: &Limit) -> Option<Vec<f64>> {
+        let frame = self.frame;
+        let mut share = Share::new(&Arc::new(frame.clone())).ok()?;
+        if !share.stand(&shape.x, &limit.taut, limit.softness()) {
+            return None;
+        }
+        Some(share.in_no_shape(|e| self.excess(e).0))
     }
 
     /// The largest unbalanced force over what counts as none at its joint, or error of the force of an elastic
@@ -163,8 +200,17 @@ impl Displaced<'_> {
             let scale = meeting[joint].min(most).max(BORNE[0] * own).max(NO_STRAIN);
             largest(&rest[spot.first..spot.first + spot.freedom]) / scale
         });
-        let rods = frame.rods.iter().enumerate().filter(|(e, rod)| active[*e] && rod.elastic());
-        let laws = rods.map(|(e, rod)| (self.excess(e).0 / rod.flexibility - self.force[e]).abs());
+        let elastic = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| rod.flexibility);
+        let stiffest = elastic.fold(f64::INFINITY, f64::min);
+        let rods = frame.rods.iter().enumerate().filter(|(e, _)| active[*e]);
+        // Of what is rigid a length that is off is felt by the stiffest spring beside it.
+        let laws = rods.map(|(e, rod)| {
+            if rod.elastic() {
+                (self.excess(e).0 / rod.flexibility - self.force[e]).abs()
+            } else {
+                self.excess(e).0.abs() / stiffest
+            }
+        });
         let laws = laws.fold(0.0, f64::max) / frame.largest_force(&self.force);
         (unbalance.fold(0.0, f64::max) / BALANCED).max(laws / SETTLED)
     }
@@ -198,7 +244,7 @@ impl Displaced<'_> {
         };
         let force = (0..force.len()).map(|e| force[e] + stiffness(e) * change(e)).collect();
         let u = frame.moved(&self.u, frame.length_m, &step);
-        Self { frame, lengths: self.lengths, x: self.x, u, force }
+        Self { frame, lengths: self.lengths, off: self.off.clone(), x: self.x, u, force }
     }
 }
 
@@ -272,6 +318,7 @@ mod tests {
             let displaced = |newtons: f64| Displaced {
                 frame: &frame,
                 lengths: &[7.0, 3.0],
+                off: vec![0.0; 2],
                 x: &x,
                 u: vec![[0.0; 3], moved, moved],
                 force: force(newtons),
@@ -326,7 +373,7 @@ mod tests {
             };
             let mut factor =
                 Factor::new(&frame.spots, &frame.rods, &frame.meter).expect("a factor");
-            let found = settled(&system, &frame, &mut factor, shape).shape;
+            let found = settled(&system, &frame, &mut factor, shape, None).shape;
             for force in &found.force {
                 let off = force * frame.force_n / 2e-3 - 1.0;
                 assert!(off.abs() < 1e-9, "{said:?}: off by {off:e}");

@@ -138,7 +138,7 @@ impl<'a> Derivatives<'a> {
         let residual = Residual::new(&framework, &state);
         smooth::check(system, &framework, &state, &residual, solution)?;
         let mut stiffness = Stiffness::new(&framework, false)?;
-        let derivative = Derivative::elastic(&framework, &mut stiffness, &state, &residual)
+        let derivative = Derivative::bordered(&framework, &mut stiffness, &state, &residual)
             .ok_or(Error::NoDerivative { left: 1.0 })?;
         let directions = residual.directions.iter().map(|(u, _)| *u).collect();
         Ok(Self { system, framework, stiffness, derivative, directions, axial: state.axial })

@@ -227,7 +227,7 @@ impl Equations {
         let state = self.state(y);
         let residual = Residual::new(&self.framework, &state);
         self.derivative =
-            Derivative::elastic(&self.framework, &mut self.stiffness, &state, &residual);
+            Derivative::bordered(&self.framework, &mut self.stiffness, &state, &residual);
         let pushes = (self.framework.links.iter().zip(&state.axial).zip(&state.taut))
             .any(|((link, axial), taut)| *taut && link.kind != Kind::Cable && *axial < 0.0);
         let index = if pushes { self.stiffness.negative_pivots() } else { 0 };

@@ -91,16 +91,22 @@ pub(super) fn polish(
     // Of stiff members a rounding of a length is a force.
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
     let rounded = if elastic { SUM_ROUNDING } else { ROUNDED };
+    let mut stiffly = false;
     while run.steps < settings.max_iterations && !framework.work.is_spent() {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
         // What is left of rounding goes with the factor of the last step, where that was near enough.
         let last = done && run.steps > 0 && !anew;
+        if !last {
+            stiffly = elastic && (slow > 0 || decided.is_some());
+        }
+        let at = Derivative::at(framework, &run.state, &run.residual);
+        let at = if stiffly { at.stiffer() } else { at };
         let derivative = if last {
-            Some(Derivative::unfactored(framework, &run.state, &run.residual))
+            Some(at)
         } else {
             let held = if elastic && (done || slow > 0) { HELD } else { 0.0 };
-            Derivative::new(framework, stiffness, &run.state, &run.residual, held)
+            at.factored(framework, stiffness, held)
         };
         let step = derivative.and_then(|d| {
             let decided = decided.as_deref_mut();
@@ -190,44 +196,54 @@ pub(super) struct Derivative {
 }
 
 impl Derivative {
+    /// At a state, for a stiffness that holds a factor from nearby.
+    pub fn at(framework: &Framework, state: &State, residual: &Residual) -> Self {
+        Self {
+            rows: rows(framework, state, &residual.directions),
+            unit: residual.unit,
+            is_held: false,
+        }
+    }
+
+    /// The same with the true stiffness of the elastic members, however stiff they are; members that keep their
+    /// lengths are stiffer than these, however little they bear, or lengths would come right slowly beside them.
+    pub fn stiffer(mut self) -> Self {
+        let of_elastic =
+            |row: &Row| (row.taut && row.compliance > 0.0).then(|| row.compliance.recip());
+        let rigid = RIGID * self.rows.iter().filter_map(of_elastic).fold(0.0, f64::max);
+        for row in self.rows.iter_mut().filter(|row| row.taut) {
+            row.along = of_elastic(row).unwrap_or(row.along.max(rigid));
+        }
+        self
+    }
+
     /// Factorise it, with each joint held a little; nothing when the factor is not finite.
-    pub fn new(
+    pub fn factored(
+        mut self,
         framework: &Framework,
         stiffness: &mut Stiffness,
-        state: &State,
-        residual: &Residual,
         held: f64,
     ) -> Option<Self> {
-        let mut new = Self::unfactored(framework, state, residual);
-        new.is_held = held > 0.0;
-        new.assembled(framework, stiffness);
+        self.is_held = held > 0.0;
+        self.assembled(framework, stiffness);
         // What turns freely would move by what rounding leaves of its stiffness; refinement takes this out again.
-        for (link, row) in framework.links.iter().zip(&new.rows).filter(|_| new.is_held) {
+        for (link, row) in framework.links.iter().zip(&self.rows).filter(|_| self.is_held) {
             let held = held * row.across.abs();
             stiffness.hold(link.from, held);
             stiffness.hold(link.to, held);
         }
-        stiffness.factorise_indefinite().then_some(new)
+        stiffness.factorise_indefinite().then_some(self)
     }
 
-    /// The same with the true stiffness of the elastic members, however stiff they are; members that keep their
-    /// lengths are stiffer than these, however little they bear.
-    pub fn elastic(
+    /// The stiffer one, also where it is singular: what needs more borders it.
+    pub fn bordered(
         framework: &Framework,
         stiffness: &mut Stiffness,
         state: &State,
         residual: &Residual,
     ) -> Option<Self> {
-        let mut new = Self::unfactored(framework, state, residual);
-        let elastic = |row: &Row| row.taut && row.compliance > 0.0;
-        let stiffest = new.rows.iter().filter(|row| elastic(row)).map(|row| row.compliance.recip());
-        let stiffest = stiffest.fold(0.0, f64::max);
-        for row in new.rows.iter_mut().filter(|row| row.taut) {
-            row.along =
-                if elastic(row) { row.compliance.recip() } else { row.along.max(RIGID * stiffest) };
-        }
+        let new = Self::at(framework, state, residual).stiffer();
         new.assembled(framework, stiffness);
-        // Also where it is singular: what needs more borders it.
         stiffness.factorise_bordered().then_some(new)
     }
 
@@ -236,15 +252,6 @@ impl Derivative {
             let row = &self.rows[k];
             (row.u, row.across, row.along)
         });
-    }
-
-    /// The same for a stiffness that holds a factor from nearby.
-    fn unfactored(framework: &Framework, state: &State, residual: &Residual) -> Self {
-        Self {
-            rows: rows(framework, state, &residual.directions),
-            unit: residual.unit,
-            is_held: false,
-        }
     }
 
     /// What concerns taut members; zero for the others.
@@ -450,8 +457,8 @@ mod tests {
         let state = State::new(places, vec![0.5; 2], vec![true; 2]);
         let mut stiffness = Stiffness::new(&framework, false).unwrap();
         let residual = Residual::new(&framework, &state);
-        let derivative =
-            Derivative::new(&framework, &mut stiffness, &state, &residual, 0.0).unwrap();
+        let derivative = Derivative::at(&framework, &state, &residual);
+        let derivative = derivative.factored(&framework, &mut stiffness, 0.0).unwrap();
         for size in [1.0, 1e-3] {
             let sides = (&[Vector3::zeros(); 3][..], &[size, 0.0][..]);
             let (_, left) =

@@ -16,6 +16,7 @@ use super::signs::signs_mended;
 use super::solution::NO_FORCE;
 use super::solve::Solver;
 use super::state::State;
+use super::weak;
 use crate::error::Error;
 
 /// Residual at which misfits are looked at for the first time: they are known to about its square
@@ -83,6 +84,8 @@ impl Solver<'_> {
         let near = self.fitting(near?, &mut decided)?;
         let run = self.at_signs(near.state, patience, Some(&mut decided))?;
         let run = self.at_share(run, &mut decided);
+        let (framework, stiffness) = (&self.framework, &mut self.stiffness);
+        let run = weak::settled(self.system, framework, stiffness, run, Some(&mut decided));
         self.fitting(run, &mut decided)
     }
 

@@ -63,7 +63,7 @@ impl Solver<'_> {
                 Some(next) => next,
                 None if tight => {
                     let run = if decided.is_none() {
-                        weak::settled(self.system, &self.framework, &mut self.stiffness, run)
+                        weak::settled(self.system, &self.framework, &mut self.stiffness, run, None)
                     } else {
                         run
                     };

@@ -12,6 +12,7 @@
 
 use model::system::System;
 
+use super::decided::Decided;
 use super::framework::{Framework, Link};
 use super::newton::{Derivative, Run};
 use super::residual::Residual;
@@ -29,25 +30,28 @@ pub(super) fn settled(
     framework: &Framework,
     stiffness: &mut Stiffness,
     run: Run,
+    mut decided: Option<&mut Decided>,
 ) -> Run {
     if framework.links.iter().all(|link| link.compliance <= 0.0) {
         return run;
     }
     let mut best = run;
-    let mut misfits = exact_misfits(system, framework, &best);
+    let mut misfits = exact_misfits(system, framework, &best, decided.as_deref_mut());
     let mut error = force_error(framework, &best, &misfits);
     if error <= ROUNDED {
         return best;
     }
     for _ in 0..ROUNDS {
-        let derivative = Derivative::elastic(framework, stiffness, &best.state, &best.residual);
+        let Run { state, residual, .. } = &best;
+        let derivative = Derivative::bordered(framework, stiffness, state, residual);
         let of = (best.residual.forces.as_slice(), misfits.as_slice());
-        let step = derivative.and_then(|d| d.solve(framework, stiffness, of, FOUND, None));
+        let step = derivative
+            .and_then(|d| d.solve(framework, stiffness, of, FOUND, decided.as_deref_mut()));
         let Some((step, _)) = step else { break };
         let state = step.applied(&best.state, 1.0);
-        let residual = Residual::new(framework, &state);
+        let residual = Residual::within(framework, &state, decided.as_deref_mut());
         let next = Run { state, residual, steps: best.steps + 1 };
-        let there = exact_misfits(system, framework, &next);
+        let there = exact_misfits(system, framework, &next, decided.as_deref_mut());
         let left = force_error(framework, &next, &there);
         // NaN is no progress.
         if left.is_nan() || left >= HALVED * error {
@@ -59,12 +63,17 @@ pub(super) fn settled(
 }
 
 /// Length by the law minus length of each taut member, without cancellation where it is elastic.
-fn exact_misfits(system: &System, framework: &Framework, run: &Run) -> Vec<f64> {
+fn exact_misfits(
+    system: &System,
+    framework: &Framework,
+    run: &Run,
+    decided: Option<&mut Decided>,
+) -> Vec<f64> {
     let places = places_m(system, framework, &run.state);
     let misfit = |(k, link): (usize, &Link)| {
         // The spans of a rope are long beside what it is longer.
         let straight = link.rope.is_none();
-        if straight && link.compliance > 0.0 && run.state.taut[k] && framework.moves(link) {
+        if straight && k < framework.members() && run.state.taut[k] && framework.moves(link) {
             let length_m = system.members()[k].body.length_m();
             let longer_m = elongation_m(&places[link.from], &places[link.to], length_m);
             link.compliance * run.state.axial[k] - longer_m / framework.units.length_m
@@ -72,7 +81,11 @@ fn exact_misfits(system: &System, framework: &Framework, run: &Run) -> Vec<f64> 
             run.residual.lengths[k]
         }
     };
-    framework.links.iter().enumerate().map(misfit).collect()
+    let misfits: Vec<f64> = framework.links.iter().enumerate().map(misfit).collect();
+    match decided {
+        Some(decided) => decided.part(framework, &misfits),
+        None => misfits,
+    }
 }
 
 /// A place in twice the digits: what is rounded, and what rounding has cut off.
@@ -103,8 +116,11 @@ fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place>
 
 /// The largest error of a balance or of an elastic member's force, in units of the largest force.
 fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
-    let elastic = framework.links.iter().zip(misfits).filter(|(link, _)| link.compliance > 0.0);
-    let forces = elastic.map(|(link, misfit)| misfit.abs() / link.compliance / run.residual.unit);
+    let elastic = framework.links.iter().map(|link| link.compliance).filter(|c| *c > 0.0);
+    let stiffest = elastic.fold(f64::INFINITY, f64::min);
+    let compliance = |link: &Link| if link.compliance > 0.0 { link.compliance } else { stiffest };
+    let links = framework.links.iter().zip(misfits);
+    let forces = links.map(|(link, off)| off.abs() / compliance(link) / run.residual.unit);
     forces.fold(run.residual.balance.0, larger)
 }
 

@@ -15,6 +15,8 @@ use rayon::prelude::*;
 use validate::systems::{SystemAnswer, ask_with};
 use validate::{Question, UseCensus};
 
+use crate::drawn::{close, neighbour, written};
+
 /// How many frames of each draw, unless `FRAMES` says otherwise.
 const FRAMES: u64 = 60;
 
@@ -337,5 +339,24 @@ fn lengths_that_do_not_fit_are_refused_and_fit_within_a_tolerance() {
                 assert_eq!(wrong(&fits, found), None, "{draw:?} {seed}");
             }
         }
+    }
+}
+
+/// A frame of twelve rigid and five elastic bars whose rigid ones overdetermine its shape, and are next to a mechanism, which
+/// they strain by a thousandth of what it moves: it takes some 100 times the loads. Expected are the forces of a model of fifty
+/// digits (mpmath, Newton's method) with EA = 1e26 N in place of the rigid bars, as long as they are in the shape that meets
+/// their lengths best.
+#[test]
+fn a_frame_of_rigid_and_elastic_bars_next_to_a_mechanism() {
+    let answer = neighbour(&written(include_str!("drawn/partly_elastic.toml")));
+    let wanted_n = [
+        -10_043.494_320_838, 1.482_524_649_093e-7, -1.936_316_977_541_8e-8, 12_210.590_632_067,
+        -170.423_718_607_37, -15_814.322_688_069, -5.404_650_375_881_2, -9.076_148_018_620_9,
+        19_176.681_692_278, 1.844_284_736_912_9e-8, 5_189.486_979_517_2, 14_636.180_165_832,
+        9_564.935_448_501, -6_130.340_894_245_5, -7_140.851_770_104_6, -10_430.914_600_413,
+        -6_389.881_614_079_1,
+    ];
+    for e in &answer.equilibria {
+        close(&e.axial_n, &wanted_n, 1e-12 * 19176.7);
     }
 }
