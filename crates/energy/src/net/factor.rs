@@ -256,4 +256,13 @@ impl Factor {
     pub(super) fn solve(&self, right: &mut [f64]) {
         self.ldlt.solve(right);
     }
+
+    /// The step that takes a gradient away: the solution for minus it.
+    pub(super) fn step_against(&self, mut gradient: Vec<f64>) -> Vec<f64> {
+        for value in &mut gradient {
+            *value = -*value;
+        }
+        self.solve(&mut gradient);
+        gradient
+    }
 }

@@ -137,9 +137,8 @@ pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
     })
 }
 
-#[cfg(test)]
 impl Rod {
-    /// A straight member that does not stretch.
+    /// A straight member that does not stretch, and has just its length.
     pub(super) fn straight(from: usize, to: usize, length: f64, kind: Kind) -> Self {
         let [flexibility, within] = [0.0; 2];
         Self { from, to, length, kind, flexibility, ground: false, within, linear: false, rope: 0 }
@@ -203,18 +202,12 @@ impl Frame {
             let at_m = joint.support.at_m().unwrap_or(origin_m);
             scaled(1.0 / length_m, along(at_m, -1.0, origin_m))
         });
-        let rods = system.members().iter().map(|member| Rod {
-            from: member.from,
-            to: member.to,
-            length: member.body.length_m() / length_m,
-            kind: member.kind,
-            flexibility: member
-                .stiffness_n
-                .map_or(0.0, |stiffness| member.body.length_m() / length_m * total / stiffness),
-            ground: false,
-            within: member.within_m() / length_m,
-            linear: false,
-            rope: 0,
+        let rods = system.members().iter().map(|member| {
+            let length = member.body.length_m() / length_m;
+            let flexibility = member.stiffness_n.map_or(0.0, |ea| length * total / ea);
+            let within = member.within_m() / length_m;
+            let rod = Rod::straight(member.from, member.to, length, member.kind);
+            Rod { flexibility, within, ..rod }
         });
         let mut rods = with_strands(system, rods.collect());
         beside_strands(&mut rods);
@@ -249,19 +242,8 @@ impl Frame {
             if spot.axes[..spot.freedom].iter().all(|axis| axis[2].abs() <= ZERO) {
                 continue;
             }
-            let kind = Kind::Cable;
             // The unit of length: depths are held against the longest member.
-            self.rods.push(Rod {
-                from: point,
-                to,
-                length: 1.0,
-                kind,
-                flexibility: 0.0,
-                ground: true,
-                within: 0.0,
-                linear: false,
-                rope: 0,
-            });
+            self.rods.push(Rod { ground: true, ..Rod::straight(point, to, 1.0, Kind::Cable) });
         }
     }
 

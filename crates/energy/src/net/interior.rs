@@ -106,11 +106,7 @@ impl Interior {
         };
         let mut force: Vec<f64> = (0..rods.len()).map(constant).collect();
         let trial: Vec<f64> = shape.force.iter().zip(&force).map(|(a, b)| a + b).collect();
-        let mut coordinates = frame.lagrangian_gradient(excess, &trial);
-        for value in &mut coordinates {
-            *value = -*value;
-        }
-        self.factor.solve(&mut coordinates);
+        let coordinates = self.factor.step_against(frame.lagrangian_gradient(excess, &trial));
         let mut change = Step {
             slack: vec![0.0; rods.len()],
             curved: vec![0.0; rods.len()],

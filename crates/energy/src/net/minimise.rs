@@ -309,7 +309,6 @@ pub(super) fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
 pub(super) struct Effort {
     pub(super) relaxation: u64,
     pub(super) iterations: u64,
-    pub(super) factorisations: u64,
 }
 
 /// What a run of the minimiser ends with.
@@ -416,6 +415,5 @@ fn descend(
         effort.iterations += 1;
     }
     let Newton { factor, limit, .. } = solver;
-    effort.factorisations = factor.count;
     Ok(Minimum { shape, factor, effort, limit })
 }

@@ -7,25 +7,31 @@
 //! a ridge: it takes part in no force.
 
 use crate::net::factor::Factor;
-use crate::net::frame::Frame;
+use crate::net::frame::{Frame, Rod};
 use crate::net::shape::Shape;
 use crate::thresholds::RIDGE;
 use crate::vector::scaled;
 
 /// Stiffness of inextensible members over that of the stiffest elastic one: their forces are right
 /// to the inverse of it, which is enough to begin with, and errors of lengths fall by it in a step.
-pub(super) const RIGID: f64 = 1e3;
+const RIGID: f64 = 1e3;
 
 /// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
 const LOOSE: f64 = 1e-3;
+
+impl Frame {
+    /// The stiffness that stands for that of inextensible members; this one where no member is elastic.
+    pub(super) fn rigid(&self, alone: f64) -> f64 {
+        let elastic = self.rods.iter().filter(|rod| rod.elastic());
+        elastic.map(|rod| 1.0 / rod.flexibility).reduce(f64::max).map_or(alone, |most| RIGID * most)
+    }
+}
 
 /// The drawing with the forces of its linear analysis, and, of elastic structures, the largest relative displacement of
 /// the ends of a member there, over its length. Cables and struts that would have the wrong sign bear nothing.
 pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> (Shape, f64) {
     let excess = frame.excesses(&drawn.x);
-    let elastic = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
-    let stiffest = elastic.fold(0.0, f64::max);
-    let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
+    let rigid = frame.rigid(1.0);
     let taut = |e: usize| {
         let rod = &frame.rods[e];
         let off = excess[e].value / rod.length;
@@ -43,22 +49,18 @@ pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> (Shap
         let own = if frame.rods[e].elastic() { excess[e].value } else { 0.0 };
         stiffness(e) * own
     };
-    let ridge = RIDGE * stiffest.max(rigid);
-    frame.fill(factor, |e| excess[e].block(0.0, stiffness(e)), |_| ridge);
+    frame.fill(factor, |e| excess[e].block(0.0, stiffness(e)), |_| RIDGE * rigid);
     if !factor.definite() {
         return (drawn.clone(), f64::INFINITY);
     }
-    let mut moves = frame.gradient(|e| scaled(strained(e), excess[e].gradient));
-    for value in &mut moves {
-        *value = -*value;
-    }
-    factor.solve(&mut moves);
+    let moves = factor.step_against(frame.gradient(|e| scaled(strained(e), excess[e].gradient)));
     let force = (0..frame.rods.len()).map(|e| {
         let force = strained(e) + stiffness(e) * frame.change(&excess, e, &moves);
         if frame.rods[e].resists(force) { force } else { 0.0 }
     });
     // Inextensible members alone move by what is left of their stiffness.
-    let rods = frame.rods.iter().enumerate().filter(|_| stiffest > 0.0);
+    let is_elastic = frame.rods.iter().any(Rod::elastic);
+    let rods = frame.rods.iter().enumerate().filter(|_| is_elastic);
     let turned = rods.map(|(e, rod)| frame.turned(&moves, e) / rod.length);
     let turned = turned.reduce(f64::max).unwrap_or(f64::INFINITY);
     (Shape { x: drawn.x.clone(), force: force.collect() }, turned)

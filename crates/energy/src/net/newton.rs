@@ -215,8 +215,7 @@ impl Newton {
         let noise = self.noise(shape, local);
         loop {
             if self.factorise(local, self.shift.max(NEUTRAL)) {
-                let mut step: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
-                self.factor.solve(&mut step);
+                let step = self.factor.step_against(local.gradient.clone());
                 let slope: f64 = step.iter().zip(&local.gradient).map(|(s, g)| s * g).sum();
                 let mut part = self.longest_part(&step);
                 for _ in 0..HALVINGS {

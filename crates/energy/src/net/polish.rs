@@ -206,11 +206,8 @@ impl Newton {
         let soft: Vec<Softened> = (0..frame.rods.len())
             .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]))
             .collect();
-        let mut step = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
-        for value in &mut step {
-            *value = -*value;
-        }
-        self.factor.solve(&mut step);
+        let gradient = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
+        let step = self.factor.step_against(gradient);
         let force = (0..frame.rods.len())
             .map(|e| soft[e].force + soft[e].stiffness * frame.change(&excess, e, &step));
         Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) }

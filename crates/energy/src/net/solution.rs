@@ -87,14 +87,13 @@ impl Solution {
             return Err(absurd);
         }
         let balance = frame.balance(system, &settled, settings.tolerance)?;
-        if let Some(member) = wrong_sign(frame, shape) {
-            let member = if frame.rods[member].ground { member } else { frame.member_of(member) };
-            let force_n = shape.force[member] * frame.force_n;
-            if frame.rods[member].ground {
-                let joint = system.joints()[frame.rods[member].to].name.to_string();
+        if let Some(rod) = wrong_sign(frame, shape) {
+            let force_n = shape.force[rod] * frame.force_n;
+            if frame.rods[rod].ground {
+                let joint = system.joints()[frame.rods[rod].to].name.to_string();
                 return Err(Error::FloorPulls { joint, force_n });
             }
-            return Err(Error::WrongSign { member: member + 1, force_n });
+            return Err(Error::WrongSign { member: frame.member_of(rod) + 1, force_n });
         }
         if system.is_unloaded() && frame.unstrained(shape) {
             return Err(Error::NoLoad);

@@ -44,30 +44,16 @@ pub(super) fn second_order(
     factor: &mut Factor,
     most: usize,
 ) -> SecondOrder {
-    let mut second = if frame.freedom <= most {
+    let (index, neutral, condition, rigidity, self_stresses) = if frame.freedom <= most {
         let dense = Dense::read(frame, shape, limit);
         let Count { index, neutral, condition, .. } = dense.count();
-        SecondOrder {
-            index,
-            neutral,
-            index_in_plane: None,
-            self_stresses: dense.self_stresses(frame),
-            rigidity: Some(dense.rigidity),
-            condition,
-        }
+        (index, neutral, condition, Some(dense.rigidity), dense.self_stresses(frame))
     } else {
         let (index, neutral) = sparse(frame, shape, factor);
-        SecondOrder {
-            index,
-            neutral,
-            index_in_plane: None,
-            rigidity: None,
-            self_stresses: Vec::new(),
-            condition: 1.0,
-        }
+        (index, neutral, 1.0, None, Vec::new())
     };
-    second.index_in_plane = index_in_plane(frame, shape, limit, most, second.index);
-    second
+    let index_in_plane = index_in_plane(frame, shape, limit, most, index);
+    SecondOrder { index, neutral, index_in_plane, rigidity, self_stresses, condition }
 }
 
 /// Whether a member resists in this equilibrium.

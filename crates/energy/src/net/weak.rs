@@ -21,7 +21,6 @@ use crate::net::factor::Factor;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
 use crate::net::limit::Limit;
-use crate::net::near::RIGID;
 use crate::net::polish::{NEUTRAL, STIFF_STRAIN};
 use crate::net::shape::{NO_STRAIN, Shape, largest};
 use crate::net::share::Share;
@@ -76,15 +75,10 @@ pub(super) fn settled(
     shape: Shape,
     limit: Option<&Limit>,
 ) -> Settled {
-    let stiffest = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
-    let stiffest = stiffest.fold(0.0, f64::max);
-    let rigid = if stiffest > 0.0 {
-        RIGID * stiffest
-    } else {
-        frame.force_scale(&shape.force) / STIFF_STRAIN
-    };
+    let rigid = frame.rigid(frame.force_scale(&shape.force) / STIFF_STRAIN);
     let excess = frame.excesses(&shape.x);
-    let active: Vec<bool> = frame.rods.iter().zip(&shape.force).map(resists).collect();
+    let rods = frame.rods.iter().zip(&shape.force);
+    let active: Vec<bool> = rods.map(|(rod, force)| rod.resists(*force)).collect();
     let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
         (false, _) => 0.0,
         (true, true) => 1.0 / frame.rods[e].flexibility,
@@ -96,8 +90,9 @@ pub(super) fn settled(
     let off = vec![0.0; frame.rods.len()];
     let mut here =
         Displaced { frame, lengths: &lengths, off, x: &x, u, force: shape.force.clone() };
+    let elastic = frame.rods.iter().any(Rod::elastic);
     if let Some(limit) = limit {
-        if stiffest <= 0.0 {
+        if !elastic {
             return Settled::as_is(frame, shape);
         }
         match here.in_no_shape(&shape, limit) {
@@ -111,7 +106,7 @@ pub(super) fn settled(
     }
     let neutral = NEUTRAL * frame.largest_force(&shape.force);
     // Lengths that the shape hardly feels need stiffer springs beside elastic members.
-    for times in &STIFFER[..if stiffest > 0.0 { STIFFER.len() } else { 1 }] {
+    for times in &STIFFER[..if elastic { STIFFER.len() } else { 1 }] {
         let stiffness =
             |e: usize| if frame.rods[e].elastic() { stiffness(e) } else { times * stiffness(e) };
         frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
@@ -134,11 +129,6 @@ pub(super) fn settled(
     let along = (0..frame.rods.len()).map(|e| here.excess(e).1).collect();
     let x = here.x.iter().zip(&here.u).map(back).collect();
     Settled { shape: Shape { x, force: here.force }, along }
-}
-
-/// Whether a member resists at this force; a bar always does.
-fn resists((rod, force): (&Rod, &f64)) -> bool {
-    rod.resists(*force)
 }
 
 /// Where a joint of a shape is, m, and what rounding cuts off; an anchor is where it is held.
@@ -234,11 +224,7 @@ impl Displaced<'_> {
                 if active[e] { own + stiffness(e) * self.excess(e).0 } else { 0.0 }
             })
             .collect();
-        let mut step = self.gradient(|e| force[e]);
-        for value in &mut step {
-            *value = -*value;
-        }
-        factor.solve(&mut step);
+        let step = factor.step_against(self.gradient(|e| force[e]));
         let change = |e: usize| {
             frame.whole(e, |strand| dot(self.excess(strand).1, frame.relative(&step, strand)))
         };
