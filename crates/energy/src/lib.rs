@@ -72,7 +72,7 @@
 //! that is too sharp for the groups of bars of a coarser chain: its bars are solved by themselves
 //! (`sharp_bend`).
 //!
-//! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Solver`, `IterState`) runs the
+//! argmin (`Executor`, `CostFunction`, `Gradient`, `Solver`, `IterState`) runs the
 //! minimisation of the paper's two angles ([`example`]). The others are loops of our own: argmin has
 //! no solver for constrained problems, and its unconstrained ones cannot use a Hessian that is
 //! diagonal plus three rows.

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use argmin::core::{
-    CostFunction, Executor, Gradient, Hessian, IterState, KV, Problem, Solver, State,
-    TerminationReason, TerminationStatus,
+    CostFunction, Executor, Gradient, IterState, KV, Problem, Solver, State, TerminationReason,
+    TerminationStatus,
 };
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
@@ -63,7 +63,8 @@ pub fn minimise(
     }
     let start = onto_curve([theta_rad, alpha_rad].map(wrapped));
     let begin = |state: Iterate| state.param(start).max_iters(settings.max_iterations);
-    let executor = Executor::new(Example, CurveNewton::new(*settings)).configure(begin);
+    let solver = CurveNewton { settings: *settings, converged: false, polished: false };
+    let executor = Executor::new(Example, solver).configure(begin);
     let other = |error: argmin::core::Error| Error::Ended { reason: error.to_string() };
     let ended = executor.ctrlc(false).timer(false).run();
     let state = ended.map_err(|error| error.downcast::<Error>().unwrap_or_else(other))?.state;
@@ -216,17 +217,7 @@ impl Gradient for Example {
     }
 }
 
-impl Hessian for Example {
-    type Param = [f64; 2];
-    type Hessian = f64;
-
-    /// Along the curve.
-    fn hessian(&self, place: &[f64; 2]) -> Result<f64, argmin::core::Error> {
-        Ok(Along::at(*place).curvature)
-    }
-}
-
-type Iterate = IterState<[f64; 2], f64, (), f64, (), f64>;
+type Iterate = IterState<[f64; 2], f64, (), (), (), f64>;
 
 /// Newton's method along the curve, for argmin: it has no solver for constrained problems.
 ///
@@ -247,12 +238,6 @@ const STEP_ASIDE: f64 = 0.1;
 
 /// Halvings of a step before the rounding of the energy must be what stops it.
 const HALVINGS: usize = 40;
-
-impl CurveNewton {
-    fn new(settings: Settings) -> Self {
-        Self { settings, converged: false, polished: false }
-    }
-}
 
 impl Solver<Example, Iterate> for CurveNewton {
     fn name(&self) -> &'static str {

@@ -19,7 +19,7 @@ const LONGEST_GROUP: f64 = 0.125;
 pub(crate) struct Grouped {
     pub(crate) links: ScaledChain,
     /// Bars in each group.
-    sizes: Vec<usize>,
+    pub(crate) sizes: Vec<usize>,
 }
 
 impl ScaledChain {
@@ -57,11 +57,6 @@ impl ScaledChain {
 }
 
 impl Grouped {
-    /// Bars in each group.
-    pub(crate) fn sizes(&self) -> &[usize] {
-        &self.sizes
-    }
-
     /// The directions of the bars when every group is straight.
     pub(crate) fn spread(&self, u: &[Vector]) -> Vec<Vector> {
         self.sizes.iter().zip(u).flat_map(|(&size, &u)| std::iter::repeat_n(u, size)).collect()

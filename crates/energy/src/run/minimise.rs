@@ -6,7 +6,7 @@ use model::{Problem, Vector};
 use crate::error::Error;
 use crate::run::closure::Shape;
 use crate::run::curvature::Curvature;
-use crate::run::refine::{Refinement, refine};
+use crate::run::refine::refine;
 use crate::run::scaled_chain::{ScaledChain, Units};
 use crate::run::seed::Seed;
 use crate::run::settings::Settings;
@@ -46,12 +46,7 @@ const PART_OF_GROUP: f64 = 0.1;
 /// # Ok::<(), energy::Error>(())
 /// ```
 pub fn minimise(problem: &Problem, settings: &Settings) -> Result<Solution, Error> {
-    settings.validate()?;
-    let clock = Instant::now();
-    let (links, units) = ScaledChain::new(problem, settings.motion);
-    let start = first_guess(&links, settings)?;
-    let minimum = descend_to_line(links, start, settings)?;
-    answer(problem, units, minimum, settings, clock)
+    from_start(problem, settings, |links, _| first_guess(links, settings))
 }
 
 /// Find the local minimum below a seed.
@@ -79,36 +74,22 @@ pub fn minimise_from(
     seed: &Seed,
     settings: &Settings,
 ) -> Result<Solution, Error> {
+    from_start(problem, settings, |links, units| seed.in_frame(links, units))
+}
+
+/// The minimum below a start, with more digits where some bars need them.
+fn from_start(
+    problem: &Problem,
+    settings: &Settings,
+    start: impl FnOnce(&ScaledChain, &Units) -> Result<Vec<Vector>, Error>,
+) -> Result<Solution, Error> {
     settings.validate()?;
     let clock = Instant::now();
     let (links, units) = ScaledChain::new(problem, settings.motion);
-    let start = seed.in_frame(&links, &units)?;
+    let start = start(&links, &units)?;
     let minimum = descend_to_line(links, start, settings)?;
-    answer(problem, units, minimum, settings, clock)
-}
-
-/// The answer of a run, with more digits where some bars need them.
-fn answer(
-    problem: &Problem,
-    units: Units,
-    minimum: Minimum,
-    settings: &Settings,
-    clock: Instant,
-) -> Result<Solution, Error> {
-    match refine(problem, &units, &minimum, settings) {
-        Refinement::Refined(refined, turn) => {
-            let (minimum, units) = *refined;
-            Ok(Solution::new(problem, &units, minimum, Some(turn), settings, clock))
-        }
-        Refinement::Failed(turn) => {
-            let minimum = minimum.settled()?;
-            Ok(Solution::new(problem, &units, minimum, Some(turn), settings, clock))
-        }
-        Refinement::NotNeeded => {
-            let minimum = minimum.settled()?;
-            Ok(Solution::new(problem, &units, minimum, None, settings, clock))
-        }
-    }
+    let (minimum, units, unknown_rad) = refine(problem, units, minimum, settings)?;
+    Ok(Solution::new(problem, &units, minimum, unknown_rad, settings, clock))
 }
 
 /// What a run of the minimiser ends with.
@@ -127,7 +108,7 @@ pub(crate) struct Minimum {
 impl Minimum {
     /// An error if it is not known to be a minimum, or if all bars lie on one line and what decides
     /// between such positions is lost.
-    fn settled(self) -> Result<Self, Error> {
+    pub(crate) fn settled(self) -> Result<Self, Error> {
         match (self.unsettled, self.slope.lost(&self.links)) {
             (Some(error), _) => Err(error),
             (None, Some(across)) => Err(Error::NearlyFolded { across }),

@@ -57,21 +57,21 @@ fn lift_from_middle(problem: &Problem) -> Vec<f64> {
     lift
 }
 
-/// The same where the weights are counted from a bar: what of them is between it and the joint.
-fn lift_from(problem: &Problem, origin: usize) -> Vec<f64> {
+/// The same where the weights are counted from a bar: what of them is between it and the joint,
+/// negative before it.
+pub(crate) fn lift_from(problem: &Problem, origin: usize) -> Vec<f64> {
     let (bars, mass_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
-    let at_end = lever::at_last(&bars[origin]);
     let part = bars[origin].mass_kg() / mass_kg;
     let mut lift = vec![0.0; bars.len() + 1];
     let (before, after) = lift.split_at_mut(origin + 1);
     let mut between = Sum::default();
-    between.add(part * at_end);
+    between.add(part * lever::at_last(&bars[origin]));
     for (k, lift) in after.iter_mut().enumerate() {
         *lift = between.value();
         between.add(bars.get(origin + 1 + k).map_or(0.0, |bar| bar.mass_kg() / mass_kg));
     }
     let mut between = Sum::default();
-    between.add(part * (1.0 - at_end));
+    between.add(part * lever::at_first(&bars[origin]));
     for (joint, lift) in before.iter_mut().enumerate().rev() {
         *lift = -between.value();
         between.add(joint.checked_sub(1).map_or(0.0, |bar| bars[bar].mass_kg() / mass_kg));

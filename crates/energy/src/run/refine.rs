@@ -21,14 +21,17 @@
 //! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the
 //! last step is how far the shape is known.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::Arc;
 
-use model::{Bar, Problem, Sum, Vector};
+use model::{Bar, Problem, Vector};
 
+use crate::error::Error;
 use crate::lever;
 use crate::run::closure::Shape;
 use crate::run::minimise::{Minimum, descend};
+use crate::run::reaction::lift_from;
 use crate::run::scaled_chain::{Origin, ScaledChain, Units};
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
@@ -51,64 +54,46 @@ const LARGEST_TURN: f64 = 0.5;
 /// have to: of the others, what these pull, they change no more than Newton's method makes up for.
 pub(crate) const LIGHT: f64 = 1e-6;
 
-/// What the refinement says of a minimum.
-pub(crate) enum Refinement {
-    /// The minimiser's digits are enough.
-    NotNeeded,
-    /// A minimum with more digits, in its own frame; and the last turn of a bar, rad.
-    Refined(Box<(Minimum, Units)>, f64),
-    /// Newton's method does not converge from there; the turn, rad, by which a bar is not known.
-    Failed(f64),
-}
-
-/// Refine a minimum if that is needed.
+/// A minimum with its units and frame, refined if that is needed; and the turn, rad, by which a bar is
+/// not known, where that was asked.
 pub(crate) fn refine(
     problem: &Problem,
-    units: &Units,
-    minimum: &Minimum,
+    units: Units,
+    minimum: Minimum,
     settings: &Settings,
-) -> Refinement {
-    if let Some(exact) = of_triangle(problem, units, minimum) {
-        return Refinement::Refined(Box::new(exact), 0.0);
+) -> Result<(Minimum, Units, Option<f64>), Error> {
+    if let Some((exact, units)) = of_triangle(problem, &units, &minimum) {
+        return Ok((exact, units, Some(0.0)));
     }
-    let Minimum { slope, unsettled, .. } = minimum;
+    let Minimum { slope, unsettled, .. } = &minimum;
     // Bars without any load have no direction of their own.
     let light = slope.across / slope.softest > WORTH_REFINING;
     if !(light || unsettled.is_some()) {
-        return Refinement::NotNeeded;
+        return Ok((minimum.settled()?, units, None));
     }
-    let mut point = Point::new(problem, units, minimum);
+    let point = Point::new(problem, &units, &minimum);
     let first = point.step().map_or(f64::NAN, |step| step.largest);
     if unsettled.is_none() && first <= WORTH_REFINING {
-        return Refinement::NotNeeded;
+        return Ok((minimum.settled()?, units, None));
+    }
+    let refined = |mut point: Point| {
+        let last = point.refined(problem)?;
+        let (found, units) = point.into_minimum(&minimum);
+        let curvature = found.curvature();
+        // Newton's method finds any stationary point.
+        (curvature.index(curvature.slope.zero) == 0).then_some((found, units, Some(last)))
+    };
+    let by_themselves = || {
+        let mut anew = Point::new(problem, &units, &minimum);
+        anew.lightest(settings).and_then(|()| refined(anew))
+    };
+    if let Some(refined) = refined(point).or_else(by_themselves) {
+        return Ok(refined);
     }
     // Bars without force to rounding hang free: any direction of theirs is an equilibrium as far as
     // doubles tell, and the answer is one of them.
-    let failed = if slope.softest <= FORCE_ROUNDING * slope.pull {
-        Refinement::NotNeeded
-    } else {
-        Refinement::Failed(first)
-    };
-    // Newton's method finds any stationary point.
-    let is_minimum = |found: &Minimum| {
-        let curvature = found.curvature();
-        curvature.index(curvature.slope.zero) == 0
-    };
-    let (refined, last) = match point.refined(problem) {
-        Some(last) => (Some(point.into_minimum(minimum)), last),
-        None => (None, f64::NAN),
-    };
-    if let Some(refined) = refined.filter(|(found, _)| is_minimum(found)) {
-        return Refinement::Refined(Box::new(refined), last);
-    }
-    let mut anew = Point::new(problem, units, minimum);
-    if let Some(last) = anew.lightest(settings).and_then(|()| anew.refined(problem)) {
-        let refined = anew.into_minimum(minimum);
-        if is_minimum(&refined.0) {
-            return Refinement::Refined(Box::new(refined), last);
-        }
-    }
-    failed
+    let unknown_rad = (slope.softest > FORCE_ROUNDING * slope.pull).then_some(first);
+    Ok((minimum.settled()?, units, unknown_rad))
 }
 
 /// Two bars over near anchors with their weights counted from the first: what hangs between them is
@@ -274,23 +259,16 @@ impl Point {
 /// What each bar carries less what `bar` carries, in units of the total weight: the weights in
 /// between.
 fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
-    let (bars, total_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
-    let at_end = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_last(bar);
-    let at_start = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_first(bar);
-    let mut carried = vec![0.0; bars.len()];
-    let mut between = Sum::default();
-    between.add(at_end(&bars[bar]));
-    for i in bar + 1..bars.len() {
-        carried[i] = -(between.value() + at_start(&bars[i]));
-        between.add(bars[i].mass_kg() / total_kg);
-    }
-    let mut between = Sum::default();
-    between.add(at_start(&bars[bar]));
-    for i in (0..bar).rev() {
-        carried[i] = between.value() + at_end(&bars[i]);
-        between.add(bars[i].mass_kg() / total_kg);
-    }
-    carried
+    let between = lift_from(problem, bar);
+    let carried = |(i, here): (usize, &Bar)| {
+        let part = here.mass_kg() / problem.chain().total_mass_kg();
+        match i.cmp(&bar) {
+            Ordering::Less => part * lever::at_last(here) - between[i + 1],
+            Ordering::Equal => 0.0,
+            Ordering::Greater => -(between[i] + part * lever::at_first(here)),
+        }
+    };
+    problem.chain().bars().iter().enumerate().map(carried).collect()
 }
 
 #[cfg(test)]

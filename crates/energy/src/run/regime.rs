@@ -73,8 +73,11 @@ impl Turning {
         if links.vertical {
             return Self::Free;
         }
-        let level = [links.up[2], 0.0, -links.up[0]];
-        if dot(level, links.span[0]).abs() > NEARLY_VERTICAL { Self::Held } else { Self::Soft }
+        if dot(links.level(), links.span[0]).abs() > NEARLY_VERTICAL {
+            Self::Held
+        } else {
+            Self::Soft
+        }
     }
 }
 

@@ -134,6 +134,12 @@ impl ScaledChain {
         total.value()
     }
 
+    /// The level axis in the plane of the anchors: `up` turned down into the first axis. It is the vector
+    /// product of the second axis with `up`.
+    pub(crate) fn level(&self) -> Vector {
+        [self.up[2], 0.0, -self.up[0]]
+    }
+
     /// Whether the turn of the whole chain about its anchors is a motion that costs nothing.
     pub(crate) fn turns(&self) -> bool {
         Turning::of(self) == Turning::Free

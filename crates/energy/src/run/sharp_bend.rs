@@ -27,7 +27,7 @@ impl Grouped {
         if sharpest > SHARP {
             return None;
         }
-        let sizes = self.sizes();
+        let sizes = &self.sizes;
         let (first, last) = ((k + 1).saturating_sub(SIDE), (k + 1 + SIDE).min(sizes.len()));
         let bars = |groups: Range<usize>| sizes[groups].iter().sum::<usize>();
         let (before, bend) = (bars(0..first), bars(first..last));

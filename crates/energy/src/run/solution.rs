@@ -63,7 +63,7 @@ impl Solution {
         settings: &Settings,
         clock: Instant,
     ) -> Self {
-        let second = SecondOrder::of(&minimum);
+        let second = SecondOrder::new(&minimum.curvature());
         let Minimum { links, shape, slope, iterations, evaluations, .. } = minimum;
         let energy = shape.moments.value + units.datum(&links);
 

@@ -5,7 +5,6 @@ use model::{InPlane, InSpace, Problem, Stability};
 use crate::error::Error;
 use crate::run::closure::Shape;
 use crate::run::curvature::Curvature;
-use crate::run::minimise::Minimum;
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::seed::Seed;
 use crate::run::settings::Motion;
@@ -72,11 +71,7 @@ pub fn second_order(problem: &Problem, directions: &Seed) -> Result<SecondOrder,
 }
 
 impl SecondOrder {
-    pub(crate) fn of(minimum: &Minimum) -> Self {
-        Self::new(&minimum.curvature())
-    }
-
-    fn new(place: &Curvature) -> Self {
+    pub(crate) fn new(place: &Curvature) -> Self {
         let links = &place.links;
         if let Some(triangle) = Triangle::near(links, &place.shape.u) {
             return Self::of_triangle(place, triangle.curvature);
@@ -110,9 +105,7 @@ impl SecondOrder {
             gap: norm(place.shape.moments.gap) / links.total(),
         }
     }
-}
 
-impl SecondOrder {
     /// Of two bars over near anchors, which move in one way: they turn about the line through the
     /// anchors, with this second derivative.
     fn of_triangle(place: &Curvature, curvature: f64) -> Self {

@@ -15,9 +15,7 @@ impl ScaledChain {
     pub(crate) fn arc(&self) -> Vec<Vector> {
         let total = self.total();
         let half = half_opening(norm(self.span[0]) / total);
-        // The level direction in the plane of the anchors: `up` turned down into +first axis.
-        let level = [self.up[2], 0.0, -self.up[0]];
-        let chord = unit(self.span[0]).unwrap_or(level);
+        let chord = unit(self.span[0]).unwrap_or(self.level());
         // The chord turned by a right angle, to whichever side is up.
         let mut side = [-chord[2], 0.0, chord[0]];
         if side[0] * self.up[0] + side[2] * self.up[2] < 0.0 {

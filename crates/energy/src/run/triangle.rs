@@ -129,8 +129,7 @@ impl Minimum {
 
 /// Unit vector of the level part; the level axis of the frame of what has none.
 fn level(links: &ScaledChain, v: Vector) -> Vector {
-    let up = links.up;
-    unit(cross(cross(up, v), up)).unwrap_or([up[2], 0.0, -up[0]])
+    unit(cross(cross(links.up, v), links.up)).unwrap_or(links.level())
 }
 
 fn wide(v: Vector) -> Wide {

@@ -31,27 +31,17 @@ pub(crate) struct Turn {
 
 impl Turn {
     pub(crate) fn into_plane(links: &ScaledChain, u: &[Vector]) -> Self {
-        let up = links.up;
-        // The second axis is level, and its vector product with up is the level axis in the plane.
-        let level = [up[2], 0.0, -up[0]];
-        let (mut cosine, mut sine) = (1.0, 0.0);
-        if links.vertical {
-            let flattest = u.iter().fold([0.0_f64; 2], |best, &u| {
-                let flat = [dot(level, u), u[1]];
-                if flat[0].hypot(flat[1]) > best[0].hypot(best[1]) { flat } else { best }
-            });
-            if let Some([c, s, _]) = unit([flattest[0], flattest[1], 0.0]) {
-                (cosine, sine) = (c, s);
-            }
-        }
-        Self { up, level, cosine, sine }
+        let level = links.level();
+        let flat = |u: Vector| dot(level, u).hypot(u[1]);
+        let longer = |best: Vector, u: &Vector| if flat(*u) > flat(best) { *u } else { best };
+        let flattest = if links.vertical { u.iter().fold(links.up, longer) } else { level };
+        Self::heading(links, flattest)
     }
 
     /// The turn that takes a vector into the plane of the frame, its horizontal part along the
     /// level axis.
     pub(crate) fn heading(links: &ScaledChain, v: Vector) -> Self {
-        let up = links.up;
-        let level = [up[2], 0.0, -up[0]];
+        let (up, level) = (links.up, links.level());
         let [cosine, sine, _] = unit([dot(level, v), v[1], 0.0]).unwrap_or([1.0, 0.0, 0.0]);
         Self { up, level, cosine, sine }
     }
@@ -68,8 +58,7 @@ impl Turn {
     /// at all: with a level bar that carries no force at its bottom a chain hangs straight down and
     /// up again.)
     pub(crate) fn towards_anchor(links: &ScaledChain, slope: &Slope) -> Option<(Self, f64)> {
-        let (up, multiplier) = (links.up, slope.multiplier);
-        let level = [up[2], 0.0, -up[0]];
+        let (up, level, multiplier) = (links.up, links.level(), slope.multiplier);
         let offset = dot(level, links.span[0]);
         if Turning::of(links) != Turning::Soft {
             return None;
