@@ -20,10 +20,8 @@ pub(crate) const PROGRESS: f64 = 0.5;
 /// turn of the bars to a few radians.
 pub(crate) const GRADIENT_PART: f64 = 0.25;
 
-/// Turns, rad, and forces, lengths and energies, over the largest, known to this need no word; less is none.
-pub(crate) const KNOWN: f64 = 1e-9;
-
-/// Eigenvalues, singular values, and components of a unit vector below this part of the largest are zero.
+/// Turns, rad, and forces, lengths, energies, eigenvalues, singular values and components of unit vectors, over the largest:
+/// what is known to this needs no word, and less is none.
 pub(crate) const ZERO: f64 = 1e-9;
 
 /// Diagonal added, over the size of the matrix, where a motion may meet no stiffness: far below what a
@@ -46,5 +44,5 @@ pub(crate) const SETTLED: f64 = 1e-13;
 /// Corrections of the closure after a step. Three to five are normal; a step that needs more is too long.
 pub(crate) const CORRECTIONS: usize = 12;
 
-/// Bisections of an interval: all digits of a double.
+/// Bisections of an interval, or halvings of a step: all digits of a double.
 pub(crate) const BISECTIONS: usize = 64;

@@ -5,7 +5,7 @@
 )]
 
 use super::BatchSettings;
-use crate::thresholds::{ARMIJO, KNOWN, LOST};
+use crate::thresholds::{ARMIJO, CORRECTIONS, LOST, ZERO};
 
 /// Largest turn of a bar in one correction or step.
 const LARGEST_TURN: f64 = 0.7;
@@ -13,8 +13,7 @@ const LARGEST_TURN: f64 = 0.7;
 const DAMPING: f64 = 0.1;
 /// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
 /// parallel turn together towards the line of the gap, ever more slowly.
-const SEED_CORRECTIONS: u32 = 25;
-const STEP_CORRECTIONS: u32 = 12;
+const SEED_CORRECTIONS: usize = 25;
 const HALVINGS: u32 = 40;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;
@@ -31,7 +30,7 @@ pub(crate) struct Lane {
     /// Trials measured.
     pub(crate) trials: u32,
     /// Corrections of the closure in this trial.
-    corrections: u32,
+    corrections: usize,
     halvings: u32,
     perturbations: u32,
     /// Steps since the slope was zero to the tolerance and the chain a minimum.
@@ -113,7 +112,7 @@ impl Lane {
         }
         let started = self.value.is_finite();
         self.corrections += 1;
-        if self.corrections > if started { STEP_CORRECTIONS } else { SEED_CORRECTIONS } {
+        if self.corrections > if started { CORRECTIONS } else { SEED_CORRECTIONS } {
             return if started { self.halve() } else { self.perturb() };
         }
         let damping = DAMPING * square;
@@ -154,7 +153,7 @@ impl Lane {
             return self.perturb();
         }
         if here {
-            let goes_on = convex && largest_turn > KNOWN && self.settling < SETTLING && fall < 0.0;
+            let goes_on = convex && largest_turn > ZERO && self.settling < SETTLING && fall < 0.0;
             if !(goes_on && largest_turn.is_finite()) {
                 return Next::Minimum;
             }

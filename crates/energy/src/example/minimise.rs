@@ -10,7 +10,7 @@ use argmin::core::{
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
 use crate::error::Error;
 use crate::run::Settings;
-use crate::thresholds::{ROUNDING, STEP_ROUNDING};
+use crate::thresholds::{BISECTIONS, CORRECTIONS, ROUNDING, STEP_ROUNDING};
 
 /// A local minimum of (vi) on the closure curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +120,7 @@ fn onto_curve([theta, alpha]: [f64; 2]) -> [f64; 2] {
     // The closed chain is between the angles 0 and 90 degrees.
     let (mut low, mut high) = (0.0_f64, 2.0 * FRAC_PI_4);
     let mut t = FRAC_PI_4;
-    for _ in 0..RAY_STEPS {
+    for _ in 0..BISECTIONS {
         let place = ray.map(|x| t * x);
         let f = closure(place[0], place[1]);
         if f < 0.0 {
@@ -139,9 +139,6 @@ fn onto_curve([theta, alpha]: [f64; 2]) -> [f64; 2] {
     place
 }
 
-/// Newton steps with bisection along the ray: plenty.
-const RAY_STEPS: usize = 60;
-
 /// How near to the curve the ray search ends, rad; the corrections across the curve do the rest.
 const RAY_ACCURACY: f64 = 1e-6;
 
@@ -159,9 +156,6 @@ fn corrected(mut place: [f64; 2]) -> ([f64; 2], f64) {
     }
     (place, f)
 }
-
-/// Corrections across the curve; three are normal.
-const CORRECTIONS: usize = 8;
 
 /// First and second derivative of the energy along the curve, by its length.
 #[derive(Debug, Clone, Copy)]
@@ -236,9 +230,6 @@ const LONGEST_STEP: f64 = 0.5;
 /// The step aside at a maximum, rad: far enough for the energy to notice.
 const STEP_ASIDE: f64 = 0.1;
 
-/// Halvings of a step before the rounding of the energy must be what stops it.
-const HALVINGS: usize = 40;
-
 impl Solver<Example, Iterate> for CurveNewton {
     fn name(&self) -> &'static str {
         "Newton along the closure curve"
@@ -270,7 +261,7 @@ impl Solver<Example, Iterate> for CurveNewton {
         } else {
             newton.clamp(-LONGEST_STEP, LONGEST_STEP)
         };
-        for _ in 0..HALVINGS {
+        for _ in 0..BISECTIONS {
             let aside = [place[0] + step * along.tangent[0], place[1] + step * along.tangent[1]];
             let (next, left) = corrected(aside);
             let lower = problem.cost(&next)?;

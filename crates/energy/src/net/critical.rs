@@ -16,7 +16,7 @@ use crate::net::minimise::seeded;
 use crate::net::polish::rounding_floor;
 use crate::net::shape::{Shape, largest};
 use crate::net::stability::{DENSE, Dense, below, rows};
-use crate::thresholds::{KNOWN, ZERO};
+use crate::thresholds::ZERO;
 use crate::vector::scaled;
 
 /// Rounds in which members with a force of the wrong sign become slack, those with this part of the worst and more.
@@ -44,7 +44,7 @@ pub struct Critical {
 impl Critical {
     /// Whether the shape is an equilibrium.
     pub fn is_equilibrium(&self) -> bool {
-        self.unbalance <= self.allowed && self.misfit <= KNOWN
+        self.unbalance <= self.allowed && self.misfit <= ZERO
     }
 }
 
@@ -88,7 +88,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
             Kind::Strut => -excess[e].value,
         };
         let taut = rigid.into_iter().filter(|e| {
-            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -KNOWN * frame.rods[*e].length
+            frame.rods[*e].kind == Kind::Bar || outside(*e) >= -ZERO * frame.rods[*e].length
         });
         multipliers(&frame, &mut shape, &taut.collect::<Vec<_>>());
     }
@@ -115,7 +115,7 @@ pub fn critical(system: &System, joints_m: &[Vector]) -> Result<Option<Critical>
         (below(&frame, &shape, &mut factor, ZERO, true), None)
     };
     let (unbalance, misfit) = (slope.unbalance, (slope.misfit - given).max(0.0));
-    let (allowed, stiffest_n_m) = (KNOWN + rounding, stiff * unit_n_m);
+    let (allowed, stiffest_n_m) = (ZERO + rounding, stiff * unit_n_m);
     Ok(Some(Critical { unbalance, allowed, misfit, index, curvature_n_m, stiffest_n_m }))
 }
 
@@ -137,7 +137,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, rigid: &[usize]) {
         }
         frame.spread(&mut shape.force);
         let left = all.tr_mul(&(&gradient + balance * forces));
-        let zero = KNOWN * largest(&shape.force);
+        let zero = ZERO * largest(&shape.force);
         // A force of the wrong sign, or the pull on what is slack.
         let wrong = |k: usize| {
             let pull = if taut[k] { shape.force[rigid[k]] } else { -left[k] };

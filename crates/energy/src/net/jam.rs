@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::net::frame::{Frame, end_loads_n, free_axes, loads_n};
 use crate::net::shape::Shape;
 use crate::net::solution::Solution;
-use crate::thresholds::{KNOWN, ZERO};
+use crate::thresholds::ZERO;
 use crate::vector::{along, dot, norm, scaled, unit};
 
 /// The minimum of a system; where a span ends in a corner, of the one with its two joints as one, and so on.
@@ -108,7 +108,7 @@ fn corners(
 ) -> Option<Corners> {
     let acting = acting(system, joined, joints_m, axial_n);
     let largest = axial_n.iter().map(|n| n.abs()).chain(acting.iter().map(|f| norm(*f)));
-    let most = KNOWN * largest.fold(0.0, f64::max);
+    let most = ZERO * largest.fold(0.0, f64::max);
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
     let far_m = joints_m.iter().flatten().fold(1.0, |far: f64, x| far.max(x.abs()));
     let several = |joint: &usize| {

@@ -18,7 +18,7 @@ use crate::net::shape::{Shape, Slope};
 use crate::net::solution::Solution;
 use crate::net::start::hanging;
 use crate::net::work::Meter;
-use crate::thresholds::{GOLDEN, KNOWN};
+use crate::thresholds::{GOLDEN, ZERO};
 use crate::vector::{along, dot, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
@@ -159,7 +159,7 @@ fn better(
     match (new, old) {
         (Ok(new), Ok(old)) => {
             let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
-            Ok(if lower < known - KNOWN * known.abs().max(1.0) { new } else { old })
+            Ok(if lower < known - ZERO * known.abs().max(1.0) { new } else { old })
         }
         // In a corner the two joints may be one.
         (new @ (Ok(_) | Err(Misfit { .. } | Work { .. } | Jammed { .. })), Err(_)) => new,

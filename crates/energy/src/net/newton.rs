@@ -35,11 +35,8 @@ use crate::vector::{norm, scaled};
 /// First strain of the springs under the largest force.
 pub(super) const FIRST_STRAIN: f64 = 0.1;
 
-/// The springs become stiffer by this factor
+/// The springs become stiffer by this factor where an update of the forces makes the misfit less by a smaller one.
 const STIFFEN: f64 = 5.0;
-
-/// where an update of the forces leaves more than this part of the misfit.
-const ENOUGH: f64 = 0.2;
 
 /// Strain at which the springs are stiff enough for any solution.
 const LAST_STRAIN: f64 = 1e-9;
@@ -333,7 +330,7 @@ impl Newton {
         }
         (self.shift, self.definite) = (0.0, false);
         let force: Vec<f64> = local.soft.iter().map(|soft| soft.force).collect();
-        if misfit > ENOUGH * self.misfit {
+        if STIFFEN * misfit > self.misfit {
             self.stiffness *= STIFFEN;
             if self.stiffness * LAST_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
                 let (rod, off) = (&self.frame.rods[slope.worst], slope.misfit);

@@ -41,9 +41,8 @@ pub(super) const NEUTRAL: f64 = 1e-10;
 /// The same with elastic members, of which what a turn leaves of their lengths is a force.
 const ELASTIC_NEUTRAL: f64 = 1e-8;
 
-/// Steps of Newton's method for places and forces, and with one factorisation.
+/// Steps of Newton's method for places and forces, and as many with one factorisation.
 const POLISH: usize = 12;
-const CHORDS: usize = 12;
 
 /// Steps more for each change of the members that resist; changes that are allowed.
 const CHANGES: usize = 40;
@@ -113,7 +112,7 @@ impl Newton {
             if !self.factorise_stiff(&shape, stiffness, &active) {
                 return Polished::Astray;
             }
-            for chord in 0..CHORDS {
+            for chord in 0..POLISH {
                 let next = self.chord(&shape, stiffness, &active, &[]);
                 let there = frame.slope(&next);
                 let (before, after) = (error(&slope), error(&there));

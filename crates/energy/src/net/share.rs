@@ -27,7 +27,7 @@ use crate::net::factor::{Block, Factor};
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
 use crate::net::shape::largest;
-use crate::thresholds::{BISECTIONS, GOLDEN, KNOWN, ROUNDING};
+use crate::thresholds::{BISECTIONS, GOLDEN, ROUNDING, ZERO};
 use crate::vector::scaled;
 
 /// Stiffness of the floor over that of a member of the unit of length. Its deflection is taken back
@@ -87,7 +87,7 @@ impl Shared {
             falls.sum::<f64>() - (to.work - self.work)
         };
         let (mut least, mut part) = (0.0, 1.0);
-        if slope(part) > KNOWN * (to.work - self.work).abs() {
+        if slope(part) > ZERO * (to.work - self.work).abs() {
             for _ in 0..BISECTIONS {
                 let middle = 0.5 * (least + part);
                 if slope(middle) > 0.0 { part = middle } else { least = middle }

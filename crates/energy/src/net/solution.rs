@@ -12,7 +12,7 @@ use crate::net::settings::Settings;
 use crate::net::shape::Shape;
 use crate::net::stability::{SecondOrder, second_order};
 use crate::net::weak::{self, Settled};
-use crate::thresholds::{KNOWN, NO_STRAIN};
+use crate::thresholds::{NO_STRAIN, ZERO};
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -130,7 +130,7 @@ impl Solution {
 /// A cable that pushes or a strut that pulls, by more than the error of a force: what balances the
 /// joints with such a force is no minimum, however small the residual.
 fn wrong_sign(frame: &Frame, shape: &Shape) -> Option<usize> {
-    let error = KNOWN * frame.largest_force(&shape.force);
+    let error = ZERO * frame.largest_force(&shape.force);
     let forces = frame.rods.iter().zip(&shape.force);
     forces.enumerate().find_map(|(member, (rod, force))| {
         (force.abs() > error && !rod.resists(*force)).then_some(member)

@@ -33,9 +33,6 @@ const BALANCED: f64 = 2.5e-12;
 /// which count as no less and no more than so many times the load there, or the mean load where it has none.
 const BORNE: [f64; 2] = [1e-2, 1e2];
 
-/// Steps at most; few are enough.
-const STEPS: usize = 12;
-
 /// Springs in place of rigid members, one after the other.
 const STIFFER: [f64; 3] = [1.0, 1e3, 1e6];
 
@@ -113,7 +110,8 @@ pub(super) fn settled(
         if !factor.definite() {
             break;
         }
-        for _ in 0..STEPS {
+        // Few steps are enough, of which each leaves a part of the error.
+        loop {
             let next = here.stepped(factor, &active, &stiffness);
             let left = next.error(&active);
             // NaN is no progress.

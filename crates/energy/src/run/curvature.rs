@@ -9,7 +9,7 @@ use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::slope::Slope;
 use crate::run::symmetric::{Column, MOST, Symmetric};
-use crate::thresholds::GRADIENT_PART;
+use crate::thresholds::{BISECTIONS, GRADIENT_PART};
 use crate::vector::{along, cross, dot, norm, scaled, tangent};
 
 /// The Hessian of the Lagrangian on the motions that keep the chain closed.
@@ -354,7 +354,8 @@ fn between(low: f64, high: f64) -> f64 {
 /// than what is enclosed.
 fn enclosed(bounds: (f64, f64), part: f64, below: impl Fn(f64) -> bool) -> (f64, f64) {
     let (mut low, mut high) = bounds;
-    for _ in 0..HALVINGS {
+    // Eighteen bring any two positive doubles that near.
+    for _ in 0..BISECTIONS {
         if high <= (1.0 + part) * low {
             break;
         }
@@ -363,10 +364,6 @@ fn enclosed(bounds: (f64, f64), part: f64, below: impl Fn(f64) -> bool) -> (f64,
     }
     (low, high)
 }
-
-/// Halvings of the logarithm after which any two positive doubles differ by less than a part of
-/// 0.006: the logarithm to base 2 of `ln(2^2098) / 0.006`.
-const HALVINGS: usize = 18;
 
 /// How closely the smallest eigenvalue is enclosed for the condition, relative.
 const CONDITION_PART: f64 = 0.2;

@@ -36,7 +36,7 @@ use crate::run::scaled_chain::{Origin, ScaledChain, Units};
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::vertical_plane::Turn;
-use crate::thresholds::{FORCE_ROUNDING, KNOWN, ROUNDING};
+use crate::thresholds::{FORCE_ROUNDING, ROUNDING, ZERO};
 use crate::vector::{along, dot, norm, scaled, tangent};
 
 /// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
@@ -189,7 +189,7 @@ impl Point {
         for _ in 0..STEPS {
             let step = self.step()?;
             // A bar without any force answers rounding by any turn, once all others are right.
-            if turn <= KNOWN && step.largest > KNOWN {
+            if turn <= ZERO && step.largest > ZERO {
                 break;
             }
             if step.largest > LARGEST_TURN {
@@ -199,7 +199,7 @@ impl Point {
             self.shape = self.links.moved(&self.shape.u, |i, _| step.turns[i]);
             self.multiplier = along(self.multiplier, 1.0, step.multiplier);
             turn = turn.min(step.largest);
-            if size <= ROUNDING || (last <= KNOWN && size > 0.5 * last) {
+            if size <= ROUNDING || (last <= ZERO && size > 0.5 * last) {
                 break;
             }
             last = size;

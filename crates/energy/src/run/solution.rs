@@ -11,7 +11,7 @@ use crate::run::scaled_chain::Units;
 use crate::run::settings::Settings;
 use crate::run::solver::force_uncertainty;
 use crate::run::stability::SecondOrder;
-use crate::thresholds::KNOWN;
+use crate::thresholds::ZERO;
 use crate::vector::{VectorSum, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -70,8 +70,8 @@ impl Solution {
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
         let tolerance = settings.gradient_tolerance;
-        let mut evidence = match unknown_rad.filter(|turn| *turn > KNOWN) {
-            Some(turn) => Evidence::new(TURN_LEFT, turn, KNOWN, iterations_usize),
+        let mut evidence = match unknown_rad.filter(|turn| *turn > ZERO) {
+            Some(turn) => Evidence::new(TURN_LEFT, turn, ZERO, iterations_usize),
             None => Evidence::new(RESIDUAL_OF, residual, tolerance, iterations_usize),
         };
         // A refined minimum has its own digits.
@@ -79,7 +79,7 @@ impl Solution {
             Some(_) => 0.0,
             None => force_uncertainty(&links, &shape, &slope),
         };
-        if relative > KNOWN {
+        if relative > ZERO {
             let cause = UncertaintyCause::ParallelBars;
             evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }
