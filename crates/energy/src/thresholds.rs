@@ -46,3 +46,7 @@ pub(crate) const CORRECTIONS: usize = 12;
 
 /// Bisections of an interval, or halvings of a step: all digits of a double.
 pub(crate) const BISECTIONS: usize = 64;
+
+/// Changes of the members that resist before it comes to no end: some six in a tower of 500 members, as the energy of their
+/// springs falls with each.
+pub(crate) const CHANGES: usize = 100;

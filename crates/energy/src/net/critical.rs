@@ -16,11 +16,10 @@ use crate::net::minimise::seeded;
 use crate::net::polish::rounding_floor;
 use crate::net::shape::{Shape, largest};
 use crate::net::stability::{DENSE, Dense, below, rows};
-use crate::thresholds::ZERO;
+use crate::thresholds::{CHANGES, ZERO};
 use crate::vector::scaled;
 
-/// Rounds in which members with a force of the wrong sign become slack, those with this part of the worst and more.
-const ROUNDS: usize = 40;
+/// Members with a force of the wrong sign become slack, those with this part of the worst and more.
 const WORST: f64 = 0.5;
 
 /// The energy at a shape.
@@ -127,7 +126,7 @@ fn multipliers(frame: &Frame, shape: &mut Shape, rigid: &[usize]) {
     let gradient = DVector::from_vec(frame.gradient(|e| scaled(elastic[e], excess[e].gradient)));
     let all = rows(frame, &excess, rigid).transpose();
     let mut taut = vec![true; rigid.len()];
-    for _ in 0..ROUNDS {
+    for _ in 0..CHANGES {
         let held: Vec<usize> = (0..rigid.len()).filter(|k| taut[*k]).collect();
         let balance = all.select_columns(&held);
         let Some(forces) = least_squares(&balance, &-&gradient, ZERO) else { return };

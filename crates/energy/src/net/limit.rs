@@ -32,7 +32,7 @@ use crate::net::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor}
 use crate::net::shape::{Shape, largest};
 use crate::net::share::{Share, Shared};
 use crate::net::stability::DENSE;
-use crate::thresholds::{GOLDEN, PROGRESS};
+use crate::thresholds::{CHANGES, GOLDEN, PROGRESS};
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -52,12 +52,6 @@ const LEANING: f64 = 1e-10;
 
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
-
-/// Changes of the members that are taut: some six in a tower of 500 members, as the energy of their springs falls with each.
-const CHANGES: usize = 100;
-
-/// Residual at which a reading is given up: it started near.
-const ASTRAY: f64 = 10.0;
 
 /// A shape that is overdetermined, in one reading of it.
 #[derive(Debug, Clone)]
@@ -290,7 +284,7 @@ impl Newton {
                 continue;
             }
             let residual = self.limit_residual(share, &shape, &taut);
-            if !residual.is_finite() || residual > ASTRAY {
+            if !residual.is_finite() {
                 return Reading::Astray;
             }
             match last {

@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{CHANGES, NO_STRAIN, STEP_ROUNDING};
 use crate::vector::scaled;
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -44,15 +44,9 @@ const ELASTIC_NEUTRAL: f64 = 1e-8;
 /// Steps of Newton's method for places and forces, and as many with one factorisation.
 const POLISH: usize = 12;
 
-/// Steps more for each change of the members that resist; changes that are allowed.
-const CHANGES: usize = 40;
-
 /// Misfit above which members have turned too far for the factorisation of the step before: its
 /// stiff springs point the old way; and the most that may hide what is just taut.
 const CHORD_NEAR: f64 = 1e-8;
-
-/// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
-const SLOW: f64 = 1e-5;
 
 /// Lengths that are off hide whether a member beside them is just taut, up to this many times as much.
 const HIDDEN: f64 = 4.0;
@@ -152,7 +146,7 @@ impl Newton {
                 return Polished::Astray;
             }
         }
-        if slope.misfit < SLOW { Polished::Slow(shape) } else { Polished::Astray }
+        if slope.misfit < NEAR { Polished::Slow(shape) } else { Polished::Astray }
     }
 
     fn polished(&self, shape: Shape, residual: f64) -> Polished {
