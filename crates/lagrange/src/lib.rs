@@ -53,7 +53,7 @@
 //!
 //! [`condensed`] finds the hanging equilibrium from three unknowns, and which way it takes follows
 //! from the chain alone, before any iteration: `Regime::of` in `condensed/regime`, one file for
-//! each. Let the parts of the chain before and after its lowest bar (length l) hang straight down
+//! each, and one for all struts. Let the parts of the chain before and after its lowest bar (length l) hang straight down
 //! as two strands, G be the gap between their ends, L the total length, D the way from anchor to
 //! anchor and u the unit roundoff. All thresholds stand in `thresholds.rs`.
 //!

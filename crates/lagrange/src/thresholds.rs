@@ -45,10 +45,6 @@ pub(crate) const NO_FORCE: f64 = 1e-12;
 /// 1e-7.
 pub(crate) const ZERO_SINGULAR_VALUE: f64 = 1e-10;
 
-/// An error of the forces, as a part of the largest, above which the evidence speaks of it: what
-/// two solvers are asked to agree to.
-pub(crate) const REPORTED_FORCE_ERROR: f64 = 1e-9;
-
 /// A pivot of the closure's derivative this small beside the terms of which it is the difference is
 /// zero: they carry some $10^4 u$ where large forces cancel.
 pub(crate) const ZERO_PIVOT: f64 = 1e-12;
@@ -62,11 +58,9 @@ pub(crate) const SUM_ROUNDING: f64 = 1e-15;
 /// 1 over the golden ratio: the fractions of its multiples are spread without pattern.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// What a search leaves of forces, loads, strains, lengths and energies, over the largest: less is none, and more is seen.
-pub(crate) const FOUND: f64 = 1e-9;
-
-/// Curvatures, eigenvalues and components of directions below this part of the largest are zero: a state is known to
-/// 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
+/// What a search leaves of forces, loads, strains, lengths and energies, over the largest; and curvatures, eigenvalues and
+/// components of directions that are zero: a state is known to 1e-13, divided by the smallest axial forces met, 1e-3 of the
+/// largest and less. Less is none, and more is seen, as by two solvers that are asked to agree.
 pub(crate) const ZERO: f64 = 1e-9;
 
 /// What rounding leaves of a solve at best, over the largest, with room.
@@ -78,7 +72,7 @@ pub(crate) const GIVEN: f64 = 1e-12;
 /// A step, or a few, ought to leave at most this part.
 pub(crate) const HALVED: f64 = 0.5;
 
-/// Shortest part of a step that is tried.
+/// Shortest part of a step that is tried, or leads on.
 pub(crate) const SHORTEST: f64 = 1e-3;
 
 /// A step is halved at most so many times.

@@ -88,21 +88,15 @@ impl Axis {
 
     /// From horizontal and vertical components to those along and across the axis.
     pub fn enter(&self, force: [f64; 2]) -> [f64; 2] {
-        enter(self.direction, force)
+        let ([x, y], [h, z]) = (self.direction, force);
+        [h * x + z * y, z * x - h * y]
     }
 
     /// Back to horizontal and vertical components.
     pub fn leave(&self, force: [f64; 2]) -> [f64; 2] {
-        leave(self.direction, force)
+        let ([x, y], [p, q]) = (self.direction, force);
+        [p * x - q * y, p * y + q * x]
     }
-}
-
-fn enter([x, y]: [f64; 2], [h, z]: [f64; 2]) -> [f64; 2] {
-    [h * x + z * y, z * x - h * y]
-}
-
-fn leave([x, y]: [f64; 2], [p, q]: [f64; 2]) -> [f64; 2] {
-    [p * x - q * y, p * y + q * x]
 }
 
 impl Condensed {

@@ -9,7 +9,6 @@ use super::bar_data::BarData;
 use super::bottom::Bottom;
 use super::kernel::Bars;
 use super::loads::{Moments, count_from};
-
 use super::parallel::Workers;
 use super::span::Span;
 use super::system::{Frame, System};
@@ -123,16 +122,14 @@ impl Condensed {
     /// The bars of both strands, without those at the bottom.
     pub(super) fn around_the_bottom(&self) -> [Bars<'_>; 2] {
         let group = &self.bottom.group;
-        [self.part(0..group.start), self.part(group.end..self.bars())]
+        let [all, _] = self.all();
+        [all.chunk(0..group.start), all.chunk(group.end..self.bars())]
     }
 
     /// All bars, in two parts.
     pub(super) fn split(&self, at: usize) -> [Bars<'_>; 2] {
-        [self.part(0..at), self.part(at..self.bars())]
-    }
-
-    fn part(&self, range: Range<usize>) -> Bars<'_> {
-        Bars { lengths: &self.bars.lengths[range.clone()], loads: &self.bars.loads[range] }
+        let [all, _] = self.all();
+        [all.chunk(0..at), all.chunk(at..self.bars())]
     }
 
     /// The condensed equations in upright axes, with an effective bar of the length `strut` in

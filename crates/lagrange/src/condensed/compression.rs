@@ -24,14 +24,12 @@
 
 use super::axis::Axis;
 use super::bracket::Bracket;
-use super::newton::{Budget, Root, within_a_few_passes};
+use super::newton::{Budget, MARGIN, Root, within_a_few_passes};
 use super::system::{Closure, Frame, System};
 use crate::thresholds::SHORTEST;
 
 /// Largest change of the logarithm of the compression in one step.
 const LARGEST_LOG_STEP: f64 = 2.0;
-/// Part of the way to the ends of the interval of directions that one step may go.
-const TO_THE_END: f64 = 0.9;
 /// Where the compression would have to be larger than the loads by this factor, the other bars do
 /// not reach: the direction is too far from the line of the anchors.
 const NO_REACH: f64 = 1e17;
@@ -170,7 +168,7 @@ impl Strut<'_> {
                 return settled();
             }
             let Bracket { low, high } = self.between;
-            let room = TO_THE_END * if angle > 0.0 { high - at.angle } else { at.angle - low };
+            let room = (1.0 - MARGIN) * if angle > 0.0 { high - at.angle } else { at.angle - low };
             let mut part = 1.0_f64.min(LARGEST_LOG_STEP / log.abs()).min(room / angle.abs());
             let floor = here.closure.floor;
             let before = norm(&here, floor);

@@ -26,7 +26,8 @@ impl Bars<'_> {
     /// None.
     pub const NONE: Self = Self { lengths: &[], loads: &[] };
 
-    fn chunk(self, range: Range<usize>) -> Self {
+    /// Some consecutive ones of them.
+    pub fn chunk(self, range: Range<usize>) -> Self {
         Self { lengths: &self.lengths[range.clone()], loads: &self.loads[range] }
     }
 }

@@ -8,8 +8,8 @@ use super::system::{Closure, System};
 const GOOD_SLOPE: f64 = 0.9;
 /// A step that was much too short is lengthened by this factor.
 const EXPANSION: f64 = 4.0;
-/// Secants stay away from the ends of their interval by this part of it.
-const MARGIN: f64 = 0.1;
+/// Secants and steps stay away from the ends of their interval by this part of it.
+pub(super) const MARGIN: f64 = 0.1;
 /// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may
 /// still ask for a long step.
 const WELL_CONDITIONED: f64 = 1e4;

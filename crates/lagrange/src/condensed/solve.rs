@@ -11,7 +11,7 @@ use super::settings::Settings;
 use super::stability::second_order;
 use super::vectors::{Totals, Vectors};
 use crate::error::Error;
-use crate::thresholds::REPORTED_FORCE_ERROR;
+use crate::thresholds::ZERO;
 
 /// What the residual is.
 const RESIDUAL_OF: &str = "distance of the last joint from its anchor, in total lengths";
@@ -127,7 +127,7 @@ impl Condensed {
         let second = second_order(self, pull);
         let mut evidence = Evidence::new(RESIDUAL_OF, closure, settings.closure, passes);
         let relative = self.force_error(pull);
-        if relative > REPORTED_FORCE_ERROR {
+        if relative > ZERO {
             let cause = UncertaintyCause::WeakClosure;
             evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }

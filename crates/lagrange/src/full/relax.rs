@@ -20,7 +20,7 @@
 use nalgebra::{Complex, Vector3};
 
 use crate::full::reduced::Reduced;
-use crate::thresholds::{EARNED, SUM_ROUNDING};
+use crate::thresholds::{EARNED, HALVINGS, SUM_ROUNDING};
 
 /// First step of the motion, in units in which weight, length and friction are one.
 const FIRST_TAU: f64 = 1.0;
@@ -32,8 +32,6 @@ const CUT: f64 = 0.5;
 const LARGEST_TURN: f64 = 0.5;
 /// A penalty above the multipliers is exact; twice as much leaves room for their errors.
 const PENALTY: f64 = 2.0;
-/// Halvings of a step; then it is taken as it is, shorter than 1e-6 of itself.
-const HALVINGS: usize = 20;
 /// Bars leave gimbal lock early: the motion has no preference for any angles.
 const LOCK_MARGIN: f64 = 0.1;
 
@@ -99,6 +97,7 @@ fn take(chain: &mut Reduced, penalty: f64, slope: f64) -> bool {
     let largest = chain.matrix.turns().fold(0.0, |largest: f64, turn| largest.max(turn.norm()));
     let mut part = if largest > LARGEST_TURN { LARGEST_TURN / largest } else { 1.0 };
     let mut cut = false;
+    // Shorter than that it is taken as it is.
     for _ in 0..HALVINGS {
         chain.advance(part);
         if merit(chain, true) <= start + EARNED * part * slope + SUM_ROUNDING * penalty {

@@ -15,7 +15,7 @@ use crate::full::seed::{Seed, perturb};
 use crate::full::solution::{Solution, energy, first_offset};
 use crate::full::stability::stability;
 use crate::settings::Settings;
-use crate::thresholds::FOUND;
+use crate::thresholds::ZERO;
 
 /// False roots left in one run: with other angles a bar has no false root near by.
 const ESCAPES: usize = 16;
@@ -214,7 +214,7 @@ impl<'p> Solver<'p> {
         }
         // The equations hold. Do the moments?
         let (bar, moment) = self.reduced.largest_moment();
-        if moment <= FOUND { Attempt::Equilibrium } else { Attempt::FalseRoot { bar, moment } }
+        if moment <= ZERO { Attempt::Equilibrium } else { Attempt::FalseRoot { bar, moment } }
     }
 
     /// Relax the chain from the seed, perturbed when this is not the first time.

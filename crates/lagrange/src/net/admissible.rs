@@ -9,8 +9,8 @@
 use matrices::dense::{apply, least_squares};
 use nalgebra::{DMatrix, DVector};
 
-/// Exchanges of the least squares, in units of the conditions.
-const MOST_EXCHANGES: usize = 10;
+use super::ranges::MOST_EXCHANGES;
+
 /// A residual below this is zero: no forces obey all signs. A slope below it improves nothing.
 const ROUNDING: f64 = 1e-11;
 

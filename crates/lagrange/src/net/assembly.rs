@@ -141,9 +141,7 @@ impl Solver<'_> {
             moves[link.from] -= u * *misfit;
             moves[link.to] += u * *misfit;
         }
-        let mut moves = self.stiffness.gather(&self.framework, &moves);
-        self.stiffness.solve(&mut moves);
-        self.stiffness.scatter(&self.framework, &moves)
+        self.stiffness.moves(&self.framework, &moves)
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn start(framework: &Framework, runs: &Runs) -> Option<Start> {
     }
     let forces = hanging.forces();
     let pulls = firsts.iter().map(|(link, shift)| forces[*link] + shift).collect();
-    let places = hanging.places()[..runs.kept.len()].to_vec();
+    let places = hanging.places[..runs.kept.len()].to_vec();
     Some(Start { places, pulls, factorisations: hanging.steps })
 }
 

@@ -29,7 +29,7 @@ pub(super) const SHARP: f64 = 1e-6;
 pub(super) const WIDEST: f64 = 1e-2;
 /// Sweeps of refinement: each leaves of what a motion of the singular value s changes the part
 /// cut²/(cut² + s²).
-const SWEEPS: usize = 8;
+pub(super) const SWEEPS: usize = 8;
 /// A member takes part in a self-stress where this part of an error of lengths without pattern, or
 /// more, is in no shape.
 const TAKES_PART: f64 = 1e-7;
@@ -144,9 +144,7 @@ impl Decided {
                 forces[link.from] -= u * (weight * e);
                 forces[link.to] += u * (weight * e);
             }
-            let mut moves = self.stiffness.gather(framework, &forces);
-            self.stiffness.solve(&mut moves);
-            let moves = self.stiffness.scatter(framework, &moves);
+            let moves = self.stiffness.moves(framework, &forces);
             let mut change = 0.0_f64;
             for (k, ((_, weight), e)) in self.rows.iter().zip(&mut left).enumerate() {
                 if *weight > 0.0 {
@@ -175,9 +173,7 @@ impl Decided {
 
     /// The axial forces with the least complementary energy that bear loads of the joints.
     pub fn bearing(&mut self, framework: &Framework, loads: &[Vector3<f64>]) -> Vec<f64> {
-        let mut moves = self.stiffness.gather(framework, loads);
-        self.stiffness.solve(&mut moves);
-        let moves = self.stiffness.scatter(framework, &moves);
+        let moves = self.stiffness.moves(framework, loads);
         let rows = self.rows.iter().enumerate();
         rows.map(|(k, (_, weight))| weight * self.stretch(framework, k, &moves)).collect()
     }

@@ -74,9 +74,7 @@ fn by_density(
     if sliding {
         stiffness.assemble(framework, densities.iter().map(|w| Matrix3::identity() * *w));
         stiffness.factorise_definite();
-        let mut moves = stiffness.gather(framework, &unbalance);
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(framework, &moves);
+        let moves = stiffness.moves(framework, &unbalance);
         return bases.iter().zip(moves).map(|(base, step)| base + step).collect();
     }
     stiffness.assemble_scalar(densities.iter().copied());

@@ -23,7 +23,7 @@ use super::runs::{Runs, Step};
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
-use crate::thresholds::{FOUND, HALVINGS};
+use crate::thresholds::{HALVINGS, ZERO};
 use model::system::Kind;
 
 /// The compliance along a member that the matrix has beside its own, in units of that across: each
@@ -196,9 +196,7 @@ impl<'a> Shape<'a> {
         stiffness.factorise_definite();
         let now = self.pulls.iter().zip(&self.laws).zip(&gaps);
         let now = now.map(|((pull, law), gap)| pull + law.stiffness * gap);
-        let mut moves = stiffness.gather(&self.skeleton, &self.skeleton.unbalance(now));
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(&self.skeleton, &moves);
+        let moves = stiffness.moves(&self.skeleton, &self.skeleton.unbalance(now));
         let links = self.skeleton.links.iter().zip(&self.laws).zip(&gaps);
         let change: Vec<Vector3<f64>> =
             links.map(|((link, law), gap)| law.stiffness * (gap + link.span(&moves))).collect();
@@ -248,7 +246,7 @@ impl<'a> Shape<'a> {
         let twigs = self.runs.twigs.iter().map(|twig| twig.force.norm_squared());
         let most = self.laws.iter().map(|law| law.most).chain(twigs).fold(0.0, f64::max);
         let clear =
-            |law: &Law| law.least > CLEAR * CLEAR * law.most && law.least > FOUND * FOUND * most;
+            |law: &Law| law.least > CLEAR * CLEAR * law.most && law.least > ZERO * ZERO * most;
         self.laws.iter().all(clear)
     }
 

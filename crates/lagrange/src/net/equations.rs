@@ -22,7 +22,7 @@ use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
 use crate::larger::larger;
-use crate::thresholds::{FOUND, GIVEN};
+use crate::thresholds::{GIVEN, ZERO};
 
 /// A condition that holds on one side only: what it is of, and whether it is active.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -326,7 +326,7 @@ impl Equations {
         });
         let mut sides: Vec<_> = members.collect();
         let Some(floor) = self.floor else { return sides };
-        let pushes = self.framework.pushes(directions.iter().map(|(u, _)| u), &state.axial);
+        let pushes = self.framework.pushes(&directions, &state.axial);
         let lying = self.framework.lying.iter().zip(pushes);
         sides.extend(lying.map(|(lying, push)| (Side::Joint(lying.joint), push)));
         let above = self.bare.nodes.iter().enumerate();
@@ -361,7 +361,7 @@ impl Equations {
         let mut state = with_held(&self.framework, self.state(y));
         // Where it becomes slack a member bears nothing, whatever rounding leaves.
         for (k, link) in self.framework.links.iter().enumerate() {
-            if !link.bears(state.axial[k]) && state.axial[k].abs() <= FOUND {
+            if !link.bears(state.axial[k]) && state.axial[k].abs() <= ZERO {
                 (state.axial[k], state.taut[k]) = (0.0, false);
             }
         }

@@ -12,14 +12,12 @@ use super::framework::{Framework, Link};
 use super::signs::SIGN_CHANGES;
 use super::state::State;
 use super::stiffness::Stiffness;
+use crate::thresholds::{HALVINGS, ZERO};
 
 /// Stiffness that stands for a rigid member, in units of the stiffest elastic one.
 pub(super) const RIGID: f64 = 1e3;
 /// Ridge of the least squares, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
-/// Halvings of a step to where the dual energy is least, and the slope at its end, over that at its begin, that is rounding.
-const HALVINGS: usize = 40;
-const SLOPE: f64 = 1e-9;
 /// Stiffness of what is slack, over its own, until the signs are found: far more than the ridge.
 const SLACK: f64 = 1e-5;
 
@@ -39,16 +37,14 @@ pub(super) fn fitted_forces(
         }
         let Some(along) = elastic(link) else { return (rigid, 0.0) };
         let length = framework.whole(k, |span| directions[span].1);
-        let stretch = length - link.length;
-        let own = stretch * along;
-        (along, own)
+        (along, (length - link.length) * along)
     };
     let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
     let bears =
         |k: usize, force: f64| state.taut[k] && (force == 0.0 || framework.links[k].bears(force));
     let own: Vec<f64> = members.iter().map(|(_, own)| *own).collect();
     let (mut forces, mut bearing) = (own.clone(), state.taut.clone());
-    let ridge = RIDGE * stiffest.max(rigid);
+    let ridge = RIDGE * rigid;
     let still = vec![Vector3::zeros(); framework.nodes.len()];
     let (mut moved, mut slack) = (still.clone(), 0.0);
     for round in 0..2 * SIGN_CHANGES {
@@ -68,9 +64,7 @@ pub(super) fn fitted_forces(
         let mut left =
             framework.unbalance(directions.iter().enumerate().map(|(k, (u, _))| u * borne(k)));
         left.iter_mut().zip(&moved).for_each(|(left, by)| *left -= by * ridge);
-        let mut moves = stiffness.gather(framework, &left);
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(framework, &moves);
+        let moves = stiffness.moves(framework, &left);
         let stretch = |span: usize| directions[span].0.dot(&framework.links[span].span(&moves));
         let change: Vec<f64> =
             (0..members.len()).map(|k| members[k].0 * framework.whole(k, stretch)).collect();
@@ -86,7 +80,7 @@ pub(super) fn fitted_forces(
             more.sum::<f64>() + part * held - work
         };
         let (mut least, mut part) = (0.0, 1.0);
-        if is_circling && slope(part) > SLOPE * work {
+        if is_circling && slope(part) > ZERO * work {
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (least + part);
                 if slope(middle) > 0.0 { part = middle } else { least = middle }

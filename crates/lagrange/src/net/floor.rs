@@ -25,7 +25,7 @@ use super::solution::{Found, NO_FORCE, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{FOUND, ZERO};
+use crate::thresholds::ZERO;
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.
@@ -117,12 +117,10 @@ fn open_pushes(
     let laid = framework.with_laid(floor, &touches);
     let state = State::of(&laid, solution);
     let directions = state.directions(&laid);
-    let pushes = |axial: &[f64]| laid.pushes(directions.iter().map(|(u, _)| u), axial);
-    let none = pushes(&vec![0.0; framework.links.len()]);
     let mut open = lies.to_vec();
     for stress in self_stresses(&laid, &state) {
-        for ((lying, push), none) in laid.lying.iter().zip(pushes(&stress)).zip(&none) {
-            open[lying.joint] |= (push - none).abs() > FOUND;
+        for (lying, push) in laid.lying.iter().zip(laid.pushes_of_stress(&directions, &stress)) {
+            open[lying.joint] |= push.abs() > ZERO;
         }
     }
     (open != lies).then_some(open)

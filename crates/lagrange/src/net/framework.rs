@@ -237,10 +237,14 @@ impl Framework {
 
     /// Whether a member has a joint that can move.
     pub fn moves(&self, link: &Link) -> bool {
-        let moves = |joint: usize| self.nodes[joint].freedom() > 0;
-        moves(link.from)
-            || moves(link.to)
-            || self.rope(link).is_some_and(|rope| rope.joints.iter().any(|joint| moves(*joint)))
+        let ends = [link.from, link.to];
+        let joints = self.rope(link).map_or(&ends[..], |rope| &rope.joints);
+        joints.iter().any(|joint| self.nodes[*joint].freedom() > 0)
+    }
+
+    /// Whether a link has an end that can move.
+    pub fn ends_move(&self, link: &Link) -> bool {
+        self.nodes[link.from].freedom() + self.nodes[link.to].freedom() > 0
     }
 
     /// Distance of the ends of a member that cannot move, along its spans.
@@ -284,13 +288,21 @@ impl Framework {
         sums
     }
 
+    /// The same with these axial forces along the members.
+    pub fn left(&self, directions: &[(Vector3<f64>, f64)], axial: &[f64]) -> Vec<Vector3<f64>> {
+        self.unbalance(directions.iter().zip(axial).map(|((u, _), axial)| u * *axial))
+    }
+
+    /// What a self-stress adds to the push of the floor on each joint that lies on it.
+    pub fn pushes_of_stress(&self, directions: &[(Vector3<f64>, f64)], stress: &[f64]) -> Vec<f64> {
+        let none = self.pushes(directions, &vec![0.0; stress.len()]);
+        let with = self.pushes(directions, stress).into_iter().zip(none);
+        with.map(|(push, none)| push - none).collect()
+    }
+
     /// Push of the floor on each joint that lies on it, with these axial forces along the members.
-    pub fn pushes<'a>(
-        &self,
-        directions: impl Iterator<Item = &'a Vector3<f64>>,
-        axial: &[f64],
-    ) -> Vec<f64> {
-        let left = self.unbalance(directions.zip(axial).map(|(u, axial)| u * *axial));
+    pub fn pushes(&self, directions: &[(Vector3<f64>, f64)], axial: &[f64]) -> Vec<f64> {
+        let left = self.left(directions, axial);
         let push = |lying: &Lying| {
             let (free, left) = (&self.nodes[lying.joint].free, &left[lying.joint]);
             lying.push(&(free.part(left) - left))

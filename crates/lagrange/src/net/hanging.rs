@@ -33,7 +33,7 @@ use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::FOUND;
+use crate::thresholds::{SHORTEST, ZERO};
 use model::system::Kind;
 
 /// First length of a member in the programme, where it is as long as it may be or longer: this
@@ -54,8 +54,6 @@ const FEASIBLE: f64 = 1e-6;
 const CLEARLY_TAUT: f64 = 1e4;
 /// Part of the way to the boundary that a step may go.
 const INSIDE: f64 = 0.99;
-/// Two steps on end shorter than this and there is no such shape.
-const STUCK: f64 = 1e-3;
 /// Stiffness given to every joint, in units of the mean $t/l$: one that nothing holds in some
 /// direction stays.
 const SHIFT: f64 = 1e-10;
@@ -64,7 +62,8 @@ const MOST_STEPS: usize = 60;
 
 /// The hanging shape with all bars taken as cables, as far as it has come.
 pub(super) struct Hanging {
-    places: Vec<Vector3<f64>>,
+    /// Places of the joints as far as it has come.
+    pub places: Vec<Vector3<f64>>,
     /// Force of each member with its size; no pair for one that takes no part.
     forces: Vec<Option<Pair>>,
     /// Their counterparts.
@@ -140,7 +139,7 @@ impl Hanging {
 
     /// Whether no member pulls.
     fn idle(&self) -> bool {
-        self.mean() <= FOUND * self.first
+        self.mean() <= ZERO * self.first
     }
 
     fn ended(&self, end: f64) -> bool {
@@ -156,12 +155,7 @@ impl Hanging {
         })
     }
 
-    /// Places of the joints as far as it has come.
-    pub fn places(&self) -> &[Vector3<f64>] {
-        &self.places
-    }
-
-    /// Forces of the members there.
+    /// Forces of the members.
     pub fn forces(&self) -> Vec<Vector3<f64>> {
         self.forces.iter().map(|pair| pair.map_or(Vector3::zeros(), |z| z.tail)).collect()
     }
@@ -293,9 +287,7 @@ impl Hanging {
             }
             _ => Vector3::zeros(),
         });
-        let mut moves = stiffness.gather(framework, &framework.unbalance(now));
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(framework, &moves);
+        let moves = stiffness.moves(framework, &framework.unbalance(now));
         let changes = links().map(|((link, row), h)| {
             let Some(row) = row else { return (none, none) };
             let span = link.span(&moves);
@@ -339,7 +331,8 @@ impl Hanging {
         for (place, step) in self.places.iter_mut().zip(&step.moves) {
             *place += step * aside;
         }
-        self.short = if ahead.min(aside) < STUCK { self.short + 1 } else { 0 };
+        // Two such steps on end and there is no such shape.
+        self.short = if ahead.min(aside) < SHORTEST { self.short + 1 } else { 0 };
         true
     }
 }

@@ -14,7 +14,7 @@ use super::framework::Framework;
 use super::solution::{Answer, Solution};
 use super::state::State;
 use crate::error::Error;
-use crate::thresholds::FOUND;
+use crate::thresholds::ZERO;
 
 /// What a span bears may exceed its tension by this part of it. What a light ring feels of a corner is only the
 /// square of its weight over the tension.
@@ -93,10 +93,8 @@ fn apart(
     let spans: Vec<usize> = (0..framework.links.len())
         .filter(|k| {
             let link = &framework.links[*k];
-            let moves =
-                [link.from, link.to].iter().any(|joint| framework.nodes[*joint].freedom() > 0);
             let is_one = joined.numbers[link.from] == joined.numbers[link.to];
-            link.rope.is_some() && is_one && moves && state.axial[*k] > 0.0
+            link.rope.is_some() && is_one && framework.ends_move(link) && state.axial[*k] > 0.0
         })
         .collect();
     for (span, pull) in spans.iter().zip(pulls(framework, joined, &state, &spans)?) {
@@ -105,8 +103,7 @@ fn apart(
         }
         directions[*span].0 = pull / state.axial[*span];
     }
-    let left = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-    let left = framework.unbalance(left);
+    let left = framework.left(&directions, &state.axial);
     let jam = |span: &usize| {
         let member = framework.member_of(*span);
         let rope = framework.rope(&framework.links[*span])?;
@@ -141,9 +138,7 @@ fn pulls(
             (0..free.count()).map(move |k| (joint, axes.column(k).into()))
         })
         .collect();
-    let directions = state.directions(framework);
-    let left = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-    let left = framework.unbalance(left);
+    let left = framework.left(&state.directions(framework), &state.axial);
     let wanted = DVector::from_iterator(rows.len(), rows.iter().map(|(at, e)| -e.dot(&left[*at])));
     let weights: Vec<f64> = spans.iter().map(|span| state.axial[*span].sqrt()).collect();
     let balance = DMatrix::from_fn(rows.len(), 3 * spans.len(), |row, column| {
@@ -152,11 +147,11 @@ fn pulls(
         let sign = f64::from(u8::from(link.from == at)) - f64::from(u8::from(link.to == at));
         sign * weights[column / 3] * along[column % 3]
     });
-    let parts = least_squares(&balance, &wanted, FOUND)?;
+    let parts = least_squares(&balance, &wanted, ZERO)?;
     let off = (apply(&balance, &parts) - wanted).amax();
     let pull = |(k, weight): (usize, &f64)| {
         Vector3::from_iterator(parts.rows(3 * k, 3).iter().copied()) * *weight
     };
-    (off <= FOUND * state.largest_force(framework))
+    (off <= ZERO * state.largest_force(framework))
         .then(|| weights.iter().enumerate().map(pull).collect())
 }

@@ -13,7 +13,7 @@
 
 use nalgebra::Vector3;
 
-use super::decided::Decided;
+use super::decided::{Decided, SWEEPS};
 use super::fitted::RIGID;
 use super::framework::Framework;
 use super::residual::Residual;
@@ -27,8 +27,6 @@ use crate::thresholds::{EARNED, HALVED, ROUNDED, SUM_ROUNDING};
 const PENALTY: f64 = 1e5;
 /// Stiffness given to each joint, in units of $N/l$ of its members, where steps do not help.
 const HELD: f64 = 1e-8;
-/// Sweeps of refinement in a step.
-const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
 const REFINED: f64 = 3e-6;
 /// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
@@ -343,9 +341,7 @@ impl Derivative {
             right[link.from] -= pull;
             right[link.to] += pull;
         }
-        let mut moves = stiffness.gather(framework, &right);
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(framework, &moves);
+        let moves = stiffness.moves(framework, &right);
         let axial = self.rows.iter().zip(lengths).enumerate();
         let axial = axial
             .map(|(k, (row, misfit))| row.along * (self.stretch(framework, k, &moves) - misfit));

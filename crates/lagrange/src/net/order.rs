@@ -10,10 +10,9 @@ use matrices::sparse::minimum_degree;
 use super::framework::Framework;
 use super::stiffness::couples;
 
-/// Rank of each joint in the elimination; nothing without memory for it.
+/// The joints in the order of the elimination; nothing without memory for it.
 pub(super) fn by_degree(framework: &Framework) -> Option<Vec<usize>> {
-    let joints = framework.nodes.len();
-    let mut neighbours = vec![Vec::new(); joints];
+    let mut neighbours = vec![Vec::new(); framework.nodes.len()];
     for (a, b) in couples(framework) {
         if framework.nodes[a].freedom() > 0 && framework.nodes[b].freedom() > 0 {
             neighbours[a.max(b)].push(a.min(b));
@@ -26,9 +25,5 @@ pub(super) fn by_degree(framework: &Framework) -> Option<Vec<usize>> {
         rows.extend_from_slice(list);
         columns.push(rows.len());
     }
-    let mut rank = vec![0; joints];
-    for (place, joint) in minimum_degree(&columns, &rows)?.into_iter().enumerate() {
-        rank[joint] = place;
-    }
-    Some(rank)
+    minimum_degree(&columns, &rows)
 }

@@ -8,7 +8,7 @@ use model::system::{Kind, RunTogether, System};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
-use super::framework::{Framework, Link};
+use super::framework::Framework;
 use super::state::State;
 use crate::error::Error;
 use crate::thresholds::{GIVEN, ZERO};
@@ -146,12 +146,9 @@ const JAMMED: f64 = 1e-2;
 pub(super) fn jammed(system: &System, framework: &Framework, state: &State) -> Option<Error> {
     let directions = state.directions(framework);
     let spans = framework.ropes.iter().flat_map(|rope| rope.spans.iter().copied());
-    let moves = |span: &usize| {
-        let Link { from, to, .. } = framework.links[*span];
-        [from, to].iter().any(|joint| framework.nodes[*joint].freedom() > 0)
-    };
     let part = |span: usize| directions[span].1 / framework.links[span].length;
-    let short = spans.filter(|span| moves(span) && part(*span) <= JAMMED);
+    let short =
+        spans.filter(|span| framework.ends_move(&framework.links[*span]) && part(*span) <= JAMMED);
     let span = short.min_by(|a, b| part(*a).total_cmp(&part(*b)))?;
     let link = &framework.links[span];
     let [from, to] = [link.from, link.to].map(|joint| system.joints()[joint].name.to_string());

@@ -12,11 +12,11 @@ use model::system::Kind;
 use super::framework::Framework;
 use super::solution::NO_FORCE;
 use super::state::State;
-use crate::thresholds::FOUND;
+use crate::thresholds::ZERO;
 
 /// Exchange steps of one programme, in units of its unknowns and conditions together. Some two
 /// are the rule.
-const MOST_EXCHANGES: usize = 50;
+pub(super) const MOST_EXCHANGES: usize = 50;
 
 /// The range of every member's axial force over all forces in balance with the right signs, which are these and self-stresses.
 pub(super) fn ranges(
@@ -56,14 +56,11 @@ impl Table {
     fn new(framework: &Framework, state: &State, basis: &[Vec<f64>]) -> Self {
         // Behind the forces of the members those of the floor, of which none pulls.
         let directions = state.directions(framework);
-        let pushes = |axial: &[f64]| framework.pushes(directions.iter().map(|(u, _)| u), axial);
-        let none = pushes(&vec![0.0; framework.links.len()]);
         let by_stress = |stress: &Vec<f64>| {
-            let changes = pushes(stress).into_iter().zip(&none).map(|(push, none)| push - none);
-            stress.iter().copied().chain(changes).collect::<Vec<f64>>()
+            [stress.clone(), framework.pushes_of_stress(&directions, stress)].concat()
         };
         let basis: Vec<Vec<f64>> = basis.iter().map(by_stress).collect();
-        let forces = [state.axial.clone(), pushes(&state.axial)].concat();
+        let forces = [state.axial.clone(), framework.pushes(&directions, &state.axial)].concat();
         let largest = forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let signs: Vec<f64> = framework
@@ -74,13 +71,13 @@ impl Table {
                 Kind::Cable => 1.0,
                 Kind::Strut => -1.0,
             })
-            .chain(none.iter().map(|_| 1.0))
+            .chain(framework.lying.iter().map(|_| 1.0))
             .collect();
         let turn = |k: usize| if signs[k] < 0.0 { -1.0 } else { 1.0 };
         let rows: Vec<Vec<f64>> = (0..signs.len())
             .map(|k| basis.iter().map(|stress| turn(k) * stress[k]).collect())
             .collect();
-        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= FOUND)).collect();
+        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= ZERO)).collect();
         let value = |k: usize| {
             let value = turn(k) * forces[k] / largest;
             // A force of the wrong sign by rounding counts as zero.
@@ -130,7 +127,7 @@ impl Table {
         let row = &self.rows[member];
         (0..row.len()).find_map(|j| {
             let gain = direction * row[j];
-            let improves = gain > FOUND || (self.free[j] && gain < -FOUND);
+            let improves = gain > ZERO || (self.free[j] && gain < -ZERO);
             improves.then_some((j, gain.signum()))
         })
     }
@@ -140,7 +137,7 @@ impl Table {
         let mut first: Option<(f64, usize)> = None;
         for (k, row) in self.rows.iter().enumerate() {
             let fall = -way * row[unknown];
-            if self.signs[k] != 0.0 && fall > FOUND {
+            if self.signs[k] != 0.0 && fall > ZERO {
                 let room = self.values[k].max(0.0) / fall;
                 if first.is_none_or(|(least, _)| room < least) {
                     first = Some((room, k));

@@ -154,8 +154,7 @@ impl Solver<'_> {
         let residual = Residual::within(&self.framework, &state, Some(&mut decided));
         let next = Run { state, residual, steps: 0 };
         let signs = signs_mended(&self.framework, &self.settings, &next, 0.0);
-        let directions = next.residual.directions.iter().map(|(u, _)| u);
-        let pushes = self.framework.pushes(directions, &next.state.axial);
+        let pushes = self.framework.pushes(&next.residual.directions, &next.state.axial);
         let pulled = pushes.iter().any(|push| *push < -NO_FORCE * next.residual.unit);
         let holds = next.residual.size() <= self.settings.tolerance && signs.is_none() && !pulled;
         if holds {

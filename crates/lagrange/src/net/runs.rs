@@ -10,14 +10,12 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use super::framework::{Framework, Link, Node};
-use crate::thresholds::FOUND;
-use model::system::Kind;
+use super::densities::pulls;
+use super::framework::{Framework, Node};
+use crate::thresholds::ZERO;
 
-/// No joint, no member.
+/// No joint, no member; in the place of the number of members at a joint, that of a tree that was taken away.
 const NONE: usize = usize::MAX;
-/// In the place of the number of members at a joint: a tree that was taken away.
-const TRIMMED: usize = usize::MAX;
 
 /// A run of members from one joint that stays to another.
 #[derive(Debug, Clone)]
@@ -83,11 +81,11 @@ impl Runs {
         };
         let mut numbers = vec![NONE; framework.nodes.len()];
         for twig in &runs.twigs {
-            graph.degrees[twig.tip] = TRIMMED;
+            graph.degrees[twig.tip] = NONE;
         }
         for (joint, node) in framework.nodes.iter().enumerate() {
             let degree = graph.degrees[joint];
-            if degree == TRIMMED || (node.freedom() == 3 && degree == 2) {
+            if degree == NONE || (node.freedom() == 3 && degree == 2) {
                 continue;
             }
             if node.freedom() == 3 && degree == 0 {
@@ -185,7 +183,7 @@ impl Graph {
             degrees: vec![0; joints],
             members: vec![0; joints],
             loads: Vec::new(),
-            alive: framework.links.iter().map(|link| takes_part(framework, link)).collect(),
+            alive: framework.links.iter().map(|link| pulls(framework, link)).collect(),
         };
         for (member, link) in framework.links.iter().enumerate() {
             if graph.alive[member] {
@@ -215,7 +213,7 @@ impl Graph {
             let mut tip = joint;
             while self.degrees[tip] == 1
                 && framework.nodes[tip].freedom() == 3
-                && self.loads[tip].norm() > FOUND * sizes[tip]
+                && self.loads[tip].norm() > ZERO * sizes[tip]
             {
                 let (member, force) = (self.members[tip], self.loads[tip]);
                 let root = framework.links[member].from ^ framework.links[member].to ^ tip;
@@ -231,11 +229,6 @@ impl Graph {
         }
         twigs
     }
-}
-
-/// Whether a member can pull and moves.
-fn takes_part(framework: &Framework, link: &Link) -> bool {
-    link.kind != Kind::Strut && framework.moves(link)
 }
 
 #[cfg(test)]

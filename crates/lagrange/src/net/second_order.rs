@@ -331,8 +331,7 @@ fn stiffened(
     let by_stress = |column: usize| {
         let mut hessian = DMatrix::<f64>::zeros(size, size);
         for (row, &k) in rigid.iter().enumerate() {
-            let (from, to) = (framework.links[k].from, framework.links[k].to);
-            if framework.nodes[from].freedom() + framework.nodes[to].freedom() > 0 {
+            if framework.ends_move(&framework.links[k]) {
                 let across = stresses[(row, column)] / framework.links[k].length;
                 let block = by_direction(&links[k].u, across, 0.0);
                 add(framework, first_unknown, &mut hessian, k, &block);

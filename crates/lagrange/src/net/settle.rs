@@ -194,8 +194,7 @@ impl Penalty {
         for _ in 0..STEPS {
             state.axial = self.forces(framework, &state.places);
             let directions = state.directions(framework);
-            let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-            let mut unbalance = framework.unbalance(pulls);
+            let mut unbalance = framework.left(&directions, &state.axial);
             let pushes = self.pushes(framework, &state.places);
             unbalance.iter_mut().zip(&pushes).for_each(|(force, push)| force.z += push);
             let gradient = stiffness.gather(framework, &unbalance);

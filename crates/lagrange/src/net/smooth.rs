@@ -11,7 +11,7 @@ use model::system::{Kind, RunTogether, System};
 use super::floor::lift;
 use super::framework::Framework;
 use super::residual::Residual;
-use super::solution::{NO_FORCE, NO_SLACK, Solution, limp};
+use super::solution::{NO_FORCE, Solution, limp};
 use super::state::State;
 use crate::error::Error;
 
@@ -64,8 +64,7 @@ fn touching(
     residual: &Residual,
     largest: f64,
 ) -> Option<usize> {
-    let directions = residual.directions.iter().map(|(u, _)| u);
-    let pushes = framework.pushes(directions, &state.axial);
+    let pushes = framework.pushes(&residual.directions, &state.axial);
     let mut lying = framework.lying.iter().zip(pushes);
     lying.find(|(_, push)| push.abs() <= NO_FORCE * largest).map(|(lying, _)| lying.joint)
 }
@@ -73,7 +72,7 @@ fn touching(
 /// The first joint that can rise and is at the height of the floor, without lying on it.
 fn above(system: &System, framework: &Framework, solution: &Solution) -> Option<usize> {
     let floor_m = system.floor_m()?;
-    let near_m = NO_SLACK * framework.units.length_m;
+    let near_m = NO_FORCE * framework.units.length_m;
     let heights = solution.equilibrium.joints_m.iter().map(|at_m| at_m[2] - floor_m);
     let mut free = heights.enumerate().filter(|(joint, _)| {
         lift(&framework.nodes[*joint]).is_some()

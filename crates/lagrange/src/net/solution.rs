@@ -9,7 +9,7 @@ use super::ranges::ranges;
 use super::residual::Residual;
 use super::second_order::SecondOrder;
 use super::state::State;
-use crate::thresholds::FOUND;
+use crate::thresholds::ZERO;
 
 /// Which of the forces in balance an answer shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -59,10 +59,9 @@ pub struct Solution {
     pub limp: Vec<usize>,
 }
 
-/// A force below this part of the largest one counts as zero.
+/// A force below this part of the largest one counts as zero, and a member whose length is off by less than this part of it
+/// just reaches.
 pub(super) const NO_FORCE: f64 = 1e-10;
-/// A member whose length is off by less than this part of it just reaches.
-pub(super) const NO_SLACK: f64 = 1e-10;
 
 /// What the answer is made of.
 pub(super) struct Found {
@@ -87,8 +86,7 @@ impl Solution {
         let forces =
             if least { Forces::LeastNorm } else { choose(framework, &mut state, basis, tolerance) };
         if forces == Forces::LeastNorm {
-            let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-            left = framework.unbalance(pulls);
+            left = framework.left(&directions, &state.axial);
         }
         let mut evidence = Evidence::new(
             "balance of joints in units of their loads, and lengths in units of the length",
@@ -140,7 +138,7 @@ pub(super) fn limp<'a>(
     (0..framework.members()).filter(move |&k| {
         let length = framework.links[k].length;
         let off = framework.whole(k, |span| directions[span].1) - length;
-        state.axial[k].abs() <= none && off.abs() <= NO_SLACK * length
+        state.axial[k].abs() <= none && off.abs() <= NO_FORCE * length
     })
 }
 
@@ -176,7 +174,7 @@ fn largest_misfit(
 ) -> f64 {
     let links = framework.links.iter().enumerate();
     let misfits = links
-        .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > FOUND))
+        .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > ZERO))
         .map(|(k, link)| (framework.whole(k, |span| directions[span].1) - link.length).abs());
     misfits.fold(0.0, f64::max) * framework.units.length_m
 }
@@ -243,9 +241,7 @@ fn choose(
 fn balance(framework: &Framework, state: &mut State) -> bool {
     let taut = state.axial.iter().map(|force| *force != 0.0).collect();
     let bearing = State { taut, ..state.clone() };
-    let directions = state.directions(framework);
-    let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-    let left = framework.unbalance(pulls);
+    let left = framework.left(&state.directions(framework), &state.axial);
     let Ok(mut decided) = Decided::new(framework, &bearing, SHARP) else { return false };
     let more = decided.bearing(framework, &left);
     state.axial.iter_mut().zip(more).for_each(|(force, more)| *force += more);
@@ -261,8 +257,6 @@ fn admissible(
     basis: &[Vec<f64>],
 ) -> Option<Vec<f64>> {
     let directions = state.directions(framework);
-    let pushes = |axial: &[f64]| framework.pushes(directions.iter().map(|(u, _)| u), axial);
-    let none = pushes(&vec![0.0; least.len()]);
     // Each with the sign that makes it positive; slack members bear nothing, and have no part in the basis.
     let signed = framework.links.iter().enumerate().filter_map(|(k, link)| match link.kind {
         Kind::Cable => Some((k, 1.0)),
@@ -273,7 +267,7 @@ fn admissible(
     let rows = |axial: &[f64], pushes: Vec<f64>| -> Vec<f64> {
         signed.iter().map(|(k, sign)| sign * axial[*k]).chain(pushes).collect()
     };
-    let now = DVector::from_vec(rows(least, pushes(least)));
+    let now = DVector::from_vec(rows(least, framework.pushes(&directions, least)));
     let no_force = NO_FORCE * state.largest_force(framework);
     if now.iter().all(|force| *force >= -no_force) {
         return Some(least.to_vec());
@@ -281,8 +275,7 @@ fn admissible(
     let columns: Vec<DVector<f64>> = basis
         .iter()
         .map(|stress| {
-            let changes = pushes(stress).into_iter().zip(&none).map(|(push, none)| push - none);
-            DVector::from_vec(rows(stress, changes.collect()))
+            DVector::from_vec(rows(stress, framework.pushes_of_stress(&directions, stress)))
         })
         .collect();
     let part = shortest(&DMatrix::from_columns(&columns), &-now)?;

@@ -24,7 +24,7 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{FOUND, GIVEN};
+use crate::thresholds::{GIVEN, ZERO};
 
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
@@ -82,7 +82,7 @@ fn hang(system: &System, framework: Framework, task: Task<'_>) -> Result<Solutio
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, task, stiffness);
-    if let Some((run, second_order)) = solver.lying(hanging.places()) {
+    if let Some((run, second_order)) = solver.lying(&hanging.places) {
         return Ok(solver.solution(run, second_order));
     }
     let mut too_far = false;
@@ -286,7 +286,7 @@ fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
 fn is_idle(framework: &Framework, state: &State) -> bool {
     let mut links = framework.links.iter().zip(&state.axial);
     links.all(|(link, axial)| {
-        !framework.moves(link) || link.compliance * axial.abs() <= FOUND * link.length
+        !framework.moves(link) || link.compliance * axial.abs() <= ZERO * link.length
     })
 }
 
@@ -463,7 +463,7 @@ impl<'a> Solver<'a> {
             // What is said to bear nothing is slack where it is shorter.
             let said = seed.axial_n.as_ref().map(|axial| axial[self.framework.member_of(k)]);
             let known = seed.at_rest || said.is_some_and(|axial| axial.abs() <= 0.0);
-            let slack_length = if known { FOUND } else { MISDRAWN };
+            let slack_length = if known { ZERO } else { MISDRAWN };
             let length = self.framework.whole(k, |span| directions[span].1);
             let short = 1.0 - length / link.length;
             state.taut[k] = match link.kind {

@@ -69,9 +69,9 @@ impl Stiffness {
             .collect();
         let size = counts.iter().sum();
         let lost = || Error::Memory { unknowns: size };
-        let rank = by_degree(framework).ok_or_else(lost)?;
-        let unknowns = unknowns(&counts, &rank);
-        let (mut places, columns, rows) = pattern(framework, &unknowns, &rank);
+        let order = by_degree(framework).ok_or_else(lost)?;
+        let unknowns = unknowns(&counts, &order);
+        let (mut places, columns, rows) = pattern(framework, &unknowns, &order);
         let mut between = places.split_off(framework.links.len()).into_iter();
         let ties = framework.ropes.iter().map(|rope| {
             let joints = rope.joints.len();
@@ -271,6 +271,13 @@ impl Stiffness {
         }
     }
 
+    /// The moves of the joints by forces on them, with the factor.
+    pub fn moves(&self, framework: &Framework, forces: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        let mut moves = self.gather(framework, forces);
+        self.solve(&mut moves);
+        self.scatter(framework, &moves)
+    }
+
     /// The components of forces at the joints along their free directions.
     pub fn gather(&self, framework: &Framework, forces: &[Vector3<f64>]) -> Vec<f64> {
         let mut gathered = vec![0.0; self.size()];
@@ -297,14 +304,10 @@ impl Stiffness {
 }
 
 /// Unknowns of the joints one after another in the order of elimination.
-fn unknowns(counts: &[usize], rank: &[usize]) -> Vec<Unknowns> {
-    let mut order = vec![0; rank.len()];
-    for (joint, &place) in rank.iter().enumerate() {
-        order[place] = joint;
-    }
+fn unknowns(counts: &[usize], order: &[usize]) -> Vec<Unknowns> {
     let mut unknowns = vec![Unknowns::default(); counts.len()];
     let mut first = 0;
-    for joint in order {
+    for &joint in order {
         unknowns[joint] = Unknowns { first, count: counts[joint] };
         first += counts[joint];
     }
@@ -315,8 +318,12 @@ fn unknowns(counts: &[usize], rank: &[usize]) -> Vec<Unknowns> {
 fn pattern(
     framework: &Framework,
     unknowns: &[Unknowns],
-    rank: &[usize],
+    order: &[usize],
 ) -> (Vec<Place>, Vec<usize>, Vec<usize>) {
+    let mut rank = vec![0; order.len()];
+    for (place, &joint) in order.iter().enumerate() {
+        rank[joint] = place;
+    }
     let mut later = vec![Vec::new(); unknowns.len()];
     let ends = couples(framework).map(|(a, b)| if rank[a] < rank[b] { (a, b) } else { (b, a) });
     let ends: Vec<_> = ends.collect();
@@ -325,12 +332,8 @@ fn pattern(
             later[low].push(rank[high]);
         }
     }
-    let mut order = vec![0; rank.len()];
-    for (joint, &place) in rank.iter().enumerate() {
-        order[place] = joint;
-    }
     let (mut columns, mut rows) = (vec![0], Vec::new());
-    for &joint in &order {
+    for &joint in order {
         later[joint].sort_unstable();
         later[joint].dedup();
         let own = unknowns[joint];

@@ -19,10 +19,7 @@ use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 use crate::larger::larger;
-use crate::thresholds::{FOUND, HALVED, ROUNDED};
-
-/// Steps at most; two or three are enough.
-const ROUNDS: usize = 8;
+use crate::thresholds::{HALVED, ROUNDED, ZERO};
 
 /// The run with the forces of elastic members settled to rounding.
 pub(super) fn settled(
@@ -41,12 +38,13 @@ pub(super) fn settled(
     if error <= ROUNDED {
         return best;
     }
-    for _ in 0..ROUNDS {
+    // Two or three steps are enough, of which each leaves a part of the error.
+    loop {
         let Run { state, residual, .. } = &best;
         let derivative = Derivative::bordered(framework, stiffness, state, residual);
         let of = (best.residual.forces.as_slice(), misfits.as_slice());
         let step = derivative
-            .and_then(|d| d.solve(framework, stiffness, of, FOUND, decided.as_deref_mut()));
+            .and_then(|d| d.solve(framework, stiffness, of, ZERO, decided.as_deref_mut()));
         let Some((step, _)) = step else { break };
         let state = step.applied(&best.state, 1.0);
         let residual = Residual::within(framework, &state, decided.as_deref_mut());

@@ -4,16 +4,13 @@
 //! lowest bar (the lemma of the module `bottom`), and whether the chain is so nearly straight,
 //! folded or doubled that its closure must be written along an axis to keep its digits.
 
-mod folded;
 mod indeterminate;
 mod side_by_side;
 mod strut;
 mod taut;
-mod taut_strut;
 mod tension;
 mod triangle;
 mod unloaded;
-mod vertical_strut;
 
 pub(super) use unloaded::fill;
 
@@ -104,9 +101,9 @@ impl Regime {
             Self::Taut => taut::solve(chain, budget),
             Self::SideBySide => side_by_side::solve(chain, budget),
             Self::Strut => strut::solve(chain, budget),
-            Self::TautStrut => taut_strut::solve(chain, budget),
-            Self::FoldedStrut => folded::solve(chain, budget),
-            Self::VerticalStrut => vertical_strut::solve(chain, budget),
+            Self::TautStrut => strut::taut(chain, budget),
+            Self::FoldedStrut => strut::folded(chain, budget),
+            Self::VerticalStrut => strut::vertical(chain, budget),
             Self::Triangle => triangle::solve(chain),
             Self::Unloaded => Some(unloaded::solve(chain)),
             Self::Indeterminate => indeterminate::solve(chain, budget),

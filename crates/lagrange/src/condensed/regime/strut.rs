@@ -1,4 +1,5 @@
-//! The lowest bar in compression, all others in tension: upright axes.
+//! The lowest bar in compression, all others in tension: in upright axes, or in those of a line along
+//! which the bars nearly lie.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -17,14 +18,32 @@ pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
     Some(pull(chain, &root, root.force, budget))
 }
 
-/// The same in the axes of a line along which the bars nearly lie.
-pub(super) fn along(chain: &Condensed, axis: &Axis, budget: &mut Budget) -> Option<Pull> {
+/// The chain nearly straight: all bars, the compressed one too, point nearly from anchor to anchor.
+pub(super) fn taut(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
+    let axis = Axis::through_the_anchors(chain, chain.bottom.shortest_reach, 1.0);
+    along(chain, &axis, budget)
+}
+
+/// As long as the span and all others together, which fold back along it: the compressed bar points
+/// from anchor to anchor, all others nearly against it. So do the forces.
+pub(super) fn folded(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
+    let axis = Axis::through_the_anchors(chain, chain.bottom.shortest_reach, -1.0);
+    along(chain, &axis, budget)
+}
+
+/// Between anchors on one vertical: the bars before the lowest hang down, those after it lead up, and
+/// it fills the gap.
+pub(super) fn vertical(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
+    along(chain, &Axis::of_vertical_strands(chain), budget)
+}
+
+fn along(chain: &Condensed, axis: &Axis, budget: &mut Budget) -> Option<Pull> {
     let root = upright(chain).along(axis).solve(budget)?;
     Some(pull(chain, &root, axis.leave(root.force), budget))
 }
 
 /// The equations in upright axes, and where to start.
-pub(super) fn upright(chain: &Condensed) -> Strut<'_> {
+fn upright(chain: &Condensed) -> Strut<'_> {
     let Bottom { group, shortest_reach, gap, .. } = &chain.bottom;
     let Span { across, rise, .. } = chain.span;
     let beside = [group.start.checked_sub(1), Some(group.end)];
@@ -43,6 +62,6 @@ pub(super) fn upright(chain: &Condensed) -> Strut<'_> {
 }
 
 /// The pull with the longest of the lowest bars in compression.
-pub(super) fn pull(chain: &Condensed, root: &Root, force: [f64; 2], budget: &Budget) -> Pull {
+fn pull(chain: &Condensed, root: &Root, force: [f64; 2], budget: &Budget) -> Pull {
     Pull::at(chain, Signs::Compressed(chain.bottom.longest), force, root, budget)
 }
