@@ -8,8 +8,6 @@ use model::system::{Joint, Support, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
-use super::arithmetic::{Vector, minus, norm, plus, times};
-use super::frame::Frame;
 use super::prove::prove_without_floor;
 use super::proven::SystemBox;
 
@@ -30,7 +28,7 @@ pub(super) fn prove_above(
 ) -> Result<SystemBox, NoBox> {
     let (laid, lies) = laid(system, floor_m, joints_m)?;
     let found = prove_without_floor(&laid, joints_m, axial_n)?;
-    let pushes = pushes_n(system, &found, axial_n);
+    let pushes = pushes_n(system, &found);
     for (k, joint) in system.joints().iter().enumerate() {
         let height = found.joints_m[k][2];
         let right = if lies[k] {
@@ -69,27 +67,12 @@ pub(super) fn stays_level(support: &Support) -> bool {
 }
 
 /// What the members and loads of each joint leave for the floor to bear, up positive, N.
-fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval> {
-    let frame = Frame::new(system, axial_n);
-    let loads = frame.loads(system);
-    let mut left: Vec<Vector> =
-        loads.iter().map(|load| load.map(|part| part.scale(frame.force_n))).collect();
-    for (member, axial) in system.members().iter().zip(&found.axial_n) {
-        if *axial == Interval::ZERO {
-            continue;
-        }
-        for [a, b] in member.spans() {
-            let span = minus(found.joints_m[b], found.joints_m[a]);
-            let pull = times(*axial / norm(span), span);
-            left[a] = plus(left[a], pull);
-            left[b] = minus(left[b], pull);
-        }
-    }
+fn pushes_n(system: &System, found: &SystemBox) -> Vec<Interval> {
     // A plane that leans bears what is normal to the ways it leaves: of `n` normal to it the upright push bears
     // `f_z - n_z (n_x f_x + n_y f_y)/(n_x² + n_y²)`.
     let supports = system.joints().iter().map(|joint| &joint.support);
     supports
-        .zip(left)
+        .zip(found.left_n(system, |_, _| false))
         .map(|(support, [x, y, z])| match support {
             Support::Plane { normal, .. } if normal[2].abs() > 0.0 => {
                 let [along_x, along_y, up] = normal.map(Interval::point);

@@ -7,10 +7,8 @@
 
 use model::system::{Support, System};
 use model::{NoBox, Vector as Point};
-use numerics::Interval;
 
-use super::arithmetic::{Vector, minus, norm, over, plus, times};
-use super::frame::Frame;
+use super::arithmetic::norm;
 use super::prove::prove;
 use super::proven::SystemBox;
 
@@ -51,15 +49,17 @@ pub(super) fn prove_joined(
             .collect(),
         ..found
     };
-    for jam in jams {
-        let (member, _, joints) = jam;
+    // All spans with a length pull.
+    let is_jam = |member, span| jams.iter().any(|(k, n, _)| [*k, *n] == [member, span]);
+    let left_n = whole.left_n(system, is_jam);
+    for (member, _, joints) in jams {
         let fixed = |joint: &usize| system.joints()[*joint].support.is_fixed();
         let tells = |joint: &&usize| tells(system, jams, &whole, **joint);
         if joints.iter().all(fixed) {
             continue;
         }
-        let pull = joints.iter().find(tells).map(|joint| left_n(system, jams, &whole, *joint));
-        if !pull.is_some_and(|pull| norm(pull).hi() < whole.axial_n[*member].lo()) {
+        let pull = joints.iter().find(tells).map(|joint| norm(left_n[*joint]));
+        if !pull.is_some_and(|pull| pull.hi() < whole.axial_n[*member].lo()) {
             return Err(NoBox::Rope { member: member + 1 });
         }
     }
@@ -73,25 +73,4 @@ fn tells(system: &System, jams: &[Jammed], found: &SystemBox, joint: usize) -> b
     system.joints()[joint].support == Support::Free
         && ends.count() == 1
         && system.floor_m().is_none_or(above)
-}
-
-/// What loads and all spans with a length leave over at a joint, N.
-fn left_n(system: &System, jams: &[Jammed], found: &SystemBox, joint: usize) -> Vector {
-    let frame = Frame::new(system, &[]);
-    let mut left = frame.loads(system)[joint].map(|part| part.scale(frame.force_n));
-    for (k, member) in system.members().iter().enumerate() {
-        for (number, ends) in member.spans().enumerate() {
-            let jams = jams.iter().any(|(rope, span, _)| [*rope, *span] == [k, number]);
-            if jams || found.axial_n[k] == Interval::ZERO {
-                continue;
-            }
-            for [here, there] in [ends, [ends[1], ends[0]]] {
-                if here == joint {
-                    let along = minus(found.joints_m[there], found.joints_m[here]);
-                    left = plus(left, times(found.axial_n[k], over(along, norm(along))));
-                }
-            }
-        }
-    }
-    left
 }

@@ -2,8 +2,9 @@ use model::system::{Kind, Member, System};
 use numerics::Interval;
 
 use super::activity::Activity;
-use super::arithmetic::{Vector, minus, norm, sum};
+use super::arithmetic::{Vector, minus, norm, plus, sum, times};
 use super::equations::Equations;
+use super::frame::Frame;
 
 /// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an
 /// enclosure of the exact value.
@@ -60,6 +61,31 @@ impl SystemBox {
             joints_m,
             axial_n,
         }
+    }
+
+    /// What loads and all spans but those that are skipped, by member and place in it, leave over at each
+    /// joint, N.
+    pub(super) fn left_n(
+        &self,
+        system: &System,
+        skipped: impl Fn(usize, usize) -> bool,
+    ) -> Vec<Vector> {
+        let frame = Frame::new(system, &[]);
+        let loads = frame.loads(system).into_iter();
+        let mut left: Vec<Vector> =
+            loads.map(|load| load.map(|part| part.scale(frame.force_n))).collect();
+        for (k, (member, axial)) in system.members().iter().zip(&self.axial_n).enumerate() {
+            for (number, [a, b]) in member.spans().enumerate() {
+                if *axial == Interval::ZERO || skipped(k, number) {
+                    continue;
+                }
+                let span = minus(self.joints_m[b], self.joints_m[a]);
+                let pull = times(*axial / norm(span), span);
+                left[a] = plus(left[a], pull);
+                left[b] = minus(left[b], pull);
+            }
+        }
+        left
     }
 
     /// How far outside of the box the joints of an answer lie, m; NaN where it is not finite.
