@@ -125,6 +125,11 @@ pub(crate) fn widest(at: &[Interval]) -> (usize, f64) {
     })
 }
 
+/// Whether a box holds all of another one.
+pub(crate) fn encloses(all: &[Interval], part: &[Interval]) -> bool {
+    all.iter().zip(part).all(|(all, part)| all.encloses(*part))
+}
+
 /// The smallest box around two.
 pub(crate) fn hull<const N: usize>(a: [Interval; N], b: [Interval; N]) -> [Interval; N] {
     std::array::from_fn(|k| a[k].hull(b[k]))

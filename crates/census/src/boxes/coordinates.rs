@@ -3,7 +3,7 @@
 use model::system::Support;
 use numerics::Interval;
 
-use super::arithmetic::{NOWHERE, Vector, cross, plus, points, times};
+use super::arithmetic::{NOWHERE, Vector, cross, plus, points, times, upon};
 use super::frame::Frame;
 
 /// A joint's place `o + Σ t_k A_k`, with as many coordinates `t_k` as the support leaves.
@@ -19,8 +19,7 @@ pub(super) struct Coordinates {
 impl Coordinates {
     /// Of a joint whose unknowns begin with this number.
     pub(super) fn new(support: &Support, frame: &Frame, first: usize) -> Self {
-        let unit =
-            |k: usize| std::array::from_fn(|j| if j == k { Interval::ONE } else { Interval::ZERO });
+        let unit = |k: usize| upon(k, Interval::ONE);
         match support {
             Support::Free => Self { first, origin: NOWHERE, axes: (0..3).map(unit).collect() },
             Support::Fixed { at_m } => Self { first, origin: frame.place(*at_m), axes: vec![] },

@@ -2,7 +2,7 @@
 
 use numerics::Interval;
 
-use super::arithmetic::{NOWHERE, Vector, dot, minus, plus, product, sum, times};
+use super::arithmetic::{Vector, dot, minus, plus, product, sum, times};
 use super::equations::{Entry, Equations};
 
 impl Equations {
@@ -11,13 +11,7 @@ impl Equations {
         let Self { joints, acting, .. } = self;
         let places = self.places(y);
         let mut entries = Vec::with_capacity(64 * acting.len());
-        let moves: Vec<Vector> = joints
-            .iter()
-            .map(|joint| {
-                let parts = joint.axes.iter().zip(&mode[joint.first..]);
-                parts.fold(NOWHERE, |all, (axis, part)| plus(all, times(*part, *axis)))
-            })
-            .collect();
+        let moves: Vec<Vector> = joints.iter().map(|joint| joint.step(mode)).collect();
         for member in acting {
             let (row, force, of_force) = (member.force, y[member.force], mode[member.force]);
             for ends in &self.ends[member.spans.clone()] {
@@ -43,9 +37,7 @@ impl Equations {
         entries.retain(|(_, _, value)| *value != Interval::ZERO);
         entries
     }
-}
 
-impl Equations {
     /// $F''(y)[a, b]$ over boxes.
     pub(super) fn second(&self, y: &[Interval], a: &[Interval], b: &[Interval]) -> Vec<Interval> {
         let mut rows = vec![Interval::ZERO; self.size];

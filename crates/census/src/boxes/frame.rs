@@ -4,7 +4,7 @@ use model::system::{Member, System};
 use model::{Bar, Vector as Point};
 use numerics::{Interval, lever};
 
-use super::arithmetic::{NOWHERE, Vector, plus, points, sum, times};
+use super::arithmetic::{NOWHERE, Vector, minus, plus, points, sum, times};
 
 /// Powers of two, so that scaling rounds nothing.
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +59,11 @@ impl Frame {
                 self.length(Interval::point(at_m[k]) - Interval::point(self.origin_m[k]))
             }
         })
+    }
+
+    /// A box of places in units.
+    pub(crate) fn places(&self, at_m: Vector) -> Vector {
+        minus(at_m, points(self.origin_m)).map(|part| self.length(part))
     }
 
     pub(crate) fn place_m(&self, place: Vector) -> Vector {

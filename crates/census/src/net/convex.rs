@@ -14,11 +14,9 @@ use std::time::Instant;
 
 use model::Vector;
 use model::system::{Kind, System};
-use numerics::Interval;
 
 use super::choice::{Choice, Measured};
 use super::{PartCensus, SystemCensus, SystemPosition};
-use crate::boxes::arithmetic::difference;
 use crate::boxes::frame::Frame;
 use crate::boxes::prove;
 
@@ -60,12 +58,8 @@ impl SystemCensus {
             return None;
         }
         let frame = Frame::new(system, axial_n);
-        let place = |at_m: &[Interval; 3]| {
-            let off = |k: usize| difference(at_m[k], Interval::point(frame.origin_m[k]));
-            std::array::from_fn(|k| frame.length(off(k)))
-        };
         let choice = Choice {
-            places: found.joints_m.iter().map(place).enumerate().collect(),
+            places: found.joints_m.iter().map(|at_m| frame.places(*at_m)).enumerate().collect(),
             axial: found.axial_n.iter().map(|force| frame.force(*force)).enumerate().collect(),
             ..Choice::default()
         };

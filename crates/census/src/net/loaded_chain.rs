@@ -7,7 +7,7 @@
 
 use model::system::{Member, System};
 use model::{Anchors, Bar, Chain, NoCensus};
-use numerics::{DoubleDouble, Interval};
+use numerics::DoubleDouble;
 
 use super::choice::Choice;
 use super::parts::Hanging;
@@ -129,12 +129,10 @@ fn choice(
     joints: &[usize],
     members: &[usize],
 ) -> Choice {
-    let place = |at_m: &[Interval; 3]| {
-        std::array::from_fn(|k| frame.length(at_m[k] - Interval::point(frame.origin_m[k])))
-    };
+    let places = proven.joints_m.iter().map(|at_m| frame.places(*at_m));
     let axial = proven.axial_n.iter().map(|axial| frame.force(*axial));
     Choice {
-        places: joints.iter().copied().zip(proven.joints_m.iter().map(place)).collect(),
+        places: joints.iter().copied().zip(places).collect(),
         axial: members.iter().copied().zip(axial).collect(),
         index: [proven.index_in_plane, proven.index_out_of_plane],
         circle: proven.circle,

@@ -10,13 +10,13 @@
 use model::{Chain, Problem};
 
 use crate::error::CensusError;
-use crate::run::Census;
 use crate::run::closure::Pattern;
 use crate::run::plane::loads::JointLoads;
 use crate::run::plane::system::System;
 use crate::run::search::{Search, Settled, search};
 use crate::run::slack::straight::Straight;
 use crate::run::slack::unloaded::Unloaded;
+use crate::run::{Census, GROWTH};
 use crate::settings::Settings;
 
 /// Patterns of the sample, and of a quarter of it.
@@ -31,10 +31,8 @@ const CELL_S: f64 = 1e-6;
 /// force and what holds them, and the neighbourhood.
 const EQUILIBRIUM_GB: f64 = 3e-7;
 
-/// Beyond the bars of any census: that of sixteen bars and the growth for each bar more, measured
-/// on random chains.
+/// Beyond the bars of any census it grows from that of sixteen bars, measured on random chains.
 const SIXTEEN_BARS: Estimate = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
-const GROWTH: f64 = 2.1;
 
 /// What a census would take. Cells and equilibria are good to a factor of two; the processor time
 /// of the program was 0.6 to 7.4 times the seconds on 24 random chains of 13 to 16 bars, and 4.7

@@ -3,7 +3,7 @@
 use model::system::{System, Uncertain, UncertainNumber as Number};
 use numerics::Interval;
 
-use super::super::arithmetic::{NOWHERE, Vector, dot, plus, product, sum};
+use super::super::arithmetic::{NOWHERE, Vector, dot, plus, product, sum, upon};
 use super::super::equations::{Acting, Equations};
 use super::region::Region;
 
@@ -75,13 +75,9 @@ fn loads(
             vec![(member.from, share(true)), (member.to, share(false))]
         }
         Number::JointMass(k) => vec![(k, frame.weight(system, by))],
-        Number::Force(k, axis) => vec![(k, along(axis, frame.force(by)))],
+        Number::Force(k, axis) => vec![(k, upon(axis, frame.force(by)))],
         _ => vec![],
     }
-}
-
-fn along(axis: usize, part: Interval) -> Vector {
-    std::array::from_fn(|k| if k == axis { part } else { Interval::ZERO })
 }
 
 impl Effect {
@@ -102,7 +98,7 @@ impl Effect {
                 found.stiffened = Some((k, by / value));
             }
             Number::At(k, axis) => {
-                found.moved = Some((k, along(axis, equations.frame.length(by))));
+                found.moved = Some((k, upon(axis, equations.frame.length(by))));
             }
             Number::Mass(_) | Number::JointMass(_) | Number::Force(..) => {}
         }

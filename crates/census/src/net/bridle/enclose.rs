@@ -8,12 +8,9 @@ use super::newton::{Found, cell};
 use super::pulls::density;
 use super::strand::{Bridle, Span};
 use crate::boxes::arithmetic::{Vector, dot, minus, norm, product};
-use crate::boxes::krawczyk::prove_zero;
-use crate::boxes::newton::refine;
 use crate::net::choice::Choice;
 use crate::net::knots::Core;
-use crate::net::knots::enclose::equations;
-use crate::net::knots::inertia::index;
+use crate::net::knots::enclose::Proved;
 use crate::run::closure::bar::unit;
 use crate::run::closure::signed;
 use crate::run::plane::face::Face;
@@ -87,21 +84,11 @@ impl Enclosed {
 
 /// Enclose a zero; nothing if that is not proved, or if it may not be the one of the search.
 pub(super) fn enclosed(core: &Core, bridle: &Bridle, found: &Found) -> Option<Enclosed> {
-    let equations = equations(core, &[]);
-    let (joints_m, axial_n) = start(core, bridle, found);
-    let start = equations.start(&joints_m, &axial_n);
-    let refined = refine(&equations, &start).ok()?;
-    let zero = prove_zero(&equations, &refined).ok()?;
-    let places = equations.places(&zero);
+    let Proved { places, choice, .. } = Proved::next_to(core, &[], &start(core, bridle, found))?;
     let mut axial = vec![Interval::ZERO; core.system.members().len()];
-    let mut choice = Choice::default();
-    choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
-    for acting in &equations.acting {
-        let force = acting.axial(zero[acting.force]);
-        axial[acting.member] = force;
-        choice.axial.push((acting.member, force));
+    for (member, force) in &choice.axial {
+        axial[*member] = *force;
     }
-    choice.index = [index(&equations, &zero)?, 0];
     let enclosed = Enclosed { choice, places, axial };
     enclosed.is(bridle, found).then_some(enclosed)
 }
@@ -109,9 +96,7 @@ pub(super) fn enclosed(core: &Core, bridle: &Bridle, found: &Found) -> Option<En
 /// Places of all joints, m, and axial forces, N, next to a zero.
 fn start(core: &Core, bridle: &Bridle, found: &Found) -> (Vec<Point>, Vec<f64>) {
     let frame = core.frame;
-    let joints = core.system.joints();
-    let mut joints_m: Vec<Point> =
-        joints.iter().map(|joint| joint.support.at_m().unwrap_or(frame.origin_m)).collect();
+    let mut joints_m = core.places_m();
     let mut axial_n = vec![0.0; core.system.members().len()];
     let at: Vec<Interval> = found.at.iter().copied().map(Interval::point).collect();
     let knot = [at[0], at[1], at[2]];

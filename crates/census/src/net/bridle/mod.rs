@@ -1,12 +1,8 @@
 //! All equilibria of a bridle: one joint, the knot, that strands of bars hold to anchors.
 //!
-//! Each strand hangs in the vertical plane of its pull, under upright loads: whatever the number of
-//! its bars, its shape and its force at the knot follow from two numbers and a pattern of tension
-//! and compression. A bridle of three strands has two independent closures and six unknown pulls.
-//!
-//! Branch and bound (module `search`) goes through all places of the knot within reach. With each
-//! box of places goes, for each strand, the list of the cells of pulls that reach the box (module
-//! `pulls`), infinite pulls of straight strands included. Choices of one cell for each strand that
+//! With each box of places of the knot (module `search`) goes, for each strand, the list of the
+//! cells of pulls that reach the box (module `pulls`), infinite pulls of straight strands included:
+//! pull and pattern tell shape and force of the strand. Choices of one cell for each strand that
 //! cannot hold the load of the knot are dropped (module `balance`), and the interval Newton method
 //! on place and pulls narrows the others, or proves that a box has one equilibrium at most (module
 //! `newton`). Every equilibrium is then proved again in all its places and forces by Krawczyk's
@@ -128,7 +124,7 @@ pub(super) fn taken(
     let net = NetCensus {
         joints: core.joints.to_vec(),
         members: core.members.to_vec(),
-        closures: core.members.len().saturating_sub(core.joints.len()),
+        closures: core.closures(),
         knots: vec![bridle.knot],
         swings: vec![],
         signs: bars,

@@ -138,7 +138,7 @@ fn several(
     let bars = strand.length.len();
     for (k, (length, weight)) in strand.length.iter().zip(&strand.weight).enumerate() {
         let term = BarTerm::over(cell, *length, *weight)?;
-        let sign = if pattern.compressed(bars, k) { -1 } else { 1 };
+        let sign = pattern.sign(bars, k);
         for (part, gap) in gap.iter_mut().enumerate() {
             *gap = *gap + signed(sign, term.value[part]);
             for (coordinate, by) in term.slope[part].into_iter().enumerate() {

@@ -114,10 +114,8 @@ pub(super) fn reaching(
             if many || size <= FINE * width {
                 kept.push(Pulls { cell, patterns });
             } else {
-                let across = usize::from(cell.at[1].width() > cell.at[0].width());
-                waiting.extend(
-                    cell.cut(across).map(|cell| Pulls { cell, patterns: patterns.clone() }),
-                );
+                let halves = cell.cut(cell.wider());
+                waiting.extend(halves.map(|cell| Pulls { cell, patterns: patterns.clone() }));
             }
             continue;
         };

@@ -9,7 +9,7 @@ use super::newton::{Charts, Found, Verdict, cell, examine};
 use super::pulls::{Pulls, reaching, with_density};
 use super::strand::{Bridle, Span};
 use crate::boxes::arithmetic::Vector;
-use crate::branch_and_bound::{self, Plan, halves, widest};
+use crate::branch_and_bound::{self, Plan, encloses, halves, widest};
 use crate::net::knots::search::{GOOD, LEAST_WIDTH};
 use crate::run::closure::Pattern;
 use crate::run::plane::cell::Cell;
@@ -147,11 +147,7 @@ fn of_choice(
     let mut stay = false;
     for patterns in combined(&pulls) {
         charts.patterns = patterns;
-        let settled = known.iter().any(|found| {
-            found.charts == charts
-                && found.alone_in.iter().zip(&at).all(|(all, part)| all.encloses(*part))
-        });
-        if settled {
+        if known.iter().any(|found| found.charts == charts && encloses(&found.alone_in, &at)) {
             continue;
         }
         outcome.tests += 1;

@@ -67,12 +67,9 @@ impl<'a, const N: usize> Examined<'a, N> {
         match newton(&self.cell, middle, pattern, &densities) {
             None => Verdict::Within(self.cell.at),
             Some(Newton { left: None, .. }) => Verdict::Empty,
-            Some(Newton { left: Some(left), single: true }) => {
-                let left = self.cell.places(&left);
-                self.one(pattern, &densities).map_or(Verdict::Within(left), Verdict::One)
-            }
-            Some(Newton { left: Some(left), single: false }) => {
-                Verdict::Within(self.cell.places(&left))
+            Some(Newton { left: Some(left), single }) => {
+                let found = if single { self.one(pattern, &densities) } else { None };
+                found.map_or(Verdict::Within(self.cell.places(&left)), Verdict::One)
             }
         }
     }

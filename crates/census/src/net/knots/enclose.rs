@@ -13,11 +13,12 @@ use super::pieces::Core;
 use super::reach::span;
 use super::swing::{Swung, place};
 use crate::boxes::activity::Activity;
-use crate::boxes::arithmetic::{dot, minus, norm, sum};
-use crate::boxes::equations::Equations;
+use crate::boxes::arithmetic::{Vector, dot, minus, norm, sum};
+use crate::boxes::equations::{Acting, Equations};
 use crate::boxes::krawczyk::prove_zero;
 use crate::boxes::newton::refine;
 use crate::boxes::turns::Turn;
+use crate::branch_and_bound::encloses;
 use crate::net::choice::Choice;
 
 /// An equilibrium of the net, enclosed.
@@ -34,18 +35,14 @@ pub(super) fn enclosed<const N: usize>(
     found: &Found<N>,
 ) -> Option<Enclosed> {
     let turn = turn(core, layout, found);
-    let equations = equations(core, turn.as_slice());
-    let (joints_m, axial_n) = start(core, layout, found)?;
-    let start = equations.start(&joints_m, &axial_n);
-    let refined = refine(&equations, &start).ok()?;
-    let zero = prove_zero(&equations, &refined).ok()?;
-    let places = equations.places(&zero);
+    let Proved { equations, zero, places, mut choice } =
+        Proved::next_to(core, turn.as_slice(), &start(core, layout, found)?)?;
     let knots: Vec<Interval> = layout
         .knots
         .iter()
         .flat_map(|knot| layout.turned(places[*knot])[..layout.dim].to_vec())
         .collect();
-    if !knots.iter().zip(&found.alone_in).all(|(tight, all)| all.encloses(*tight)) {
+    if !encloses(&found.alone_in, &knots) {
         return None;
     }
     // The pattern is that of the search, too.
@@ -71,13 +68,39 @@ pub(super) fn enclosed<const N: usize>(
             return None;
         }
     }
-    let mut choice = Choice { circle: turn.is_some(), ..Choice::default() };
-    choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
-    for acting in &equations.acting {
-        choice.axial.push((acting.member, acting.axial(zero[acting.force])));
-    }
-    choice.index = [index(&equations, &zero)?, 0];
+    choice.circle = turn.is_some();
     Some(Enclosed { choice, knots })
+}
+
+/// A zero of the equations of a net, and the position that it is.
+pub(in crate::net) struct Proved {
+    equations: Equations,
+    zero: Vec<Interval>,
+    /// Of all joints.
+    pub(in crate::net) places: Vec<Vector>,
+    pub(in crate::net) choice: Choice,
+}
+
+impl Proved {
+    /// With free turns that are held, next to places of all joints, m, and axial forces, N.
+    pub(in crate::net) fn next_to(
+        core: &Core,
+        turns: &[Turn],
+        (joints_m, axial_n): &(Vec<Point>, Vec<f64>),
+    ) -> Option<Self> {
+        let equations = equations(core, turns);
+        let refined = refine(&equations, &equations.start(joints_m, axial_n)).ok()?;
+        let zero = prove_zero(&equations, &refined).ok()?;
+        let places = equations.places(&zero);
+        let axial = |acting: &Acting| (acting.member, acting.axial(zero[acting.force]));
+        let choice = Choice {
+            places: core.joints.iter().map(|joint| (*joint, places[*joint])).collect(),
+            axial: equations.acting.iter().map(axial).collect(),
+            index: [index(&equations, &zero)?, 0],
+            circle: false,
+        };
+        Some(Self { equations, zero, places, choice })
+    }
 }
 
 /// The free turn about the vertical of the anchors, where the knot is not on it.
@@ -91,16 +114,14 @@ fn turn<const N: usize>(core: &Core, layout: &Layout, found: &Found<N>) -> Optio
 }
 
 /// The equations of the net alone, with what its joints bear, each of these free turns held.
-pub(in crate::net) fn equations(core: &Core, turns: &[Turn]) -> Equations {
+fn equations(core: &Core, turns: &[Turn]) -> Equations {
     let activities: Vec<Activity> = (0..core.system.members().len())
         .map(|member| if core.members.contains(&member) { Activity::Acts } else { Activity::Idle })
         .collect();
     let joints = core.system.joints();
     let held: Vec<bool> = (0..joints.len()).map(|joint| !core.joints.contains(&joint)).collect();
     // Other joints that move are in no equation.
-    let places_m: Vec<Point> =
-        joints.iter().map(|joint| joint.support.at_m().unwrap_or(core.frame.origin_m)).collect();
-    Equations::new(core.system, *core.frame, &activities, turns, &places_m, &held)
+    Equations::new(core.system, *core.frame, &activities, turns, &core.places_m(), &held)
         .with_loads(core.loads.to_vec())
 }
 
@@ -111,9 +132,7 @@ fn start<const N: usize>(
     found: &Found<N>,
 ) -> Option<(Vec<Point>, Vec<f64>)> {
     let frame = core.frame;
-    let joints = core.system.joints();
-    let mut joints_m: Vec<Point> =
-        joints.iter().map(|joint| joint.support.at_m().unwrap_or(frame.origin_m)).collect();
+    let mut joints_m = core.places_m();
     let mut axial_n = vec![0.0; core.system.members().len()];
     let point = found.at.map(Interval::point);
     let anchor_m = core.anchor_m()?;

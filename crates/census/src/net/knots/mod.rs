@@ -1,14 +1,9 @@
 //! All equilibria of a net of bars with several closures, by the places of few of its joints.
 //!
-//! A joint that two bars hold and a load turns, such as the middle of a strand of two bars, has its
-//! place and its forces from those of its two neighbours by a closed form, up to a sign (module
-//! `swing`). As many joints as possible are taken out like this; the places of the others, the
-//! knots, are the unknowns, with the force densities of the bars between knots. A bridle whose
-//! strands have two bars each has one knot: three unknowns, whatever the number of strands, and a
-//! sign for each strand.
-//!
-//! Branch and bound (module `search`) goes through all places of the knots that bars can reach. The
-//! places are bounded, so no bound for the forces is needed. In each box of places
+//! As many joints between two bars as possible are taken out (module `swing`); the places of the
+//! others, the knots, are the unknowns, with the force densities of the bars between knots. Branch
+//! and bound (module `search`) goes through all places that bars can reach. They are bounded, so no
+//! bound for the forces is needed. In each box of places
 //!
 //! - distances that bars must bridge narrow the box (`reach`);
 //! - forces follow from the linear balance, as enclosures; where they have no solution the box
@@ -18,9 +13,8 @@
 //! - where all is smooth, the interval Newton method narrows the box, or proves that it has one
 //!   equilibrium at most for a pattern of signs (`box_test`).
 //!
-//! Every equilibrium is then proved again in all its places and forces by Krawczyk's test on the
-//! equations of the system (`enclose`), which share nothing with the search, and its index by the
-//! inertia of the bordered second derivative (`inertia`).
+//! Every equilibrium is then proved again in all its places and forces (`enclose`), by equations that
+//! share nothing with the search, and its index (`inertia`).
 //!
 //! R. B. Kearfott, "Rigorous Global Search: Continuous Problems" (1996),
 //! doi:10.1007/978-1-4757-2495-0; A. Neumaier, "Interval Methods for Systems of Equations" (1990),
@@ -54,7 +48,7 @@ use self::search::{Search, search};
 use super::bridle;
 use super::choice::Choice;
 use crate::boxes::arithmetic::NOWHERE;
-use crate::branch_and_bound::hull;
+use crate::branch_and_bound::{encloses, hull};
 use crate::run::search::Progress;
 use crate::settings::Settings;
 
@@ -167,8 +161,7 @@ fn laid_out(core: &Core, space: Layout, settings: &Settings) -> Result<Layout, N
         Some(axes) => Layout { axis, ..Layout::new(core, 2, axes)? },
         None => space,
     };
-    let closures = core.members.len().saturating_sub(core.joints.len());
-    let (motions, limit) = (layout.motions(), settings.max_motions);
+    let (closures, motions, limit) = (core.closures(), layout.motions(), settings.max_motions);
     if motions > limit {
         return Err(NoCensus::Motions { closures, motions, limit });
     }
@@ -221,12 +214,7 @@ fn searched<const N: usize>(
             continue;
         }
         let known = |(other, enclosed): &(Found<N>, Enclosed)| {
-            other.pattern == found.pattern
-                && found
-                    .alone_in
-                    .iter()
-                    .zip(&enclosed.knots)
-                    .all(|(all, tight)| all.encloses(*tight))
+            other.pattern == found.pattern && encloses(&found.alone_in, &enclosed.knots)
         };
         // It is alone where it is: whatever else lies there is the same.
         if once.iter().any(known) {
@@ -240,7 +228,7 @@ fn searched<const N: usize>(
     let net = NetCensus {
         joints: core.joints.to_vec(),
         members: core.members.to_vec(),
-        closures: core.members.len().saturating_sub(core.joints.len()),
+        closures: core.closures(),
         knots: layout.knots.clone(),
         swings: layout.swings.iter().map(|swing| swing.joint).collect(),
         signs: layout.swings.len(),

@@ -30,6 +30,17 @@ impl Core<'_> {
         member.rope.is_none() && member.stiffness_n.is_none()
     }
 
+    /// Members less joints that move.
+    pub(in crate::net) fn closures(&self) -> usize {
+        self.members.len().saturating_sub(self.joints.len())
+    }
+
+    /// Places of all joints that are held, m; others are next to those.
+    pub(in crate::net) fn places_m(&self) -> Vec<Point> {
+        let joints = self.system.joints().iter();
+        joints.map(|joint| joint.support.at_m().unwrap_or(self.frame.origin_m)).collect()
+    }
+
     pub(in crate::net) fn held(&self, joint: usize) -> bool {
         self.system.joints()[joint].support.is_fixed()
     }

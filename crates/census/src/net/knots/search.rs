@@ -7,7 +7,7 @@ use super::box_test::{Examined, Found, Verdict};
 use super::cell::Pattern;
 use super::layout::Layout;
 use super::reach;
-use crate::branch_and_bound::{self, Plan, halves, hull, widest};
+use crate::branch_and_bound::{self, Plan, encloses, halves, hull, widest};
 use crate::run::search::Progress;
 
 /// A box is not cut below this part of the unit of length, 2⁻²⁶: rounding errors of forces are far
@@ -51,11 +51,7 @@ fn examine<const N: usize>(layout: &Layout, known: &[Found<N>], task: &Task<N>) 
         return outcome;
     }
     let settled = |pattern: &Pattern| {
-        let in_box = |found: &&Found<N>| {
-            let parts = found.alone_in.iter().zip(&at);
-            found.pattern == *pattern && parts.into_iter().all(|(all, part)| all.encloses(*part))
-        };
-        known.iter().any(|found| in_box(&found))
+        known.iter().any(|found| found.pattern == *pattern && encloses(&found.alone_in, &at))
     };
     let asked: Vec<Pattern> =
         task.patterns.iter().copied().filter(|pattern| !settled(pattern)).collect();

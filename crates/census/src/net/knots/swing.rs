@@ -80,13 +80,11 @@ impl<const N: usize> Swung<N> {
         let near = q.hi() < NEAR * reach.sum.lo() * reach.sum.lo();
         if folded {
             let nothing = [Interval::LINE; 3];
-            let (span, tension) = (values(span), Interval::LINE);
-            let (base, sideways) = (nothing, nothing);
             return Some(Self {
-                base,
-                sideways,
-                span,
-                tension,
+                base: nothing,
+                sideways: nothing,
+                span: values(span),
+                tension: Interval::LINE,
                 smooth: None,
                 folded,
                 near,

@@ -24,8 +24,7 @@ impl BarTerm {
             return None;
         }
         let f = unit(force);
-        let size = (force[0].square() + force[1].square()).sqrt();
-        let scale = length / size;
+        let scale = length / size(force);
         // ∂f/∂F = (I - f f^T)/|F|, and I - f f^T = g g^T with g the normal of f.
         let by_h = [f[1].square() * scale, -(f[0] * f[1] * scale)];
         let by_v = [by_h[1], f[0].square() * scale];
@@ -65,6 +64,11 @@ impl BarTerm {
 }
 
 const DISC: Interval = Interval::ONE.hull(Interval::ONE.negated());
+
+/// The sizes of all vectors of a rectangle.
+pub(crate) fn size([x, z]: [Interval; 2]) -> Interval {
+    (x.square() + z.square()).sqrt()
+}
 
 /// Directions of all vectors of a rectangle: the exact range, but for rounding.
 ///

@@ -19,12 +19,12 @@ impl Pattern {
         1 << (bars - 1 - bar)
     }
 
-    pub(crate) fn compressed(self, bars: usize, bar: usize) -> bool {
-        self.0 & Self::bit(bars, bar) != 0
+    pub(crate) fn sign(self, bars: usize, bar: usize) -> i8 {
+        if self.0 & Self::bit(bars, bar) == 0 { 1 } else { -1 }
     }
 
     pub(crate) fn signs(self, bars: usize) -> impl Iterator<Item = i8> {
-        (0..bars).map(move |bar| if self.compressed(bars, bar) { -1 } else { 1 })
+        (0..bars).map(move |bar| self.sign(bars, bar))
     }
 }
 

@@ -21,6 +21,7 @@
 
 use numerics::Interval;
 
+use crate::run::closure::bar::size;
 use crate::run::plane::system::System;
 
 /// Betti numbers and Euler characteristic of a closed manifold.
@@ -71,7 +72,7 @@ impl Topology {
         let span = match (x == Interval::ZERO, z == Interval::ZERO) {
             (true, _) => z.abs(),
             (_, true) => x.abs(),
-            _ => (x.square() + z.square()).sqrt(),
+            _ => size([x, z]),
         };
         let mut sides = system.length.clone();
         sides.push(span);

@@ -20,7 +20,7 @@
 
 use numerics::Interval;
 
-use crate::run::closure::bar::unit;
+use crate::run::closure::bar::{size, unit};
 use crate::run::closure::signed;
 
 /// The number of positive eigenvalues of a symmetric matrix, all matrices of the enclosure having
@@ -54,9 +54,8 @@ pub(crate) fn indices(
     let compressed = signs.iter().filter(|sign| **sign < 0).count();
     let mut schur = [Interval::ZERO; 3];
     for ((sign, length), force) in signs.iter().zip(lengths).zip(forces) {
-        let size = (force[0].square() + force[1].square()).sqrt();
         let [x, z] = unit(*force);
-        let weight = signed(*sign, *length / size);
+        let weight = signed(*sign, *length / size(*force));
         let terms = [z.square(), -(x * z), x.square()];
         for (sum, term) in schur.iter_mut().zip(terms) {
             *sum = *sum + weight * term;

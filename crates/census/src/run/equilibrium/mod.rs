@@ -3,7 +3,7 @@ pub(crate) mod stress;
 
 use numerics::{Interval, atan2};
 
-use crate::run::closure::bar::unit;
+use crate::run::closure::bar::{size, unit};
 use crate::run::closure::signed;
 use crate::run::enclosure::krawczyk::Zero;
 use crate::run::equilibrium::inertia::Indices;
@@ -171,10 +171,7 @@ impl Observed {
         // Directions from the homogeneous coordinates, which are narrower than their quotients.
         let homogeneous: Vec<[Interval; 2]> =
             system.weights(cell.face).iter().map(|weight| cell.force(*weight)).collect();
-        let sizes = homogeneous
-            .iter()
-            .map(|force| (force[0].square() + force[1].square()).sqrt() / w)
-            .collect();
+        let sizes = homogeneous.iter().map(|force| size(*force) / w).collect();
         let directions = signs
             .iter()
             .zip(&homogeneous)

@@ -196,6 +196,15 @@ impl Cell {
         Self { face, at: at.map(Interval::point) }
     }
 
+    /// The coordinate of the larger width.
+    pub(crate) fn wider(&self) -> usize {
+        usize::from(self.at[1].width() > self.at[0].width())
+    }
+
+    pub(crate) fn area(&self) -> f64 {
+        self.at[0].width() * self.at[1].width()
+    }
+
     /// Cut in two halves across one coordinate.
     pub(crate) fn cut(&self, across: usize) -> [Self; 2] {
         halves(self.at, across).map(|at| Self { at, ..*self })

@@ -5,6 +5,7 @@ use std::ops::Range;
 use model::{Bar, Chain, Vector};
 use numerics::{Interval, lever};
 
+use crate::run::closure::bar::size;
 use crate::run::plane::face::Face;
 use crate::run::plane::loads::JointLoads;
 
@@ -116,7 +117,7 @@ impl System {
         } else if y == Interval::ZERO {
             (x.abs(), [x.unit_sign(), y])
         } else {
-            let distance = (x.square() + y.square()).sqrt();
+            let distance = size([x, y]);
             (distance, [x / distance, y / distance])
         };
         let shorten = |x: Interval| x.scale(length_unit_m.recip());

@@ -107,7 +107,7 @@ fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
         None => {
             noisy = [false; 2];
             let open = exclusion::open(system, &cell, &asked);
-            (settled.left(system, &cell, &open).into_owned(), cell, wider(&cell))
+            (settled.left(system, &cell, &open).into_owned(), cell, cell.wider())
         }
         Some(sums) => {
             let mut patterns = vec![];
@@ -139,7 +139,7 @@ fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
             }
             let mut across = sums.widest();
             if settled.straight.are_near(system, &cell) {
-                (noisy, across) = ([false; 2], wider(&cell));
+                (noisy, across) = ([false; 2], cell.wider());
             }
             (patterns, Cell { face: cell.face, at: left.unwrap_or(cell.at) }, across)
         }
@@ -155,16 +155,11 @@ fn examine_cell(system: &System, settled: &Settled, task: &Task) -> Outcome {
         outcome.undecided.push(Task { cell: left, patterns });
         return outcome;
     }
-    let area = |cell: &Cell| cell.at[0].width() * cell.at[1].width();
-    if area(&left) < GOOD_CONTRACTION * area(&cell) {
+    if left.area() < GOOD_CONTRACTION * cell.area() {
         outcome.next.push(Task { cell: left, patterns });
     } else {
         let halves = left.cut(across);
         outcome.next.extend(halves.map(|cell| Task { cell, patterns: patterns.clone() }));
     }
     outcome
-}
-
-fn wider(cell: &Cell) -> usize {
-    usize::from(cell.at[1].width() > cell.at[0].width())
 }

@@ -23,7 +23,7 @@ use std::ops::Range;
 
 use numerics::Interval;
 
-use crate::run::closure::bar::unit;
+use crate::run::closure::bar::{size, unit};
 use crate::run::closure::signed;
 use crate::run::enclosure::krawczyk::{image, inside, narrowed};
 use crate::run::equilibrium::Observed;
@@ -85,7 +85,7 @@ impl AxialClosure<'_> {
             }
             bars.forces.push(force);
             bars.directions.push(unit(force).map(|part| signed(*sign, part)));
-            bars.sizes.push((force[0].square() + force[1].square()).sqrt());
+            bars.sizes.push(size(force));
         }
         Some(bars)
     }

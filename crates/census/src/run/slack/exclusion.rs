@@ -20,7 +20,7 @@ use std::ops::Range;
 
 use numerics::Interval;
 
-use crate::run::closure::bar::BarTerm;
+use crate::run::closure::bar::{BarTerm, size};
 use crate::run::closure::{Pattern, signed};
 use crate::run::plane::cell::Cell;
 use crate::run::plane::system::System;
@@ -117,13 +117,10 @@ impl<'a> Gaps<'a> {
     /// Whether the free bars may bridge the gap.
     fn may_close(&self, pattern: Pattern, gap: [Interval; 2]) -> bool {
         let bars = self.lengths.len();
-        let distance = (gap[0].square() + gap[1].square()).sqrt();
+        let distance = size(gap);
         let links = self.free.iter().map(|group| {
-            group
-                .clone()
-                .map(|i| signed(if pattern.compressed(bars, i) { -1 } else { 1 }, self.lengths[i]))
-                .sum::<Interval>()
-                .abs()
+            let own = group.clone().map(|i| signed(pattern.sign(bars, i), self.lengths[i]));
+            own.sum::<Interval>().abs()
         });
         let [inner, outer] = reach(links);
         !(distance.lo() > outer || distance.hi() < inner)

@@ -22,6 +22,7 @@ use std::ops::Range;
 use model::{Bar, Problem};
 use numerics::Interval;
 
+use crate::run::closure::bar::size;
 use crate::run::closure::signed;
 use crate::run::count::topology::{Topology, TopologyError};
 use crate::run::plane::face::Face;
@@ -151,7 +152,7 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
     }
     let distance = match gap[0].sign() {
         Some(0) => gap[1].abs(),
-        _ => (gap[0].square() + gap[1].square()).sqrt(),
+        _ => size(gap),
     };
     let range = &system.groups[usize::from(group)];
     let closed = exact.filter(|sides| sides.gap_square(&up) == Some(0));

@@ -52,6 +52,7 @@ use numerics::Interval;
 use serde::Serialize;
 
 use crate::branch_and_bound::hull;
+use crate::run::closure::bar::size;
 use crate::run::closure::{Pattern, signed};
 use crate::run::plane::cell::Cell;
 use crate::run::plane::face::Face;
@@ -221,7 +222,6 @@ fn is_isolated(
     pattern: Pattern,
     no_variance: bool,
 ) -> Option<bool> {
-    let size = |[x, z]: [Interval; 2]| (x.square() + z.square()).sqrt();
     let along = |[x, z]: [Interval; 2]| f[0] * x + f[1] * z;
     let whole = size(f);
     let nu = f[0];

@@ -13,6 +13,7 @@ use std::ops::Range;
 
 use numerics::Interval;
 
+use crate::run::closure::bar::size;
 use crate::run::closure::{Pattern, signed};
 use crate::run::enclosure::krawczyk::Zero;
 use crate::run::equilibrium::{Proof, ProvenEquilibrium, stress};
@@ -240,9 +241,8 @@ fn axial_closure<'a>(
         let up = system.weights(face)[i].sign()?;
         gap[1] = gap[1] - signed(sign * up, system.length[i]);
     }
-    let distance = (gap[0].square() + gap[1].square()).sqrt();
     let reach = reach(system, group, along);
-    if (distance - reach).mig() > NEAR {
+    if (size(gap) - reach).mig() > NEAR {
         return None;
     }
     let axis = gap.map(|part| Interval::point(part.mid() / reach.mid()));

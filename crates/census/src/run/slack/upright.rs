@@ -42,7 +42,7 @@
 
 use numerics::Interval;
 
-use crate::run::closure::bar::unit;
+use crate::run::closure::bar::{size, unit};
 use crate::run::closure::{Pattern, signed};
 use crate::run::plane::cell::Cell;
 use crate::run::plane::system::System;
@@ -71,7 +71,7 @@ pub(super) fn upright_alone(
             if free.is_some() {
                 return false;
             }
-            let way = |i| if pattern.compressed(bars, i) { -1 } else { 1 };
+            let way = |i| pattern.sign(bars, i);
             let reach: Interval = group.clone().map(|i| signed(way(i), system.length[i])).sum();
             let exactly: i128 = group.clone().map(|i| i128::from(way(i)) * lengths[i]).sum();
             free = Some((if exactly == 0 { Interval::ZERO } else { reach }, force));
@@ -80,7 +80,7 @@ pub(super) fn upright_alone(
         let size = size(force);
         let up = force[1].sign().filter(|up| *up != 0);
         for i in group.clone() {
-            let sign = if pattern.compressed(bars, i) { -1 } else { 1 };
+            let sign = pattern.sign(bars, i);
             let term = signed(sign, system.length[i] / size);
             level = level + term;
             deflated = deflated + signed(up.unwrap_or(1), term / (size + force[1].abs()));
@@ -100,10 +100,6 @@ pub(super) fn upright_alone(
             most.hi() < reach.mig()
         }
     }
-}
-
-fn size(force: [Interval; 2]) -> Interval {
-    (force[0].square() + force[1].square()).sqrt()
 }
 
 /// Between anchors in one point: whether every zero of a pattern in a cell has H = 0 or an infinite
