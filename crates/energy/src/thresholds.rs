@@ -41,10 +41,11 @@ pub(crate) const LOST: f64 = 16.0 * f64::EPSILON;
 /// Closures, and forces over the largest, that are right to this need nothing more.
 pub(crate) const SETTLED: f64 = 1e-13;
 
-/// Corrections of the closure after a step. Three to five are normal; a step that needs more is too long.
+/// Corrections of the closure after a step, or steps of Newton's method for places and forces. Three to five are normal; a step
+/// that needs more is too long.
 pub(crate) const CORRECTIONS: usize = 12;
 
-/// Bisections of an interval, or halvings of a step: all digits of a double.
+/// Bisections of an interval, or halvings of a step: all digits of a double; and trials of a shift, which grows by four.
 pub(crate) const BISECTIONS: usize = 64;
 
 /// Changes of the members that resist before it comes to no end: some six in a tower of 500 members, as the energy of their

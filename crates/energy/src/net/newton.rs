@@ -44,12 +44,9 @@ const LAST_STRAIN: f64 = 1e-9;
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
 
-/// First shift and smallest one, over the size of the matrix.
+/// First shift and smallest one, over the size of the matrix: more than the inverse of that, and the steps are nothing.
 const FIRST_SHIFT: f64 = 1e-3;
 const SMALLEST_SHIFT: f64 = 1e-8;
-
-/// Largest shift: more than that and the steps are nothing.
-const LARGEST_SHIFT: f64 = 1e8;
 
 /// Largest relative displacement of the ends of a member in one step, over its length; of a strut,
 /// which must not be turned inside out: its energy falls for ever on the other side.
@@ -227,7 +224,7 @@ impl Newton {
                 }
             }
             self.shift = if self.shift > 0.0 { 8.0 * self.shift } else { FIRST_SHIFT };
-            if self.shift > LARGEST_SHIFT {
+            if self.shift > SMALLEST_SHIFT.recip() {
                 return Err(self.stalled(shape));
             }
         }
@@ -278,7 +275,7 @@ impl Newton {
         let mut shift = FIRST_SHIFT;
         while !self.factorise(local, shift) {
             shift *= 4.0;
-            if shift > LARGEST_SHIFT {
+            if shift > SMALLEST_SHIFT.recip() {
                 return None;
             }
         }

@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{CHANGES, NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{CHANGES, CORRECTIONS, NO_STRAIN, STEP_ROUNDING};
 use crate::vector::scaled;
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -40,9 +40,6 @@ pub(super) const NEUTRAL: f64 = 1e-10;
 
 /// The same with elastic members, of which what a turn leaves of their lengths is a force.
 const ELASTIC_NEUTRAL: f64 = 1e-8;
-
-/// Steps of Newton's method for places and forces, and as many with one factorisation.
-const POLISH: usize = 12;
 
 /// Misfit above which members have turned too far for the factorisation of the step before: its
 /// stiff springs point the old way; and the most that may hide what is just taut.
@@ -98,7 +95,8 @@ impl Newton {
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
         let stiffness = frame.force_scale(&shape.force) / strain;
         let error = frame.error();
-        let (mut steps, mut changes) = (POLISH, CHANGES);
+        // As many with one factorisation.
+        let (mut steps, mut changes) = (CORRECTIONS, CHANGES);
         let mut active = frame.active(&shape, slope.misfit);
         while steps > 0 {
             steps -= 1;
@@ -106,7 +104,7 @@ impl Newton {
             if !self.factorise_stiff(&shape, stiffness, &active) {
                 return Polished::Astray;
             }
-            for chord in 0..POLISH {
+            for chord in 0..CORRECTIONS {
                 let next = self.chord(&shape, stiffness, &active, &[]);
                 let there = frame.slope(&next);
                 let (before, after) = (error(&slope), error(&there));

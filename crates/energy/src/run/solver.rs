@@ -11,7 +11,7 @@ use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::straight_fold::off_the_line;
 use crate::run::vertical_plane::Turn;
-use crate::thresholds::{CORRECTIONS, FAIR_PART, LOST, PROGRESS, ROUNDING};
+use crate::thresholds::{BISECTIONS, CORRECTIONS, FAIR_PART, LOST, PROGRESS, ROUNDING};
 use crate::vector::{dot, norm, scaled};
 
 /// A closed chain with its projected gradient.
@@ -49,9 +49,6 @@ const GOOD_PART: f64 = 0.7;
 /// Where the mean gradient is below this part of the most negative axial force and the Hessian is
 /// indefinite, the iterate is near a saddle, and its lowest mode is worth more than its gradient.
 const SADDLE_PART: f64 = 1e-2;
-
-/// Trials of one iteration: four to this power covers the range of a double's squares.
-const TRIALS: usize = 60;
 
 /// Above this part of the rounding of the energy a fall as large as predicted still says something.
 const HALF_BLIND: f64 = 0.05;
@@ -135,7 +132,7 @@ impl FeasibleNewton {
         // Differences of energies below this say nothing, and the gradient decides alone; an error of the closure costs the
         // multiplier.
         let noise = ROUNDING * (slope.pull + norm(slope.multiplier));
-        for _ in 0..TRIALS {
+        for _ in 0..BISECTIONS {
             let Some(step) = curvature.step(self.convergence.shift) else {
                 if slope.mean <= SADDLE_PART * -slope.lowest
                     && let Some(place) = self.escape(curvature)?
@@ -210,7 +207,7 @@ impl FeasibleNewton {
             .map(|i| links.length[i] * dot(links.load(i, slope.multiplier), mode[i]))
             .sum();
         let mut length = if uphill > 0.0 { -1.0 } else { 1.0 };
-        for _ in 0..TRIALS {
+        for _ in 0..BISECTIONS {
             let moved = links.moved(&shape.u, |i, _| scaled(length, mode[i]));
             if let Ok(trial) = links.close(moved, CORRECTIONS) {
                 let fall = shape.moments.value - trial.moments.value;
