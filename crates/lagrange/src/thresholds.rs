@@ -69,11 +69,17 @@ pub(crate) const ROUNDED: f64 = 1e-13;
 /// Lengths, and loads, of a file that differ by less than this part are equal.
 pub(crate) const GIVEN: f64 = 1e-12;
 
+/// An error, or a slope along a step, that has fallen to this part has become better.
+pub(crate) const BETTER: f64 = 0.9;
+
 /// A step, or a few, ought to leave at most this part.
 pub(crate) const HALVED: f64 = 0.5;
 
 /// Shortest part of a step that is tried, or leads on.
 pub(crate) const SHORTEST: f64 = 1e-3;
+
+/// Steps of an iteration at most: some twelve are the rule, also for nets of 20,000 members.
+pub(crate) const MOST_STEPS: usize = 100;
 
 /// A step is halved at most so many times.
 pub(crate) const HALVINGS: usize = 30;

@@ -31,8 +31,6 @@ const PART: usize = 8;
 const DAMPING: f64 = 1e-2;
 const GROWTH: f64 = 8.0;
 const TOO_STIFF: f64 = 1e20;
-/// A force this small has no direction.
-const LEAST_FORCE: f64 = 1e-300;
 
 /// One bar of a seed.
 #[derive(Debug, Clone, Copy)]
@@ -142,7 +140,7 @@ impl<'a> Signs<'a> {
         }
         for at in &mut self.shape {
             let u = [at.u[0] + multiplier[0], at.u[1] + multiplier[1]];
-            let length = size(u).max(LEAST_FORCE);
+            let length = size(u).max(f64::MIN_POSITIVE);
             at.u = u.map(|x| x / length);
         }
     }
@@ -225,7 +223,7 @@ impl<'a> Signs<'a> {
     fn write(&self, pull: [f64; 2], directions: &mut [[f64; 2]]) {
         for ((u, at), bar) in directions.iter_mut().zip(&self.shape).zip(self.bars) {
             let force = [pull[0], pull[1] + bar.carried];
-            let scale = at.sign / size(force).max(LEAST_FORCE);
+            let scale = at.sign / size(force).max(f64::MIN_POSITIVE);
             *u = force.map(|x| x * scale);
         }
     }
@@ -236,7 +234,7 @@ impl Equations {
     fn of(vectors: impl Iterator<Item = (f64, [f64; 2])>, span: [f64; 2]) -> Self {
         let (mut residual, mut jacobian) = ([-span[0], -span[1]], [0.0; 3]);
         for (weight, vector) in vectors {
-            let length = size(vector).max(LEAST_FORCE);
+            let length = size(vector).max(f64::MIN_POSITIVE);
             let u = [vector[0] / length, vector[1] / length];
             let stiff = weight / length;
             residual[0] += weight * u[0];

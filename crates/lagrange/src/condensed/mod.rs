@@ -66,7 +66,7 @@ mod settings;
 mod solve;
 mod span;
 mod stability;
-mod sums;
+pub(crate) mod sums;
 mod system;
 mod units;
 mod vectors;

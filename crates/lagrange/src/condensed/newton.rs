@@ -3,9 +3,8 @@
 
 use super::settings::Settings;
 use super::system::{Closure, System};
+use crate::thresholds::BETTER;
 
-/// A step is good when the slope along it has fallen to this part.
-const GOOD_SLOPE: f64 = 0.9;
 /// A step that was much too short is lengthened by this factor.
 const EXPANSION: f64 = 4.0;
 /// Secants and steps stay away from the ends of their interval by this part of it.
@@ -155,7 +154,7 @@ fn along(
         }
         let closure = system.closure(advance(root.force, step, part));
         let here = slope(&closure);
-        if here.abs() <= GOOD_SLOPE * first.abs() || closure.size() <= GOOD_SLOPE * size {
+        if here.abs() <= BETTER * first.abs() || closure.size() <= BETTER * size {
             return Some((part, closure));
         }
         // A NaN counts as too far.

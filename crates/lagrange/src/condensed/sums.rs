@@ -2,7 +2,7 @@
 
 /// Bars summed plainly in one go. A plain sum of 256 terms errs by at most 256 roundings of a block
 /// that is 1/(n/256) of the whole: beside the total that is one rounding, whatever n is.
-pub(super) const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 256;
 
 /// A number as the unevaluated sum of two doubles, some 32 digits.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -16,9 +16,7 @@ pub(crate) enum Ending {
 const FIRST_DAMPING: f64 = 1.0;
 /// Below this part of the promised decrease the damping grows, ...
 const POOR: f64 = 0.25;
-/// ... above this part it shrinks, ...
-const GOOD: f64 = 0.75;
-/// ... by this factor: Fan and Yuan's rule.
+/// ... where no more than this part is missing it shrinks, by this factor: Fan and Yuan's rule.
 const FACTOR: f64 = 4.0;
 /// Least damping in units of the residual: keeps quadratic convergence and bounds the way back up.
 const LEAST_FACTOR: f64 = 1e-3;
@@ -60,7 +58,7 @@ pub(crate) fn newton(
             equations.accept();
             norm = equations.norm();
         }
-        if gain > GOOD {
+        if gain > 1.0 - POOR {
             factor = (factor / FACTOR).max(LEAST_FACTOR);
         } else if gain > POOR {
             // The model is fair: keep.

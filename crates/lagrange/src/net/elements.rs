@@ -22,8 +22,9 @@ use super::newton::{Run, with_held};
 use super::runs::{Runs, Step};
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
+use crate::condensed::sums::BLOCK;
 use crate::larger::larger;
-use crate::thresholds::{HALVINGS, ZERO};
+use crate::thresholds::{GIVEN, HALVED, HALVINGS, MOST_STEPS, ZERO};
 use model::system::Kind;
 
 /// The compliance along a member that the matrix has beside its own, in units of that across: each
@@ -32,17 +33,8 @@ const ALONG: f64 = 1e-5;
 /// A force below this part of the largest one in its run has no direction to rely on, nor one below
 /// the other part of the largest in the system.
 const CLEAR: f64 = 1e-6;
-/// A step is halved while the slope at its end rises steeper than this part of the first slope.
-const SLOPE: f64 = 0.5;
-/// Newton steps at most, and halvings of one.
-const MOST_STEPS: usize = 40;
-/// The iteration ends when the error of every span has fallen to this part of the run's length and
-/// does not fall to this part of itself any more.
-const CLOSED: f64 = 1e-12;
+/// The iteration ends when the error of every span is rounding and does not fall to this part of itself any more.
 const FALL: f64 = 0.25;
-/// Members of a run are summed by so many: rounding then grows with the square root of their number
-/// only.
-const CHUNK: usize = 512;
 /// It pays when this part of the members is left, or less.
 const WORTH: f64 = 0.5;
 
@@ -73,9 +65,7 @@ fn settled(framework: &Framework, runs: &Runs) -> Option<(State, usize)> {
         shape.step(&mut stiffness);
         steps += 1;
         let before = std::mem::replace(&mut error, shape.error());
-        if error.is_nan()
-            || framework.work.is_spent()
-            || (before <= CLOSED && error > FALL * before)
+        if error.is_nan() || framework.work.is_spent() || (before <= GIVEN && error > FALL * before)
         {
             break;
         }
@@ -95,7 +85,8 @@ struct Law {
 
 impl Law {
     fn new(steps: &[Step], pull: &Vector3<f64>) -> Self {
-        let sums = steps.chunks(CHUNK).map(|chunk| Sums::of(chunk, pull));
+        // Rounding grows with the square root of their number only.
+        let sums = steps.chunks(BLOCK).map(|chunk| Sums::of(chunk, pull));
         let sums = sums.reduce(|sum, more| sum.plus(&more)).unwrap_or_default();
         let compliance = Matrix3::identity() * sums.across - sums.square * (1.0 - ALONG);
         let (least, most) = (sums.least, sums.most);
@@ -211,7 +202,8 @@ impl<'a> Shape<'a> {
             let pulls = before.iter().zip(&change).map(|(pull, change)| pull + change * t);
             self.pulls = pulls.collect();
             self.laws = laws(self.runs, &self.pulls);
-            if slope(self) <= SLOPE * first.abs() {
+            // Else it goes too far beyond the zero.
+            if slope(self) <= HALVED * first.abs() {
                 break;
             }
             t *= 0.5;

@@ -33,7 +33,7 @@ use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{SHORTEST, ZERO};
+use crate::thresholds::{MOST_STEPS, SHORTEST, ZERO};
 use model::system::Kind;
 
 /// First length of a member in the programme, where it is as long as it may be or longer: this
@@ -57,8 +57,6 @@ const INSIDE: f64 = 0.99;
 /// Stiffness given to every joint, in units of the mean $t/l$: one that nothing holds in some
 /// direction stays.
 const SHIFT: f64 = 1e-10;
-/// Steps in all; nets of 20,000 members take some twelve.
-const MOST_STEPS: usize = 60;
 
 /// The hanging shape with all bars taken as cables, as far as it has come.
 pub(super) struct Hanging {

@@ -19,14 +19,12 @@ use super::possible::translations;
 use super::solution::{NO_FORCE, limp};
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::{ROUNDED, ZERO};
+use crate::thresholds::{MOST_STEPS, ROUNDED, ZERO};
 
 /// For sparse factors: stiffness along rigid members in units of the largest $|N|/d$. A negative
 /// curvature counts as one if it is smaller than this times the squared singular values of the
 /// rows.
 const RIGID: f64 = 1e6;
-/// Steps towards self-stresses that stiffen mechanisms; each at least halves what is left of one.
-const STIFFENING_STEPS: usize = 100;
 
 #[derive(Default)]
 pub(super) struct SecondOrder {
@@ -340,7 +338,8 @@ fn stiffened(
         projected(&hessian, motions)
     };
     let changes: Vec<DMatrix<f64>> = (0..stresses.ncols()).map(by_stress).collect();
-    for _ in 0..STIFFENING_STEPS {
+    // Each at least halves what is left of one.
+    for _ in 0..MOST_STEPS {
         let (values, vectors) = eigen(&form)?;
         let weakest = vectors.columns(0, 1).into_owned();
         if values[0] >= 0.0 {

@@ -14,7 +14,7 @@ use super::floor::lift;
 use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::EARNED;
+use crate::thresholds::{BETTER, EARNED, MOST_STEPS};
 use model::system::Kind;
 
 /// First $\rho$ in units of the mean $|N|/l$: members stretch by some percent.
@@ -24,19 +24,13 @@ pub(super) const NEAR_PENALTY: f64 = 1e4;
 /// Growth of $\rho$ when the lengths get better too slowly, and what is too slowly.
 const PENALTY_GROWTH: f64 = 5.0;
 const SLOW: f64 = 0.25;
-/// Lengths are better when their misfit has fallen to this part of the best one.
-const BETTER: f64 = 0.9;
 /// $\rho$ grows to this multiple of the first one at most: rounding of lengths becomes forces
 /// beyond.
 const LARGEST_GROWTH: f64 = 1e6;
-/// Updates of the forces.
-const ROUNDS: usize = 60;
 /// Rounds without better lengths after which the members do not fit from here.
 const STUCK: usize = 5;
 /// A joint at this multiple of all lengths and supports together is on its way to infinity.
 const FAR: f64 = 1e3;
-/// Newton steps between two updates.
-const STEPS: usize = 100;
 /// Lengths right to this part: the final iteration takes over.
 const CLOSE: f64 = 1e-7;
 /// Forces in balance to this part of the largest before an update.
@@ -75,7 +69,7 @@ pub(super) fn settle(
     let mut penalty = Penalty::new(framework, &state, first, floor);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
     let mut lost = None;
-    for _ in 0..ROUNDS {
+    for _ in 0..MOST_STEPS {
         let (steps, balanced) = penalty.rest(framework, stiffness, &mut state);
         factorisations += steps;
         lost = penalty.lost(&state.places);
@@ -191,7 +185,7 @@ impl Penalty {
         state: &mut State,
     ) -> (usize, bool) {
         let (mut shift, mut factorisations) = (0.0, 0);
-        for _ in 0..STEPS {
+        for _ in 0..MOST_STEPS {
             state.axial = self.forces(framework, &state.places);
             let directions = state.directions(framework);
             let mut unbalance = framework.left(&directions, &state.axial);
