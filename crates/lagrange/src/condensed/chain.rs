@@ -49,7 +49,8 @@ pub struct Condensed {
     pub(super) bottom: Bottom,
     pub(super) units: Units,
     pub(super) start_m: Vector,
-    on_one_vertical: bool,
+    /// Whether the anchors lie on one vertical, to rounding.
+    pub(super) on_one_vertical: bool,
     processors: NonZeroUsize,
 }
 
@@ -98,11 +99,6 @@ impl Condensed {
     /// The processors that this chain keeps busy.
     pub(super) fn workers(&self) -> Workers {
         Workers::new(self.processors, self.bars())
-    }
-
-    /// Whether the anchors lie on one vertical, to rounding.
-    pub(super) fn on_one_vertical(&self) -> bool {
-        self.on_one_vertical
     }
 
     /// Horizontal distance of the anchors, seen along the plane of an equilibrium.

@@ -43,7 +43,7 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     let positive = [first, second].iter().filter(|pivot| **pivot > 0.0).count();
     let positive = if degenerate { usize::from(first > 0.0) } else { positive };
     let horizontal = chain.across_in(pull.level) / pull.force[0];
-    let vertical = chain.on_one_vertical();
+    let vertical = chain.on_one_vertical;
     // With H = 0 all bars hang straight down in tension, and the sum is positive.
     let towards = pull.force[0].abs() <= 0.0 || (!vertical && horizontal > 0.0);
 

@@ -72,7 +72,8 @@ impl Pair {
 /// The matrix $W$ of two pairs inside the cone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scaling {
-    rho: f64,
+    /// $\\rho$: the part of $W^{-2}$ across both vectors where they are parallel.
+    pub rho: f64,
     v: Pair,
 }
 
@@ -105,11 +106,6 @@ impl Scaling {
         let stiffness =
             Matrix3::identity() * self.rho + square - row * row.transpose() * (c / divisor);
         Block { stiffness, row, divisor }
-    }
-
-    /// $\\rho$: the part of $W^{-2}$ across both vectors where they are parallel.
-    pub fn across(&self) -> f64 {
-        self.rho
     }
 
     /// $W y$

@@ -224,7 +224,7 @@ impl Hanging {
         let block =
             |row: &Option<Row>| row.as_ref().map_or(Matrix3::zeros(), |row| row.block.stiffness);
         stiffness.assemble(framework, rows.iter().map(block));
-        let soft = rows.iter().flatten().map(|row| row.scaling.across()).sum::<f64>();
+        let soft = rows.iter().flatten().map(|row| row.scaling.rho).sum::<f64>();
         stiffness.shift(SHIFT * soft / rows.len().max(1) as f64);
         stiffness.factorise_stiff();
         // The predictor: straight for a product of zero.

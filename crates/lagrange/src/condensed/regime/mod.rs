@@ -85,7 +85,7 @@ impl Regime {
             Self::TautStrut
         } else if nearly_folded(chain) {
             Self::FoldedStrut
-        } else if chain.on_one_vertical() {
+        } else if chain.on_one_vertical {
             Self::VerticalStrut
         } else {
             Self::Strut
