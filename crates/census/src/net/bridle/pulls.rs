@@ -140,7 +140,7 @@ pub(super) fn reaching(
         }
         let Some(at) = left else { continue };
         let cell = Cell { face: cell.face, at };
-        let blur = sums.blur();
+        let blur = sums.blur;
         // It moves the end of the strand further than the box is wide.
         let coarse = blur[0].max(blur[1]) > width && size > FINE * width;
         if coarse && !many {

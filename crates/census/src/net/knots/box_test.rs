@@ -92,7 +92,7 @@ impl<'a, const N: usize> Examined<'a, N> {
                 let known = swings().all(|other| !folds(&other))
                     && self.columns.free_but_of(number, row..row + cell.layout.dim);
                 let pull = cell.at_rows(&loads, row);
-                let sign = cell::sign(pattern, number);
+                let sign = f64::from(cell::sign(pattern, number));
                 known
                     && (swung.near && folded_is_impossible(swing, swung, end, pull)
                         || round_is_impossible(swing, swung, end, pull, sign))

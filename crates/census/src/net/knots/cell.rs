@@ -19,6 +19,7 @@ use super::layout::{End, Layout};
 use super::reach::span;
 use super::swing::{Swung, added};
 use crate::boxes::arithmetic::{self, Vector, difference, plus, squared, sum, times, unit};
+use crate::run::closure::signed;
 
 /// Which way each swinging joint lies: a bit is set where σ = −1.
 pub(super) type Pattern = u32;
@@ -38,12 +39,8 @@ pub(super) struct Cell<'a, const N: usize> {
 }
 
 /// σ of a joint.
-pub(super) fn sign(pattern: Pattern, swing: usize) -> f64 {
-    if pattern >> swing & 1 == 0 { 1.0 } else { -1.0 }
-}
-
-fn signed(sign: f64, x: Interval) -> Interval {
-    if sign < 0.0 { -x } else { x }
+pub(super) fn sign(pattern: Pattern, swing: usize) -> i8 {
+    if pattern >> swing & 1 == 0 { 1 } else { -1 }
 }
 
 impl<'a, const N: usize> Cell<'a, N> {

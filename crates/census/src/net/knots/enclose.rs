@@ -57,7 +57,7 @@ pub(super) fn enclosed<const N: usize>(
             let densities = swing.members.map(|member| of(member).map(|a| zero[a.force]));
             densities.into_iter().flatten().fold(Interval::ZERO, sum).sign()
         };
-        if f64::from(sign?) * cell::sign(found.pattern, s) < 0.5 {
+        if sign? != cell::sign(found.pattern, s) {
             return None;
         }
     }
@@ -151,7 +151,8 @@ fn start<const N: usize>(
         axial_n[link.acting.member] = axial.mid() * frame.force_n;
     }
     for (s, swing) in layout.swings.iter().enumerate() {
-        let hung = Swung::at_point(swing, layout.dim, &point, cell::sign(found.pattern, s))?;
+        let sign = f64::from(cell::sign(found.pattern, s));
+        let hung = Swung::at_point(swing, layout.dim, &point, sign)?;
         put(swing.joint, &|k| hung.place[k]);
         for ((member, density), length) in
             swing.members.iter().zip(hung.densities).zip(swing.lengths)

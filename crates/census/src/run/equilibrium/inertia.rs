@@ -65,18 +65,18 @@ pub(crate) fn indices(
     let horizontal = forces.first()?[0].sign()?;
     let positive = positive_eigenvalues(schur)?;
     let steeper = usize::from(!vertical && horizontal > 0);
+    let [a, b, d] = schur.map(Interval::mid);
     Some(Indices {
         in_plane: (compressed + positive).checked_sub(2)?,
         out_of_plane: (compressed + steeper).checked_sub(1)?,
-        condition: condition(schur.map(Interval::mid)),
+        condition: condition([[a, b], [b, d]]),
     })
 }
 
-/// Ratio of the absolute eigenvalues of a symmetric matrix.
-fn condition([a, b, d]: [f64; 3]) -> f64 {
-    let half_trace = 0.5 * (a + d);
-    let larger = half_trace.abs() + (0.5 * (a - d)).hypot(b);
-    larger * larger / (a * d - b * b).abs()
+/// Ratio of the singular values of a matrix.
+pub(crate) fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let larger = 0.5 * ((a + d).hypot(b - c) + (a - d).hypot(b + c));
+    larger * larger / (a * d - b * c).abs()
 }
 
 #[cfg(test)]

@@ -54,7 +54,7 @@ pub(crate) struct PatternSums {
     half: [f64; 2],
     /// How far each coordinate of the cell moves the closure of any pattern, at most; plain
     /// numbers.
-    blur: [f64; 2],
+    pub(crate) blur: [f64; 2],
 }
 
 /// What the walk says of a pattern that it cannot exclude.
@@ -138,12 +138,6 @@ impl PatternSums {
     /// The coordinate of the cell to cut: the one whose width blurs the closure more.
     pub(crate) fn widest(&self) -> usize {
         usize::from(self.blur[1] > self.blur[0])
-    }
-
-    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain
-    /// numbers.
-    pub(crate) fn blur(&self) -> [f64; 2] {
-        self.blur
     }
 
     /// Those of the patterns, sorted, that the cell may hold a zero of.

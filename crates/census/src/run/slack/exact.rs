@@ -16,7 +16,8 @@ const LARGEST: u32 = 61;
 /// The lengths and the distance of the anchors, exactly.
 #[derive(Debug, Clone)]
 pub(crate) struct ExactSides {
-    lengths: Vec<i128>,
+    /// In a unit in which they and the places of the anchors are integers.
+    pub(super) lengths: Vec<i128>,
     /// The distance, if that is an integer too.
     span: Option<i128>,
     /// The square of the level part of the distance, and the upright part.
@@ -75,11 +76,6 @@ impl ExactSides {
         let span = (root * root == square).then_some(root);
         let rise = places[5] - places[2];
         Some(Self { lengths, span, level_square: square - rise * rise, rise })
-    }
-
-    /// The lengths, in a unit in which they and the places of the anchors are integers.
-    pub(super) fn lengths(&self) -> &[i128] {
-        &self.lengths
     }
 
     /// The square of the gap that bars leave which stand upright and point up (+1) or down (−1) towards the

@@ -157,7 +157,7 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
     let range = &system.groups[usize::from(group)];
     let closed = exact.filter(|sides| sides.gap_square(&up) == Some(0));
     let polygons = match closed {
-        Some(sides) => closed_polygons(&slack, &sides.lengths()[range.clone()]),
+        Some(sides) => closed_polygons(&slack, &sides.lengths[range.clone()]),
         None => match exact.and_then(|sides| bridging_side(system, sides, &up, range)) {
             // It is upright, and listed as straight.
             Some(_) if system.vertical => Err(Existence::Refuted),

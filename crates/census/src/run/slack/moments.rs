@@ -86,7 +86,7 @@ impl ExactMoments {
                 *weight /= common;
             }
         }
-        Some(Self { lengths: sides.lengths().to_vec(), weights })
+        Some(Self { lengths: sides.lengths.clone(), weights })
     }
 
     /// The moment of an order; nothing where it has too many digits.

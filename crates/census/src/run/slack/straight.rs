@@ -83,8 +83,6 @@ pub(crate) struct Straight {
     /// By pattern of the bars that point back.
     pub(crate) positions: Vec<StraightPosition>,
     settled: Vec<Settled>,
-    /// Whether all ways to fit are known: what may fit upright, does so or is none.
-    exact: bool,
     /// The lengths as integers.
     lengths: Vec<i128>,
     /// The ways to fit, sorted.
@@ -141,8 +139,8 @@ impl Straight {
         {
             first = fits.iter().filter_map(|p| Some((*p, moments.first(*p)?))).collect();
         }
-        let (positions, lengths) = (positions.collect(), sides.lengths().to_vec());
-        Self { positions, settled, exact: true, lengths, fits, first }
+        let (positions, lengths) = (positions.collect(), sides.lengths.clone());
+        Self { positions, settled, lengths, fits, first }
     }
 
     /// The patterns that may have equilibria in a cell besides the straight ones.
@@ -177,7 +175,7 @@ impl Straight {
     pub(crate) fn are_near(&self, system: &System, cell: &Cell) -> bool {
         /// 2⁻⁶
         const NEAR: f64 = 1.0 / 64.0;
-        if !self.exact || !system.vertical || self.positions.is_empty() {
+        if !system.vertical || self.positions.is_empty() {
             return false;
         }
         let [h, _, w] = cell.homogeneous();

@@ -16,6 +16,7 @@ use numerics::Interval;
 use crate::run::closure::bar::size;
 use crate::run::closure::{Pattern, signed};
 use crate::run::enclosure::krawczyk::Zero;
+use crate::run::equilibrium::inertia::condition;
 use crate::run::equilibrium::{Proof, ProvenEquilibrium, stress};
 use crate::run::plane::cell::Cell;
 use crate::run::plane::face::Face;
@@ -276,14 +277,6 @@ fn widest_disc(closure: &AxialClosure) -> Option<(Cell, f64)> {
     let radii = std::iter::successors(Some(LARGEST_DISC), |radius| Some(radius * NEXT_DISC));
     let one = |radius| closure.only_one(radius).map(|tight| (tight, radius));
     radii.take(DISCS).find_map(one)
-}
-
-/// Ratio of the singular values of a matrix.
-fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
-    let squares = a * a + b * b + c * c + d * d;
-    let determinant = a * d - b * c;
-    let rest = (squares * squares - 4.0 * determinant * determinant).max(0.0).sqrt();
-    0.5 * (squares + rest) / determinant.abs()
 }
 
 #[cfg(test)]
