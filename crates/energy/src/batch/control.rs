@@ -14,13 +14,13 @@ const DAMPING: f64 = 0.1;
 /// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
 /// parallel turn together towards the line of the gap, ever more slowly.
 const SEED_CORRECTIONS: usize = 25;
-const HALVINGS: u32 = 40;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;
 const PERTURBATION: f64 = 0.01;
-/// Steps that a minimum may take to settle. They are quadratic, but where the second derivative
-/// vanishes: there each takes a part of the way, and this many are below what rounding leaves.
-const SETTLING: u32 = 40;
+/// Halvings of a step, and steps that a minimum may take to settle. They are quadratic, but where the
+/// second derivative vanishes: there each takes a part of the way, and this many are below what
+/// rounding leaves.
+const HALVINGS: u32 = 40;
 
 /// Where one lane is.
 #[derive(Debug, Clone, Copy)]
@@ -153,7 +153,7 @@ impl Lane {
             return self.perturb();
         }
         if here {
-            let goes_on = convex && largest_turn > ZERO && self.settling < SETTLING && fall < 0.0;
+            let goes_on = convex && largest_turn > ZERO && self.settling < HALVINGS && fall < 0.0;
             if !(goes_on && largest_turn.is_finite()) {
                 return Next::Minimum;
             }

@@ -36,16 +36,12 @@ use crate::run::scaled_chain::{Origin, ScaledChain, Units};
 use crate::run::settings::Settings;
 use crate::run::slope::Slope;
 use crate::run::vertical_plane::Turn;
-use crate::thresholds::{FORCE_ROUNDING, ROUNDING, ZERO};
+use crate::thresholds::{BISECTIONS, FORCE_ROUNDING, ROUNDING, ZERO};
 use crate::vector::{along, dot, norm, scaled, tangent};
 
 /// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
 /// solvers are asked to agree to, since a long bar turns its joint by as much of the whole length.
 const WORTH_REFINING: f64 = 2.5e-11;
-
-/// Newton steps at most: quadratic convergence takes five, and where a bar without force makes the
-/// minimum degenerate each step halves the error.
-const STEPS: usize = 60;
 
 /// A step that turns a bar by more than this, rad, leaves the neighbourhood of the minimum.
 const LARGEST_TURN: f64 = 0.5;
@@ -186,7 +182,8 @@ impl Point {
     /// Newton's method; the smallest step made, rad, or `None` if it leaves the neighbourhood.
     fn newton(&mut self) -> Option<f64> {
         let (mut turn, mut last) = (f64::INFINITY, f64::INFINITY);
-        for _ in 0..STEPS {
+        // Quadratic convergence takes five steps; where a bar without force makes the minimum degenerate each halves the error.
+        for _ in 0..BISECTIONS {
             let step = self.step()?;
             // A bar without any force answers rounding by any turn, once all others are right.
             if turn <= ZERO && step.largest > ZERO {
