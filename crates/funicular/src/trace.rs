@@ -295,7 +295,10 @@ impl TraceAnswer {
     pub fn checks_decided(&self) -> bool {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().map(|path| &path.checks).all(Checks::decided),
-            Found::Load(found) => found.paths().iter().all(|path| path.end != LoadEnd::Lost),
+            Found::Load(found) => {
+                let early = [LoadEnd::Lost, LoadEnd::Open, LoadEnd::Unbounded];
+                found.paths().iter().all(|path| !early.contains(&path.end))
+            }
         }
     }
 

@@ -192,6 +192,10 @@ pub enum End<E> {
     MaxPoints,
     /// No step, however short, leads on.
     Lost,
+    /// Where places are open: many are in equilibrium at one value of the parameter.
+    Open,
+    /// Where forces grow without bound, as in a line that is pulled straight.
+    Unbounded,
     /// In a branch point of a path that is followed already.
     Joins(Parent),
     /// The numbers of the model have no meaning beyond.

@@ -33,6 +33,12 @@ const SHORTEST: f64 = 1e-10;
 const SINGULAR: f64 = 1e6;
 /// Places whose change over the range is less than this at the start count as if it were this.
 const STILL: f64 = 1e-3;
+/// Tangents with less of the parameter than this, a thousandth of the way apart or more, are along equilibria at one value of
+/// it: no bend is so flat.
+const FLAT: f64 = 1e-6;
+const LONG: f64 = 1e-3;
+/// Forces that turn round between two points and are so many times as large in between go through infinity.
+const BURST: f64 = 4.0;
 /// Part of a step at which the side of a path after a kink is seen.
 const BESIDE: f64 = 1e-6;
 
@@ -144,9 +150,14 @@ impl<'a, Q: Equations> Walk<'a, Q> {
                 }
                 continue;
             };
+            if self.is_open(&here, &next) {
+                self.leave_open(here.t);
+                return Ok(End::Open);
+            }
             let turn = self.turn(&here, &next);
             let kink = kink(&mut self.space, &here, &next)?;
             let passed = match &kink {
+                Some((at, _)) if self.bursts([&here, at, &next]) => Passed::End(End::Unbounded),
                 Some((_, sides)) if sides.is_empty() => Passed::Gap,
                 Some((at, _)) => self.smooth(&here, at)?,
                 None => self.smooth(&here, &next)?,
@@ -175,6 +186,33 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             length = if turn >= STRAIGHT { GROWTH * long } else { long };
         }
         Ok(End::MaxPoints)
+    }
+
+    /// Whether forces go through infinity on the way between two points.
+    fn bursts(&self, way: [&Here; 3]) -> bool {
+        let places = self.space.metric.places;
+        let [a, at, b] = way.map(|here| here.y.rows(places, here.y.len() - places));
+        a.dot(&b) < 0.0 && at.norm() > BURST * a.norm().max(b.norm())
+    }
+
+    /// Whether places change between two points at one value of the parameter.
+    fn is_open(&self, a: &Here, b: &Here) -> bool {
+        (b.t - a.t).abs() <= ROUNDING
+            && [a, b].iter().all(|here| here.tangent.t.abs() <= FLAT)
+            && self.space.metric.apart(a, b) >= LONG
+    }
+
+    /// Of the points at this value of the parameter only the first, and what changes sides there.
+    fn leave_open(&mut self, t: f64) {
+        let there = |at: f64| (at - t).abs() <= ROUNDING;
+        let Some(first) = self.points.iter().position(|point| there(point.t)) else { return };
+        self.points.truncate(first + 1);
+        self.events
+            .retain(|event| event.point <= first && (event.kind == Kind::Kink || !there(event.t)));
+        let point = &mut self.points[first];
+        point.event = point.event.filter(|number| *number < self.events.len());
+        let (path, events) = (self.paths, self.events.len());
+        self.crossings.retain(|crossing| crossing.of.path != path || crossing.of.event < events);
     }
 
     /// Cosine of the angle between two tangents.
@@ -236,6 +274,9 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         let Some(all) = self.space.smooth(a, b) else { return Ok(Passed::Gap) };
         for found in all {
             let Singular { at, kind, index, turns, mode, load_on_mode } = found;
+            if self.bursts([a, &at, b]) {
+                return Ok(Passed::End(End::Unbounded));
+            }
             let event = Event {
                 kind,
                 t: at.t,

@@ -170,7 +170,10 @@ fn first_loss(found: &LoadPaths, path: &LoadPath) -> String {
         );
     }
     let Some(event) = path.first_loss() else {
-        return "stable from its start to its end".to_owned();
+        return match path.end {
+            LoadEnd::Open => "stable up to its end".to_owned(),
+            _ => "stable from its start to its end".to_owned(),
+        };
     };
     let at = valued(&names[last], event.values[last], units[last]);
     let by = match event.kind {
@@ -273,6 +276,14 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
         LoadEnd::Range => "the path ends at an end of the range".to_owned(),
         LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it".to_owned(),
         LoadEnd::Lost => "the path is lost there: no step leads on".to_owned(),
+        LoadEnd::Unbounded => {
+            "the path ends there: forces grow without bound, as in a line that is pulled straight"
+                .to_owned()
+        }
+        LoadEnd::Open => {
+            "the path ends there: many shapes are in equilibrium at this value (study goes on beyond)"
+                .to_owned()
+        }
         LoadEnd::Joins => {
             let at = path.joins.map_or(String::new(), |at| branch_point(found, at));
             format!("the path ends in {at}")

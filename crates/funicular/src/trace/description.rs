@@ -72,12 +72,15 @@ pub(super) fn described(
     let points = points.collect();
     let events = found.events.iter().map(|event| event_described(system, family, event));
     let mut events: Vec<LoadEvent> = events.collect();
+    let open = matches!(found.end, End::Open).then(|| found.points.len() - 1);
     let at: Vec<(&[f64], &SystemEquilibrium, usize, bool)> = found
         .points
         .iter()
-        .map(|point| {
+        .enumerate()
+        .map(|(number, point)| {
             let Kept { values, equilibrium } = &point.record;
-            (values.as_slice(), equilibrium, point.index, point.event.is_some())
+            let singular = point.event.is_some() || open == Some(number);
+            (values.as_slice(), equilibrium, point.index, singular)
         })
         .collect();
     let ends = family.ends();
@@ -98,6 +101,8 @@ pub(super) fn described(
         End::MaxPoints => LoadEnd::MaxPoints,
         End::Joins(_) => LoadEnd::Joins,
         End::Lost => LoadEnd::Lost,
+        End::Open => LoadEnd::Open,
+        End::Unbounded => LoadEnd::Unbounded,
         End::Numbers(_) => LoadEnd::Numbers,
     };
     let (branches_from, joins, linear_buckling) = (None, None, None);

@@ -77,6 +77,10 @@ pub enum LoadEnd {
     Joins,
     /// No step leads on.
     Lost,
+    /// Where places are open: many are in equilibrium at one value of the parameter.
+    Open,
+    /// Where forces grow without bound, as in a line that is pulled straight.
+    Unbounded,
     /// The numbers describe no system beyond.
     Numbers,
 }

@@ -496,3 +496,58 @@ fn where_no_path_begins_the_error_says_why() {
     assert!(run(&gable(0.5, "z", ""), "loads=1,1").contains("needs a range"));
     assert!(run(&gable(0.5, "z", ""), "joints.Q.force_n.z=0..1").contains("no joint `Q`"));
 }
+
+/// A load that is lifted by its own weight rests anywhere, also where it hangs on one cable alone: the path ends at that force,
+/// 2 g and 2.2 g, stable up to there, without a limit point or a branch point.
+#[test]
+fn a_path_ends_where_a_load_is_weightless() {
+    let member = |from: &str, to: &str, length_m: f64, kind: &str, more: &str| {
+        format!(
+            "[[bars]]\nfrom = {from:?}\nto = {to:?}\nlength_m = {length_m}\nkind = {kind:?}\n{more}"
+        )
+    };
+    let hung = |elastic: &str| {
+        "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1.5, 0, -2] }\nP = { mass_kg = 3 }\nQ = { mass_kg = 2 }\n"
+            .to_owned()
+            + &member("A", "P", 2.0, "cable", elastic)
+            + &member("P", "Q", 1.0, "bar", "")
+            + &member("Q", "B", 1.2, "cable", elastic)
+    };
+    let slung = |elastic: &str| {
+        let heavy = format!("mass_kg = 0.2\n{elastic}");
+        "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [4, 0, 0] }\nQ = { mass_kg = 2 }\n"
+            .to_owned()
+            + &member("A", "Q", 3.0, "cable", &heavy)
+            + &member("Q", "B", 3.0, "cable", &heavy)
+    };
+    for elastic in ["", "stiffness_n = 1e5\n"] {
+        for (file, weight_kg) in [(hung(elastic), 2.0), (slung(elastic), 2.2)] {
+            for to in ["30", "40", "25.5"] {
+                let found = path(&file, &format!("joints.Q.force_n.z=0..{to}"));
+                let last = found.points.last().unwrap().values[0];
+                assert!((last - weight_kg * 9.80665).abs() < 1e-6, "{last}");
+                assert!(found.end == LoadEnd::Open && found.agrees(), "{to} {:?}", found.confirmed);
+                assert!(
+                    found.events.iter().all(|event| event.kind == LoadEventKind::Kink),
+                    "{:?}",
+                    found.events
+                );
+            }
+        }
+    }
+}
+
+/// Six links of a metre, whose ends are pulled further apart than they reach: stable up to there, where forces have no bound.
+#[test]
+fn a_path_ends_where_a_row_is_straight() {
+    for kind in ["bar", "cable"] {
+        let file = format!(
+            "[joints]\nA = {{ at_m = [0, 0, 0] }}\nB = {{ at_m = [4, 0, 0] }}\n\
+            [[bars]]\nfrom = \"A\"\nto = \"B\"\nlength_m = 1\nmass_kg = 1\ncount = 6\nkind = {kind:?}\n"
+        );
+        let found = path(&file, "joints.B.at_m.x=4..7");
+        let last = found.points.last().unwrap().values[0];
+        assert!((5.9..6.0).contains(&last) && found.events.is_empty(), "{kind} {last}");
+        assert!(found.end == LoadEnd::Unbounded && found.agrees(), "{kind} {:?}", found.confirmed);
+    }
+}
