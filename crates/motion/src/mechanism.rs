@@ -159,11 +159,6 @@ impl Mechanism {
         };
         found.add_joints();
         found.add_members(&inertia);
-        let is_held = |bar: &&Rigid| found.of(&bar.spans).iter().all(|s| s.a.min(s.b) >= moving);
-        if let Some(bar) = found.bars.iter().find(is_held) {
-            let joint = found.name(found.spans[bar.spans.start].a);
-            return Err(MotionError::Redundant { joint, pivot: 0.0 });
-        }
         Ok(found)
     }
 
@@ -209,9 +204,11 @@ impl Mechanism {
             let [at_a, at_b] = member.end_loads_n(self.system.gravity_m_s2());
             self.load[a] = add_times(self.load[a], 1.0, at_a);
             self.load[b] = add_times(self.load[b], 1.0, at_b);
-            // Inextensible cables and struts that come here are slack, ropes are taut.
+            // Inextensible cables and struts that come here are slack, ropes are taut. What is between anchors keeps
+            // nothing from moving.
             let is_rigid = member.kind == Kind::Bar || member.rope.is_some();
-            if is_rigid && member.stiffness_n.is_none() {
+            let moves = member.path().any(|joint| self.slot_of[joint] < self.moving);
+            if is_rigid && moves && member.stiffness_n.is_none() {
                 rigid.push((a.min(b), number));
             } else {
                 elastic.push(number);

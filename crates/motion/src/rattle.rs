@@ -38,6 +38,9 @@ const SLOW: f64 = 0.5;
 /// they would also find the positions that a motion does not lead to.
 const LARGEST_TURN: f64 = 0.5;
 
+/// Halvings of a step whose lengths are not met.
+const HALVINGS: u32 = 4;
+
 /// A span of a rope that is shorter than this, in units of its mean span, has no direction.
 const NO_SPAN: f64 = 1e-9;
 
@@ -107,13 +110,23 @@ impl Stepper {
         self.saddle.factor(&self.vectors).map_err(Failure::Singular)
     }
 
-    /// A step of the length `h`, of either sign.
+    /// A step of the length `h`, of either sign, in halves of halves where a longer one does not meet the lengths.
     pub(crate) fn step(
         &mut self,
         state: &mut State,
         forces: &Forces,
         time_s: f64,
         h: f64,
+    ) -> Result<(), Failure> {
+        self.step_in_halves(state, forces, [time_s, h], HALVINGS)
+    }
+
+    fn step_in_halves(
+        &mut self,
+        state: &mut State,
+        forces: &Forces,
+        [time_s, h]: [f64; 2],
+        halvings: u32,
     ) -> Result<(), Failure> {
         let moving = self.mechanism.moving;
         for (by, v) in self.by.iter_mut().zip(&state.velocity) {
@@ -129,6 +142,12 @@ impl Stepper {
         jammed(&self.mechanism, state, |s, d| {
             dot(d, plus(d, minus(self.by[s.b], self.by[s.a]))) <= 0.0
         })?;
+        if halvings > 0 && matches!(met, Err(Failure::NotMet { .. })) {
+            // The state is as it was, and so are its factors.
+            let half = 0.5 * h;
+            self.step_in_halves(state, forces, [time_s, half], halvings - 1)?;
+            return self.step_in_halves(state, forces, [time_s + half, half], halvings - 1);
+        }
         met?;
         state.displace(&self.by[..moving]);
         for (v, by) in state.velocity.iter_mut().zip(&self.by) {

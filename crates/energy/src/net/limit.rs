@@ -20,9 +20,10 @@
 //! are motions. What needs them strained, as a nearly taut line needs its sag, has no equilibrium in
 //! that reading, and the next one is less soft.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use model::system::{Kind, Misfit};
+use model::system::{Kind, LENGTH_ROUNDING, Misfit};
 
 use crate::error::Error;
 use crate::net::frame::{Frame, Rod};
@@ -42,6 +43,10 @@ const SOFT: f64 = 1e4;
 
 /// Softness of the first reading at most: more than that and nothing is rigid.
 const SOFTEST: f64 = 1e-2;
+
+/// Tolerance of lengths that are known to rounding, over the length: there what no change of the shape takes up is told from
+/// what a soft motion does. Of others springs tell it.
+const TIGHT: f64 = 1.01 * LENGTH_ROUNDING;
 
 /// Softness of the last reading: below it all is rounding.
 const HARDEST: f64 = 1e-14;
@@ -76,9 +81,22 @@ impl Limit {
         self.misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m)
     }
 
-    /// The softness of its reading.
-    pub(super) fn softness(&self) -> f64 {
-        SOFT * self.rank * self.rank
+    /// How these members share loads at a shape in its reading, where lengths are known to rounding.
+    pub(super) fn share(&self, frame: &Frame, shape: &Shape, taut: &[bool]) -> Option<Share> {
+        let softness = SOFT * self.rank * self.rank;
+        let mut share = Share::new(&Arc::new(frame.clone())).ok()?;
+        (frame.tolerance() <= TIGHT && share.stand(&shape.x, taut, softness)).then_some(share)
+    }
+
+    /// Whether the members that take part in a self-stress are as many as the coordinates of their joints.
+    pub(super) fn has_enough(&self, frame: &Frame) -> bool {
+        let ends = self.misfits.iter().flat_map(|misfit| {
+            let rod = &frame.rods[misfit.member];
+            [rod.from, rod.to]
+        });
+        let joints: BTreeSet<usize> = ends.collect();
+        let coordinates = joints.into_iter().map(|joint| frame.spots[joint].freedom);
+        self.misfits.len() >= coordinates.sum()
     }
 
     /// The largest misfit over its tolerance.
@@ -103,6 +121,12 @@ impl Frame {
     fn linear(&self) -> Self {
         let rods = self.rods.iter().map(|rod| Rod { linear: true, ..*rod });
         Self { rods: rods.collect(), ..self.clone() }
+    }
+
+    /// The largest tolerance of an inextensible member, over its length.
+    fn tolerance(&self) -> f64 {
+        let rods = self.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
+        rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max)
     }
 
     /// Inextensible members that are taut within their tolerances, joints on the floor within
@@ -179,8 +203,7 @@ impl Newton {
     /// no reading finds a self-stress and an equilibrium. A shape is `exact` where it is a solution
     /// that meets all lengths.
     pub(super) fn limit(&mut self, shape: &Shape, exact: bool) -> Result<Reading, Error> {
-        let rods = self.frame.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
-        let within = rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max);
+        let within = self.frame.tolerance();
         if within <= 0.0 {
             return Ok(Reading::Regular);
         }
@@ -273,7 +296,8 @@ impl Newton {
             let stiffness = frame.force_scale(&shape.force) / strain;
             // What no change of the shape takes up is no reason to change it.
             let excess = frame.excesses(&shape.x);
-            let off = share.in_no_shape(|e| excess[e].value);
+            let off =
+                if softness <= TIGHT { share.in_no_shape(|e| excess[e].value) } else { vec![] };
             shape = self.chord(&shape, stiffness, &holding, &off);
             // Forces of what goes slack are borne by the others before they move anything.
             let Some(changes) = settle_taut(&frame, share, &mut shape, &mut taut, softness) else {
@@ -389,7 +413,7 @@ pub(super) fn stressed(shape: &Shape, stress: &[f64]) -> Shape {
 }
 
 /// Take out of the forces of the inextensible members what no load causes.
-fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) {
+pub(super) fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) {
     let shared = share.shared(force);
     take_shares(frame, &shared, force);
 }

@@ -351,7 +351,8 @@ impl Newton {
                 self.limit = Some(limit.clone());
                 Ok(Some(limit.shape))
             }
-            Reading::Found(limit) if exact.is_none() => {
+            // Fewer lengths than places say nothing of each other: elsewhere they fit.
+            Reading::Found(limit) if exact.is_none() && limit.has_enough(&self.frame) => {
                 // What was taken for taut may be slack.
                 let may_go = |rod: &Rod| rod.kind != Kind::Bar && !rod.ground;
                 self.misfits += 1;

@@ -12,18 +12,15 @@
 //! rounding, with the members' own stiffnesses, or stiff springs where none has its own; its minimum gives the
 //! forces, and is found by steps with one factorisation.
 
-use std::sync::Arc;
-
 use model::Vector;
-use model::system::System;
+use model::system::{Kind, System};
 
 use crate::net::factor::Factor;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
-use crate::net::limit::Limit;
+use crate::net::limit::{Limit, share_forces};
 use crate::net::polish::{NEUTRAL, STIFF_STRAIN};
 use crate::net::shape::{NO_STRAIN, Shape, largest};
-use crate::net::share::Share;
 use crate::thresholds::{PROGRESS, SETTLED};
 use crate::vector::{along, dot, norm, scaled};
 
@@ -87,15 +84,15 @@ pub(super) fn settled(
     let off = vec![0.0; frame.rods.len()];
     let mut here =
         Displaced { frame, lengths: &lengths, off, x: &x, u, force: shape.force.clone() };
-    let elastic = frame.rods.iter().any(Rod::elastic);
+    // The spans of a rope are long beside what it is longer, and what is rigid beside them is as they are.
+    let elastic = frame.ropes.is_empty() && frame.rods.iter().any(Rod::elastic);
+    let mut shared = None;
     if let Some(limit) = limit {
-        if !elastic {
+        let Some(mut share) = limit.share(frame, &shape, &active).filter(|_| elastic) else {
             return Settled::as_is(frame, shape);
-        }
-        match here.in_no_shape(&shape, limit) {
-            Some(off) => here.off = off,
-            None => return Settled::as_is(frame, shape),
-        }
+        };
+        here.off = share.in_no_shape(|e| here.excess(e).0);
+        shared = Some(share);
     }
     let mut error = here.error(&active);
     if error <= 1.0 {
@@ -119,6 +116,24 @@ pub(super) fn settled(
                 break;
             }
             (here, error) = (next, left);
+        }
+    }
+    // Which of those that are just taut resist was read from rounded places.
+    let least = SETTLED * frame.largest_force(&here.force);
+    let turned = |(e, rod): (usize, &Rod)| {
+        let by_law = here.excess(e).0 / rod.flexibility;
+        let one_sided = rod.elastic() && rod.kind != Kind::Bar && rod.rope == 0;
+        one_sided && by_law.abs() > least && rod.resists(by_law) != active[e]
+    };
+    if frame.rods.iter().enumerate().any(turned) {
+        return Settled::as_is(frame, shape);
+    }
+    if let Some(mut share) = shared {
+        // Rounding beside stiff springs is a self-stress.
+        let found = here.force.clone();
+        share_forces(frame, &mut share, &mut here.force);
+        if here.error(&active) > error.max(1.0) {
+            here.force = found;
         }
     }
     let back = |(x, u): (&Vector, &Vector)| -> Vector {
@@ -164,17 +179,6 @@ impl Displaced<'_> {
         (squares / both * unit - self.off[e], whole.gradient)
     }
 
-    /// What no change of the shape takes off the excesses of the rigid members that overdetermine it; `None` where that
-    /// is not to be had.
-    fn in_no_shape(&self, shape: &Shape, limit: &Limit) -> Option<Vec<f64>> {
-        let frame = self.frame;
-        let mut share = Share::new(&Arc::new(frame.clone())).ok()?;
-        if !share.stand(&shape.x, &limit.taut, limit.softness()) {
-            return None;
-        }
-        Some(share.in_no_shape(|e| self.excess(e).0))
-    }
-
     /// The largest unbalanced force over what counts as none at its joint, or error of the force of an elastic
     /// member over what counts as none.
     fn error(&self, active: &[bool]) -> f64 {
@@ -195,8 +199,10 @@ impl Displaced<'_> {
         let laws = rods.map(|(e, rod)| {
             if rod.elastic() {
                 (self.excess(e).0 / rod.flexibility - self.force[e]).abs()
-            } else {
+            } else if frame.ropes.is_empty() {
                 self.excess(e).0.abs() / stiffest
+            } else {
+                0.0
             }
         });
         let laws = laws.fold(0.0, f64::max) / frame.largest_force(&self.force);

@@ -15,9 +15,10 @@ use nalgebra::Vector3;
 
 use super::decided::{Decided, SWEEPS};
 use super::fitted::RIGID;
-use super::framework::Framework;
+use super::framework::{Framework, Link};
 use super::residual::Residual;
 use super::settings::Settings;
+use super::signs::SIGNS_SEEN;
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::thresholds::{EARNED, HALVED, ROUNDED, SUM_ROUNDING};
@@ -89,14 +90,16 @@ pub(super) fn polish(
     // Of stiff members a rounding of a length is a force.
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
     let rounded = if elastic { SUM_ROUNDING } else { ROUNDED };
-    let mut stiffly = false;
+    let rigid = |link: &Link| link.compliance <= 0.0 && framework.moves(link);
+    let (mixed, mut stiffly) = (elastic && framework.links.iter().any(rigid), false);
     while run.steps < settings.max_iterations && !framework.work.is_spent() {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
         // What is left of rounding goes with the factor of the last step, where that was near enough.
         let last = done && run.steps > 0 && !anew;
         if !last {
-            stiffly = elastic && (slow > 0 || decided.is_some());
+            let near = run.residual.size() <= SIGNS_SEEN;
+            stiffly = mixed && ((slow > 0 && near) || decided.is_some());
         }
         let at = Derivative::at(framework, &run.state, &run.residual);
         let at = if stiffly { at.stiffer() } else { at };

@@ -17,7 +17,7 @@ use crate::thresholds::ROUNDED;
 pub(super) const SIGN_CHANGES: usize = 30;
 /// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
 /// one costs few steps, and far below the forces that are likely.
-const SIGNS_SEEN: f64 = 1e-6;
+pub(super) const SIGNS_SEEN: f64 = 1e-6;
 /// At the first changes only members that push this part of the worst push, or more, are made
 /// slack: that relieves their neighbours. Where all are, along the edge of a net that hangs from
 /// its corners, those that ought not come back one by one (12 changes in the place of 2).

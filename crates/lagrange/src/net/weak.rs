@@ -69,9 +69,10 @@ fn exact_misfits(
 ) -> Vec<f64> {
     let places = places_m(system, framework, &run.state);
     let misfit = |(k, link): (usize, &Link)| {
-        // The spans of a rope are long beside what it is longer.
-        let straight = link.rope.is_none();
-        if straight && k < framework.members() && run.state.taut[k] && framework.moves(link) {
+        // The spans of a rope are long beside what it is longer, and what is rigid beside them is as they are.
+        let straight = link.rope.is_none() && k < framework.members();
+        let exact = straight && (framework.ropes.is_empty() || link.compliance > 0.0);
+        if exact && run.state.taut[k] && framework.moves(link) {
             let length_m = system.members()[k].body.length_m();
             let longer_m = elongation_m(&places[link.from], &places[link.to], length_m);
             link.compliance * run.state.axial[k] - longer_m / framework.units.length_m
@@ -116,7 +117,8 @@ fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place>
 fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
     let elastic = framework.links.iter().map(|link| link.compliance).filter(|c| *c > 0.0);
     let stiffest = elastic.fold(f64::INFINITY, f64::min);
-    let compliance = |link: &Link| if link.compliance > 0.0 { link.compliance } else { stiffest };
+    let of_rigid = if framework.ropes.is_empty() { stiffest } else { f64::INFINITY };
+    let compliance = |link: &Link| if link.compliance > 0.0 { link.compliance } else { of_rigid };
     let links = framework.links.iter().zip(misfits);
     let forces = links.map(|(link, off)| off.abs() / compliance(link) / run.residual.unit);
     forces.fold(run.residual.balance.0, larger)

@@ -134,10 +134,10 @@ pub enum NoCensus {
     /// There is a floor, which no census knows.
     #[error("no census knows a floor")]
     Floor,
-    /// A joint slides on a line or in a plane.
+    /// A joint slides on a line, or in a plane and is no part of a chain or tree there.
     #[error(
-        "no census: the {} joint slides; only chains and trees that slide in the vertical plane of their \
-         anchors and loads have one", ordinal(*joint)
+        "no census: the {} joint slides, or is held to a plane in a net: in one plane only chains and trees have one, \
+         in the vertical plane of their anchors and loads; without `plane` a net may have one", ordinal(*joint)
     )]
     Slider {
         /// The joint, from 1.

@@ -272,8 +272,10 @@ impl System {
         if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).len() == 0) {
             return Err(Refusal::Unconnected { name: joints[joint].name.to_string(), joint });
         }
+        // On a floor a part may stand where it is drawn.
+        let stands = self.floor_m().is_some() && self.drawing().is_some();
         for part in graph.components() {
-            if part.iter().all(|joint| joints[*joint].support.at_m().is_none()) {
+            if !stands && part.iter().all(|joint| joints[*joint].support.at_m().is_none()) {
                 let (joint, joints_of_part) = (part[0], part.len());
                 return Err(Refusal::Falls {
                     name: joints[joint].name.to_string(),
@@ -310,7 +312,8 @@ impl System {
                     let parts =
                         way.iter().map(|k| (*k, ways.get(*k).unwrap_or_default() / reach_m));
                     let slack = self.slack_beside(graph, [start, joint], parts);
-                    if self.holds_inner(graph, &way, slack) {
+                    // A member between two anchors holds nothing, and moves nothing.
+                    if way.len() == 2 || self.holds_inner(graph, &way, slack) {
                         continue;
                     }
                     if margin_m.abs() > near {
@@ -404,7 +407,10 @@ impl System {
             let ways = graph.distances(member.from, length_m + near, Some((k, member.to)));
             let Some(rest_m) = ways.get(member.to) else { continue };
             let folded = (length_m - rest_m).abs() <= near;
-            if folded && self.holds_inner(graph, &ways.way(member.to), Some(k)) {
+            let fixed = |joint: usize| self.joints()[joint].support.is_fixed();
+            let between_anchors = [member.from, member.to].into_iter().all(fixed);
+            if folded && (between_anchors || self.holds_inner(graph, &ways.way(member.to), Some(k)))
+            {
                 continue;
             }
             let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.to_string());

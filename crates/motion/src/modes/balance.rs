@@ -14,7 +14,12 @@ pub(crate) struct LeftOver {
     pub forces: Vec<Vector>,
     /// The largest force in the system, N.
     pub unit_n: f64,
+    /// What the rounding of coordinates in the world frame leaves of the forces of springs at a joint, N.
+    rounding_n: f64,
 }
+
+/// Roundings of the coordinates of a joint: of both ends of the springs that meet there.
+const ROUNDINGS: f64 = 8.0;
 
 impl LeftOver {
     pub(super) fn new(
@@ -40,7 +45,11 @@ impl LeftOver {
             forces[link.b] = add_times(forces[link.b], -1.0, pull);
             unit_n = worse(unit_n, norm(pull));
         }
-        Self { forces, unit_n }
+        let far_m = mechanism.reference_m.iter().fold(0.0, |most, x| worse(most, x.abs()));
+        let stiffness = mechanism.springs.iter().map(|spring| spring.stiffness_n / spring.length_m);
+        let stiffest_n_m = stiffness.fold(0.0, worse);
+        let rounding_n = ROUNDINGS * f64::EPSILON * far_m * stiffest_n_m;
+        Self { forces, unit_n, rounding_n }
     }
 
     /// Largest force that no support bears, relative to the largest force.
@@ -55,8 +64,9 @@ impl LeftOver {
         let (slot, off) = sizes.enumerate().fold((0, 0.0_f64), |most, (slot, size)| {
             if size.is_nan() || size > most.1 { (slot, size) } else { most }
         });
+        let rounded = off <= self.rounding_n;
         let off = if self.unit_n > 0.0 { off / self.unit_n } else { off };
-        if off.is_nan() || off > BALANCE {
+        if off.is_nan() || (off > BALANCE && !rounded) {
             return Err(MotionError::NotInBalance { joint: mechanism.name(slot), off });
         }
         Ok(off)

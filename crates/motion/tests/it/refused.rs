@@ -4,6 +4,8 @@ use model::Bar;
 use model::system::{Joint, Member, System};
 use motion::{Mechanism, MotionError, Settings, Simulation};
 
+use numerics::vector::minus;
+
 use crate::common::{at_rest, hanging, links, rods, string};
 
 fn rod() -> Bar {
@@ -39,25 +41,60 @@ fn a_joint_without_inertia_is_named() {
 }
 
 #[test]
-fn a_taut_line_and_a_bar_too_many_are_told() {
+fn a_taut_line_is_told() {
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint::free("P"),
         Joint::anchor("B", [2.0, 0.0, 0.0]),
         Joint::free("Q"),
     ];
-    let mut members =
+    let members =
         vec![Member::bar(0, 1, rod()), Member::bar(1, 2, rod()), Member::bar(1, 3, rod())];
-    let taut = System::new("taut", 9.81, joints.clone(), members.clone()).unwrap();
+    let taut = System::new("taut", 9.81, joints, members).unwrap();
     let at = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, -1.0]];
     let refused = Simulation::new(&taut, &at, Settings::default()).err().unwrap();
     assert!(
         matches!(refused, MotionError::Redundant { ref joint, .. } if joint == "P"),
         "{refused}"
     );
-    members.push(Member::bar(0, 2, Bar::homogeneous(2.0, 1.0).unwrap()));
-    let between_anchors = System::new("between", 9.81, joints, members).unwrap();
-    assert!(matches!(Mechanism::new(&between_anchors), Err(MotionError::Redundant { .. })));
+}
+
+/// A bar between the anchors of a pendulum, and one whose own anchors are fixed: the pendulum swings as without, sqrt(3g/2l).
+#[test]
+fn a_bar_between_anchors_changes_no_motion() {
+    let joints =
+        vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::anchor("B", [2.0, 0.0, 0.0])];
+    let between = Member::bar(0, 2, Bar::homogeneous(2.0, 1.0).unwrap());
+    let system =
+        System::new("pendulum", 9.81, joints, vec![Member::bar(0, 1, rod()), between]).unwrap();
+    let places = [[0.0; 3], [0.0, 0.0, -1.0], [2.0, 0.0, 0.0]];
+    let modes = motion::modes(&system, &places, None).unwrap();
+    for mode in &modes.modes {
+        assert!((mode.omega2_s2 / (1.5 * 9.81) - 1.0).abs() < 1e-12, "{}", mode.omega2_s2);
+    }
+    assert_eq!(modes.modes.len(), 2);
+    let mut simulation = Simulation::new(&system, &places, Settings::default()).unwrap();
+    simulation.step(1e-2).unwrap();
+    assert!(minus(simulation.joints_m()[1], places[1]).iter().all(|x| x.abs() < 1e-12));
+}
+
+/// A weight on a spring of 1e8 N/m far from the origin, whose places are rounded to 1e-9 m and its force to 0.05 N: its
+/// frequencies are those of a spring pendulum.
+#[test]
+fn modes_far_from_the_origin_are_those_at_it() {
+    for far_m in [0.0, 5.2e6] {
+        let place = |z: f64| [far_m, 0.3 * far_m, far_m + z];
+        let joints = vec![Joint::anchor("A", place(0.0)), Joint::free("P").with_mass(80.0)];
+        let body = Bar::homogeneous(1.0, 0.0).unwrap();
+        let spring = Member::bar(0, 1, body).with_stiffness(1e8);
+        let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
+        let at = [place(0.0), place(-1.0 - 8e-6)];
+        let found = motion::modes(&system, &at, None).unwrap().modes;
+        let rates: Vec<f64> = found.iter().map(|mode| mode.omega2_s2).collect();
+        for (rate, wanted) in rates.iter().zip([10.0, 10.0, 1e8 / 80.0]) {
+            assert!((rate / wanted - 1.0).abs() < 1e-4, "{far_m}: {rates:?}");
+        }
+    }
 }
 
 #[test]

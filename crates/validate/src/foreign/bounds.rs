@@ -10,7 +10,7 @@ use numerics::vector::{minus, norm, worse};
 /// of a residual.
 pub const IMPLAUSIBLE: f64 = 10.0;
 
-/// The tolerance of an answer unless another is asked for: what six digits carry.
+/// The tolerance of an answer unless another is asked for.
 pub const TOLERANCE: f64 = 1e-6;
 
 /// Rounding of stored numbers: eight units in the last place of the largest, as everywhere in this

@@ -541,3 +541,28 @@ fn a_step_ladder_stands_on_the_floor_alone() {
         close(e.axial_n[2], 100.0);
     }
 }
+
+/// A tripod in space that nothing but the floor holds: feet on a circle of 1.5 m, 2 m high, under 60 kg; each leg bears a third of
+/// it along 2.5 m, and each tie a third of what the legs push outwards by the angle of 30 degrees.
+#[test]
+fn a_tripod_stands_on_the_floor_alone() {
+    let mut joints = vec![Joint::free("top").with_mass(60.0).near([0.0, 0.0, 2.0])];
+    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+    let mut members = vec![];
+    for k in 0..3 {
+        let (sin, cos) = (f64::from(k) * TAU / 3.0).sin_cos();
+        joints.push(Joint::free(format!("foot {k}")).near([1.5 * cos, 1.5 * sin, 0.0]));
+        members.push(Member::bar(0, joints.len() - 1, bar(2.5)));
+    }
+    for ends in [[1, 2], [2, 3], [3, 1]] {
+        members.push(Member::bar(ends[0], ends[1], bar(1.5 * 3.0_f64.sqrt())));
+    }
+    let system = System::new("tripod", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
+    for e in agreed(&system) {
+        for foot in 0..3 {
+            close(e.reactions_n[foot + 1][2], 200.0);
+            close(e.axial_n[foot], -250.0);
+            close(e.axial_n[foot + 3], 150.0 / 3.0_f64.sqrt());
+        }
+    }
+}

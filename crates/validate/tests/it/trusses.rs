@@ -4,7 +4,7 @@ use model::system::{Joint, Member, Support, System};
 use model::{Bar, STANDARD_GRAVITY_M_S2 as G, Vector};
 use nalgebra::Vector3;
 
-use crate::drawn::{axial, close, drawn, linear, neighbour};
+use crate::drawn::{axial, close, drawn, linear, neighbour, written};
 
 /// Half of 500 kg g on each support; then joint by joint: a diagonal has the slope 8 in 5.
 #[test]
@@ -144,5 +144,18 @@ fn long_trusses_stay_where_they_are_drawn() {
             &format!("b{}", middle + 1),
         );
         assert!((force / (moment / height) - 1.0).abs() < 1e-9, "{panels} panels: {force} N");
+    }
+}
+
+/// A triangle on two pins, with a bar between them: it bears nothing that is known, and the others 100 kg g over the root of two.
+#[test]
+fn a_bar_between_two_pins_is_of_no_account() {
+    let text = "plane = \"xz\"\n[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0] }\n\
+        C = { near_m = [1, 0, 1], mass_kg = 100 }\n[[bars]]\nfrom = \"A\"\nto = \"B\"\nmass_kg = 3\n\
+        [[bars]]\nfrom = \"A\"\nto = \"C\"\nmass_kg = 0\n[[bars]]\nfrom = \"B\"\nto = \"C\"\nmass_kg = 0\n";
+    for e in neighbour(&written(text)).equilibria {
+        let borne = -100.0 * G / 2.0_f64.sqrt();
+        close(&e.axial_n, &[0.0, borne, borne], 1e-9);
+        assert_eq!(e.evidence.self_stresses.unwrap().dimension, 1);
     }
 }
