@@ -80,8 +80,9 @@ Exit codes:
   0  done; all points of a load path are confirmed by `energy`, the censuses of a chain by its branches
   1  a check failed: a point is not confirmed, a census differs from the branches
   2  bad input or usage, or no point describes a chain
-  3  undecided: no equilibrium at the start of a load path, a path that is lost; of a chain: a branch could
-     not be followed, a branch point lacks its branches, or nothing is known between two points
+  3  undecided: no equilibrium at the start of a load path, a path that is lost, or that ends before its range
+     where forces have no bound or many shapes are at rest; of a chain: a branch could not be followed, a
+     branch point lacks its branches, or nothing is known between two points
 130  interrupted; nothing is kept to go on from, and no file is half written
 
 A load path says nothing of other equilibria. Of a chain a pair of branches that begins and ends between two
