@@ -388,8 +388,8 @@ fn refusal_help(refusal: &Refusal) -> &'static str {
     match refusal {
         Refusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
         Refusal::Falls { .. } => {
-            "give one of its joints a place: at_m = [x, y, z]; where all of it stands on a floor, one on the level \
-             of the floor with free = \"xy\""
+            "give one of its joints a place: at_m = [x, y, z]; or, where it stands on a floor, all of them one in a \
+             drawing: near_m = [x, y, z]"
         }
         Refusal::NothingMoves => "leave one joint without at_m, or use at least two bars",
         Refusal::NoLoad => {
