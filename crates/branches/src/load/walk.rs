@@ -39,6 +39,8 @@ const FLAT: f64 = 1e-6;
 const LONG: f64 = 1e-3;
 /// Forces that turn round between two points and are so many times as large in between go through infinity.
 const BURST: f64 = 4.0;
+/// The step before that is no longer than this part of the first.
+const NEAR: f64 = 0.1;
 /// Part of a step at which the side of a path after a kink is seen.
 const BESIDE: f64 = 1e-6;
 
@@ -164,6 +166,11 @@ impl<'a, Q: Equations> Walk<'a, Q> {
             };
             match passed {
                 Passed::On => {}
+                // Nearer to where forces have no bound.
+                Passed::End(End::Unbounded) if long > NEAR * FIRST => {
+                    length = SHORTER * long;
+                    continue;
+                }
                 Passed::End(end) => return Ok(end),
                 Passed::Gap if long > SHORTEST * FIRST => {
                     length = SHORTER * long;
