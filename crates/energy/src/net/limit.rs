@@ -296,8 +296,11 @@ impl Newton {
             let stiffness = frame.force_scale(&shape.force) / strain;
             // What no change of the shape takes up is no reason to change it.
             let excess = frame.excesses(&shape.x);
-            let off =
-                if softness <= TIGHT { share.in_no_shape(|e| excess[e].value) } else { vec![] };
+            let off = if frame.tolerance() <= TIGHT {
+                share.in_no_shape(|e| excess[e].value)
+            } else {
+                vec![]
+            };
             shape = self.chord(&shape, stiffness, &holding, &off);
             // Forces of what goes slack are borne by the others before they move anything.
             let Some(changes) = settle_taut(&frame, share, &mut shape, &mut taut, softness) else {
