@@ -17,6 +17,8 @@ use super::stiffness::Stiffness;
 use crate::thresholds::{BETTER, EARNED, MOST_STEPS};
 use model::system::Kind;
 
+/// Updates of the forces.
+const ROUNDS: usize = 60;
 /// First $\rho$ in units of the mean $|N|/l$: members stretch by some percent.
 pub(super) const FIRST_PENALTY: f64 = 30.0;
 /// The same where the state is to be kept: members stretch by some hundredth of a percent.
@@ -69,7 +71,7 @@ pub(super) fn settle(
     let mut penalty = Penalty::new(framework, &state, first, floor);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
     let mut lost = None;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..ROUNDS {
         let (steps, balanced) = penalty.rest(framework, stiffness, &mut state);
         factorisations += steps;
         lost = penalty.lost(&state.places);
