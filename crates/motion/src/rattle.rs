@@ -38,7 +38,7 @@ const SLOW: f64 = 0.5;
 /// they would also find the positions that a motion does not lead to.
 const LARGEST_TURN: f64 = 0.5;
 
-/// Halvings of a step whose lengths are not met.
+/// Halvings of a step whose lengths are not met; one that needs more is too long for what it shows.
 const HALVINGS: u32 = 4;
 
 /// A span of a rope that is shorter than this, in units of its mean span, has no direction.

@@ -233,8 +233,7 @@ impl Newton {
         let mut softness = (SOFT * within).min(SOFTEST);
         let mut best: Option<Limit> = None;
         while softness >= HARDEST {
-            let read = self.reading(&mut share, shape, softness);
-            match read {
+            match self.reading(&mut share, shape, softness) {
                 Reading::Found(found) if found.fits() => return Ok(Reading::Found(found)),
                 Reading::Found(found) => {
                     if best.as_ref().is_none_or(|best| found.ratio() < best.ratio()) {

@@ -10,7 +10,8 @@
 //! with `|X|² - l²` from exact products, in metres, so that anchors and lengths are those of the file
 //! to the last digit. The energy of the displacements is quadratic but for
 //! rounding, with the members' own stiffnesses, or stiff springs where none has its own; its minimum gives the
-//! forces, and is found by steps with one factorisation.
+//! forces, and is found by steps with one factorisation. Where lengths overdetermine the shape the part of the excesses that no
+//! change of it takes off is left out.
 
 use model::Vector;
 use model::system::{Kind, System};
@@ -73,11 +74,6 @@ pub(super) fn settled(
     let excess = frame.excesses(&shape.x);
     let rods = frame.rods.iter().zip(&shape.force);
     let active: Vec<bool> = rods.map(|(rod, force)| rod.resists(*force)).collect();
-    let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
-        (false, _) => 0.0,
-        (true, true) => 1.0 / frame.rods[e].flexibility,
-        (true, false) => rigid / frame.rods[e].length,
-    };
     let lengths: Vec<f64> = system.members().iter().map(|m| m.body.length_m()).collect();
     let (x, u): (Vec<_>, Vec<_>) =
         (0..shape.x.len()).map(|k| place_m(system, frame, &shape, k)).unzip();
@@ -101,8 +97,11 @@ pub(super) fn settled(
     let neutral = NEUTRAL * frame.largest_force(&shape.force);
     // Lengths that the shape hardly feels need stiffer springs beside elastic members.
     for times in &STIFFER[..if elastic { STIFFER.len() } else { 1 }] {
-        let stiffness =
-            |e: usize| if frame.rods[e].elastic() { stiffness(e) } else { times * stiffness(e) };
+        let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
+            (false, _) => 0.0,
+            (true, true) => 1.0 / frame.rods[e].flexibility,
+            (true, false) => times * rigid / frame.rods[e].length,
+        };
         frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
         if !factor.definite() {
             break;

@@ -90,8 +90,7 @@ pub(super) fn described(
     );
     for ((event, of), enclosed) in events.iter_mut().zip(&found.events).zip(enclosed) {
         event.enclosed = enclosed;
-        // Where forces grow without bound, as in a chain that becomes taut, there is no limit to first order.
-        if event.kind == Kind::Limit && confirmed.flat == confirmed.singular {
+        if event.kind == Kind::Limit {
             let record = &found.points[event.point].record;
             (event.by_length, event.by_place) = family.imperfections(record, of)?;
         }

@@ -60,7 +60,8 @@ pub(super) fn settled(
     best
 }
 
-/// Length by the law minus length of each taut member, without cancellation where it is elastic.
+/// Length by the law minus length of each taut member, without cancellation; of lengths that overdetermine the shape the part
+/// that places decide.
 fn exact_misfits(
     system: &System,
     framework: &Framework,
@@ -113,7 +114,8 @@ fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place>
     (0..framework.nodes.len()).map(place).collect()
 }
 
-/// The largest error of a balance or of an elastic member's force, in units of the largest force.
+/// The largest error of a balance or of a member's force, in units of the largest force: of what is rigid a length that is off
+/// is felt by the stiffest member beside it.
 fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
     let elastic = framework.links.iter().map(|link| link.compliance).filter(|c| *c > 0.0);
     let stiffest = elastic.fold(f64::INFINITY, f64::min);

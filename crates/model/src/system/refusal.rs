@@ -312,8 +312,7 @@ impl System {
                     let parts =
                         way.iter().map(|k| (*k, ways.get(*k).unwrap_or_default() / reach_m));
                     let slack = self.slack_beside(graph, [start, joint], parts);
-                    // A member between two anchors holds nothing, and moves nothing.
-                    if way.len() == 2 || self.holds_inner(graph, &way, slack) {
+                    if self.holds_inner(graph, &way, slack) {
                         continue;
                     }
                     if margin_m.abs() > near {
@@ -375,8 +374,8 @@ impl System {
     }
 
     /// Whether other members hold every joint that is inside a way over members in one line: joints
-    /// of trusses lie straight between others and are held by their diagonals. Nothing else holds
-    /// those of a taut rope, and a load there has no finite force; nor do members of which it is `also` known that they do not.
+    /// of trusses lie straight between others and are held by their diagonals, and a member between two anchors has none.
+    /// Nothing else holds those of a taut rope, and a load there has no finite force; nor do members of which it is `also` known that they do not.
     fn holds_inner(
         &self,
         graph: &Graph<'_>,
@@ -394,7 +393,7 @@ impl System {
             matches!(support, Support::Fixed { .. } | Support::Line { .. })
                 || on_way.contains(&joint)
         };
-        !inner.is_empty() && inner.iter().all(|joint| graph.meets(*joint, &along, &held))
+        inner.iter().all(|joint| graph.meets(*joint, &along, &held))
     }
 
     fn loops_close(&self, graph: &Graph<'_>) -> Result<(), Refusal> {
@@ -407,10 +406,7 @@ impl System {
             let ways = graph.distances(member.from, length_m + near, Some((k, member.to)));
             let Some(rest_m) = ways.get(member.to) else { continue };
             let folded = (length_m - rest_m).abs() <= near;
-            let fixed = |joint: usize| self.joints()[joint].support.is_fixed();
-            let between_anchors = [member.from, member.to].into_iter().all(fixed);
-            if folded && (between_anchors || self.holds_inner(graph, &ways.way(member.to), Some(k)))
-            {
+            if folded && self.holds_inner(graph, &ways.way(member.to), Some(k)) {
                 continue;
             }
             let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.to_string());
