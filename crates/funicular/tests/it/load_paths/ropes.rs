@@ -121,3 +121,15 @@ fn a_rope_becomes_taut_on_a_path() {
     }
     near(path.points.last().unwrap().axial_n[1], 49.0 * 4.5 / deep_m);
 }
+
+/// With B above A by h both spans lean by 3 in 4, so that the ring is at A where h is 3 m.
+#[test]
+fn a_path_ends_where_a_ring_comes_to_its_pulley() {
+    let found = Trace::new().vary("joints.B.at_m.z=1..4").unwrap().run(&ring("")).unwrap();
+    let last = found.load_paths().unwrap().paths()[0].points.last().unwrap();
+    assert!((last.values[0] - 3.0).abs() < 1e-6, "{found}");
+    assert!(
+        found.to_string().contains("the path ends where P comes to A along its rope"),
+        "{found}"
+    );
+}
