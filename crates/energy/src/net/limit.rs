@@ -278,6 +278,7 @@ impl Newton {
                 &stressed(&shape, &stiffening),
                 frame.force_scale(&shape.force) / strain,
                 &holding,
+                0.0,
             ) {
                 if strain > STIFFEST_STRAIN {
                     // Pushed members must not buckle in what strains them little, nor because soft springs have let go of

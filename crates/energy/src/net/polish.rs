@@ -38,6 +38,9 @@ pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
 
+/// The same over what curvatures are unsure by.
+const UNSURE: f64 = 10.0;
+
 /// The same with elastic members, of which what a turn leaves of their lengths is a force.
 const ELASTIC_NEUTRAL: f64 = 1e-8;
 
@@ -70,27 +73,37 @@ impl Newton {
     /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape none brings an end: that is
     /// the business of [`limit`](crate::net::limit).
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
-        let mut found = self.polish_with(shape, STIFF_STRAIN);
+        let mut neutral = false;
+        let mut found = self.polish_with(shape, STIFF_STRAIN, &mut neutral);
         let mut strain = STIFF_STRAIN * STIFFER;
         while strain >= STIFFEST_STRAIN {
             let start = match &found {
                 Polished::Converged(shape) | Polished::Slow(shape) => shape,
                 Polished::Rounded(_) | Polished::Astray => break,
             };
-            match self.polish_with(start, strain) {
+            match self.polish_with(start, strain, &mut neutral) {
                 Polished::Astray => break,
                 next => found = next,
             }
             strain *= STIFFER;
         }
         match found {
-            Polished::Rounded(shape) | Polished::Converged(shape) => Some(shape),
+            Polished::Rounded(shape) | Polished::Converged(shape) => {
+                (!neutral || self.rests(&shape)).then_some(shape)
+            }
             Polished::Slow(_) | Polished::Astray => None,
         }
     }
 
+    /// Whether the energy falls in no direction, with springs that are as stiff as rounding lets them be.
+    fn rests(&mut self, shape: &Shape) -> bool {
+        let active = self.frame.active(shape, 0.0);
+        let stiffness = self.frame.force_scale(&shape.force) / STIFFEST_STRAIN;
+        self.factorise_stiff(shape, stiffness, &active, 0.0)
+    }
+
     /// The same with springs of one strain.
-    fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
+    fn polish_with(&mut self, shape: &Shape, strain: f64, neutral: &mut bool) -> Polished {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
         let stiffness = frame.force_scale(&shape.force) / strain;
@@ -101,8 +114,13 @@ impl Newton {
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
-            if !self.factorise_stiff(&shape, stiffness, &active) {
-                return Polished::Astray;
+            if !self.factorise_stiff(&shape, stiffness, &active, 0.0) {
+                // Springs that strain and forces that are off seem to give way along what nothing resists.
+                let unsure = strain + start;
+                if start > CHORD_NEAR || !self.factorise_stiff(&shape, stiffness, &active, unsure) {
+                    return Polished::Astray;
+                }
+                *neutral = true;
             }
             for chord in 0..CORRECTIONS {
                 let next = self.chord(&shape, stiffness, &active, &[]);
@@ -159,12 +177,13 @@ impl Newton {
     }
 
     /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
-    /// definite.
+    /// definite, where curvatures are `unsure` by so much.
     pub(super) fn factorise_stiff(
         &mut self,
         shape: &Shape,
         stiffness: f64,
         active: &[bool],
+        unsure: f64,
     ) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
@@ -172,7 +191,7 @@ impl Newton {
         let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
         let along = if frame.ropes.is_empty() { 0.0 } else { STEP_ROUNDING * stiffness / largest };
         let own = if frame.rods.iter().any(Rod::elastic) { ELASTIC_NEUTRAL } else { NEUTRAL };
-        let neutral = own.max(along);
+        let neutral = own.max(along).max(UNSURE * unsure);
         let block = |e: usize| {
             let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
             excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
