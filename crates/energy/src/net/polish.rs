@@ -97,9 +97,11 @@ impl Newton {
 
     /// Whether the energy falls in no direction, with springs that are as stiff as rounding lets them be.
     fn rests(&mut self, shape: &Shape) -> bool {
+        // Stiffer ones round more than they strain.
+        let strain = f64::EPSILON.sqrt();
+        let stiffness = self.frame.force_scale(&shape.force) / strain;
         let active = self.frame.active(shape, 0.0);
-        let stiffness = self.frame.force_scale(&shape.force) / STIFFEST_STRAIN;
-        self.factorise_stiff(shape, stiffness, &active, 0.0)
+        self.factorise_stiff(shape, stiffness, &active, strain)
     }
 
     /// The same with springs of one strain.

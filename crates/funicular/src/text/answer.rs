@@ -86,7 +86,14 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         let level = (agreement.sliding_parts > 0).then(|| {
             format!("What stands on level supports alone moves freely there: each place is an equilibrium{far}.")
         });
-        for sentence in turning.into_iter().chain(level).chain(sliding).chain(idle) {
+        let unresisted = first.map_or(0, |e| agreement.unresisted(e));
+        let easy = (agreement.agrees() && unresisted > 0).then(|| {
+            let motions = counted(unresisted, "motion");
+            format!(
+                "Nothing resists {motions} here, to second order: places along it may be equilibria too, with other forces."
+            )
+        });
+        for sentence in turning.into_iter().chain(level).chain(sliding).chain(idle).chain(easy) {
             text += &wrapped(&sentence, 0);
             text.push('\n');
         }

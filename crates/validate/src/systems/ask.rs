@@ -355,9 +355,8 @@ impl Asked<'_> {
             let mut both = vec![known.clone(), again];
             both.sort_by_key(|answer| answer.solver != SolverName::LAGRANGE);
             let one = compare(self.system, &mut both, &Tolerances::project());
-            // Along motions that cost nothing, but for what is judged as free, a common start says where both end.
-            let free = one.turned_parts + 3 * (one.free_joints + one.sliding_parts);
-            let is_placed = known.stability.neutral <= free;
+            // Along motions that cost nothing, but for what is judged as free, the drawing says where; else a common start would.
+            let is_placed = drawing_m.is_some() || one.unresisted(known) == 0;
             (one.agrees() && is_placed).then_some((both, (solver, one)))
         })?;
         *answers = both;

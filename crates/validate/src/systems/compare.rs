@@ -66,6 +66,12 @@ impl SystemAgreement {
     pub fn agrees(&self) -> bool {
         self.verdict == Verdict::Agreed
     }
+
+    /// Motions of an answer that nothing resists, to second order, besides those of what was moved onto each other.
+    pub fn unresisted(&self, answer: &SystemEquilibrium) -> usize {
+        let moved = self.turned_parts + 3 * (self.free_joints + self.sliding_parts);
+        answer.stability.neutral.saturating_sub(moved + self.undetermined.len())
+    }
 }
 
 /// What differences are held against, and what was found.
