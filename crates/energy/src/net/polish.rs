@@ -118,8 +118,8 @@ impl Newton {
             let start = slope.residual();
             if !self.factorise_stiff(&shape, stiffness, &active, 0.0) {
                 // Springs that strain and forces that are off seem to give way along what nothing resists.
-                let unsure = strain + start;
-                if start > CHORD_NEAR || !self.factorise_stiff(&shape, stiffness, &active, unsure) {
+                let seems = start <= CHORD_NEAR && (*neutral || strain >= STIFF_STRAIN);
+                if !(seems && self.factorise_stiff(&shape, stiffness, &active, strain + start)) {
                     return Polished::Astray;
                 }
                 *neutral = true;

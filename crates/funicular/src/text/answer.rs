@@ -35,6 +35,7 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         text += &energy(found);
     }
     text += &question(solution);
+    text += &shown.map_or_else(String::new, |found| of_a_plane(system, found));
     let answers: Vec<_> = equilibria.iter().map(|e| (&e.solver, &e.evidence)).collect();
     if evidence {
         text.push('\n');
@@ -89,8 +90,10 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         let unresisted = first.map_or(0, |e| agreement.unresisted(e));
         let easy = (agreement.agrees() && unresisted > 0).then(|| {
             let motions = counted(unresisted, "motion");
+            let along = if unresisted == 1 { "it" } else { "them" };
             format!(
-                "Nothing resists {motions} here, to second order: places along it may be equilibria too, with other forces."
+                "Nothing resists {motions} here, to second order: other places along {along} may be equilibria too, with \
+                 other forces."
             )
         });
         for sentence in turning.into_iter().chain(level).chain(sliding).chain(idle).chain(easy) {
@@ -239,8 +242,30 @@ fn question(solution: &SolveAnswer) -> String {
     wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
 
+/// How a structure that falls out of the plane in which it is drawn is kept there.
+fn of_a_plane(system: &System, found: &SystemEquilibrium) -> String {
+    let near_m = system.drawing().filter(|_| found.stability.index_in_space > 0);
+    let is_free = system.joints().iter().any(|joint| joint.support == Support::Free);
+    let lies = |axis: &usize| {
+        let places = || near_m.iter().flatten().chain(&found.joints_m);
+        places().all(|at| {
+            (at[*axis] - found.joints_m[0][*axis]).abs() <= FLAT * system.total_length_m()
+        })
+    };
+    let across = [1, 0].into_iter().find(|axis| near_m.is_some() && is_free && lies(axis));
+    across.map_or_else(String::new, |axis| {
+        let plane = if axis == 1 { "xz" } else { "yz" };
+        let sentence = format!(
+            "All joints are drawn in one plane, and nothing holds them in it: plane = \"{plane}\" in the file does."
+        );
+        wrapped(&sentence, 0) + "\n"
+    })
+}
+
 /// What rounding moves, as a part of the shortest member at a joint.
 const UNMOVED: f64 = 1e-12;
+/// What is out of a plane by no more than this part of the length of all members is drawn in it.
+const FLAT: f64 = 1e-9;
 /// A joint that has moved by more than this part of the shortest member there is far from where it was drawn.
 const FAR: f64 = 0.25;
 
