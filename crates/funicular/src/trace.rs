@@ -3,7 +3,7 @@
 mod confirm;
 mod description;
 mod enclosed;
-mod equations;
+pub(crate) mod equations;
 mod everywhere;
 mod figure;
 pub(crate) mod load;
@@ -296,7 +296,7 @@ impl TraceAnswer {
         match &self.0 {
             Found::All { paths, .. } => paths.iter().map(|path| &path.checks).all(Checks::decided),
             Found::Load(found) => {
-                let early = [LoadEnd::Lost, LoadEnd::Open, LoadEnd::Unbounded];
+                let early = [LoadEnd::Lost, LoadEnd::Open, LoadEnd::Unbounded, LoadEnd::Jams];
                 found.paths().iter().all(|path| !early.contains(&path.end))
             }
         }

@@ -379,7 +379,7 @@ impl Way {
         let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
         match self {
             Self::Relaxed => Pace { near: RELAXED, ..pace },
-            Self::Free => pace,
+            Self::Free => Pace { own: true, ..pace },
             Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
             Self::Near { step } => Pace { strain: STIFF_STRAIN, near: DRAWN, step, own: true },
         }

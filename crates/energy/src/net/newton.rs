@@ -111,7 +111,7 @@ pub(super) struct Pace {
     /// Largest relative displacement of the ends of a member in one step, over its length.
     pub(super) step: f64,
     /// Whether elastic members keep their own stiffness: softened by the springs, a shallow dome
-    /// would snap through.
+    /// would snap through, and a start would end in another minimum than the one below it.
     pub(super) own: bool,
 }
 

@@ -81,7 +81,7 @@ Exit codes:
   1  a check failed: a point is not confirmed, a census differs from the branches
   2  bad input or usage, or no point describes a chain
   3  undecided: no equilibrium at the start of a load path, a path that is lost, or that ends before its range
-     where forces have no bound or many shapes are at rest; of a chain: a branch could not be followed, a
+     where forces have no bound, many shapes are at rest or a rope jams; of a chain: a branch could not be followed, a
      branch point lacks its branches, or nothing is known between two points
 130  interrupted; nothing is kept to go on from, and no file is half written
 

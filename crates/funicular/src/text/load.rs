@@ -8,6 +8,7 @@ use model::system::Name;
 use super::printable::Printable;
 use super::tables::{numbers_from, outwards, short, significant, table, wrapped};
 use crate::csv::Numbers;
+use crate::trace::equations::shortest_span;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
 use validate::Tolerances;
@@ -20,8 +21,6 @@ const DIGITS: usize = 9;
 const MODE: usize = 3;
 /// Bars or joints named of a kink.
 const NAMED: usize = 4;
-/// A span of a rope that is shorter than this, in units of the rope, has no length where a path ends.
-const NO_SPAN: f64 = 1e-6;
 
 /// All paths, as `funicular trace` prints them.
 pub(super) fn text(found: &LoadPaths) -> String {
@@ -278,10 +277,11 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
     let why = match path.end {
         LoadEnd::Range => "the path ends at an end of the range".to_owned(),
         LoadEnd::MaxPoints => "the path goes on: --max-points asks for more of it".to_owned(),
-        LoadEnd::Lost => match at_pulley(found, path) {
-            Some([a, b]) => format!("the path ends where {a} comes to {b} along its rope"),
-            None => "the path is lost there: no step leads on".to_owned(),
-        },
+        LoadEnd::Lost => "the path is lost there: no step leads on".to_owned(),
+        LoadEnd::Jams => {
+            let [a, b] = at_pulley(found, path).map(Printable);
+            format!("the path ends where {a} comes to {b} along its rope, which jams there")
+        }
         LoadEnd::Unbounded => {
             "the path ends there: forces grow without bound, as in a line that is pulled straight"
                 .to_owned()
@@ -299,18 +299,13 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
     format!("{points} point{}; {why}", if points == 1 { "" } else { "s" })
 }
 
-/// The joints of a span of a rope that has no length at the end of a path.
-fn at_pulley<'a>(found: &'a LoadPaths, path: &LoadPath) -> Option<[Printable<&'a Name>; 2]> {
-    let (system, at_m) = (found.system(), &path.points.last()?.joints_m);
-    let ropes = system.members().iter().filter(|member| !member.via().is_empty());
-    let mut spans = ropes.flat_map(|rope| rope.spans().map(move |span| (rope, span)));
-    let (_, mut span) = spans.find(|(rope, [a, b])| {
-        let squares = at_m[*a].iter().zip(&at_m[*b]).map(|(a, b)| (a - b).powi(2));
-        squares.sum::<f64>().sqrt() <= NO_SPAN * rope.body.length_m()
-    })?;
-    // The one that moves first.
-    span.sort_by_key(|joint| system.joints()[*joint].support.is_fixed());
-    Some(span.map(|joint| Printable(&system.joints()[joint].name)))
+/// The joints of a rope that run together at the end of a path, the one that moves first.
+fn at_pulley<'a>(found: &'a LoadPaths, path: &LoadPath) -> [&'a Name; 2] {
+    let joints = found.system().joints();
+    let last = path.points.last().map_or(&[][..], |point| &point.joints_m);
+    let (_, mut span) = shortest_span(found.system(), last).unwrap_or_default();
+    span.sort_by_key(|joint| joints[*joint].support.is_fixed());
+    span.map(|joint| &joints[joint].name)
 }
 
 fn confirmed(found: &Confirmed) -> String {

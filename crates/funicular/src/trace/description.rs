@@ -102,6 +102,7 @@ pub(super) fn described(
         End::Lost => LoadEnd::Lost,
         End::Open => LoadEnd::Open,
         End::Unbounded => LoadEnd::Unbounded,
+        End::Numbers(LoadError::Jams) => LoadEnd::Jams,
         End::Numbers(_) => LoadEnd::Numbers,
     };
     let (branches_from, joins, linear_buckling) = (None, None, None);

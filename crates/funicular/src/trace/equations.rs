@@ -18,6 +18,9 @@ const AHEAD: f64 = 1e-3;
 /// Step of the difference for how supports move.
 const GIVEN: f64 = 1e-3;
 
+/// A span of a rope that is shorter than this, in units of the rope, has a direction to fewer digits than balance is judged by.
+const NO_SPAN: f64 = 1e-4;
+
 /// A factor is good for unknowns that differ by rounding.
 const SAME: f64 = 1e-13;
 
@@ -65,7 +68,10 @@ impl<'a> Family<'a> {
                 }
                 let answer = &found.equilibrium;
                 // No equation describes the corner of a rope that jams.
-                if answer.stability.neutral > 0 || !answer.evidence.jams.is_empty() {
+                if !answer.evidence.jams.is_empty() {
+                    return Err(LoadError::Jams);
+                }
+                if answer.stability.neutral > 0 {
                     return Err(LoadError::Singular);
                 }
                 equations.at(&system, &found)
@@ -158,6 +164,18 @@ impl<'a> Family<'a> {
     }
 }
 
+/// The shortest of all spans of ropes, in units of its rope, and its joints.
+pub(crate) fn shortest_span(system: &System, joints_m: &[Vector]) -> Option<(f64, [usize; 2])> {
+    let ropes = system.members().iter().filter(|member| !member.via().is_empty());
+    let parts = ropes.flat_map(|rope| {
+        rope.spans().map(|[a, b]| {
+            let squares = joints_m[a].iter().zip(&joints_m[b]).map(|(a, b)| (a - b).powi(2));
+            (squares.sum::<f64>().sqrt() / rope.body.length_m(), [a, b])
+        })
+    });
+    parts.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
 /// A point of a path as it is kept.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Kept {
@@ -236,8 +254,13 @@ impl load::Equations for Family<'_> {
 
     fn record(&mut self, y: &DVector<f64>, t: f64, index: usize) -> Result<Kept, LoadError> {
         self.set(t)?;
-        let found = self.equations.solution(&self.system(t)?, y.as_slice(), index);
-        Ok(Kept { values: self.values(t), equilibrium: found.equilibrium })
+        let system = self.system(t)?;
+        let equilibrium = self.equations.solution(&system, y.as_slice(), index).equilibrium;
+        let short = shortest_span(&system, &equilibrium.joints_m);
+        if short.is_some_and(|(part, _)| part < NO_SPAN) {
+            return Err(LoadError::Jams);
+        }
+        Ok(Kept { values: self.values(t), equilibrium })
     }
 }
 

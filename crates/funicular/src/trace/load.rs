@@ -63,6 +63,11 @@ pub enum LoadError {
         "the start of the path is singular, as in a limit point, or where something turns or moves freely"
     )]
     Singular,
+    /// Occurs where two joints of a rope run together.
+    #[error(
+        "the rope jams: two of its joints run together, and the span between them has no direction"
+    )]
+    Jams,
 }
 
 /// Why a load path ends.
@@ -81,6 +86,8 @@ pub enum LoadEnd {
     Open,
     /// Where forces grow without bound, as in a line that is pulled straight.
     Unbounded,
+    /// Where a rope jams: two of its joints run together.
+    Jams,
     /// The numbers describe no system beyond.
     Numbers,
 }

@@ -126,10 +126,37 @@ fn a_rope_becomes_taut_on_a_path() {
 #[test]
 fn a_path_ends_where_a_ring_comes_to_its_pulley() {
     let found = Trace::new().vary("joints.B.at_m.z=1..4").unwrap().run(&ring("")).unwrap();
-    let last = found.load_paths().unwrap().paths()[0].points.last().unwrap();
-    assert!((last.values[0] - 3.0).abs() < 1e-6, "{found}");
+    let path = &found.load_paths().unwrap().paths()[0];
+    let last = path.points.last().unwrap().values[0];
+    assert!(path.end == LoadEnd::Jams && (last - 3.0).abs() < 1e-3, "{found}");
+    assert!(found.checks_agree() && !found.checks_decided(), "{found}");
     assert!(
         found.to_string().contains("the path ends where P comes to A along its rope"),
         "{found}"
     );
+}
+
+/// A weight hangs from a rope over B with a ring of the same mass between A and B, 2 m apart: the spans lean by asin(1/2), each
+/// is 2/sqrt(3) m long, and the weight hangs by what is left. It is at B where that is nothing, or where the ring has sqrt(3) times
+/// its mass, or B is 2 sqrt(3) m away.
+#[test]
+fn a_path_ends_where_a_weight_comes_to_its_pulley() {
+    let file = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0] }\nR = { mass_kg = 1 }\nW = { mass_kg = 1 }\n\
+                [[bars]]\nfrom = \"A\"\nvia = [\"R\", \"B\"]\nto = \"W\"\nkind = \"cable\"\nlength_m = 4\n";
+    let problem = Problem::parse(file, "counterweight.toml").unwrap();
+    let third = 3.0_f64.sqrt().recip();
+    for (vary, at) in [
+        ("bars.1.length_m=4..2.1", 4.0 * third),
+        ("joints.R.mass_kg=1..5", 3.0 * third),
+        ("joints.B.at_m.x=2..3.9", 6.0 * third),
+    ] {
+        let found = Trace::new().vary(vary).unwrap().run(&problem).unwrap();
+        let path = &found.load_paths().unwrap().paths()[0];
+        let last = path.points.last().unwrap().values[0];
+        assert!(path.end == LoadEnd::Jams && (last - at).abs() < 2e-3, "{found}");
+        assert!(
+            found.checks_agree() && found.to_string().contains("where W comes to B"),
+            "{found}"
+        );
+    }
 }
