@@ -186,14 +186,15 @@ pub enum Error {
     /// Occurs when derivatives are asked for at an equilibrium that a motion leaves at rest: a part
     /// that turns freely about the vertical, for one.
     #[error(
-        "no derivative here: {motions} independent motions meet no stiffness, as where a part turns freely; \
-         where it comes to rest is no function of the parameters"
+        "no derivative here: {} no stiffness, as where a part turns freely; a joint of it that slides in a plane \
+         (`normal`) holds it",
+        if *motions == 1 { "1 motion meets".to_owned() } else { format!("{motions} independent motions meet") }
     )]
     FreeMotion { motions: usize },
     /// Occurs when derivatives are asked for where equilibrium leaves the forces open.
     #[error(
-        "no derivative here: {dimension} independent self-stresses leave the forces open, and the lengths of \
-         rigid members cannot change one by one"
+        "no derivative here: {} the forces open, and the lengths of rigid members cannot change one by one",
+        if *dimension == 1 { "1 self-stress leaves".to_owned() } else { format!("{dimension} independent self-stresses leave") }
     )]
     OpenForces { dimension: usize },
     /// Occurs when derivatives are asked for where a cable or strut has just its length and bears

@@ -145,7 +145,8 @@ impl From<Error> for Failure {
                 LoadError::Solver(_)
                 | LoadError::NotNear { .. }
                 | LoadError::Start(_)
-                | LoadError::Singular,
+                | LoadError::Singular
+                | LoadError::Jams,
             ) => Exit::Undecided,
             _ => Exit::BadInput,
         };

@@ -54,7 +54,8 @@ Bars are numbered from 1 as they are solved: a table with count = 3 is three bar
   --vary bars.4-6.mass_kg=1,2
   --vary 'bars.A-P.*.length_m=0.5..0.6:5'
 are a range and a row of a system, by the joints at its ends. A rider between two rows of one rope
-moves along it, with length, mass and loads of both sides, by the share of the first side:
+moves along it by the share of the first side; both sides together keep their length, and each its
+mass and loads per metre:
   --vary joints.rider.share=0.1..0.9:17
 The bars of a row, of the length, mass
 and loads that all of them have together, are more or fewer by

@@ -181,7 +181,8 @@ impl Shape<'_> {
         most.sort_by(by_force);
         least.sort_by(by_force);
         most.extend(least);
-        let title = format!("Of {} bars those at both ends", self.axial.len());
+        let title =
+            format!("Of {} bars those with the largest and the smallest forces", self.axial.len());
         self.bars(&title, &most)
     }
 

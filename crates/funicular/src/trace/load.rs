@@ -60,7 +60,8 @@ pub enum LoadError {
     Start(f64),
     /// Occurs when the equilibrium at the start is singular, as in a limit point.
     #[error(
-        "the start of the path is singular, as in a limit point, or where something turns or moves freely"
+        "the start of the path is singular, as in a limit point, or where a part turns freely: a joint of it that slides in \
+         a plane (`normal`) holds it"
     )]
     Singular,
     /// Occurs where two joints of a rope run together.
