@@ -128,7 +128,7 @@ fn a_path_ends_where_a_ring_comes_to_its_pulley() {
     let found = Trace::new().vary("joints.B.at_m.z=1..4").unwrap().run(&ring("")).unwrap();
     let path = &found.load_paths().unwrap().paths()[0];
     let last = path.points.last().unwrap().values[0];
-    assert!(path.end == LoadEnd::Jams && (last - 3.0).abs() < 1e-3, "{found}");
+    assert!(path.end == LoadEnd::Jams && (last - 3.0).abs() < 2e-3, "{found}");
     assert!(found.checks_agree() && !found.checks_decided(), "{found}");
     assert!(
         found.to_string().contains("the path ends where P comes to A along its rope"),
