@@ -28,11 +28,9 @@ pub(super) const STIFF_STRAIN: f64 = 1e-6;
 
 /// Of lengths that the shape hardly feels it leaves more: a line whose parts are at an angle `a` to
 /// each other strains by `a` times a displacement, and springs of strain `a²` halve the error. Where
-/// steps bring little the springs become stiffer by this factor,
+/// steps bring little the springs become stiffer by this factor, down to [`NO_STRAIN`], at which the rounding of the
+/// springs is a part 1e-4 of the forces.
 pub(super) const STIFFER: f64 = 1e-3;
-
-/// down to this strain, at which the rounding of the springs is a part 1e-4 of the forces.
-pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
@@ -76,7 +74,7 @@ impl Newton {
         let mut neutral = false;
         let mut found = self.polish_with(shape, STIFF_STRAIN, &mut neutral);
         let mut strain = STIFF_STRAIN * STIFFER;
-        while strain >= STIFFEST_STRAIN {
+        while strain >= NO_STRAIN {
             let start = match &found {
                 Polished::Converged(shape) | Polished::Slow(shape) => shape,
                 Polished::Rounded(_) | Polished::Astray => break,
@@ -98,7 +96,7 @@ impl Newton {
     /// Whether the energy falls in no direction, with springs that are as stiff as rounding lets them be.
     fn rests(&mut self, shape: &Shape) -> bool {
         let active = self.frame.active(shape, 0.0);
-        let stiffness = self.frame.force_scale(&shape.force) / STIFFEST_STRAIN;
+        let stiffness = self.frame.force_scale(&shape.force) / NO_STRAIN;
         self.factorise_stiff(shape, stiffness, &active, 0.0)
     }
 
@@ -229,7 +227,7 @@ impl Newton {
     }
 }
 
-/// A member that resists or not, with a spring of strain [`STIFF_STRAIN`] under the largest force.
+/// A member that resists or not, with a spring of this stiffness.
 fn stiff(
     frame: &Frame,
     excess: &Excess,
