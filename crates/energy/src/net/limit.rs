@@ -51,9 +51,6 @@ const HARDEST: f64 = 1e-14;
 /// by the angle `a` leaves `a`, and shares nothing with it unless that is rounding.
 const LEANING: f64 = 1e-10;
 
-/// Steps of one reading, changes of the taut members included.
-const STEPS: usize = 40;
-
 /// A shape that is overdetermined, in one reading of it.
 #[derive(Debug, Clone)]
 pub(super) struct Limit {
@@ -274,7 +271,7 @@ impl Newton {
         let mut stiffening = Vec::new();
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
-        for _ in 0..STEPS {
+        for _ in 0..CHANGES {
             let holding = frame.holding(&shape, &taut);
             if !self.factorise_stiff(
                 &stressed(&shape, &stiffening),

@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{CHANGES, CORRECTIONS, NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{CHANGES, CORRECTIONS, NO_STRAIN, PROGRESS, STEP_ROUNDING};
 use crate::vector::scaled;
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -48,9 +48,6 @@ const CHORD_NEAR: f64 = 1e-8;
 
 /// Lengths that are off hide whether a member beside them is just taut, up to this many times as much.
 const HIDDEN: f64 = 4.0;
-
-/// A chord step must leave at most this part of the residual.
-const CHORD_PROGRESS: f64 = 0.3;
 
 /// How steps with springs of one strain ended.
 enum Polished {
@@ -132,7 +129,7 @@ impl Newton {
                 if after >= before && left <= self.tolerance(&shape) {
                     return self.polished(shape, slope.residual());
                 }
-                if chord > 0 && after > CHORD_PROGRESS * before {
+                if chord > 0 && after > PROGRESS * before {
                     break;
                 }
                 (shape, slope) = (next, there);
@@ -150,7 +147,7 @@ impl Newton {
             }
             // Below the tolerance it goes on as long as that brings something.
             let residual = slope.residual();
-            let slow = residual > CHORD_PROGRESS * start;
+            let slow = residual > PROGRESS * start;
             if residual <= rounding_floor(&frame, &shape)
                 || (slow && residual <= self.tolerance(&shape))
             {
