@@ -27,10 +27,9 @@ const PATTERN_PASSES: usize = 40;
 /// Of the compressed bars one, and this part of them, go over to tension at a time.
 const PART: usize = 8;
 /// Damping at first, in units of the residual; its growth after a step that led away and decrease
-/// after a good one; and the damping beyond which a step changes nothing.
+/// after a good one.
 const DAMPING: f64 = 1e-2;
 const GROWTH: f64 = 8.0;
-const TOO_STIFF: f64 = 1e20;
 
 /// One bar of a seed.
 #[derive(Debug, Clone, Copy)]
@@ -212,9 +211,6 @@ impl<'a> Signs<'a> {
                 return Some(pull);
             } else {
                 damping *= GROWTH;
-                if damping > TOO_STIFF {
-                    return None;
-                }
             }
         }
         (size(here.residual) <= self.tolerance).then_some(pull)

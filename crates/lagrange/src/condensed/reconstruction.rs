@@ -150,7 +150,7 @@ impl Path<'_> {
             }
             self.correct(first, along, height, axial);
             here.moment = here.moment.plus(product(loads, height));
-            let (dx, dz) = (running(along, 0.0), running(height, 0.0));
+            let (dx, dz) = (running(along), running(height));
             let (from_x, from_z) =
                 (from.along.add(here.along).value(), from.height.add(here.height).value());
             for (x, z) in along.iter_mut().zip(height.iter_mut()) {
