@@ -58,6 +58,10 @@ pub(crate) const ROUNDED: f64 = 1e-13;
 /// forces are known to some 1e-13, and the terms carry some $10^4 u$ where large forces cancel.
 pub(crate) const GIVEN: f64 = 1e-12;
 
+/// Residuals, gaps and errors of lengths at which a state is near enough to read its signs, or to begin from: far above
+/// rounding, so that a wrong sign costs few steps, and far below the forces that are likely.
+pub(crate) const SEEN: f64 = 1e-6;
+
 /// An error, or a slope along a step, that has fallen to this part has become better.
 pub(crate) const BETTER: f64 = 0.9;
 

@@ -16,12 +16,10 @@
 use super::lanes::Lanes;
 use super::numbers::Bar;
 use crate::full::multipliers::REGULARISATION;
-use crate::thresholds::{EARNED, SHORTEST};
+use crate::thresholds::{EARNED, SEEN, SHORTEST};
 
 /// Passes for the closed shape: a seed needs no more digits than they give.
 const CLOSING_PASSES: usize = 25;
-/// A closed shape is near enough for its signs when its end is so near, in total lengths.
-const CLOSED: f64 = 1e-6;
 /// Passes for one pattern of signs.
 const PATTERN_PASSES: usize = 40;
 /// Of the compressed bars one, and this part of them, go over to tension at a time.
@@ -117,7 +115,7 @@ impl<'a> Signs<'a> {
         let mut multiplier = [0.0; 2];
         for _ in 0..CLOSING_PASSES {
             let here = self.gap(multiplier);
-            if size(here.residual) <= CLOSED {
+            if size(here.residual) <= SEEN {
                 break;
             }
             let [a, b, d] = here.jacobian;

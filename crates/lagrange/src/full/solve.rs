@@ -19,12 +19,9 @@ use crate::thresholds::ZERO;
 
 /// False roots left in one run: with other angles a bar has no false root near by.
 const ESCAPES: usize = 16;
-/// The first relaxation hands over to Newton's method at this norm of the residual, ...
-const FIRST_HANDOVER: f64 = 1e-2;
-/// ... and each further one at a smaller, by this factor, ...
-const LATER_HANDOVER: f64 = 0.03;
-/// ... down to this.
-const LAST_HANDOVER: f64 = 1e-12;
+/// The first relaxation hands over to Newton's method at this norm of the residual, and each further one at this part of the
+/// norm of the one before, down to the tolerance.
+const HANDOVER: f64 = 1e-2;
 
 /// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed.
 ///
@@ -205,8 +202,8 @@ impl<'p> Solver<'p> {
             perturb(&mut self.perturbed, round);
         }
         self.reduced.start(&self.perturbed);
-        let power = i32::try_from(round).unwrap_or(i32::MAX);
-        let handover = (FIRST_HANDOVER * LATER_HANDOVER.powi(power)).max(LAST_HANDOVER);
+        let power = i32::try_from(round + 1).unwrap_or(i32::MAX);
+        let handover = HANDOVER.powi(power).max(self.settings.tolerance);
         let steps = relax(&mut self.reduced, handover, self.settings.max_relaxation_steps);
         self.effort.relaxations += 1;
         self.effort.relaxation_steps += steps;

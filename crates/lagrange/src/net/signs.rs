@@ -11,13 +11,10 @@ use super::solve::Solver;
 use super::state::State;
 use super::weak;
 use crate::error::Error;
-use crate::thresholds::{ROUNDED, ZERO};
+use crate::thresholds::{ROUNDED, SEEN, ZERO};
 
 /// Changes of the set of taut members before the iteration counts as failed.
 pub(super) const SIGN_CHANGES: usize = 30;
-/// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
-/// one costs few steps, and far below the forces that are likely.
-pub(super) const SIGNS_SEEN: f64 = 1e-6;
 /// At the first changes only members that push this part of the worst push, or more, are made
 /// slack: that relieves their neighbours. Where all are, along the edge of a net that hangs from
 /// its corners, those that ought not come back one by one (12 changes in the place of 2).
@@ -36,8 +33,7 @@ impl Solver<'_> {
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
         for change in 0..SIGN_CHANGES {
-            let tolerance =
-                if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
+            let tolerance = if tight { settings.tolerance } else { settings.tolerance.max(SEEN) };
             let settings = Settings { tolerance, ..settings };
             if let Some(decided) = decided.as_deref_mut() {
                 decided.renew(&self.framework, &state);
