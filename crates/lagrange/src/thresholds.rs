@@ -8,7 +8,7 @@
 
 /// Rounding of a closure, in parts of the terms that are added: a few u for each of direction,
 /// product and sum. Compensated sums keep it there for any number of bars. Lengths, sums of lengths and
-/// distances that differ by less than this part are equal.
+/// distances that differ by less than this part are equal, and changes of other sums by so little are none.
 pub(crate) const CLOSURE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced
@@ -38,9 +38,6 @@ pub(crate) const ZERO_SINGULAR_VALUE: f64 = 1e-10;
 
 /// Part of the promised decrease that a step must earn (Armijo's rule).
 pub(crate) const EARNED: f64 = 1e-4;
-
-/// Some rounding errors of a sum of terms of order one: changes below this are none.
-pub(crate) const SUM_ROUNDING: f64 = 1e-15;
 
 /// 1 over the golden ratio: the fractions of its multiples are spread without pattern.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;

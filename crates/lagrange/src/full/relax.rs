@@ -20,7 +20,7 @@
 use nalgebra::{Complex, Vector3};
 
 use crate::full::reduced::Reduced;
-use crate::thresholds::{EARNED, HALVINGS, SUM_ROUNDING};
+use crate::thresholds::{CLOSURE_ROUNDING, EARNED, HALVINGS};
 
 /// The step length grows as the residual falls, at most by this factor, ...
 const FASTEST_GROWTH: f64 = 3.0;
@@ -95,7 +95,7 @@ fn take(chain: &mut Reduced, penalty: f64, slope: f64) -> bool {
     // Shorter than that it is taken as it is.
     for _ in 0..HALVINGS {
         chain.advance(part);
-        if merit(chain, true) <= start + EARNED * part * slope + SUM_ROUNDING * penalty {
+        if merit(chain, true) <= start + EARNED * part * slope + CLOSURE_ROUNDING * penalty {
             break;
         }
         part *= CUT;
