@@ -15,15 +15,9 @@ pub enum Error {
         Brief(*low), Brief(*high)
     )]
     Setting { field: &'static str, value: f64, low: f64, high: f64 },
-    /// Occurs when a system has no member.
-    #[error("the system has no member")]
-    NoMember,
     /// Occurs when no force acts and no member is strained: nothing decides the shape.
     #[error("no force acts on the system, and no member is strained: nothing decides its shape")]
     NoLoad,
-    /// Occurs when the direction of a support is zero, infinite or not a number.
-    #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
-    Direction { joint: String, direction: Vector },
     /// Occurs when a part of the system is free to move for ever along its load.
     #[error(
         "the part of the system with joint {joint} falls for ever: its supports leave it free to move along \

@@ -102,6 +102,7 @@ mod lever;
 pub mod net;
 mod run;
 mod thresholds;
+mod twofold;
 mod vector;
 
 pub use error::Error;

@@ -13,7 +13,7 @@ pub(crate) const FAIR_PART: f64 = 0.1;
 /// Part of the first-order fall of the energy that a step must bring (Armijo's rule).
 pub(crate) const ARMIJO: f64 = 1e-4;
 
-/// Where differences are near rounding, a step must leave at most this part.
+/// Where differences are near rounding, and with the factorisation of an earlier shape, a step must leave at most this part.
 pub(crate) const PROGRESS: f64 = 0.5;
 
 /// Smallest shift worth trying when none failed, in units of the mean gradient: it holds the mean
@@ -48,6 +48,6 @@ pub(crate) const CORRECTIONS: usize = 12;
 /// Bisections of an interval, or halvings of a step: all digits of a double; and trials of a shift, which grows by four.
 pub(crate) const BISECTIONS: usize = 64;
 
-/// Changes of the members that resist before it comes to no end: some six in a tower of 500 members, as the energy of their
-/// springs falls with each.
+/// Changes of the members that resist before it comes to no end, with the steps between them: some six in a tower of 500
+/// members, as the energy of their springs falls with each.
 pub(crate) const CHANGES: usize = 100;

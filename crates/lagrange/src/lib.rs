@@ -55,7 +55,7 @@
 //! from the chain alone, before any iteration: `Regime::of` in `condensed/regime`, one file for
 //! each, and one for all struts. Let the parts of the chain before and after its lowest bar (length l) hang straight down
 //! as two strands, G be the gap between their ends, L the total length, D the way from anchor to
-//! anchor and u the unit roundoff. All thresholds stand in `thresholds.rs`.
+//! anchor and u the unit roundoff. The thresholds of this table stand in `thresholds.rs`.
 //!
 //! | regime | test | unknowns | fallback | what the evidence says |
 //! |---|---|---|---|---|

@@ -93,12 +93,11 @@ impl Settings {
     /// assert!(lagrange::Settings { lock_margin: 1.0, ..Default::default() }.validate().is_err());
     /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
-        const STEPS: f64 = 1e9;
         within(&[
             ("tolerance", self.tolerance, 1e-15, 1e-3),
-            ("max_iterations", self.max_iterations as f64, 1.0, STEPS),
+            ("max_iterations", self.max_iterations as f64, 1.0, 1e9),
             ("relaxations", self.relaxations as f64, 0.0, 1000.0),
-            ("max_relaxation_steps", self.max_relaxation_steps as f64, 1.0, STEPS),
+            ("max_relaxation_steps", self.max_relaxation_steps as f64, 1.0, 1e9),
             ("lock_margin", self.lock_margin, 0.0, 0.9),
         ])
     }

@@ -1,17 +1,15 @@
 //! Where decisions turn, and why there.
 //!
 //! Every threshold that tells one way of solving, one kind of equilibrium or one remark on it from
-//! another stands here. All are set against the [unit roundoff](UNIT_ROUNDOFF) and the digits that
-//! the steps before them keep; constants of an iteration (how far a step may go, when to give up)
-//! stand with the iteration.
-
-/// Unit roundoff u: one operation on doubles errs by at most this part of its result, 1.1e-16.
-pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
+//! another stands here, and so do bounds that several iterations share; constants of one iteration (how far
+//! a step may go, when to give up) stand with it, and those of nets with their modules. All are set against
+//! the unit roundoff u, the part of its result by which one operation on doubles errs at most, 1.1e-16, and the
+//! digits that the steps before them keep.
 
 /// Rounding of a closure, in parts of the terms that are added: a few u for each of direction,
 /// product and sum. Compensated sums keep it there for any number of bars. Lengths, sums of lengths and
-/// distances that differ by less than this part are equal.
-pub(crate) const CLOSURE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF;
+/// distances that differ by less than this part are equal, and changes of other sums by so little are none.
+pub(crate) const CLOSURE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced
 /// along an axis: with a closure known to $8u$, upright axes would leave less than 12 digits of the
@@ -25,10 +23,6 @@ pub(crate) const RECHECKED_GAP: f64 = 1e-10;
 /// Loads smaller than this beside the largest are zero: their cubes would underflow in units of it.
 pub(crate) const NO_LOAD: f64 = 1e-100;
 
-/// A deviation of the loads smaller than this beside the largest comes from cancellation: it is the
-/// root of a difference of squares, $\sqrt{u}$.
-pub(crate) const LEAST_DEVIATION: f64 = 1e-8;
-
 /// Bars nearer to the vertical than this, rad, are upright. A versine of u belongs to an angle of
 /// $\sqrt{2u}$ = 1.5e-8; the sums over many bars lose up to two digits more.
 pub(crate) const UPRIGHT: f64 = 1e-6;
@@ -37,23 +31,13 @@ pub(crate) const UPRIGHT: f64 = 1e-6;
 /// leaves half of the digits of a force.
 pub(crate) const SLACK_ROUNDINGS: f64 = 1e7;
 
-/// Axial forces this small beside the largest are zero: forces are known to some 1e-13.
-pub(crate) const NO_FORCE: f64 = 1e-12;
-
 /// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
 /// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above
 /// 1e-7.
 pub(crate) const ZERO_SINGULAR_VALUE: f64 = 1e-10;
 
-/// A pivot of the closure's derivative this small beside the terms of which it is the difference is
-/// zero: they carry some $10^4 u$ where large forces cancel.
-pub(crate) const ZERO_PIVOT: f64 = 1e-12;
-
 /// Part of the promised decrease that a step must earn (Armijo's rule).
 pub(crate) const EARNED: f64 = 1e-4;
-
-/// Some rounding errors of a sum of terms of order one: changes below this are none.
-pub(crate) const SUM_ROUNDING: f64 = 1e-15;
 
 /// 1 over the golden ratio: the fractions of its multiples are spread without pattern.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -66,8 +50,14 @@ pub(crate) const ZERO: f64 = 1e-9;
 /// What rounding leaves of a solve at best, over the largest, with room.
 pub(crate) const ROUNDED: f64 = 1e-13;
 
-/// Lengths, and loads, of a file that differ by less than this part are equal.
+/// Lengths, and loads, of a file that differ by less than this part are equal; and axial forces, and pivots of the
+/// closure's derivative, that are so small beside the largest, or beside the terms of which they are the difference, are zero:
+/// forces are known to some 1e-13, and the terms carry some $10^4 u$ where large forces cancel.
 pub(crate) const GIVEN: f64 = 1e-12;
+
+/// Residuals, gaps and errors of lengths at which a state is near enough to read its signs, or to begin from: far above
+/// rounding, so that a wrong sign costs few steps, and far below the forces that are likely.
+pub(crate) const SEEN: f64 = 1e-6;
 
 /// An error, or a slope along a step, that has fallen to this part has become better.
 pub(crate) const BETTER: f64 = 0.9;

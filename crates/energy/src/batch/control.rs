@@ -5,7 +5,7 @@
 )]
 
 use super::BatchSettings;
-use crate::thresholds::{ARMIJO, CORRECTIONS, LOST, ZERO};
+use crate::thresholds::{ARMIJO, BISECTIONS, CORRECTIONS, LOST, ZERO};
 
 /// Largest turn of a bar in one correction or step.
 const LARGEST_TURN: f64 = 0.7;
@@ -17,11 +17,6 @@ const SEED_CORRECTIONS: usize = 25;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;
 const PERTURBATION: f64 = 0.01;
-/// Halvings of a step, and steps that a minimum may take to settle. They are quadratic, but where the
-/// second derivative vanishes: there each takes a part of the way, and this many are below what
-/// rounding leaves.
-const HALVINGS: u32 = 40;
-
 /// Where one lane is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lane {
@@ -31,10 +26,11 @@ pub(crate) struct Lane {
     pub(crate) trials: u32,
     /// Corrections of the closure in this trial.
     corrections: usize,
-    halvings: u32,
+    halvings: usize,
     perturbations: u32,
-    /// Steps since the slope was zero to the tolerance and the chain a minimum.
-    settling: u32,
+    /// Steps since the slope was zero to the tolerance and the chain a minimum. They are quadratic, but where the second
+    /// derivative vanishes: there each takes a part of the way.
+    settling: usize,
     /// Part of the step on trial.
     part: f64,
     /// Energy at the accepted chain; infinite before there is one.
@@ -153,7 +149,7 @@ impl Lane {
             return self.perturb();
         }
         if here {
-            let goes_on = convex && largest_turn > ZERO && self.settling < HALVINGS && fall < 0.0;
+            let goes_on = convex && largest_turn > ZERO && self.settling < BISECTIONS && fall < 0.0;
             if !(goes_on && largest_turn.is_finite()) {
                 return Next::Minimum;
             }
@@ -171,7 +167,7 @@ impl Lane {
         self.corrections = 0;
         self.halvings += 1;
         self.part *= 0.5;
-        if self.halvings <= HALVINGS {
+        if self.halvings <= BISECTIONS {
             Next::Step(self.part)
         } else if self.settling > 0 {
             Next::Minimum

@@ -231,7 +231,7 @@ fn a_lane_gives_up_after_its_halvings_and_its_perturbations() {
     // The whole step, then ever smaller halves.
     let first = lane.accepted(&settings, 1.0, true, 0.35, -1.0);
     assert_eq!(first, Next::Step(1.0));
-    for k in 1..=40 {
+    for k in 1..=64 {
         assert_eq!(lane.halve(), Next::Step(0.5_f64.powi(k)));
     }
     assert_eq!(lane.halve(), Next::Stalled);
@@ -243,7 +243,7 @@ fn a_lane_gives_up_after_its_halvings_and_its_perturbations() {
     assert_eq!(lane.perturb(), Next::Stalled);
 }
 
-/// Where the slope is zero to the tolerance: a minimum whose step turns bars goes on, for forty
+/// Where the slope is zero to the tolerance: a minimum whose step turns bars goes on, for 64
 /// steps and not where the step does not go down; what is no minimum is perturbed.
 #[test]
 fn minima_settle() {
@@ -252,7 +252,7 @@ fn minima_settle() {
         lane.accepted(&settings, settings.tolerance, convex, turn, fall)
     };
     let mut lane = Lane::new(0);
-    for _ in 0..40 {
+    for _ in 0..64 {
         assert_eq!(here(&mut lane, true, 1e-8, -1e-20), Next::Step(1.0));
     }
     assert_eq!(here(&mut lane, true, 1e-8, -1e-20), Next::Minimum);

@@ -68,7 +68,7 @@ pub struct Scan {
 /// Scan `theta = step, 2 step, ...` as far as (viii) has solutions, solve it for alpha, evaluate
 /// (vi), and keep the smallest value on each branch.
 ///
-/// `None` if the step is not a positive number that leaves at least one point.
+/// `None` if the step is not a number of at least 1e-8 that leaves at least one point.
 ///
 /// ```
 /// use energy::example::{PAPER_STEP_RAD, scan};

@@ -122,19 +122,18 @@ fn across(direction: Vector) -> [Vector; 2] {
 }
 
 /// The directions that a support leaves free, and their number.
-pub(super) fn free_axes(joint: &Joint) -> Result<(usize, [Vector; 3]), Error> {
-    let straight = |direction| {
-        unit(direction).ok_or_else(|| Error::Direction { joint: joint.name.to_string(), direction })
-    };
-    Ok(match joint.support {
+pub(super) fn free_axes(support: &Support) -> (usize, [Vector; 3]) {
+    // Directions of systems have the length one, to rounding.
+    let straight = |direction| unit(direction).unwrap_or(direction);
+    match *support {
         Support::Free => (3, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         Support::Fixed { .. } => (0, [[0.0; 3]; 3]),
-        Support::Line { direction, .. } => (1, [straight(direction)?, [0.0; 3], [0.0; 3]]),
+        Support::Line { direction, .. } => (1, [straight(direction), [0.0; 3], [0.0; 3]]),
         Support::Plane { normal, .. } => {
-            let [first, second] = across(straight(normal)?);
+            let [first, second] = across(straight(normal));
             (2, [first, second, [0.0; 3]])
         }
-    })
+    }
 }
 
 impl Rod {
@@ -182,9 +181,6 @@ impl Frame {
         let origin_m = system.reference_m();
         let lengths = system.members().iter().map(|member| member.body.length_m());
         let length_m = lengths.fold(0.0, f64::max);
-        if length_m <= 0.0 {
-            return Err(Error::NoMember);
-        }
         let loads_n = loads_n(system);
         let mut total: f64 = loads_n.iter().map(|load| norm(*load)).sum();
         if total <= 0.0 {
@@ -194,7 +190,7 @@ impl Frame {
         let mut freedom = 0;
         let mut spots = Vec::with_capacity(loads_n.len());
         for joint in system.joints() {
-            let (count, axes) = free_axes(joint)?;
+            let (count, axes) = free_axes(&joint.support);
             spots.push(Spot { first: freedom, freedom: count, axes });
             freedom += count;
         }

@@ -22,17 +22,14 @@ use model::system::Kind;
 use crate::net::factor::Factor;
 use crate::net::frame::Frame;
 use crate::net::law::Excess;
-use crate::net::shape::Shape;
+use crate::net::shape::{NO_STRAIN, Shape};
 
 /// First slack of a member that is as long as it may be or longer, over its length.
 const FIRST_SLACK: f64 = 0.05;
 
 /// The mean of `F s` over that of `F l` at which Newton's method does the rest: all bars are
-/// active.
+/// active. Where cables may be slack it is [`NO_STRAIN`]: forces and slacks tell which are.
 const GAP: f64 = 1e-7;
-
-/// The same where cables may be slack: so small that forces and slacks tell which are.
-const CABLE_GAP: f64 = 1e-12;
 
 /// Part of the way to the boundary that a step may go.
 const INSIDE: f64 = 0.99;
@@ -89,7 +86,7 @@ impl Interior {
     pub(super) fn centred(&self, force: &[f64], misfit: f64) -> bool {
         let products = force.iter().zip(&self.frame.rods).map(|(force, rod)| force * rod.length);
         let cables = self.frame.rods.iter().any(|rod| rod.kind == Kind::Cable);
-        let gap = if cables { CABLE_GAP } else { GAP };
+        let gap = if cables { NO_STRAIN } else { GAP };
         self.gap(force) <= gap * products.sum::<f64>() / force.len() as f64 && misfit < GAP.sqrt()
     }
 

@@ -116,7 +116,7 @@ fn corners(
     };
     let mut tips = vec![];
     for joint in (0..acting.len()).filter(several) {
-        let (count, axes) = free_axes(&system.joints()[joint]).ok()?;
+        let (count, axes) = free_axes(&system.joints()[joint].support);
         let lies = joints_m[joint][2] - floor_m <= ZERO * far_m;
         let free = axes[..count].to_vec();
         let rising = free.iter().fold([0.0; 3], |sum, axis| along(sum, axis[2], *axis));

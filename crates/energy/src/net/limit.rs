@@ -29,11 +29,11 @@ use crate::error::Error;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
 use crate::net::newton::Newton;
-use crate::net::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor};
+use crate::net::polish::{STIFF_STRAIN, STIFFER, rounding_floor};
 use crate::net::shape::{Shape, largest};
-use crate::net::share::{Share, Shared};
+use crate::net::share::{Share, Shared, disorder};
 use crate::net::stability::DENSE;
-use crate::thresholds::{CHANGES, GOLDEN, PROGRESS};
+use crate::thresholds::{CHANGES, NO_STRAIN, PROGRESS};
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -44,19 +44,12 @@ const SOFT: f64 = 1e4;
 /// Softness of the first reading at most: more than that and nothing is rigid.
 const SOFTEST: f64 = 1e-2;
 
-/// Tolerance of lengths that are known to rounding, over the length: there what no change of the shape takes up is told from
-/// what a soft motion does. Of others springs tell it.
-const TIGHT: f64 = 1.01 * LENGTH_ROUNDING;
-
 /// Softness of the last reading: below it all is rounding.
 const HARDEST: f64 = 1e-14;
 
 /// What a self-stress with the floor in it may leave at a joint, over its size. The floor has no tolerance: a bar that leans on it
 /// by the angle `a` leaves `a`, and shares nothing with it unless that is rounding.
 const LEANING: f64 = 1e-10;
-
-/// Steps of one reading, changes of the taut members included.
-const STEPS: usize = 40;
 
 /// A shape that is overdetermined, in one reading of it.
 #[derive(Debug, Clone)]
@@ -85,7 +78,7 @@ impl Limit {
     pub(super) fn share(&self, frame: &Frame, shape: &Shape, taut: &[bool]) -> Option<Share> {
         let softness = SOFT * self.rank * self.rank;
         let mut share = Share::new(&Arc::new(frame.clone())).ok()?;
-        (frame.tolerance() <= TIGHT && share.stand(&shape.x, taut, softness)).then_some(share)
+        (frame.is_exact() && share.stand(&shape.x, taut, softness)).then_some(share)
     }
 
     /// Whether the members that take part in a self-stress are as many as the coordinates of their joints.
@@ -127,6 +120,12 @@ impl Frame {
     fn tolerance(&self) -> f64 {
         let rods = self.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
         rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max)
+    }
+
+    /// Whether all lengths are known to rounding: there what no change of the shape takes up is told from what a soft
+    /// motion does. Of others springs tell it.
+    fn is_exact(&self) -> bool {
+        self.tolerance() <= 1.01 * LENGTH_ROUNDING
     }
 
     /// Inextensible members that are taut within their tolerances, joints on the floor within
@@ -173,7 +172,7 @@ impl Frame {
         let size = self.force_scale(&shape.force);
         let any = |(e, stressed): (usize, &bool)| {
             // Without order, so that it has a part of every self-stress.
-            if *stressed { size * (0.5 + (GOLDEN * (e + 1) as f64).fract()) } else { 0.0 }
+            if *stressed { size * disorder(e) } else { 0.0 }
         };
         let mut force: Vec<f64> = members.iter().enumerate().map(any).collect();
         self.spread(&mut force);
@@ -272,7 +271,7 @@ impl Newton {
         let mut stiffening = Vec::new();
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
-        for _ in 0..STEPS {
+        for _ in 0..CHANGES {
             let holding = frame.holding(&shape, &taut);
             if !self.factorise_stiff(
                 &stressed(&shape, &stiffening),
@@ -280,7 +279,7 @@ impl Newton {
                 &holding,
                 0.0,
             ) {
-                if strain > STIFFEST_STRAIN {
+                if strain * STIFFER >= NO_STRAIN {
                     // Pushed members must not buckle in what strains them little, nor because soft springs have let go of
                     // what is just taut: the forces are nearly right now, and the places were.
                     strain *= STIFFER;
@@ -296,11 +295,8 @@ impl Newton {
             let stiffness = frame.force_scale(&shape.force) / strain;
             // What no change of the shape takes up is no reason to change it.
             let excess = frame.excesses(&shape.x);
-            let off = if frame.tolerance() <= TIGHT {
-                share.in_no_shape(|e| excess[e].value)
-            } else {
-                vec![]
-            };
+            let off =
+                if frame.is_exact() { share.in_no_shape(|e| excess[e].value) } else { vec![] };
             shape = self.chord(&shape, stiffness, &holding, &off);
             // Forces of what goes slack are borne by the others before they move anything.
             let Some(changes) = settle_taut(&frame, share, &mut shape, &mut taut, softness) else {

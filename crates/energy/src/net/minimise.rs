@@ -12,14 +12,14 @@ use crate::net::interior::{ITERATIONS, Interior, relaxable};
 use crate::net::jam::at_corners;
 use crate::net::limit::Limit;
 use crate::net::near::loaded;
-use crate::net::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
+use crate::net::newton::{Newton, Pace};
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope};
 use crate::net::solution::Solution;
 use crate::net::start::hanging;
 use crate::net::work::Meter;
 use crate::thresholds::{GOLDEN, ZERO};
-use crate::vector::{along, dot, scaled};
+use crate::vector::{along, dot, norm, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
 /// have places where it nearly closes.
@@ -97,8 +97,12 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result
     // A relaxation that went astray is no start; where it flies away its forces hide what is left over.
     let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0)
         || relaxed.extent() > FAR * (1.0 + start.extent());
-    let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
-    let mut found = descend(frame, factor, first, way, settings, work);
+    let (first, pace) = if astray {
+        (start.clone(), Pace::default())
+    } else {
+        (relaxed, Pace { near: RELAXED, ..Pace::default() })
+    };
+    let mut found = descend(frame, factor, first, pace, settings, work);
     let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);
     for attempt in 1..=most.max(RESTARTS) {
         let again = match &found {
@@ -114,7 +118,8 @@ fn unguided(frame: &Arc<Frame>, settings: &Settings, corners: Corners) -> Result
         }
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         let elsewhere = displaced(frame, &start, attempt);
-        let other = descend(frame, factor, elsewhere, Way::Stiff, settings, work);
+        let pace = Pace { strain: LENGTHS_FIRST, ..Pace::default() };
+        let other = descend(frame, factor, elsewhere, pace, settings, work);
         found = better(frame, other, found);
     }
     found
@@ -198,12 +203,13 @@ fn from_seed(system: &System, seed_m: &[Vector], settings: &Settings) -> Result<
     within(system, settings, |frame, settings| {
         let start = seeded(frame, seed_m)?;
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let mut found =
-            descend(frame, factor, start.clone(), Way::Free, settings, Effort::default());
+        let (pace, none) = (Pace { own: true, ..Pace::default() }, Effort::default());
+        let mut found = descend(frame, factor, start.clone(), pace, settings, none);
         if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < RELAXED {
             // The loads have crushed it, which its lengths would not allow.
             let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-            let near = descend(frame, factor, start, Way::Relaxed, settings, Effort::default());
+            let pace = Pace { near: RELAXED, ..Pace::default() };
+            let near = descend(frame, factor, start, pace, settings, none);
             found = better(frame, near, found);
         }
         found
@@ -262,7 +268,9 @@ fn near_drawing(
             let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
             let (start, moved) = loaded(frame, &mut factor, &drawn);
             step = moved.clamp(least, DRAWN_STEP);
-            descend(frame, factor, start, Way::Near { step }, settings, Effort::default())
+            // With forces near those of the minimum.
+            let pace = Pace { strain: LENGTHS_FIRST, near: DRAWN, step, own: true };
+            descend(frame, factor, start, pace, settings, Effort::default())
         });
         (found, step < DRAWN_STEP)
     };
@@ -281,8 +289,8 @@ pub(super) fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
     let scale = 1.0 / frame.length_m;
     let x: Vec<Vector> =
         seed_m.iter().map(|at_m| scaled(scale, along(*at_m, -1.0, frame.origin_m))).collect();
-    if x.len() != joints || !finite(&x) {
-        let given = x.iter().filter(|x| finite(&[**x])).count();
+    let given = x.iter().filter(|x| norm(**x).is_finite()).count();
+    if x.len() != joints || given != joints {
         return Err(Error::Seed { joints, given });
     }
     // What stands behind the joints stays where it is.
@@ -344,22 +352,8 @@ fn relax(
     Ok((solver.settled(&shape), solver.factor))
 }
 
-/// How a start was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Way {
-    /// As the solution of the relaxation: most members are right.
-    Relaxed,
-    /// Anywhere.
-    Free,
-    /// Anywhere, for lengths that are hard to keep: they come before the loads.
-    Stiff,
-    /// Next to the minimum, with forces near those there, in steps of at most this relative displacement of the ends of a
-    /// member, over its length.
-    Near { step: f64 },
-}
-
 /// First strain of the springs where the lengths come before the loads.
-const STIFF_STRAIN: f64 = 1e-3;
+const LENGTHS_FIRST: f64 = 1e-3;
 
 /// Misfit from a relaxation, or from a seed that is meant to be near its answer, which are right for most members, up to
 /// which Newton's method for places and forces is tried: in any case.
@@ -374,28 +368,16 @@ const DRAWN: f64 = 0.05;
 const DRAWN_STEP: f64 = 0.1;
 const LEAST_DRAWN_STEP: f64 = 1e-3;
 
-impl Way {
-    fn pace(self) -> Pace {
-        let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
-        match self {
-            Self::Relaxed => Pace { near: RELAXED, ..pace },
-            Self::Free => Pace { own: true, ..pace },
-            Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
-            Self::Near { step } => Pace { strain: STIFF_STRAIN, near: DRAWN, step, own: true },
-        }
-    }
-}
-
 /// Down to a local minimum.
 fn descend(
     frame: &Arc<Frame>,
     factor: Factor,
     start: Shape,
-    way: Way,
+    pace: Pace,
     settings: &Settings,
     mut effort: Effort,
 ) -> Result<Minimum, Error> {
-    let mut solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
+    let mut solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, pace);
     let mut slope = frame.finite_slope(&start)?;
     let mut shape = start;
     while !solver.ended {

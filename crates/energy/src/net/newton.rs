@@ -29,17 +29,11 @@ use crate::net::limit::{Limit, Reading};
 use crate::net::polish::NEUTRAL;
 use crate::net::settings::Settings;
 use crate::net::shape::{Shape, Slope, largest};
-use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING};
-use crate::vector::{norm, scaled};
-
-/// First strain of the springs under the largest force.
-pub(super) const FIRST_STRAIN: f64 = 0.1;
+use crate::thresholds::{ARMIJO, FORCE_ROUNDING, GOLDEN, STEP_ROUNDING, ZERO};
+use crate::vector::scaled;
 
 /// The springs become stiffer by this factor where an update of the forces makes the misfit less by a smaller one.
 const STIFFEN: f64 = 5.0;
-
-/// Strain at which the springs are stiff enough for any solution.
-const LAST_STRAIN: f64 = 1e-9;
 
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
@@ -48,9 +42,8 @@ pub(super) const NEAR: f64 = 1e-3;
 const FIRST_SHIFT: f64 = 1e-3;
 const SMALLEST_SHIFT: f64 = 1e-8;
 
-/// Largest relative displacement of the ends of a member in one step, over its length; of a strut,
-/// which must not be turned inside out: its energy falls for ever on the other side.
-pub(super) const STEP: f64 = 2.0;
+/// Largest relative displacement of the ends of a strut in one step, over its length: it must not be turned inside out, as
+/// its energy falls for ever on the other side.
 const STRUT_STEP: f64 = 0.3;
 
 /// Stiffness of the spring of an elastic member that keeps its own, over its own.
@@ -113,6 +106,13 @@ pub(super) struct Pace {
     /// Whether elastic members keep their own stiffness: softened by the springs, a shallow dome
     /// would snap through, and a start would end in another minimum than the one below it.
     pub(super) own: bool,
+}
+
+impl Default for Pace {
+    /// From anywhere.
+    fn default() -> Self {
+        Self { strain: 0.1, near: NEAR, step: 2.0, own: false }
+    }
 }
 
 /// The augmented Lagrangian at one configuration.
@@ -329,7 +329,8 @@ impl Newton {
         let force: Vec<f64> = local.soft.iter().map(|soft| soft.force).collect();
         if STIFFEN * misfit > self.misfit {
             self.stiffness *= STIFFEN;
-            if self.stiffness * LAST_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
+            // Springs that strain by next to nothing are stiff enough for any solution.
+            if self.stiffness * ZERO > self.frame.largest_force(&force) && misfit > NEAR {
                 let (rod, off) = (&self.frame.rods[slope.worst], slope.misfit);
                 let misfit_m = off * rod.length * self.frame.length_m;
                 let not_closed = Error::NotClosed { member: slope.worst + 1, misfit_m };
@@ -388,10 +389,6 @@ impl Newton {
         }
         self.approach(shape, slope)
     }
-}
-
-pub(super) fn finite(x: &[model::Vector]) -> bool {
-    x.iter().all(|x| norm(*x).is_finite())
 }
 
 #[cfg(test)]

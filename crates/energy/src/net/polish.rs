@@ -20,7 +20,7 @@ use crate::net::frame::{Frame, Rod};
 use crate::net::law::{Excess, Softened};
 use crate::net::newton::{NEAR, Newton};
 use crate::net::shape::{Shape, Slope};
-use crate::thresholds::{CHANGES, CORRECTIONS, NO_STRAIN, STEP_ROUNDING};
+use crate::thresholds::{CHANGES, CORRECTIONS, NO_STRAIN, PROGRESS, STEP_ROUNDING};
 use crate::vector::scaled;
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
@@ -28,11 +28,9 @@ pub(super) const STIFF_STRAIN: f64 = 1e-6;
 
 /// Of lengths that the shape hardly feels it leaves more: a line whose parts are at an angle `a` to
 /// each other strains by `a` times a displacement, and springs of strain `a²` halve the error. Where
-/// steps bring little the springs become stiffer by this factor,
+/// steps bring little the springs become stiffer by this factor, down to [`NO_STRAIN`], at which the rounding of the
+/// springs is a part 1e-4 of the forces.
 pub(super) const STIFFER: f64 = 1e-3;
-
-/// down to this strain, at which the rounding of the springs is a part 1e-4 of the forces.
-pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
@@ -50,9 +48,6 @@ const CHORD_NEAR: f64 = 1e-8;
 
 /// Lengths that are off hide whether a member beside them is just taut, up to this many times as much.
 const HIDDEN: f64 = 4.0;
-
-/// A chord step must leave at most this part of the residual.
-const CHORD_PROGRESS: f64 = 0.3;
 
 /// How steps with springs of one strain ended.
 enum Polished {
@@ -76,7 +71,7 @@ impl Newton {
         let mut neutral = false;
         let mut found = self.polish_with(shape, STIFF_STRAIN, &mut neutral);
         let mut strain = STIFF_STRAIN * STIFFER;
-        while strain >= STIFFEST_STRAIN {
+        while strain >= NO_STRAIN {
             let start = match &found {
                 Polished::Converged(shape) | Polished::Slow(shape) => shape,
                 Polished::Rounded(_) | Polished::Astray => break,
@@ -136,7 +131,7 @@ impl Newton {
                 if after >= before && left <= self.tolerance(&shape) {
                     return self.polished(shape, slope.residual());
                 }
-                if chord > 0 && after > CHORD_PROGRESS * before {
+                if chord > 0 && after > PROGRESS * before {
                     break;
                 }
                 (shape, slope) = (next, there);
@@ -154,7 +149,7 @@ impl Newton {
             }
             // Below the tolerance it goes on as long as that brings something.
             let residual = slope.residual();
-            let slow = residual > CHORD_PROGRESS * start;
+            let slow = residual > PROGRESS * start;
             if residual <= rounding_floor(&frame, &shape)
                 || (slow && residual <= self.tolerance(&shape))
             {
@@ -231,7 +226,7 @@ impl Newton {
     }
 }
 
-/// A member that resists or not, with a spring of strain [`STIFF_STRAIN`] under the largest force.
+/// A member that resists or not, with a spring of this stiffness.
 fn stiff(
     frame: &Frame,
     excess: &Excess,

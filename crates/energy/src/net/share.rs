@@ -62,6 +62,11 @@ pub(super) struct Shared {
     pub(super) work: f64,
 }
 
+/// Forces without any order, of mean one: the fractional parts of the multiples of the golden section.
+pub(super) fn disorder(e: usize) -> f64 {
+    0.5 + (GOLDEN * (e + 1) as f64).fract()
+}
+
 /// Stiffness of the spring in place of a rigid member.
 fn weight(rod: &Rod) -> f64 {
     if rod.ground { FLOOR } else { 1.0 / rod.length }
@@ -223,11 +228,8 @@ impl Share {
     /// For each member whether it takes part in a self-stress, shown by forces without any order.
     /// `None` where there is no self-stress.
     pub(super) fn self_stressed(&mut self) -> Option<Vec<bool>> {
-        // The fractional parts of the multiples of the golden section: spread evenly, alike in
-        // every run.
-        let disorder =
-            |e: usize| if self.taut[e] { 0.5 + (GOLDEN * (e + 1) as f64).fract() } else { 0.0 };
-        let mut force: Vec<f64> = (0..self.taut.len()).map(disorder).collect();
+        let any = |(e, taut): (usize, &bool)| if *taut { disorder(e) } else { 0.0 };
+        let mut force: Vec<f64> = self.taut.iter().enumerate().map(any).collect();
         self.frame.spread(&mut force);
         let shared = self.shared(&force).force;
         let rest = force.iter().zip(shared).map(|(force, shared)| (force - shared).abs());

@@ -13,6 +13,8 @@
 //! forces, and is found by steps with one factorisation. Where lengths overdetermine the shape the part of the excesses that no
 //! change of it takes off is left out.
 
+use std::ops::Add;
+
 use model::Vector;
 use model::system::{Kind, System};
 
@@ -20,9 +22,10 @@ use crate::net::factor::Factor;
 use crate::net::frame::{Frame, Rod};
 use crate::net::law::Excess;
 use crate::net::limit::{Limit, share_forces};
-use crate::net::polish::{NEUTRAL, STIFF_STRAIN};
+use crate::net::polish::{NEUTRAL, STIFF_STRAIN, STIFFER};
 use crate::net::shape::{NO_STRAIN, Shape, largest};
 use crate::thresholds::{PROGRESS, SETTLED};
+use crate::twofold::Twofold;
 use crate::vector::{along, dot, norm, scaled};
 
 /// Joints that are out of balance by this part of the forces that meet there need nothing more,
@@ -30,9 +33,6 @@ const BALANCED: f64 = 2.5e-12;
 
 /// which count as no less and no more than so many times the load there, or the mean load where it has none.
 const BORNE: [f64; 2] = [1e-2, 1e2];
-
-/// Springs in place of rigid members, one after the other.
-const STIFFER: [f64; 3] = [1.0, 1e3, 1e6];
 
 /// Displacements from the places of a shape, m.
 struct Displaced<'a> {
@@ -96,11 +96,12 @@ pub(super) fn settled(
     }
     let neutral = NEUTRAL * frame.largest_force(&shape.force);
     // Lengths that the shape hardly feels need stiffer springs beside elastic members.
-    for times in &STIFFER[..if elastic { STIFFER.len() } else { 1 }] {
+    for stiffer in 0..if elastic { 3 } else { 1 } {
+        let rigid = rigid * STIFFER.powi(-stiffer);
         let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
             (false, _) => 0.0,
             (true, true) => 1.0 / frame.rods[e].flexibility,
-            (true, false) => times * rigid / frame.rods[e].length,
+            (true, false) => rigid / frame.rods[e].length,
         };
         frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
         if !factor.definite() {
@@ -150,8 +151,8 @@ fn place_m(system: &System, frame: &Frame, shape: &Shape, joint: usize) -> (Vect
         Some(at_m) => (at_m, frame.supports[joint]),
         None => (frame.origin_m, [0.0; 3]),
     };
-    let sums: [[f64; 2]; 3] =
-        std::array::from_fn(|k| added(from_m[k], (shape.x[joint][k] - base[k]) * frame.length_m));
+    let at = |k: usize| (shape.x[joint][k] - base[k]) * frame.length_m;
+    let sums: [[f64; 2]; 3] = std::array::from_fn(|k| Twofold::sum(from_m[k], at(k)).parts());
     (sums.map(|sum| sum[0]), sums.map(|sum| sum[1]))
 }
 
@@ -239,24 +240,12 @@ impl Displaced<'_> {
 
 /// `|X + u|² - l²` for `X` from one place to another.
 fn difference_of_squares((to, from): (Vector, Vector), apart: Vector, length: f64) -> f64 {
-    let square = length * length;
-    let (mut sum, mut rest) = (-square, -length.mul_add(length, -square));
-    for k in 0..3 {
-        let [span, cut] = added(to[k], -from[k]);
-        let [span, cut] = added(span, cut + apart[k]);
-        let product = span * span;
-        let [next, lost] = added(sum, product);
-        sum = next;
-        rest += lost + span.mul_add(span, -product) + 2.0 * span * cut;
-    }
-    sum + rest
-}
-
-/// A sum and what rounding cuts off it.
-fn added(a: f64, b: f64) -> [f64; 2] {
-    let sum = a + b;
-    let second = sum - a;
-    [sum, (a - (sum - second)) + (b - second)]
+    let length = Twofold::from(length);
+    let square = |k: usize| {
+        let span = Twofold::sum(to[k], -from[k]) + Twofold::from(apart[k]);
+        span * span
+    };
+    (0..3).map(square).fold(-(length * length), Add::add).value()
 }
 
 #[cfg(test)]

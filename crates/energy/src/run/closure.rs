@@ -1,11 +1,13 @@
 //! The closure `sum l_i u_i = D`: how far directions are from it, and the way back.
 
-use model::{Sum, Vector};
+use std::f64::consts::TAU;
+
+use model::{STRAIGHT_TOLERANCE, Sum, Vector};
 
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::symmetric::{Column, Symmetric};
-use crate::thresholds::{FAIR_PART, PROGRESS, ROUNDING};
+use crate::thresholds::{FAIR_PART, GOLDEN, PROGRESS, ROUNDING, ZERO};
 use crate::vector::{VectorSum, along, cross, dot, norm, scaled, tangent};
 
 /// Directions of the bars with what one pass over them gives.
@@ -32,23 +34,12 @@ pub(crate) struct Moments {
     pub(crate) value: f64,
 }
 
-/// A predicted fall below this part of the squared gap counts as zero: the bars are parallel to the
-/// gap.
-const NO_FALL: f64 = 1e-8;
-
 /// First damping after a correction that failed, over the gap: it holds the turn of a bar below the
 /// square root of the gap, the size at which the curvature of the spheres undoes the correction.
 const FIRST_DAMPING: f64 = 0.1;
 
 /// Factor of the damping after a failure, and its inverse after a success.
 const DAMPING_FACTOR: f64 = 10.0;
-
-/// Eigenvalues of `spread` below this part of the largest are zero: no pull moves the last joint
-/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits;
-/// what is cut is what the rounding of the lengths can bend a straight chain by. Angles `a_i` take
-/// `sum l_i a_i²/2` off its length, so this must be at most twice the slack of the tautest chain
-/// that is a problem.
-pub(crate) const LOST_SPREAD: f64 = model::STRAIGHT_TOLERANCE;
 
 /// Angle by which bars on one straight line are turned off it, alternately, rad.
 const NUDGE: f64 = 0.05;
@@ -112,7 +103,8 @@ impl ScaledChain {
             let Moments { gap: r, spread, .. } = shape.moments;
             let pull = scaled(-1.0, answer(&spread, damping, r));
             let predicted = predicted_fall(&spread, damping, r, pull);
-            if predicted <= NO_FALL * gap * gap && gap > SMALL_GAP {
+            // Bars parallel to the gap.
+            if predicted <= ZERO * gap * gap && gap > SMALL_GAP {
                 if nudges == NUDGES {
                     break;
                 }
@@ -156,7 +148,7 @@ impl ScaledChain {
             let turned = match self.motion {
                 Motion::Plane => scaled(size, side),
                 Motion::Space => {
-                    let (s, c) = (GOLDEN_ANGLE * i as f64).sin_cos();
+                    let (s, c) = (TAU * (1.0 - GOLDEN) * i as f64).sin_cos();
                     along(scaled(size * c, side), size * s, cross(u, side))
                 }
             };
@@ -181,13 +173,19 @@ impl Moments {
 
 /// The pull that answers `rhs` in `spread`, plus damping; pseudo-inverse where the chain is
 /// straight.
+///
+/// Eigenvalues of `spread` below [`STRAIGHT_TOLERANCE`] times the largest are zero: no pull moves the last
+/// joint that way. Sums of squares of angles in a frame along the line of the bars keep their digits;
+/// what is cut is what the rounding of the lengths can bend a straight chain by. Angles `a_i` take
+/// `sum l_i a_i²/2` off its length, so this must be at most twice the slack of the tautest chain
+/// that is a problem.
 pub(crate) fn answer(spread: &Symmetric, damping: f64, rhs: Vector) -> Vector {
     let mut matrix = *spread;
     for k in 0..3 {
         matrix.entry[k][k] += damping;
     }
     let rhs: Column = [rhs[0], rhs[1], rhs[2], 0.0];
-    let x = matrix.solve(rhs).unwrap_or_else(|| matrix.eigen().solve(rhs, LOST_SPREAD));
+    let x = matrix.solve(rhs).unwrap_or_else(|| matrix.eigen().solve(rhs, STRAIGHT_TOLERANCE));
     [x[0], x[1], x[2]]
 }
 
@@ -204,9 +202,6 @@ fn predicted_fall(spread: &Symmetric, damping: f64, gap: Vector, pull: Vector) -
 
 /// A gap of rounding: a sum of many directions, each rounded, may not get below [`ROUNDING`].
 const SMALL_GAP: f64 = 1e-14;
-
-/// Pi (3 - sqrt 5), rad: no multiple comes near a full turn.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// The sums while they run.
 struct Pass {
@@ -347,7 +342,7 @@ mod tests {
                 for (v, part) in shape.u.iter().zip(&parts) {
                     assert!((norm(*part) / dot(*v, u) - NUDGE).abs() < 1e-15);
                 }
-                let turned = GOLDEN_ANGLE.cos();
+                let turned = (TAU * GOLDEN).cos();
                 for (k, pair) in parts.windows(2).enumerate() {
                     let cosine = dot(pair[0], pair[1]) / (norm(pair[0]) * norm(pair[1]));
                     let expected = if motion == Motion::Plane { -1.0 } else { -turned };

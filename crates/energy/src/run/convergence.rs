@@ -39,8 +39,8 @@ pub(crate) struct Convergence {
     pub(crate) shift: f64,
     /// Whether the step that a minimum within the tolerances is worth was made.
     polished: bool,
-    /// Whether the last iteration turned the whole chain; what that leaves is Newton's.
-    turned: bool,
+    /// Whether the last iteration turned the whole chain.
+    pub(crate) turned: bool,
     /// Turns made without the energy being able to tell.
     blind_turns: usize,
 }
@@ -74,17 +74,6 @@ impl Convergence {
         }
         self.polished = true;
         Iterate::Near
-    }
-
-    /// Whether the whole chain may turn in this iteration: never twice in a row.
-    pub(crate) fn may_turn(&mut self) -> bool {
-        self.turned = !self.turned;
-        self.turned
-    }
-
-    /// No turn was made.
-    pub(crate) fn not_turned(&mut self) {
-        self.turned = false;
     }
 
     /// Whether one more turn may be made that the energy cannot judge.
@@ -124,11 +113,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_chain_turns_in_no_two_iterations_in_a_row() {
+    fn blind_turns_come_to_an_end() {
         let mut convergence = Convergence::new(Settings::default());
-        assert!(convergence.may_turn() && !convergence.may_turn() && convergence.may_turn());
-        convergence.not_turned();
-        assert!(convergence.may_turn());
         let blind = (0..100).filter(|_| convergence.may_turn_blindly()).count();
         assert_eq!(blind, BLIND_TURNS);
     }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use model::Vector;
+use model::{STRAIGHT_TOLERANCE, Vector};
 
-use crate::run::closure::{LOST_SPREAD, Shape, add_projector, unpacked};
+use crate::run::closure::{Shape, add_projector, unpacked};
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::slope::Slope;
@@ -176,7 +176,7 @@ impl Curvature {
 
     /// Independent rows among those of the closure; fewer than all only for a straight chain.
     pub(crate) fn rank(&self) -> usize {
-        self.gram(|i| self.links.length[i]).eigen().signs(LOST_SPREAD).0
+        self.gram(|i| self.links.length[i]).eigen().signs(STRAIGHT_TOLERANCE).0
     }
 
     /// Independent motions that keep the chain closed, the free turn left out.
@@ -190,7 +190,7 @@ impl Curvature {
             return 0;
         }
         let schur = self.schur(shift);
-        let (positive, _) = schur.matrix.eigen().signs(LOST_SPREAD);
+        let (positive, _) = schur.matrix.eigen().signs(STRAIGHT_TOLERANCE);
         (schur.negative + positive).saturating_sub(self.rank())
     }
 
@@ -200,7 +200,7 @@ impl Curvature {
         if shift > -self.slope.lowest {
             return 0;
         }
-        let (positive, below) = self.schur(shift).matrix.eigen().signs(LOST_SPREAD);
+        let (positive, below) = self.schur(shift).matrix.eigen().signs(STRAIGHT_TOLERANCE);
         self.rank().saturating_sub(positive + below)
     }
 
@@ -251,15 +251,15 @@ impl Curvature {
             // S is positive semidefinite, and singular only for a straight chain: no motion changes
             // its closure along its line, and that row is left out.
             let regular = if self.slope.line.is_some() { None } else { matrix.solve(minus) };
-            regular.unwrap_or_else(|| matrix.eigen().solve(minus, LOST_SPREAD))
+            regular.unwrap_or_else(|| matrix.eigen().solve(minus, STRAIGHT_TOLERANCE))
         } else {
             let eigen = matrix.eigen();
-            let (positive, below) = eigen.signs(LOST_SPREAD);
+            let (positive, below) = eigen.signs(STRAIGHT_TOLERANCE);
             let rank = self.rank();
             if negative + positive != rank || positive + below != rank {
                 return None;
             }
-            eigen.solve(minus, LOST_SPREAD)
+            eigen.solve(minus, STRAIGHT_TOLERANCE)
         };
         let (pull, turn) = self.spread_column(solution);
         (solution.iter().all(|x| x.is_finite())).then_some(Step { pull, turn, shift })
@@ -286,7 +286,7 @@ impl Curvature {
             rhs = along(rhs, weight(i), f);
             turn_rhs += weight(i) * dot(f, cross(links.up, self.shape.u[i]));
         }
-        let x = matrix.eigen().solve(self.pick_column(rhs, turn_rhs), LOST_SPREAD);
+        let x = matrix.eigen().solve(self.pick_column(rhs, turn_rhs), STRAIGHT_TOLERANCE);
         let (pull, turn) = self.spread_column(x);
         f.iter()
             .zip(&self.shape.u)

@@ -1,10 +1,10 @@
 //! The frame in which the minimiser works.
 
-use model::{Chain, Sum, Vector};
+use model::{Chain, Vector};
 
 use crate::run::regime::Reach;
-use crate::run::twofold::Twofold;
-use crate::vector::{cross, dot, norm, scaled, unit};
+use crate::twofold::Twofold;
+use crate::vector::{cross, dot, scaled, unit};
 
 /// World up; gravity acts along its negative.
 pub(crate) const WORLD_UP: Vector = [0.0, 0.0, 1.0];
@@ -54,17 +54,9 @@ impl Frame {
     /// the second axis, by the choice of the frame.
     pub(crate) fn span(&self, difference: Vector) -> [Vector; 2] {
         if self.drawn_out {
-            // The root of a square known to twice the digits: one step of Newton's method from the
-            // rounded one.
-            let length = norm(difference);
-            let mut square = Sum::default();
-            for x in difference {
-                square.add(x * x);
-                square.add(x.mul_add(x, -(x * x)));
-            }
-            square.add(-(length * length));
-            square.add(-length.mul_add(length, -(length * length)));
-            return [[length, 0.0, 0.0], [square.value() / (2.0 * length), 0.0, 0.0]];
+            let [x, y, z] = difference.map(Twofold::from);
+            let parts = (x * x + y * y + z * z).sqrt().parts();
+            return parts.map(|length| [length, 0.0, 0.0]);
         }
         let [across, _, up] = self.into_frame(difference);
         [[across, 0.0, up], [0.0; 3]]
@@ -74,9 +66,8 @@ impl Frame {
     /// twice the digits as well.
     pub(crate) fn level_span([x, y, z]: Vector) -> [Vector; 2] {
         let [x, y] = [x, y].map(Twofold::from);
-        let across = (x * x + y * y).sqrt();
-        let rest = across - Twofold::from(across.value());
-        [[across.value(), 0.0, z], [rest.value(), 0.0, 0.0]]
+        let [across, rest] = (x * x + y * y).sqrt().parts();
+        [[across, 0.0, z], [rest, 0.0, 0.0]]
     }
 
     /// The frame with these axes, given in this one.

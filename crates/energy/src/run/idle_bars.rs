@@ -14,10 +14,11 @@
 
 use std::ops::Range;
 
-use model::{Chain, Sum};
+use model::{Anchors, Chain};
 
 use crate::run::refine::{LIGHT, Point};
 use crate::thresholds::{CORRECTIONS, SETTLED};
+use crate::twofold::Twofold;
 use crate::vector::{along, dot, norm, scaled, unit};
 
 /// Angle, rad, within which such bars are left of their line, and the others of the vertical.
@@ -103,37 +104,21 @@ impl Point {
 /// How much longer bars are than the gap that all others leave when they are plumb, up or down as
 /// they are: as a part of their length. Zero is exact to twice the digits of a double.
 fn slack(chain: &Chain, run: &Range<usize>, rises: &[bool]) -> f64 {
-    let (anchors, mut reach, mut gap) = (chain.anchors(), Sum::default(), [Sum::default(); 3]);
-    for (k, gap) in gap.iter_mut().enumerate() {
-        gap.add(anchors.end_m[k]);
-        gap.add(-anchors.start_m[k]);
-    }
+    let Anchors { start_m, end_m } = chain.anchors();
+    let mut reach = Twofold::default();
+    let mut gap: [Twofold; 3] = std::array::from_fn(|k| Twofold::sum(end_m[k], -start_m[k]));
     for (i, bar) in chain.bars().iter().enumerate() {
-        let length = bar.length_m();
+        let length = Twofold::from(bar.length_m());
         if run.contains(&i) {
-            reach.add(length);
+            reach = reach + length;
         } else {
-            gap[2].add(if rises[i] { -length } else { length });
+            gap[2] = gap[2] + if rises[i] { -length } else { length };
         }
     }
-    let mut difference = Sum::default();
-    add_square(&mut difference, 1.0, reach);
-    for part in gap {
-        add_square(&mut difference, -1.0, part);
-    }
-    let (reach, size) = (reach.value(), norm(gap.map(Sum::value)));
+    let difference = gap.iter().fold(reach * reach, |left, part| left - *part * *part);
+    let (reach, size) = (reach.value(), norm(gap.map(Twofold::value)));
     let slack = difference.value() / (reach * (reach + size));
     if slack.abs() <= TWICE_THE_DIGITS { 0.0 } else { slack }
-}
-
-/// Add the square of a sum, or take it off, to twice the digits.
-fn add_square(to: &mut Sum, sign: f64, mut of: Sum) {
-    let high = of.value();
-    of.add(-high);
-    let square = high * high;
-    for term in [square, high.mul_add(high, -square), 2.0 * high * of.value()] {
-        to.add(sign * term);
-    }
 }
 
 /// Bend bars that lie on one line, and are longer than it by a part `slack`, at their first joint:

@@ -22,7 +22,6 @@ mod start;
 mod straight_fold;
 mod symmetric;
 mod triangle;
-mod twofold;
 mod vertical_plane;
 
 #[cfg(test)]

@@ -96,10 +96,6 @@ pub(crate) fn reactions(forces: &[Vector]) -> Reactions {
 /// energy varies over that length.
 const STEP: f64 = 1.0 / 256.0;
 
-/// Central differences, each with half the step of the one before. Three of them remove the errors
-/// of order two and four.
-const LEVELS: usize = 3;
-
 /// The force of the ground on the chain at its end anchor, world frame, N, without any multiplier:
 /// the chain is minimised again with the anchor displaced a little to either side, along three
 /// axes, and the least energies are differenced and extrapolated (Richardson).
@@ -154,22 +150,23 @@ pub fn reaction_by_differences(
     Ok(scaled(units.weight_n, reaction))
 }
 
-/// Richardson's extrapolation of central differences.
+/// Richardson's extrapolation of central differences, each with half the step of the one before. Three of them remove
+/// the errors of order two and four.
 fn extrapolated(step: f64, value: impl Fn(f64) -> Result<f64, Error>) -> Result<f64, Error> {
-    let mut table = [0.0; LEVELS];
+    let mut table = [0.0; 3];
     let mut h = step;
     for entry in &mut table {
         *entry = (value(h)? - value(-h)?) / (2.0 * h);
         h *= 0.5;
     }
     let mut factor = 1.0;
-    for order in 1..LEVELS {
+    for order in 1..table.len() {
         factor *= 4.0;
-        for k in (order..LEVELS).rev() {
+        for k in (order..table.len()).rev() {
             table[k] += (table[k] - table[k - 1]) / (factor - 1.0);
         }
     }
-    Ok(table[LEVELS - 1])
+    Ok(table[2])
 }
 
 #[cfg(test)]

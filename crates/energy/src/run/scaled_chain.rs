@@ -8,9 +8,6 @@ use crate::run::regime::{Reach, Turning};
 use crate::run::settings::Motion;
 use crate::vector::{along, dot, norm};
 
-/// The bits of the exponent of a double.
-const EXPONENT: u64 = 0x7ff << 52;
-
 /// A chain with a total length from 1 to 2 and total weight 1, in its own frame.
 ///
 /// The energy is linear in the directions `u_i` of the bars. Bar *i* lifts all bars after it and a
@@ -73,8 +70,9 @@ impl ScaledChain {
     pub(crate) fn new(problem: &Problem, motion: Motion) -> (Self, Units) {
         let chain = problem.chain();
         let total_m = chain.total_length_m();
-        // Its logarithm rounds to the next power where it is just below that.
-        let length_m = f64::from_bits(total_m.to_bits() & EXPONENT);
+        // By the bits of the exponent, which are those of infinity: the logarithm rounds to the next power where it is just
+        // below that.
+        let length_m = f64::from_bits(total_m.to_bits() & f64::INFINITY.to_bits());
         let mass_kg = chain.total_mass_kg();
         let weight_n = mass_kg * chain.gravity_m_s2();
         let difference_m = chain.anchors().difference_m();

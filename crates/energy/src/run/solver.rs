@@ -1,9 +1,9 @@
 use std::sync::Arc;
 
-use model::Vector;
+use model::{STRAIGHT_TOLERANCE, Vector};
 
 use crate::error::Error;
-use crate::run::closure::{LOST_SPREAD, Shape};
+use crate::run::closure::Shape;
 use crate::run::convergence::{Convergence, Iterate};
 use crate::run::curvature::{Curvature, Step};
 use crate::run::scaled_chain::ScaledChain;
@@ -169,13 +169,9 @@ impl FeasibleNewton {
 
     /// Turn the whole chain towards the plane of its anchors, if that is far and the turn is soft.
     fn turn(&mut self, curvature: &Curvature) -> Result<Option<Place>, Error> {
-        if !self.convergence.may_turn() {
-            return Ok(None);
-        }
-        let turned = self.turned(curvature);
-        if turned.is_none() {
-            self.convergence.not_turned();
-        }
+        // Never twice in a row: what a turn leaves is Newton's.
+        let turned = if self.convergence.turned { None } else { self.turned(curvature) };
+        self.convergence.turned = turned.is_some();
         turned.map(|shape| self.place(shape)).transpose()
     }
 
@@ -271,7 +267,7 @@ fn trial(curvature: &Curvature, step: &Step) -> Option<Trial> {
 fn smallest_spread(shape: &Shape) -> f64 {
     let eigen = shape.moments.spread.eigen();
     let smallest = eigen.value[..eigen.size].iter().copied().fold(f64::INFINITY, f64::min);
-    smallest.max(LOST_SPREAD)
+    smallest.max(STRAIGHT_TOLERANCE)
 }
 
 /// The smallest residual that directions in double precision can have.

@@ -2,7 +2,7 @@
 
 use model::{STRAIGHT_TOLERANCE, Vector};
 
-use crate::run::closure::{LOST_SPREAD, Shape};
+use crate::run::closure::Shape;
 use crate::run::scaled_chain::ScaledChain;
 use crate::thresholds::{BISECTIONS, FORCE_ROUNDING};
 use crate::vector::{along, cross, dot, norm};
@@ -23,7 +23,7 @@ pub(crate) fn line(shape: &Shape) -> Option<Vector> {
     }
     let eigen = spread.eigen();
     let k = (0..3).min_by(|&a, &b| eigen.value[a].total_cmp(&eigen.value[b]))?;
-    if eigen.value[k] > LOST_SPREAD * eigen.largest() {
+    if eigen.value[k] > STRAIGHT_TOLERANCE * eigen.largest() {
         return None;
     }
     Some([eigen.vector[k][0], eigen.vector[k][1], eigen.vector[k][2]])

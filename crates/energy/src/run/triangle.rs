@@ -28,7 +28,7 @@ use crate::run::regime::Reach;
 use crate::run::scaled_chain::ScaledChain;
 use crate::run::settings::Motion;
 use crate::run::slope::Slope;
-use crate::run::twofold::Twofold;
+use crate::twofold::Twofold;
 use crate::vector::{along, cross, dot, scaled, unit};
 
 /// A vector to twice the digits.

@@ -153,7 +153,7 @@ fn work_of_the_example() {
             }
         }
     }
-    let expected = [576, 576, 3740];
+    let expected = [576, 576, 3744];
     assert_frozen(&found, &expected);
 }
 

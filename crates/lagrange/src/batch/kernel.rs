@@ -78,8 +78,8 @@ const fn limits() -> [f64; 32] {
 }
 
 /// Steps allowed at most: the angles then stay within the range of the sine.
-pub(crate) const MOST_STEPS: u32 = 60_000;
-const _: () = assert!(MOST_STEPS as f64 * PLAIN < LARGEST_ANGLE);
+pub(crate) const MOST_ALLOWED: u32 = 60_000;
+const _: () = assert!(MOST_ALLOWED as f64 * PLAIN < LARGEST_ANGLE);
 
 /// An axial force smaller than this is taken for this one: it keeps the quotients finite.
 const LEAST_AXIAL: f64 = 1e-30;
@@ -87,20 +87,13 @@ const LEAST_AXIAL: f64 = 1e-30;
 /// Turn of bar i, in multiples of i + 1, where the Newton step is undefined, rad.
 const PERTURBATION: f64 = 0.01;
 
-/// What the residual is at the start of a step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Judged {
-    /// Every equation is below the tolerance.
-    pub converged: [bool; LANES],
-}
-
 /// Limits of one step in the lanes.
 #[inline(always)]
 fn limit(count: &[u32; LANES]) -> Lanes {
     Lanes(each(|k| LIMITS[count[k] as usize % LIMITS.len()]))
 }
 
-/// Judge the point of every lane and step on from it.
+/// Judge the point of every lane, whether every equation is below the tolerance there, and step on from it.
 ///
 /// `bars` and `states` have equal lengths; with constant length the loops are unrolled.
 #[inline(always)]
@@ -110,7 +103,7 @@ pub(crate) fn step(
     tolerance: f64,
     states: &mut [State],
     common: &mut Common,
-) -> Judged {
+) -> [bool; LANES] {
     for state in states.iter_mut() {
         (state.sin, state.cos) = state.angle.sin_cos();
     }
@@ -145,7 +138,7 @@ pub(crate) fn step(
         right[1] = right[1] + lift * state.moment;
         moments = moments.larger((length * state.moment).abs());
     }
-    let judged = judge(bars.len(), tolerance, common, &gap, moments);
+    let converged = judge(bars.len(), tolerance, common, &gap, moments);
     let change = solve(matrix, [gap[0] + right[0], gap[1] + right[1]]);
 
     let (mut largest, mut sum) = (Lanes::ZERO, Lanes::ZERO);
@@ -170,7 +163,7 @@ pub(crate) fn step(
     for count in &mut common.count {
         *count += 1;
     }
-    judged
+    converged
 }
 
 /// Compare the residual with the tolerance, in squares: moments against the largest force times the
@@ -182,7 +175,7 @@ fn judge(
     common: &mut Common,
     gap: &[Lanes; 2],
     moments: Lanes,
-) -> Judged {
+) -> [bool; LANES] {
     /// Above this the residual is large.
     const FAR: f64 = 1e-2;
     let mean = 1.0 / bars as f64;
@@ -200,7 +193,7 @@ fn judge(
     };
     let near = below(FAR);
     common.far = each(|k| !near[k]);
-    Judged { converged: below(tolerance) }
+    below(tolerance)
 }
 
 /// The pull for which the moments are least, $\sum l_i (t_i\cdot F_i)^2 \to \min$, with a faint

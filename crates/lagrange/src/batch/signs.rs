@@ -16,21 +16,18 @@
 use super::lanes::Lanes;
 use super::numbers::Bar;
 use crate::full::multipliers::REGULARISATION;
-use crate::thresholds::{EARNED, SHORTEST};
+use crate::thresholds::{EARNED, SEEN, SHORTEST};
 
 /// Passes for the closed shape: a seed needs no more digits than they give.
 const CLOSING_PASSES: usize = 25;
-/// A closed shape is near enough for its signs when its end is so near, in total lengths.
-const CLOSED: f64 = 1e-6;
 /// Passes for one pattern of signs.
 const PATTERN_PASSES: usize = 40;
 /// Of the compressed bars one, and this part of them, go over to tension at a time.
 const PART: usize = 8;
 /// Damping at first, in units of the residual; its growth after a step that led away and decrease
-/// after a good one; and the damping beyond which a step changes nothing.
+/// after a good one.
 const DAMPING: f64 = 1e-2;
 const GROWTH: f64 = 8.0;
-const TOO_STIFF: f64 = 1e20;
 
 /// One bar of a seed.
 #[derive(Debug, Clone, Copy)]
@@ -118,7 +115,7 @@ impl<'a> Signs<'a> {
         let mut multiplier = [0.0; 2];
         for _ in 0..CLOSING_PASSES {
             let here = self.gap(multiplier);
-            if size(here.residual) <= CLOSED {
+            if size(here.residual) <= SEEN {
                 break;
             }
             let [a, b, d] = here.jacobian;
@@ -212,9 +209,6 @@ impl<'a> Signs<'a> {
                 return Some(pull);
             } else {
                 damping *= GROWTH;
-                if damping > TOO_STIFF {
-                    return None;
-                }
             }
         }
         (size(here.residual) <= self.tolerance).then_some(pull)

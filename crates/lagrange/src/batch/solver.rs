@@ -6,7 +6,7 @@
 
 use model::{Ends, Finish, Problem};
 
-use super::kernel::{Common, MOST_STEPS, State, step};
+use super::kernel::{Common, MOST_ALLOWED, State, step};
 use super::lanes::{LANES, Lanes, each};
 use super::numbers::{Bar, Numbers};
 use super::signs::Signs;
@@ -56,7 +56,7 @@ impl BatchSettings {
     pub fn validate(&self) -> Result<(), SettingsError> {
         within(&[
             ("tolerance", self.tolerance, 1e-15, 1e-3),
-            ("max_iterations", f64::from(self.max_iterations), 1.0, f64::from(MOST_STEPS)),
+            ("max_iterations", f64::from(self.max_iterations), 1.0, f64::from(MOST_ALLOWED)),
         ])
     }
 }
@@ -201,10 +201,10 @@ impl Batch {
             (next, busy) = (next + 1, busy + 1);
         }
         while busy > 0 {
-            let judged =
+            let converged =
                 step(bars, self.numbers.span, self.settings.tolerance, states, &mut common);
             let ended: [bool; LANES] =
-                each(|k| judged.converged[k] || (common.count[k] > self.settings.max_iterations));
+                each(|k| converged[k] || (common.count[k] > self.settings.max_iterations));
             if !ended.contains(&true) {
                 continue;
             }
@@ -212,7 +212,7 @@ impl Batch {
                 if !ended[lane] || seed[lane] == usize::MAX {
                     continue;
                 }
-                self.store(states, &common, lane, judged.converged[lane], seed[lane], ends);
+                self.store(states, &common, lane, converged[lane], seed[lane], ends);
                 common.count[lane] = 0;
                 if next < seeds {
                     seed[lane] = next;
@@ -275,15 +275,11 @@ impl<const N: usize> pulp::NullaryFnOnce for Widest<'_, N> {
     }
 }
 
-/// Angles of seeds up to this are taken as they are, rad.
-const FEW_TURNS: f64 = 1000.0;
-
 #[inline(always)]
 fn load(states: &mut [State], angles: &[f64], seed: usize, lane: usize) {
     let bars = states.len();
     for (state, angle) in states.iter_mut().zip(&angles[seed * bars..]) {
         // An angle without bounds would be outside the range of the sine.
-        let within = angle.abs() <= FEW_TURNS;
-        state.angle.0[lane] = if within { *angle } else { angle % std::f64::consts::TAU };
+        state.angle.0[lane] = angle % std::f64::consts::TAU;
     }
 }

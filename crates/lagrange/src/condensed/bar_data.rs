@@ -33,7 +33,7 @@ pub(super) struct Block {
 }
 
 impl BarData {
-    /// BarData a chain, into the same memory as the last one.
+    /// Read a chain, into the same memory as the last one.
     pub fn read(&mut self, chain: &Chain, units: Units, workers: Workers) {
         let bars = chain.bars();
         for array in [&mut self.lengths, &mut self.loads, &mut self.beyond] {

@@ -8,7 +8,6 @@
 
 use super::chain::Condensed;
 use super::span::Span;
-use crate::thresholds::LEAST_DEVIATION;
 
 /// A chain as the catenary sees it.
 #[derive(Debug, Clone, Copy)]
@@ -33,14 +32,9 @@ impl Catenary {
         let Span { across, rise, distance, .. } = chain.span;
         let length = chain.bars.total_length;
         let (mean, deviation) = chain.moments.total(length);
-        Self {
-            across,
-            rise,
-            length,
-            slack_squared: slack * (length + distance),
-            mean,
-            deviation: deviation.max(LEAST_DEVIATION * chain.largest_load()),
-        }
+        // The root of a difference of squares: what is less comes from cancellation.
+        let deviation = deviation.max(f64::EPSILON.sqrt() * chain.largest_load());
+        Self { across, rise, length, slack_squared: slack * (length + distance), mean, deviation }
     }
 
     /// Force at load 0, horizontal and vertical.

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-use model::{Chain, Problem, Vector};
+use model::{Problem, Vector};
 
 use super::bar_data::BarData;
 use super::bottom::Bottom;
@@ -77,19 +77,24 @@ impl Condensed {
         problem: &Problem,
         processors: NonZeroUsize,
         mut bars: BarData,
-        moments: Moments,
+        mut moments: Moments,
     ) -> Self {
         let chain = problem.chain();
         let workers = Workers::new(processors, chain.bars().len());
-        let si = Units { length: 1.0, mass: 1.0, gravity: chain.gravity_m_s2() };
-        bars.read(chain, si, workers);
-        let (length, mass) = (bars.total_length, bars.total_mass);
-        if COMFORTABLE.contains(&length) && COMFORTABLE.contains(&mass) {
-            return Self::with_units(chain, si, processors, bars, moments);
-        }
-        let units = Units { length: power_of_two(length), mass: power_of_two(mass), ..si };
+        let mut units = Units { length: 1.0, mass: 1.0, gravity: chain.gravity_m_s2() };
         bars.read(chain, units, workers);
-        Self::with_units(chain, units, processors, bars, moments)
+        let (length, mass) = (bars.total_length, bars.total_mass);
+        if !(COMFORTABLE.contains(&length) && COMFORTABLE.contains(&mass)) {
+            units = Units { length: power_of_two(length), mass: power_of_two(mass), ..units };
+            bars.read(chain, units, workers);
+        }
+        let span = Span::new(chain.anchors(), 1.0 / units.length);
+        let bottom = Bottom::bar(&bars, span.rise);
+        moments.clear(chain.bars().len());
+        count_from(bottom, &bars.lengths, &mut bars.loads, &mut moments, workers);
+        let bottom = Bottom::new(bottom, &bars, span.rise);
+        let (start_m, on_one_vertical) = (chain.anchors().start_m, chain.anchors_on_one_vertical());
+        Self { bars, moments, span, bottom, units, start_m, on_one_vertical, processors }
     }
 
     pub(super) fn bars(&self) -> usize {
@@ -134,23 +139,6 @@ impl Condensed {
         let frame = Frame::Upright { across: self.span.across, rise: self.span.rise };
         let (total_length, workers) = (self.bars.total_length, self.workers());
         System { parts, strut, frame, total_length, workers }
-    }
-
-    fn with_units(
-        chain: &Chain,
-        units: Units,
-        processors: NonZeroUsize,
-        mut bars: BarData,
-        mut moments: Moments,
-    ) -> Self {
-        let workers = Workers::new(processors, chain.bars().len());
-        let span = Span::new(chain.anchors(), 1.0 / units.length);
-        let bottom = Bottom::bar(&bars, span.rise);
-        moments.clear(chain.bars().len());
-        count_from(bottom, &bars.lengths, &mut bars.loads, &mut moments, workers);
-        let bottom = Bottom::new(bottom, &bars, span.rise);
-        let (start_m, on_one_vertical) = (chain.anchors().start_m, chain.anchors_on_one_vertical());
-        Self { bars, moments, span, bottom, units, start_m, on_one_vertical, processors }
     }
 }
 

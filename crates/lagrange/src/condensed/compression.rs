@@ -30,9 +30,6 @@ use crate::thresholds::SHORTEST;
 
 /// Largest change of the logarithm of the compression in one step.
 const LARGEST_LOG_STEP: f64 = 2.0;
-/// Where the compression would have to be larger than the loads by this factor, the other bars do
-/// not reach: the direction is too far from the line of the anchors.
-const NO_REACH: f64 = 1e17;
 
 /// The equations of a chain with a bar in compression, and where to start.
 #[derive(Debug, Clone, Copy)]
@@ -191,7 +188,9 @@ impl Strut<'_> {
     /// $\ln\varrho$ that closes the chain along the bar for a given direction; `None` when none
     /// does.
     fn compression(&self, angle: f64, start: f64, budget: &mut Budget) -> Option<f64> {
-        let limit = (NO_REACH * self.largest_load).ln();
+        // Where the loads would be rounding beside the compression the other bars do not reach: the direction is too far
+        // from the line of the anchors.
+        let limit = (self.largest_load / f64::EPSILON).ln();
         Bracket::LINE.root(start, 1.0, 1.0, |log| {
             if !budget.spend() {
                 return None;

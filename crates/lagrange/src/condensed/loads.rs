@@ -48,7 +48,7 @@ pub(super) fn count_from(
 fn count_up(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
     let mut offset = DoubleDouble::default();
     for (lengths, loads) in lengths.chunks(BLOCK).zip(loads.chunks_mut(BLOCK)) {
-        let here = running(loads, 0.0);
+        let here = running(loads);
         for load in loads.iter_mut() {
             *load += offset.value();
         }
@@ -70,7 +70,7 @@ fn count_down(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
         for (to, load) in space[1..].iter_mut().zip(loads.iter().rev()) {
             *to = *load;
         }
-        let here = running(space, 0.0);
+        let here = running(space);
         for (load, sum) in loads.iter_mut().zip(space.iter().rev()) {
             *load = -(sum + offset.value());
         }

@@ -27,7 +27,8 @@
 //! `regime` says which way the chain is solved ([the table](crate#regimes)). With all bars in
 //! tension the pull is the minimum of a convex function (`newton`, from the catenary; for many bars
 //! first over a coarser chain of their moments, `loads`); with one compressed it is the only root
-//! of its kind (`compression`). Both have a nested search in reserve that cannot fail. Nearly
+//! of its kind (`compression`). Both have a nested search in reserve that cannot fail, but where
+//! strands hang side by side. Nearly
 //! straight chains are balanced along their line (`axis`). What comes out is the global minimum of
 //! the energy, for every chain that [`model::Problem`] accepts.
 //!

@@ -18,8 +18,6 @@ const NOISE: f64 = 1e3;
 const CAUTION: f64 = 10.0;
 /// Passes that Newton's method may take before a nested search takes over.
 pub(super) const NEWTON_PASSES: usize = 60;
-/// Steps of Newton's method in other axes that only remove rounding errors.
-const POLISH_STEPS: usize = 6;
 
 /// A force that solves the condensed equations.
 #[derive(Debug, Clone, Copy)]
@@ -72,8 +70,7 @@ pub(super) fn within_a_few_passes<T>(
 pub(super) fn polish(system: &System<'_>, force: [f64; 2], budget: &mut Budget) -> Root {
     let mut root = Root { force, closure: system.closure(force), contraction: 0.0 };
     budget.spend();
-    for _ in 0..POLISH_STEPS {
-        let Some([x, y]) = root.closure.step() else { break };
+    while let Some([x, y]) = root.closure.step() {
         let force = [root.force[0] + x, root.force[1] + y];
         let closure = system.closure(force);
         // A NaN is not closer.

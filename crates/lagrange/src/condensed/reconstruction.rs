@@ -45,9 +45,14 @@ pub(super) fn reconstruct<S: Send>(
     split: impl FnOnce(S, &[Range<usize>]) -> Vec<S>,
     write: impl Fn(&mut S, &Segment<'_>) + Sync,
 ) -> Ends {
-    let exception = Exception::new(chain, pull);
+    let filled = match &pull.signs {
+        Signs::Unloaded(bars) => {
+            fill(&chain.bars.lengths[bars.clone()], [chain.span.across, chain.bottom.gap])
+        }
+        Signs::Tension | Signs::Compressed(_) => Vec::new(),
+    };
     let (workers, bars) = (chain.workers(), chain.bars());
-    let path = Path { chain, force: pull.force, exception: &exception };
+    let path = Path { chain, pull, filled };
     let groups = workers.chunks_of(bars);
     let end = if groups.len() <= 1 {
         let chunks = groups.into_iter().flatten();
@@ -106,8 +111,9 @@ impl Progress {
 /// A chain and the force that shapes it.
 struct Path<'a> {
     chain: &'a Condensed,
-    force: [f64; 2],
-    exception: &'a Exception,
+    pull: &'a Pull,
+    /// The vectors of the bars that carry no force.
+    filled: Vec<[f64; 2]>,
 }
 
 impl Path<'_> {
@@ -122,7 +128,7 @@ impl Path<'_> {
     ) -> Progress {
         let mut here = Progress::default();
         let BarData { lengths, loads, beyond, .. } = &self.chain.bars;
-        let [h, v] = self.force;
+        let [h, v] = self.pull.force;
         let mut space = [[0.0; SEGMENT]; 4];
         let arrays =
             lengths[chunk.clone()].chunks(SEGMENT).zip(loads[chunk.clone()].chunks(SEGMENT));
@@ -142,9 +148,9 @@ impl Path<'_> {
                 axial[k] = size;
                 vertical[k] = up + beyond[k];
             }
-            self.exception.correct(first, along, height, axial);
+            self.correct(first, along, height, axial);
             here.moment = here.moment.plus(product(loads, height));
-            let (dx, dz) = (running(along, 0.0), running(height, 0.0));
+            let (dx, dz) = (running(along), running(height));
             let (from_x, from_z) =
                 (from.along.add(here.along).value(), from.height.add(here.height).value());
             for (x, z) in along.iter_mut().zip(height.iter_mut()) {
@@ -157,45 +163,20 @@ impl Path<'_> {
         }
         from.then(&here)
     }
-}
 
-/// Bars that do not point along their force.
-enum Exception {
-    /// All do.
-    None,
-    /// This one points against it.
-    Compressed(usize),
-    /// These carry none: from this bar on, they have these vectors.
-    Unloaded(usize, Vec<[f64; 2]>),
-}
-
-impl Exception {
-    fn new(chain: &Condensed, pull: &Pull) -> Self {
-        match &pull.signs {
-            Signs::Tension => Self::None,
-            Signs::Compressed(bar) => Self::Compressed(*bar),
-            Signs::Unloaded(range) => {
-                let gap = [chain.span.across, chain.bottom.gap];
-                Self::Unloaded(range.start, fill(&chain.bars.lengths[range.clone()], gap))
-            }
-        }
-    }
-
+    /// Mend the bars, from this one on, that do not point along their force.
     fn correct(&self, first: usize, x: &mut [f64], z: &mut [f64], axial: &mut [f64]) {
-        let count = axial.len();
-        let mut turn = |k: usize| {
-            (x[k], z[k], axial[k]) = (-x[k], -z[k], -axial[k]);
-        };
-        match self {
-            Self::None => {}
-            Self::Compressed(bar) => {
-                if let Some(k) = bar.checked_sub(first).filter(|k| *k < count) {
-                    turn(k);
+        match &self.pull.signs {
+            Signs::Tension => {}
+            Signs::Compressed(bar) => {
+                if let Some(k) = bar.checked_sub(first).filter(|k| *k < axial.len()) {
+                    (x[k], z[k], axial[k]) = (-x[k], -z[k], -axial[k]);
                 }
             }
-            Self::Unloaded(start, bars) => {
+            Signs::Unloaded(bars) => {
                 for (k, at) in (first..first + x.len()).enumerate() {
-                    if let Some(bar) = at.checked_sub(*start).and_then(|b| bars.get(b)) {
+                    let filled = at.checked_sub(bars.start).and_then(|b| self.filled.get(b));
+                    if let Some(bar) = filled {
                         (x[k], z[k], axial[k]) = (bar[0], bar[1], 0.0);
                     }
                 }

@@ -4,11 +4,6 @@ use model::Anchors;
 
 use super::sums::DoubleDouble;
 
-/// Horizontal direction of the plane when the anchors are on one vertical and any will do: the
-/// paper's plane OYZ, and of its two mirror images the one of the paper's Fig. 3, whose stretched
-/// bars lean towards +Y. (A compressed bar has them lean against this direction.)
-const ANY_LEVEL: [f64; 2] = [0.0, -1.0];
-
 /// The way from anchor to anchor, in the plane, in units of the chain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Span {
@@ -34,8 +29,11 @@ impl Span {
         });
         let [x, y, rise] = difference.map(DoubleDouble::value);
         let across = x.hypot(y);
+        // On one vertical any plane will do: the paper's, OYZ, and of its two mirror images the one of the paper's
+        // Fig. 3, whose stretched bars lean towards +Y. (A compressed bar has them lean against this direction.)
+        let level = if across > 0.0 { [x / across, y / across] } else { [0.0, -1.0] };
         Self {
-            level: if across > 0.0 { [x / across, y / across] } else { ANY_LEVEL },
+            level,
             across,
             rise,
             distance: across.hypot(rise),

@@ -17,7 +17,7 @@ use model::{InPlane, InSpace, Stability};
 
 use super::chain::Condensed;
 use super::pull::{Pull, Signs};
-use crate::thresholds::{GIVEN, ZERO_PIVOT};
+use crate::thresholds::GIVEN;
 
 /// Stability, dimension of the null space of the closure's derivative in space, and its condition.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     // cannot move has nothing that could vanish.
     let degenerate = compressed > 0
         && freedoms > 0
-        && (second.abs() <= ZERO_PIVOT * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE);
+        && (second.abs() <= GIVEN * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE);
     let positive = [first, second].iter().filter(|pivot| **pivot > 0.0).count();
     let positive = if degenerate { usize::from(first > 0.0) } else { positive };
     let horizontal = chain.across_in(pull.level) / pull.force[0];

@@ -66,7 +66,7 @@ pub(super) struct Vectors {
     pub axial_n: Vec<f64>,
 }
 
-/// What belongs to all bars in_parallel.
+/// What belongs to all bars together.
 pub(super) struct Totals {
     pub reactions_n: Reactions,
     pub energy_j: f64,

@@ -4,20 +4,9 @@ use crate::full::reduced::Reduced;
 use crate::settings::Settings;
 use crate::thresholds::EARNED;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ending {
-    /// The largest equation is below the tolerance.
-    Converged,
-    /// The residual no longer falls, or the steps ran out.
-    Stagnated,
-}
-
-/// Damping in the first step, in units of the residual; the gain ratio corrects it at once.
-const FIRST_DAMPING: f64 = 1.0;
-/// Below this part of the promised decrease the damping grows, ...
+/// Below this part of the promised decrease the damping is divided by it; where no more than this part is missing it is
+/// multiplied by it: Fan and Yuan's rule.
 const POOR: f64 = 0.25;
-/// ... where no more than this part is missing it shrinks, by this factor: Fan and Yuan's rule.
-const FACTOR: f64 = 4.0;
 /// Least damping in units of the residual: keeps quadratic convergence and bounds the way back up.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Least damping of all: the square of its ratio to the smallest non-zero singular values (1e-3 and
@@ -31,24 +20,21 @@ const PROGRESS: f64 = 0.02;
 const POLISH: usize = 3;
 
 /// One run from the point of the equations. Appends the norm of the residual at each step to
-/// `history`.
-pub(crate) fn newton(
-    equations: &mut Reduced,
-    settings: &Settings,
-    history: &mut Vec<f64>,
-) -> Ending {
+/// `history`. Whether the largest equation is below the tolerance: else the residual no longer falls, or the steps ran out.
+pub(crate) fn newton(equations: &mut Reduced, settings: &Settings, history: &mut Vec<f64>) -> bool {
     let start = history.len();
-    let mut factor = FIRST_DAMPING;
+    // Damping in units of the residual; the gain ratio corrects it at once.
+    let mut factor = 1.0_f64;
     let mut norm = equations.norm();
     for iteration in 0..settings.max_iterations {
         if equations.largest() <= settings.tolerance {
             polish(equations, factor, history);
-            return Ending::Converged;
+            return true;
         }
         history.push(norm);
         if iteration >= PATIENCE && norm > (1.0 - PROGRESS) * history[start + iteration - PATIENCE]
         {
-            return Ending::Stagnated;
+            return false;
         }
         // Damping of the order of the residual: quadratic convergence without a regular Jacobian.
         let predicted = equations.step((factor * norm).max(LEAST_DAMPING));
@@ -59,15 +45,15 @@ pub(crate) fn newton(
             norm = equations.norm();
         }
         if gain > 1.0 - POOR {
-            factor = (factor / FACTOR).max(LEAST_FACTOR);
+            factor = (factor * POOR).max(LEAST_FACTOR);
         } else if gain > POOR {
             // The model is fair: keep.
         } else {
             // Also when the gain is not a number.
-            factor *= FACTOR;
+            factor /= POOR;
         }
     }
-    if equations.largest() <= settings.tolerance { Ending::Converged } else { Ending::Stagnated }
+    equations.largest() <= settings.tolerance
 }
 
 /// Steps on while each halves the residual.

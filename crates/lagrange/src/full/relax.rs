@@ -20,10 +20,8 @@
 use nalgebra::{Complex, Vector3};
 
 use crate::full::reduced::Reduced;
-use crate::thresholds::{EARNED, HALVINGS, SUM_ROUNDING};
+use crate::thresholds::{CLOSURE_ROUNDING, EARNED, HALVINGS};
 
-/// First step of the motion, in units in which weight, length and friction are one.
-const FIRST_TAU: f64 = 1.0;
 /// The step length grows as the residual falls, at most by this factor, ...
 const FASTEST_GROWTH: f64 = 3.0;
 /// ... and shrinks by this one when a step was cut, or at most when the residual rises.
@@ -32,15 +30,12 @@ const CUT: f64 = 0.5;
 const LARGEST_TURN: f64 = 0.5;
 /// A penalty above the multipliers is exact; twice as much leaves room for their errors.
 const PENALTY: f64 = 2.0;
-/// Bars leave gimbal lock early: the motion has no preference for any angles.
-const LOCK_MARGIN: f64 = 0.1;
 
 /// Relax from where `chain` is until the norm of the residual is below `handover`, at most `limit`
 /// steps; how many it took.
 pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
-    let (mut tau, mut penalty) = (FIRST_TAU, 1.0_f64);
-    chain.leave_gimbal_lock(LOCK_MARGIN);
-    chain.estimate();
+    // In units in which weight, length and friction are one.
+    let (mut tau, mut penalty) = (1.0, 1.0_f64);
     chain.choose_unit();
     let mut norm = chain.norm();
     for step in 0..limit {
@@ -51,7 +46,7 @@ pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
         viscous_step(chain, tau, gap);
         let slope = slope(chain, &mut penalty, gap);
         let cut = take(chain, penalty, slope);
-        chain.leave_gimbal_lock(LOCK_MARGIN);
+        chain.leave_gimbal_lock(chain.lock_margin);
         chain.estimate();
         let before = std::mem::replace(&mut norm, chain.norm());
         tau *= if cut { CUT } else { (before / norm).clamp(CUT, FASTEST_GROWTH) };
@@ -100,7 +95,7 @@ fn take(chain: &mut Reduced, penalty: f64, slope: f64) -> bool {
     // Shorter than that it is taken as it is.
     for _ in 0..HALVINGS {
         chain.advance(part);
-        if merit(chain, true) <= start + EARNED * part * slope + SUM_ROUNDING * penalty {
+        if merit(chain, true) <= start + EARNED * part * slope + CLOSURE_ROUNDING * penalty {
             break;
         }
         part *= CUT;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::error::Error;
 use crate::full::spin::regular_angles;
-use crate::thresholds::{HALVINGS, ZERO};
+use crate::thresholds::{GOLDEN, HALVINGS, ZERO};
 
 /// Angles ψ, θ, φ of each bar, rad.
 ///
@@ -143,9 +143,8 @@ fn half_angle(ratio: f64) -> f64 {
 /// sequence that has no pattern and needs no random numbers (multiples of the golden ratio, modulo
 /// 1).
 pub(crate) fn perturb(angles: &mut [[f64; 3]], round: usize) {
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     for (index, angle) in angles.iter_mut().flatten().enumerate() {
-        *angle += ((index + 1) as f64 * round as f64 * golden).fract() - 0.5;
+        *angle += ((index + 1) as f64 * round as f64 * GOLDEN).fract() - 0.5;
     }
 }
 

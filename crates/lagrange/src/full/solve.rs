@@ -8,7 +8,7 @@ use crate::effort::Effort;
 use crate::error::Error;
 use crate::full::indeterminate;
 use crate::full::mechanism::{Mechanism, Units};
-use crate::full::newton::{Ending, newton};
+use crate::full::newton::newton;
 use crate::full::reduced::Reduced;
 use crate::full::relax::relax;
 use crate::full::seed::{Seed, perturb};
@@ -19,12 +19,9 @@ use crate::thresholds::ZERO;
 
 /// False roots left in one run: with other angles a bar has no false root near by.
 const ESCAPES: usize = 16;
-/// The first relaxation hands over to Newton's method at this norm of the residual, ...
-const FIRST_HANDOVER: f64 = 1e-2;
-/// ... and each further one at a smaller, by this factor, ...
-const LATER_HANDOVER: f64 = 0.03;
-/// ... down to this.
-const LAST_HANDOVER: f64 = 1e-12;
+/// The first relaxation hands over to Newton's method at this norm of the residual, and each further one at this part of the
+/// norm of the one before, down to the tolerance.
+const HANDOVER: f64 = 1e-2;
 
 /// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed.
 ///
@@ -47,16 +44,6 @@ pub struct Solver<'p> {
     perturbed: Vec<[f64; 3]>,
     history: Vec<f64>,
     effort: Effort,
-}
-
-/// What one run of Newton's method has led to.
-enum Attempt {
-    /// A root of the paper's equations at which every bar is in balance.
-    Equilibrium,
-    /// A root at which this bar (from 0) is not, and the moment on it.
-    FalseRoot { bar: usize, moment: f64 },
-    /// No root.
-    Stagnated,
 }
 
 /// A converged state in the memory of its solver.
@@ -125,16 +112,13 @@ impl<'p> Solver<'p> {
         seed.check(self.reduced.carried.len())?;
         self.reset();
         self.reduced.start(seed.angles());
-        let mut ending = self.newton()?;
-        while ending == Ending::Stagnated && self.effort.relaxations < self.settings.relaxations {
+        let mut converged = self.newton()?;
+        while !converged && self.effort.relaxations < self.settings.relaxations {
             self.relax_from(seed);
-            ending = self.newton()?;
+            converged = self.newton()?;
         }
         self.effort.solve_s = clock.elapsed().as_secs_f64();
-        match ending {
-            Ending::Converged => Ok(Converged { solver: self }),
-            Ending::Stagnated => Err(self.stagnated()),
-        }
+        if converged { Ok(Converged { solver: self }) } else { Err(self.stagnated()) }
     }
 
     /// The stable equilibrium, from no guess: an arc between the anchors is relaxed and then
@@ -161,9 +145,9 @@ impl<'p> Solver<'p> {
         let mut last = None;
         loop {
             self.relax_from(&seed);
-            let ending = self.newton()?;
+            let converged = self.newton()?;
             self.effort.solve_s = clock.elapsed().as_secs_f64();
-            if ending == Ending::Converged {
+            if converged {
                 indeterminate::resolve(&mut self.reduced, self.problem, &self.settings);
                 let stability = stability(&self.reduced.mechanism, &self.reduced.here);
                 if stability.in_space == InSpace::Stable {
@@ -184,37 +168,30 @@ impl<'p> Solver<'p> {
         self.reduced.reparametrisations = 0;
     }
 
-    /// Runs of Newton's method until one ends at no false root.
-    fn newton(&mut self) -> Result<Ending, Error> {
+    /// Runs of Newton's method until one ends at no false root; whether it has converged.
+    fn newton(&mut self) -> Result<bool, Error> {
         for _ in 0..ESCAPES {
-            match self.attempt() {
-                Attempt::Equilibrium => return Ok(Ending::Converged),
-                Attempt::Stagnated => return Ok(Ending::Stagnated),
-                Attempt::FalseRoot { bar, moment } if self.settings.lock_margin <= 0.0 => {
-                    return Err(Error::FalseRoot { bar: bar + 1, moment });
-                }
-                Attempt::FalseRoot { .. } => {
-                    self.effort.false_roots += 1;
-                    self.reduced.leave_gimbal_lock(EVERY_BAR);
-                }
+            let before = self.history.len();
+            self.reduced.choose_unit();
+            let converged = newton(&mut self.reduced, &self.settings, &mut self.history);
+            self.effort.iterations += self.history.len() - before;
+            self.effort.reparametrisations = self.reduced.reparametrisations;
+            if !converged {
+                return Ok(false);
             }
+            // The equations hold. Do the moments?
+            let (bar, moment) = self.reduced.largest_moment();
+            if moment <= ZERO {
+                return Ok(true);
+            }
+            if self.settings.lock_margin <= 0.0 {
+                return Err(Error::FalseRoot { bar: bar + 1, moment });
+            }
+            self.effort.false_roots += 1;
+            // Every bar off its best angles is below this margin.
+            self.reduced.leave_gimbal_lock(1.0);
         }
-        Ok(Ending::Stagnated)
-    }
-
-    /// One run of Newton's method.
-    fn attempt(&mut self) -> Attempt {
-        let before = self.history.len();
-        self.reduced.choose_unit();
-        let ending = newton(&mut self.reduced, &self.settings, &mut self.history);
-        self.effort.iterations += self.history.len() - before;
-        self.effort.reparametrisations = self.reduced.reparametrisations;
-        if ending == Ending::Stagnated {
-            return Attempt::Stagnated;
-        }
-        // The equations hold. Do the moments?
-        let (bar, moment) = self.reduced.largest_moment();
-        if moment <= ZERO { Attempt::Equilibrium } else { Attempt::FalseRoot { bar, moment } }
+        Ok(false)
     }
 
     /// Relax the chain from the seed, perturbed when this is not the first time.
@@ -225,8 +202,8 @@ impl<'p> Solver<'p> {
             perturb(&mut self.perturbed, round);
         }
         self.reduced.start(&self.perturbed);
-        let power = i32::try_from(round).unwrap_or(i32::MAX);
-        let handover = (FIRST_HANDOVER * LATER_HANDOVER.powi(power)).max(LAST_HANDOVER);
+        let power = i32::try_from(round + 1).unwrap_or(i32::MAX);
+        let handover = HANDOVER.powi(power).max(self.settings.tolerance);
         let steps = relax(&mut self.reduced, handover, self.settings.max_relaxation_steps);
         self.effort.relaxations += 1;
         self.effort.relaxation_steps += steps;
@@ -241,9 +218,6 @@ impl<'p> Solver<'p> {
         }
     }
 }
-
-/// A margin that every bar off its best angles falls below.
-const EVERY_BAR: f64 = 1.0;
 
 impl Converged<'_> {
     /// Potential energy from the height of joint 0, J.

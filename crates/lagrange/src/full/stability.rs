@@ -26,14 +26,14 @@ use nalgebra::Vector3;
 
 use crate::full::mechanism::Mechanism;
 use crate::full::point::Point;
-use crate::thresholds::{NO_FORCE, ZERO};
+use crate::thresholds::{GIVEN, ZERO};
 
 /// Stability of the equilibrium at `point`, a root of the reduced system.
 pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let [span, pull] = [mechanism.end, point.pull].map(|v| Vector3::new(v.x, v.y, 0.0));
     let normal = plane_normal(mechanism, &span, &pull);
     let level = Vector3::new(-normal.y, normal.x, 0.0);
-    let least = NO_FORCE * point.largest_force(&mechanism.carried_weights());
+    let least = GIVEN * point.largest_force(&mechanism.carried_weights());
 
     let mut compressed = 0;
     // Of symmetric matrices of two rows the entries 11, 12 and 22.

@@ -32,14 +32,7 @@ pub(super) fn members(runs: &Runs) -> usize {
 
 /// The start; nothing when the coarse system does not settle.
 pub(super) fn start(framework: &Framework, runs: &Runs) -> Option<Start> {
-    let mut coarse = Framework {
-        units: framework.units,
-        nodes: runs.nodes.clone(),
-        links: Vec::new(),
-        ropes: Vec::new(),
-        lying: Vec::new(),
-        work: framework.work.clone(),
-    };
+    let mut coarse = framework.of_parts(runs.nodes.clone(), Vec::new());
     // The pull of an element is the force of its first coarse member and what the lever rule gave
     // to its first joint.
     let firsts: Vec<(usize, Vector3<f64>)> =

@@ -19,7 +19,7 @@ use super::framework::Framework;
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{GOLDEN, SUM_ROUNDING};
+use crate::thresholds::{CLOSURE_ROUNDING, GOLDEN};
 
 /// The cut where lengths are taken as they are: a line with a slack of 1e-10 of its span, whose
 /// forces are real, has 1e-5; lengths that are rounded to doubles leave a flat frame out of its
@@ -153,7 +153,7 @@ impl Decided {
                     *e -= taken;
                 }
             }
-            if change <= SUM_ROUNDING * largest {
+            if change <= CLOSURE_ROUNDING * largest {
                 break;
             }
         }

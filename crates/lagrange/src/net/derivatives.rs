@@ -35,7 +35,7 @@ use super::solution::Solution;
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::SUM_ROUNDING;
+use crate::thresholds::CLOSURE_ROUNDING;
 
 /// The linear system is solved when this part of the right-hand side is left, or less.
 const SOLVED: f64 = 1e-8;
@@ -301,8 +301,9 @@ impl<'a> Derivatives<'a> {
             return Ok(self.none());
         }
         let sides = (forces, lengths.as_slice());
-        let solved =
-            self.derivative.solve(&self.framework, &mut self.stiffness, sides, SUM_ROUNDING, None);
+        let solved = self
+            .derivative
+            .solve(&self.framework, &mut self.stiffness, sides, CLOSURE_ROUNDING, None);
         match solved {
             Some((step, left)) if left <= SOLVED => Ok(step),
             Some((_, left)) => Err(Error::NoDerivative { left }),

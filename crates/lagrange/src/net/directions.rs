@@ -48,6 +48,20 @@ impl Directions {
         }
     }
 
+    /// Those in a plane that two directions span, to which they are not oblique.
+    pub fn within(&self, plane: [Vector3<f64>; 2]) -> Self {
+        let (mut axes, mut count) = (Matrix3::zeros(), 0);
+        for direction in plane {
+            let part = self.part(&direction);
+            let rest = part - axes * axes.tr_mul(&part);
+            if rest.norm() > 0.5 {
+                axes.set_column(count, &rest.normalize());
+                count += 1;
+            }
+        }
+        Self::new(axes, count)
+    }
+
     /// The vector with these components; as many are read as there are directions.
     pub fn vector(&self, components: &[f64]) -> Vector3<f64> {
         if let (Self::All, &[x, y, z]) = (self, components) {

@@ -20,9 +20,10 @@ use super::coarse::{self, Start};
 use super::framework::{Framework, Link};
 use super::newton::{Run, with_held};
 use super::runs::{Runs, Step};
-use super::state::{State, two_sum};
+use super::state::State;
 use super::stiffness::Stiffness;
 use crate::condensed::sums::BLOCK;
+use crate::condensed::sums::DoubleDouble;
 use crate::larger::larger;
 use crate::thresholds::{GIVEN, HALVED, HALVINGS, MOST_STEPS, ZERO};
 use model::system::Kind;
@@ -35,8 +36,6 @@ const ALONG: f64 = 1e-5;
 const CLEAR: f64 = 1e-6;
 /// The iteration ends when the error of every span is rounding and does not fall to this part of itself any more.
 const FALL: f64 = 0.25;
-/// It pays when this part of the members is left, or less.
-const WORTH: f64 = 0.5;
 
 /// The hanging equilibrium in which every member pulls, by runs; nothing when it is none or the
 /// runs are too short to pay. The number of factorisations counts those of the coarse start.
@@ -45,7 +44,8 @@ pub(super) fn hang(framework: &Framework) -> Option<Run> {
         return None;
     }
     let runs = Runs::new(framework)?;
-    if coarse::members(&runs) as f64 > WORTH * framework.links.len() as f64 {
+    // It pays when half of the members is left, or less.
+    if 2 * coarse::members(&runs) > framework.links.len() {
         return None;
     }
     let (state, steps) = settled(framework, &runs)?;
@@ -167,15 +167,7 @@ impl<'a> Shape<'a> {
             kind: Kind::Bar,
             rope: None,
         });
-        let (units, nodes) = (framework.units, runs.nodes.clone());
-        let skeleton = Framework {
-            units,
-            nodes,
-            links: links.collect(),
-            ropes: Vec::new(),
-            lying: Vec::new(),
-            work: framework.work.clone(),
-        };
+        let skeleton = framework.of_parts(runs.nodes.clone(), links.collect());
         let state = State::new(start.places, Vec::new(), Vec::new());
         let laws = laws(runs, &start.pulls);
         Self { runs, skeleton, state, pulls: start.pulls, laws }
@@ -313,8 +305,8 @@ impl Place {
 
     fn go(&mut self, by: &Vector3<f64>) {
         for axis in 0..3 {
-            (self.place[axis], self.rest[axis]) =
-                two_sum(self.place[axis], self.rest[axis] + by[axis]);
+            let place = DoubleDouble::sum(self.place[axis], self.rest[axis] + by[axis]);
+            (self.place[axis], self.rest[axis]) = (place.high, place.low);
         }
     }
 }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::derivatives::by_length;
 use super::floor::lift;
-use super::framework::{Framework, Units};
+use super::framework::{Framework, Node, Units};
 use super::newton::{Derivative, Step, with_held};
 use super::residual::Residual;
 use super::second_order::SecondOrder;
@@ -179,7 +179,7 @@ impl Equations {
 
     fn state(&self, y: &[f64]) -> State {
         let (places, axial) = y.split_at(3 * self.framework.nodes.len());
-        let onto = |(node, at): (&super::framework::Node, &[f64])| {
+        let onto = |(node, at): (&Node, &[f64])| {
             node.base + node.free.part(&(Vector3::from_column_slice(at) - node.base))
         };
         let places = self.framework.nodes.iter().zip(places.chunks_exact(3)).map(onto).collect();

@@ -13,10 +13,9 @@
 use std::collections::VecDeque;
 
 use model::system::{System, SystemEquilibrium};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::decided::{Decided, SHARP};
-use super::directions::Directions;
 use super::framework::{Framework, Lying, Node, across};
 use super::residual::Residual;
 use super::second_order::{SecondOrder, self_stresses};
@@ -25,15 +24,12 @@ use super::solution::{Found, NO_FORCE, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::ZERO;
+use crate::thresholds::{CLOSURE_ROUNDING, ZERO};
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.
 const ROUNDS: usize = 200;
 const TOGETHER: usize = 30;
-/// A joint touches the floor where its height is that of the floor to so many roundings of the
-/// largest coordinate.
-const ON_FLOOR: f64 = 8.0 * f64::EPSILON;
 
 /// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
 pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
@@ -45,18 +41,8 @@ pub(super) fn lift(node: &Node) -> Option<Vector3<f64>> {
 fn laid(node: &Node, floor: f64) -> Node {
     let Some(free) = lift(node) else { return node.clone() };
     let base = raised(node, &node.base, floor);
-    let up = free.normalize();
     // What is left of the free directions normal to the rising one.
-    let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
-    for level in across(&up) {
-        let rest = node.free.part(&level);
-        let rest = rest - axes * axes.tr_mul(&rest);
-        if rest.norm() > 0.5 {
-            axes.set_column(freedom, &rest.normalize());
-            freedom += 1;
-        }
-    }
-    Node { base, free: Directions::new(axes, freedom), load: node.load }
+    Node { base, free: node.free.within(across(&free.normalize())), load: node.load }
 }
 
 /// Force of the floor on a joint, N.
@@ -104,7 +90,7 @@ fn open_pushes(
 ) -> Option<Vec<bool>> {
     let floor_m = system.floor_m()?;
     // What iterations leave of lengths adds to the rounding.
-    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium.joints_m, floor_m)
+    let depth_m = rounding_m(&solution.equilibrium.joints_m, floor_m)
         + solution.residual * framework.units.length_m;
     let joints = framework.nodes.iter().zip(&solution.equilibrium.joints_m);
     let touches = joints.zip(lies).map(|((node, at_m), lies)| {
@@ -155,9 +141,10 @@ fn with_open_pushes(
     Ok(Solution::new(system, &laid, found))
 }
 
-/// Largest coordinate of a joint or the floor, m.
-fn largest_coordinate_m(joints_m: &[[f64; 3]], floor_m: f64) -> f64 {
-    joints_m.iter().flatten().fold(floor_m.abs(), |most, x| most.max(x.abs()))
+/// How far, m, a joint on the floor may be from its height: some roundings of the largest coordinate.
+fn rounding_m(joints_m: &[[f64; 3]], floor_m: f64) -> f64 {
+    let most = joints_m.iter().flatten().fold(floor_m.abs(), |most, x| most.max(x.abs()));
+    2.0 * CLOSURE_ROUNDING * most
 }
 
 /// Largest force of a member or load, N.
@@ -214,7 +201,7 @@ pub(super) fn raised(node: &Node, place: &Vector3<f64>, floor: f64) -> Vector3<f
 /// Which joints lie below the floor or on it, m.
 pub(super) fn below(system: &System, framework: &Framework, joints_m: &[[f64; 3]]) -> Vec<bool> {
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-    let depth_m = ON_FLOOR * largest_coordinate_m(joints_m, floor_m);
+    let depth_m = rounding_m(joints_m, floor_m);
     let joints = joints_m.iter().zip(&framework.nodes);
     joints.map(|(at_m, node)| at_m[2] <= floor_m + depth_m && lift(node).is_some()).collect()
 }
@@ -228,7 +215,7 @@ fn mended(
     together: bool,
 ) -> Vec<bool> {
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-    let depth_m = ON_FLOOR * largest_coordinate_m(&answer.joints_m, floor_m);
+    let depth_m = rounding_m(&answer.joints_m, floor_m);
     let least_n = NO_FORCE * largest_n(framework, answer);
     let mut next = lies.to_vec();
     let mut pulled = Vec::new();

@@ -151,6 +151,12 @@ impl Framework {
         Self::in_units(system, None)
     }
 
+    /// Of other joints and members, in the same units and with the same work to spend; without ropes and floor.
+    pub fn of_parts(&self, nodes: Vec<Node>, links: Vec<Link>) -> Self {
+        let (ropes, lying) = (Vec::new(), Vec::new());
+        Self { units: self.units, nodes, links, ropes, lying, work: self.work.clone() }
+    }
+
     /// In the units of another system, as of one nearby, or in its own.
     pub fn in_units(system: &System, of: Option<Units>) -> Self {
         let mut nodes: Vec<_> = system.joints().iter().map(|joint| node(system, joint)).collect();

@@ -33,7 +33,7 @@ use super::framework::{Framework, Link};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{MOST_STEPS, SHORTEST, ZERO};
+use crate::thresholds::{MOST_STEPS, SEEN, SHORTEST, ZERO};
 use model::system::Kind;
 
 /// First length of a member in the programme, where it is as long as it may be or longer: this
@@ -46,9 +46,6 @@ pub(super) const FIRST_END: f64 = 1e-7;
 pub(super) const SECOND_END: f64 = 1e-8;
 /// Here the stiffness along a taut member is 10^9 times that across, and rounding sets in.
 pub(super) const LAST_END: f64 = 1e-9;
-/// Lengths are right to this part where the method has ended; where rounding lets no step go on, such a gap is a
-/// start as well.
-const FEASIBLE: f64 = 1e-6;
 /// A member is clearly taut when its force, in units of the mean one, is this many times its slack,
 /// in units of its length.
 const CLEARLY_TAUT: f64 = 1e4;
@@ -132,7 +129,7 @@ impl Hanging {
             self.steps += 1;
             self.measure(framework);
         }
-        self.ended(end.max(FEASIBLE))
+        self.ended(end.max(SEEN))
     }
 
     /// Whether no member pulls.
@@ -140,8 +137,9 @@ impl Hanging {
         self.mean() <= ZERO * self.first
     }
 
+    /// Whether the gap is below `end`, and lengths are right.
     fn ended(&self, end: f64) -> bool {
-        self.gap <= end && self.misfit <= FEASIBLE
+        self.gap <= end && self.misfit <= SEEN
     }
 
     /// Whether every cable is far from slack. Bars keep their lengths whatever their forces are.

@@ -18,10 +18,9 @@ use super::fitted::RIGID;
 use super::framework::{Framework, Link};
 use super::residual::Residual;
 use super::settings::Settings;
-use super::signs::SIGNS_SEEN;
 use super::state::State;
 use super::stiffness::Stiffness;
-use crate::thresholds::{EARNED, HALVED, ROUNDED, SUM_ROUNDING};
+use crate::thresholds::{CLOSURE_ROUNDING, EARNED, HALVED, ROUNDED, SEEN};
 
 /// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
 /// and far below the inverse of rounding.
@@ -89,7 +88,7 @@ pub(super) fn polish(
     let (mut merit, mut slow, mut anew) = (run.residual.merit, 0, false);
     // Of stiff members a rounding of a length is a force.
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
-    let rounded = if elastic { SUM_ROUNDING } else { ROUNDED };
+    let rounded = if elastic { CLOSURE_ROUNDING } else { ROUNDED };
     let rigid = |link: &Link| link.compliance <= 0.0 && framework.moves(link);
     let (mixed, mut stiffly) = (elastic && framework.links.iter().any(rigid), false);
     while run.steps < settings.max_iterations && !framework.work.is_spent() {
@@ -98,7 +97,7 @@ pub(super) fn polish(
         // What is left of rounding goes with the factor of the last step, where that was near enough.
         let last = done && run.steps > 0 && !anew;
         if !last {
-            let near = run.residual.size() <= SIGNS_SEEN;
+            let near = run.residual.size() <= SEEN;
             stiffly = mixed && ((slow > 0 && near) || decided.is_some());
         }
         let at = Derivative::at(framework, &run.state, &run.residual);

@@ -12,7 +12,6 @@ use model::system::Kind;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::decided::SHARP;
-use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
 use super::possible::translations;
@@ -455,17 +454,7 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
     if oblique {
         return None;
     }
-    let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
-    let [first, second] = across(normal);
-    let candidates = [free * first, free * second];
-    for candidate in candidates {
-        let rest = candidate - axes * axes.tr_mul(&candidate);
-        if rest.norm() > ZERO.sqrt() {
-            axes.set_column(freedom, &rest.normalize());
-            freedom += 1;
-        }
-    }
-    Some(Node { free: Directions::new(axes, freedom), ..node.clone() })
+    Some(Node { free: node.free.within(across(normal)), ..node.clone() })
 }
 
 #[cfg(test)]

@@ -187,6 +187,8 @@ impl Penalty {
         state: &mut State,
     ) -> (usize, bool) {
         let (mut shift, mut factorisations) = (0.0, 0);
+        // In step with the lengths.
+        let accuracy = BALANCED * self.first / self.rho;
         for _ in 0..MOST_STEPS {
             state.axial = self.forces(framework, &state.places);
             let directions = state.directions(framework);
@@ -195,7 +197,7 @@ impl Penalty {
             unbalance.iter_mut().zip(&pushes).for_each(|(force, push)| force.z += push);
             let gradient = stiffness.gather(framework, &unbalance);
             let largest = gradient.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-            if largest <= BALANCED * state.largest_force(framework) * self.accuracy() {
+            if largest <= accuracy * state.largest_force(framework) {
                 return (factorisations, true);
             }
             let (tries, used) = self.factorise(framework, stiffness, state, &directions, shift);
@@ -258,11 +260,6 @@ impl Penalty {
         }
         stiffness.factorise_definite();
         (TRIES, shift)
-    }
-
-    /// Balance is asked for in step with the lengths.
-    fn accuracy(&self) -> f64 {
-        self.first / self.rho
     }
 
     /// The second derivative of the energy.

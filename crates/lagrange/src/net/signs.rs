@@ -11,21 +11,15 @@ use super::solve::Solver;
 use super::state::State;
 use super::weak;
 use crate::error::Error;
-use crate::thresholds::ROUNDED;
+use crate::thresholds::{ROUNDED, SEEN, ZERO};
 
 /// Changes of the set of taut members before the iteration counts as failed.
 pub(super) const SIGN_CHANGES: usize = 30;
-/// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
-/// one costs few steps, and far below the forces that are likely.
-pub(super) const SIGNS_SEEN: f64 = 1e-6;
 /// At the first changes only members that push this part of the worst push, or more, are made
 /// slack: that relieves their neighbours. Where all are, along the edge of a net that hangs from
 /// its corners, those that ought not come back one by one (12 changes in the place of 2).
 const CAREFUL_CHANGES: usize = 4;
 const WORST_PUSH: f64 = 0.9;
-/// Forces of this many times the loads have a rounding of 1e-7 of these and more, which the places
-/// of near joints multiply.
-const ABSURD: f64 = 1e9;
 
 impl Solver<'_> {
     /// Newton's method, with the set of taut members changed until all signs are right.
@@ -39,8 +33,7 @@ impl Solver<'_> {
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
         for change in 0..SIGN_CHANGES {
-            let tolerance =
-                if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
+            let tolerance = if tight { settings.tolerance } else { settings.tolerance.max(SEEN) };
             let settings = Settings { tolerance, ..settings };
             if let Some(decided) = decided.as_deref_mut() {
                 decided.renew(&self.framework, &state);
@@ -87,8 +80,10 @@ impl Solver<'_> {
         let loads = framework.nodes.iter().map(|node| node.load.norm());
         let scale = borne.chain(loads).fold(framework.least_scale(&run.state), f64::max);
         let worst = (0..axial.len()).max_by(|a, b| axial[*a].abs().total_cmp(&axial[*b].abs()));
+        // Of forces beside which the loads are nothing the rounding is 1e-7 of these and more, which the places of near
+        // joints multiply.
         match worst {
-            Some(member) if axial[member].abs() > ABSURD * scale => Err(Error::Absurd {
+            Some(member) if ZERO * axial[member].abs() > scale => Err(Error::Absurd {
                 member: framework.member_of(member) + 1,
                 force_n: axial[member] * framework.units.force_n,
                 ratio: axial[member].abs() / scale,

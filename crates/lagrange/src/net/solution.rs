@@ -1,5 +1,5 @@
 use model::system::{Joint, Kind, System, SystemEquilibrium, SystemStability};
-use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName};
+use model::{Evidence, ForceChoice, InSpace, Rigidity, SelfStresses, SolverName};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::admissible::shortest;
@@ -17,8 +17,8 @@ pub enum Forces {
     /// There are no others.
     Unique,
     /// Self-stresses can be added. Shown is the member of the family with the least sum of squared
-    /// axial forces times lengths: the limit of equally stiff members. Of those in which no cable
-    /// pushes and no strut or floor pulls.
+    /// axial forces times lengths, among those in which no cable pushes and no strut or floor pulls: the limit of
+    /// equally stiff members.
     LeastNorm,
     /// Self-stresses can be added, and the member with the least norm was not in balance. Shown is
     /// the one that the iteration found.
@@ -104,15 +104,17 @@ impl Solution {
             link.compliance <= 0.0 && framework.moves(link)
         };
         let limp: Vec<usize> = limp(framework, &state, &directions).filter(rigid).collect();
-        let basis = second_order.self_stresses.as_deref();
-        let misfit_m = largest_misfit(framework, basis.unwrap_or_default(), &directions);
         evidence.self_stresses =
-            named(basis, forces, misfit_m, |basis| ranges(framework, &state, basis));
-        let own = |named: SelfStresses| SelfStresses {
-            basis: of_members(framework, named.basis),
-            ..named
-        };
-        evidence.self_stresses = evidence.self_stresses.map(own);
+            basis.filter(|basis| !basis.is_empty()).map(|basis| SelfStresses {
+                dimension: basis.len(),
+                basis: of_members(framework, basis.to_vec()),
+                choice: match forces {
+                    Forces::LeastNorm => ForceChoice::EquallyStiff,
+                    Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
+                },
+                misfit_m: Some(largest_misfit(framework, basis, &directions)),
+                ranges: ranges(framework, &state, basis),
+            });
         Self {
             residual: size,
             equilibrium: Answer { system, framework, state, directions, left }
@@ -140,22 +142,6 @@ pub(super) fn limp<'a>(
         let off = framework.whole(k, |span| directions[span].1) - length;
         state.axial[k].abs() <= none && off.abs() <= NO_FORCE * length
     })
-}
-
-/// What equilibrium leaves open of the forces, and which of them are shown.
-fn named(
-    basis: Option<&[Vec<f64>]>,
-    forces: Forces,
-    misfit_m: f64,
-    ranges: impl FnOnce(&[Vec<f64>]) -> Option<Vec<ForceRange>>,
-) -> Option<SelfStresses> {
-    let choice = match forces {
-        Forces::LeastNorm => ForceChoice::EquallyStiff,
-        Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
-    };
-    let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
-    let (dimension, misfit_m, ranges) = (basis.len(), Some(misfit_m), ranges(&basis));
-    Some(SelfStresses { dimension, basis, choice, misfit_m, ranges })
 }
 
 /// Self-stresses without what stands behind the members.

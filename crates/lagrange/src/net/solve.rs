@@ -391,18 +391,18 @@ impl<'a> Solver<'a> {
 
     /// Leave unstable equilibria.
     fn stable(mut self, mut run: Run) -> Result<Solution, Error> {
-        let mut second_order = self.second_order(&run.state);
-        for kick in 1..=ESCAPES {
+        let mut kick = 0;
+        loop {
+            let second_order = self.second_order(&run.state);
             if second_order.index == 0 {
                 return Ok(self.solution(run, second_order));
             }
+            kick += 1;
+            if kick > ESCAPES {
+                return Err(Error::Unstable { index: second_order.index });
+            }
             run = self.settled(&run.state, kick * KICKS.len())?;
-            second_order = self.second_order(&run.state);
         }
-        if second_order.index == 0 {
-            return Ok(self.solution(run, second_order));
-        }
-        Err(Error::Unstable { index: second_order.index })
     }
 
     fn second_order(&mut self, state: &State) -> SecondOrder {

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::framework::Framework;
 use super::solution::Solution;
+use crate::condensed::sums::DoubleDouble;
 
 /// Places of the joints and axial forces of the members, tension positive.
 #[derive(Debug, Clone)]
@@ -40,9 +41,9 @@ impl State {
         let mut next = self.clone();
         for (k, step) in steps.iter().enumerate() {
             for axis in 0..3 {
-                let (sum, rest) =
-                    two_sum(self.places[k][axis], self.rests[k][axis] + step[axis] * t);
-                (next.places[k][axis], next.rests[k][axis]) = (sum, rest);
+                let more = self.rests[k][axis] + step[axis] * t;
+                let place = DoubleDouble::sum(self.places[k][axis], more);
+                (next.places[k][axis], next.rests[k][axis]) = (place.high, place.low);
             }
         }
         next
@@ -78,13 +79,6 @@ impl State {
         let loads = squares.fold(0.0, f64::max).sqrt();
         self.axial.iter().map(|axial| axial.abs()).fold(loads, f64::max)
     }
-}
-
-/// The rounded sum, and what rounding cut off (Knuth).
-pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
 }
 
 #[cfg(test)]

@@ -16,8 +16,9 @@ use super::decided::Decided;
 use super::framework::{Framework, Link};
 use super::newton::{Derivative, Run};
 use super::residual::Residual;
-use super::state::{State, two_sum};
+use super::state::State;
 use super::stiffness::Stiffness;
+use crate::condensed::sums::DoubleDouble;
 use crate::larger::larger;
 use crate::thresholds::{HALVED, ROUNDED, ZERO};
 
@@ -88,8 +89,8 @@ fn exact_misfits(
     }
 }
 
-/// A place in twice the digits: what is rounded, and what rounding has cut off.
-type Place = [(f64, f64); 3];
+/// A place in twice the digits.
+type Place = [DoubleDouble; 3];
 
 /// The places of a state, m; those of anchors are exact.
 fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place> {
@@ -103,12 +104,9 @@ fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place>
                 Some(at_m) => (node.base[axis], at_m[axis]),
                 None => (0.0, units.origin_m[axis]),
             };
-            let (moved, cut) = two_sum(state.places[joint][axis], -base);
-            let moved_m = moved * units.length_m;
-            let rounded = moved.mul_add(units.length_m, -moved_m);
-            let cut_m = (cut + state.rests[joint][axis]) * units.length_m + rounded;
-            let (sum, rest) = two_sum(at_m, moved_m);
-            two_sum(sum, rest + cut_m)
+            let moved = DoubleDouble::sum(state.places[joint][axis], -base);
+            let moved = moved.plus(state.rests[joint][axis]);
+            moved.times(DoubleDouble::sum(units.length_m, 0.0)).plus(at_m)
         })
     };
     (0..framework.nodes.len()).map(place).collect()
@@ -128,24 +126,11 @@ fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
 
 /// How much longer than unstretched a member is, right to rounding of this small number.
 fn elongation_m(from: &Place, to: &Place, length_m: f64) -> f64 {
-    let (mut square, mut rest) = negative_square(length_m);
-    for (from, to) in from.iter().zip(to) {
-        let (span, cut) = two_sum(to.0, -from.0);
-        let (span, cut) = two_sum(span, cut + (to.1 - from.1));
-        let product = span * span;
-        let below = span.mul_add(span, -product) + 2.0 * span * cut;
-        let (sum, lost) = two_sum(square, product);
-        (square, rest) = (sum, rest + lost + below);
-    }
-    let difference = square + rest;
+    let square = DoubleDouble::product(length_m, length_m).negate();
+    let spans = from.iter().zip(to).map(|(from, to)| to.add(from.negate()).square());
+    let difference = spans.fold(square, DoubleDouble::add).value();
     let length = (length_m * length_m + difference).sqrt();
     difference / (length + length_m)
-}
-
-/// `-l²` in twice the digits.
-fn negative_square(length: f64) -> (f64, f64) {
-    let square = length * length;
-    (-square, -length.mul_add(length, -square))
 }
 
 #[cfg(test)]

@@ -18,8 +18,10 @@ fn a_step_must_bring_a_fair_part_of_its_fall() {
 fn halving_ends_at_a_minimum_only_where_the_chain_was_settling() {
     for (settling, end) in [(0, Next::Stalled), (1, Next::Minimum)] {
         let mut lane = Lane { settling, part: 1.0, ..Lane::new(0) };
-        for k in 1..=HALVINGS {
-            assert_eq!(lane.halve(), Next::Step(0.5_f64.powf(f64::from(k))));
+        let mut part = 1.0;
+        for _ in 0..BISECTIONS {
+            part *= 0.5;
+            assert_eq!(lane.halve(), Next::Step(part));
         }
         assert_eq!(lane.halve(), end);
     }

@@ -13,8 +13,7 @@ fn newton() -> Newton {
     let frame = Frame { length_m: 4.0, ..Frame::of_rods(1, vec![ZERO3; 3], rods) };
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
     let settings = Settings::default();
-    let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
-    Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], pace)
+    Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], Pace::default())
 }
 
 fn places(first: f64, second: f64) -> Shape {

@@ -38,9 +38,7 @@ fn refusals_of_energy_for_systems() {
     use energy::Error;
     let refusals = [
         Error::Setting { field: "tolerance", value: 2.5, low: 1e-14, high: 0.5 },
-        Error::NoMember,
         Error::NoLoad,
-        Error::Direction { joint: "S".into(), direction: [0.25, 0.75, -1.5] },
         Error::Falls { joint: "F".into(), force_n: 5.5 },
         Error::Seed { joints: 6, given: 7 },
         Error::NotClosed { member: 8, misfit_m: 0.875 },

@@ -12,12 +12,12 @@ fn the_penalty_is_twice_what_lifts_the_weights() {
     let mechanism = Mechanism::scaled(chain, Units::total(chain));
     let mut lifted = 0;
     for k in 0..40 {
-        let mut chain = Reduced::new(mechanism.clone(), LOCK_MARGIN);
+        let mut chain = Reduced::new(mechanism.clone(), 0.1);
         let angle = |bar: u32| 0.4 + 2.1 * (f64::from(k) * 0.7 + f64::from(bar) * 1.9).sin();
         chain.start(&[0, 1, 2].map(|bar| [0.2, 1.3, angle(bar)]));
         chain.choose_unit();
         let gap = chain.here.closure.norm();
-        viscous_step(&mut chain, FIRST_TAU, gap);
+        viscous_step(&mut chain, 1.0, gap);
         chain.here.pull = -chain.matrix.pull_step;
         let moves: Vec<Vector3<f64>> = chain.matrix.moves().collect();
         let work: f64 = moves.iter().zip(&chain.carried).map(|(v, weight)| v.z * weight).sum();

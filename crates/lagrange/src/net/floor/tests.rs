@@ -2,9 +2,11 @@
 
 use model::Bar;
 use model::system::Member;
+use nalgebra::Matrix3;
 
 use super::*;
 use crate::net::Settings;
+use crate::net::directions::Directions;
 use crate::net::framework::Units;
 
 /// On a slope of 45 degrees the floor's push N up and the support's push across it leave a reaction

@@ -1,6 +1,7 @@
 //! The plane of a system, by hand.
 
 use super::*;
+use crate::net::directions::Directions;
 use crate::net::framework::Units;
 
 /// Three joints in a vertical plane at this azimuth, the last one and the second load out of it by

@@ -25,6 +25,11 @@ impl Twofold {
         self.high
     }
 
+    /// The double nearest to it, and the rest.
+    pub(crate) fn parts(self) -> [f64; 2] {
+        [self.high, self.low]
+    }
+
     /// The square root; zero of what is negative.
     pub(crate) fn sqrt(self) -> Self {
         if self.high <= 0.0 {
