@@ -197,3 +197,47 @@ P = { near_m = [1.2203, 0, 0.0162], mass_kg = 0.949 }
     let answer = ask(&gable, Solvers::Both, &|_| {});
     assert!(answer.agrees() && !answer.is_decided(), "{:?}", answer.near);
 }
+
+/// A derrick without a force that holds its boom in one direction: a mast of 4 m on two guys, a boom of 6 m from its foot with
+/// 1 kN on it, and the cable between their heads. Foot, head and load are as the triangle of the forces, so the boom bears
+/// 1.5 kN; the guys what the cable pulls level, √27/4 kN, towards the boom. Each of its directions is an equilibrium, and that
+/// is said; drawn beside its lengths, both solvers find the one next to the drawing.
+#[test]
+fn a_derrick_stays_where_its_boom_is_drawn() {
+    let level = 27.0_f64.sqrt();
+    for (turn, off_m) in [(0.0_f64, 0.0), (0.3, 0.0), (0.3, 1e-2), (-0.2, 0.1)] {
+        let joints = vec![
+            Joint::anchor("foot", [0.0, 0.0, 0.0]),
+            Joint::anchor("left", [-4.0, 3.0, 0.0]),
+            Joint::anchor("right", [-4.0, -3.0, 0.0]),
+            Joint::free("head").near([0.0, 0.0, 4.0]),
+            Joint::free("tip")
+                .near([level * turn.cos() + off_m, level * turn.sin() - off_m, 3.0 + off_m])
+                .with_force([0.0, 0.0, -1e3]),
+        ];
+        let member =
+            |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap());
+        let cable = |from, to, length_m| member(from, to, length_m).of_kind(Kind::Cable);
+        let members = vec![
+            member(0, 3, 4.0),
+            member(0, 4, 6.0),
+            cable(3, 4, 28.0_f64.sqrt()),
+            cable(1, 3, 41.0_f64.sqrt()),
+            cable(2, 3, 41.0_f64.sqrt()),
+        ];
+        let system = System::new("derrick", 10.0, joints, members).unwrap();
+        let answer = neighbour(&system);
+        let agreement = answer.agreement.as_ref().unwrap();
+        for e in &answer.equilibria {
+            assert_eq!(agreement.turned_parts + agreement.unresisted(e), 1);
+            let [x, y, z] = e.joints_m[4];
+            assert!((y.atan2(x) - turn).abs() < off_m + 1e-9 && (z - 3.0).abs() < 1e-9);
+            // The guys pull 4 and ±3 level of their length: x = 4 (a + b)/√41 and y = 3 (b - a)/√41.
+            let (sum, difference) = (250.0 * x / 4.0, 250.0 * y / 3.0);
+            let guys = [0.5 * (sum - difference), 0.5 * (sum + difference)];
+            let wanted = guys.map(|part| part * 41.0_f64.sqrt());
+            close(&e.axial_n[1..2], &[-1500.0], 1e-6);
+            close(&e.axial_n[3..], &wanted, 1e-6);
+        }
+    }
+}
