@@ -28,6 +28,7 @@
 //! functions panic, as what is not so does those that assert it.
 #![expect(clippy::missing_panics_doc, reason = "said above of all")]
 
+mod batches;
 mod dome;
 mod extreme;
 mod folded;
@@ -35,6 +36,7 @@ mod frozen;
 mod general;
 mod large;
 mod named;
+mod pairs;
 pub mod process;
 mod root;
 mod ropes;
@@ -42,6 +44,7 @@ mod scaled;
 mod shape;
 mod stream;
 
+pub use batches::{assert_batches_scale, assert_seeds_are_alone};
 pub use dome::dome;
 pub use extreme::extreme_chain;
 pub use folded::folded_chain;
@@ -52,6 +55,7 @@ pub use named::{
     assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, joints, legs,
     of_bars, parsed,
 };
+pub use pairs::{Pair, unlike_pairs};
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, rope, ropes};
 pub use scaled::{scaled, scaled_chain};

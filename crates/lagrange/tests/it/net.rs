@@ -318,34 +318,6 @@ fn refusals_name_their_numbers() {
     assert_eq!(unloaded, Err(Error::Unloaded));
 }
 
-/// A chain of thirty unequal bars as a network, against the solver for chains.
-#[test]
-fn chain_as_network_against_condensed() {
-    let bars: Vec<Bar> = (0..30)
-        .map(|k| {
-            let (length, mass) = (1.0 + 0.3 * f64::from(k % 4), 0.5 + f64::from(k % 3));
-            Bar::new(length, mass, 0.4 * length, [0.0; 3]).unwrap()
-        })
-        .collect();
-    let end = [20.0, 3.0, 1.0];
-    let problem = samples::of_bars(9.806_65, bars.clone(), end);
-    let expected = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default());
-    let expected = expected.unwrap().equilibrium;
-    let mut joints = vec![Joint::anchor("0", [0.0; 3])];
-    joints.extend((1..30).map(|k| Joint::free(format!("{k}"))));
-    joints.push(Joint::anchor("30", end));
-    let members = bars.iter().enumerate().map(|(k, bar)| Member::bar(k, k + 1, *bar)).collect();
-    let system = System::new("chain", 9.806_65, joints, members).unwrap();
-    let answer = hang(&system).equilibrium;
-    for (got, expected) in answer.joints_m.iter().zip(&expected.joints_m) {
-        near(*got, *expected);
-    }
-    for (got, expected) in answer.axial_n.iter().zip(&expected.axial_n) {
-        close(*got, *expected);
-    }
-    close(answer.energy_j, expected.energy_j);
-}
-
 /// The pivots of the sparse factors count what the dense decompositions count, stable or not.
 #[test]
 fn sparse_and_dense_indices_agree() {
