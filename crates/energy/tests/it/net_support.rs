@@ -52,7 +52,8 @@ pub fn check_but(system: &System, solution: &Solution, slack: &[usize], rounding
         assert!(slack.contains(&e) || off.abs() < rounding, "member {e}: {off:e}");
         let weight = member.body.mass_kg() * gravity;
         let (start, end) = (found.start_forces_n[e], found.end_forces_n[e]);
-        for (k, external) in [0.0, 0.0, -weight].into_iter().enumerate() {
+        for (k, own) in [0.0, 0.0, -weight].into_iter().enumerate() {
+            let external = own + member.loads.iter().map(|load| load.force_n[k]).sum::<f64>();
             assert!((start[k] + end[k] + external).abs() < rounding * largest);
             joint_n[member.from][k] -= start[k];
             joint_n[member.to][k] -= end[k];
