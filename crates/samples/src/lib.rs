@@ -19,7 +19,7 @@
 //! | of bars written down as numbers | [`chain`], [`homogeneous`], [`of_bars`] |
 //! | of the text of a system file | [`parsed`] |
 //!
-//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`joints`] are anchors and free joints by their places and masses, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
+//! [`rope`] is a rope and [`ropes`] are systems with ropes over rings and pulleys, [`known`] others, known by hand, [`dome`] is the text of a system file, [`bridle`] and [`cable_net`] are of any size, [`joints`] are anchors and free joints by their places and masses, [`legs`] a frame whose lengths do not fit, [`scaled`] a system and [`scaled_chain`] a chain in other units, [`root`] what closed forms need, [`process`] what measurements do.
 //!
 //! Chains with a name and a file of their own are those of [`model::cases`].
 //!
@@ -28,13 +28,16 @@
 //! functions panic, as what is not so does those that assert it.
 #![expect(clippy::missing_panics_doc, reason = "said above of all")]
 
+mod batches;
 mod dome;
 mod extreme;
 mod folded;
 mod frozen;
 mod general;
+mod known;
 mod large;
 mod named;
+mod pairs;
 pub mod process;
 mod root;
 mod ropes;
@@ -42,16 +45,19 @@ mod scaled;
 mod shape;
 mod stream;
 
+pub use batches::{assert_batches_scale, assert_seeds_are_alone};
 pub use dome::dome;
 pub use extreme::extreme_chain;
 pub use folded::folded_chain;
 pub use frozen::assert_frozen;
 pub use general::{General, Line};
+pub use known::{Known, known};
 pub use large::{bridle, cable_net};
 pub use named::{
     assert_misfits_of_legs, assert_shared_by_legs, chain, equal_bars, homogeneous, joints, legs,
     of_bars, parsed,
 };
+pub use pairs::{Pair, unlike_pairs};
 pub use root::root;
 pub use ropes::{RopeSample, jammed_ropes, rope, ropes};
 pub use scaled::{scaled, scaled_chain};

@@ -156,7 +156,7 @@ fn known(
 /// | system | its law |
 /// |---|---|
 /// | two weights over two pulleys | the lighter one at its pulley, with its weight |
-/// | two rings on one rope | both in one place, where one ring would be |
+/// | two rings, or three, on one rope | all in one place, where one ring would be |
 /// | a tackle closed block to block | each of n spans has a part of the block's weight |
 /// | a ring blown to the end of its rope | what the other span and the wind leave |
 ///
@@ -201,6 +201,15 @@ pub fn jammed_ropes() -> Vec<RopeSample> {
             leaning,
             &[(2, meet_m), (3, meet_m)],
             &[(1, [0.8 * leaning, 0.0, 4.0 * G - 0.6 * leaning])],
+        ),
+        // P to Q bears what the first span and 1 kg leave at P, Q to R 2 kg more.
+        one(
+            "three rings on one rope",
+            crate::joints(&[[0.0; 3], [4.0, 0.0, 1.0]], &[1.0, 2.0, 3.0]),
+            rope(&[0, 2, 3, 4, 1], 5.0),
+            5.0 * G,
+            &[(2, meet_m), (3, meet_m), (4, meet_m)],
+            &[(1, [4.0 * G, 0.0, -2.0 * G]), (2, [4.0 * G, 0.0, 0.0])],
         ),
         one(
             "a tackle closed block to block",

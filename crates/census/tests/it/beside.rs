@@ -3,7 +3,6 @@
 
 use model::system::{Joint, Kind, Member, System};
 use model::{NoCensus, Vector};
-use nalgebra::{DMatrix, DVector};
 use numerics::Interval;
 use numerics::vector::{add_times, dot, minus, norm};
 use rand::{RngExt, SeedableRng};
@@ -11,23 +10,9 @@ use rand_chacha::ChaCha8Rng;
 use samples::rope;
 
 use census::Settings;
-use census::boxes::prove;
 use census::net::{Open, SystemCensus};
 
-use crate::support::{light, system};
-
-/// A complete list whose every equilibrium is proved by the test that knows nothing of the search.
-#[track_caller]
-fn whole(system: &System) -> SystemCensus {
-    let census = SystemCensus::take(system, &Settings::default()).unwrap();
-    let open: Vec<_> = census.nets().flat_map(|net| &net.undecided).collect();
-    assert!(census.complete, "{open:?}");
-    for found in census.to_model(system) {
-        let proof = prove(system, &found.joints_m, &found.axial_n).unwrap();
-        assert!(proof.beyond_m(&found.joints_m) < 1e-12 * system.total_length_m());
-    }
-    census
-}
+use crate::support::{Acting, light, system, whole};
 
 #[track_caller]
 fn refusal(system: &System) -> NoCensus {
@@ -318,116 +303,30 @@ fn mast(random: &mut ChaCha8Rng) -> System {
     system(joints, members)
 }
 
-/// The equations of a system in which some members act, and the others have no force.
-struct Acting<'a> {
-    system: &'a System,
-    free: Vec<usize>,
-    members: Vec<usize>,
+/// Places and forces of all members of what Newton's method comes to, if signs and lengths are those of the kinds.
+fn equilibrium(acting: &Acting, random: &mut ChaCha8Rng) -> Option<Vec<f64>> {
+    let places = 3 * acting.free.len();
+    let at = acting.newton(random)?;
+    let fits = |(k, member): (usize, &Member)| {
+        let force = acting.members.iter().position(|acting| *acting == k).map(|i| at[places + i]);
+        match (member.kind, force) {
+            (Kind::Bar, _) => true,
+            (Kind::Cable, Some(force)) => force > 0.0,
+            (Kind::Strut, Some(force)) => force < 0.0,
+            (Kind::Cable, None) => acting.beyond(&at, k) < 0.0,
+            (Kind::Strut, None) => acting.beyond(&at, k) > 0.0,
+        }
+    };
+    if !acting.system.members().iter().enumerate().all(fits) {
+        return None;
+    }
+    let mut all = at[..places].to_vec();
+    all.resize(places + acting.system.members().len(), 0.0);
+    for (member, force) in acting.members.iter().zip(&at[places..]) {
+        all[places + member] = *force;
+    }
+    Some(all)
 }
-
-impl<'a> Acting<'a> {
-    fn new(system: &'a System, members: Vec<usize>) -> Self {
-        let joints = system.joints().iter().enumerate();
-        let free = joints.filter(|(_, joint)| joint.support.at_m().is_none());
-        Self { system, free: free.map(|(k, _)| k).collect(), members }
-    }
-
-    /// Where a joint is for these unknowns: places of joints, then forces of members.
-    fn at(&self, unknowns: &[f64], joint: usize) -> Vector {
-        match self.free.iter().position(|free| *free == joint) {
-            Some(i) => [0, 1, 2].map(|axis| unknowns[3 * i + axis]),
-            None => self.system.joints()[joint].support.at_m().unwrap(),
-        }
-    }
-
-    /// How much longer the spans of a member are than it is.
-    fn beyond(&self, unknowns: &[f64], member: usize) -> f64 {
-        let member = &self.system.members()[member];
-        let spans =
-            member.spans().map(|[a, b]| norm(minus(self.at(unknowns, b), self.at(unknowns, a))));
-        spans.sum::<f64>() - member.body.length_m()
-    }
-
-    /// Balances of the joints that move, and lengths of the members that act.
-    fn misfit(&self, unknowns: &[f64]) -> Vec<f64> {
-        let mut forces: Vec<Vector> =
-            self.system.joints().iter().map(|joint| joint.force_n).collect();
-        for (member, force) in self.members.iter().zip(&unknowns[3 * self.free.len()..]) {
-            for [a, b] in self.system.members()[*member].spans() {
-                let span = minus(self.at(unknowns, b), self.at(unknowns, a));
-                forces[a] = add_times(forces[a], force / norm(span), span);
-                forces[b] = add_times(forces[b], -force / norm(span), span);
-            }
-        }
-        let forces_n = self.members.iter().zip(&unknowns[3 * self.free.len()..]);
-        let lengths = forces_n.map(|(member, force)| {
-            let own = &self.system.members()[*member];
-            let softness = own.stiffness_n.map_or(0.0, |stiff| own.body.length_m() / stiff);
-            self.beyond(unknowns, *member) - softness * force
-        });
-        self.free.iter().flat_map(|k| forces[*k]).chain(lengths).collect()
-    }
-
-    /// Newton's method from a point, by difference quotients.
-    fn newton(&self, start: Vec<f64>) -> Option<Vec<f64>> {
-        /// No step is longer, m and N.
-        const STEP: f64 = 3.0;
-        let mut at = start;
-        let n = at.len();
-        for _ in 0..60 {
-            let here = self.misfit(&at);
-            if here.iter().all(|x| x.abs() < 1e-11) {
-                return Some(at);
-            }
-            let mut slope = DMatrix::zeros(n, n);
-            for column in 0..n {
-                let (mut more, mut less) = (at.clone(), at.clone());
-                more[column] += 1e-6;
-                less[column] -= 1e-6;
-                let (more, less) = (self.misfit(&more), self.misfit(&less));
-                for row in 0..n {
-                    slope[(row, column)] = (more[row] - less[row]) / 2e-6;
-                }
-            }
-            let step = slope.lu().solve(&DVector::from_vec(here))?;
-            let far = (0..n).map(|k| step[k].abs()).fold(0.0, f64::max);
-            if !far.is_finite() {
-                return None;
-            }
-            let part = (STEP / far).min(1.0);
-            (0..n).for_each(|k| at[k] -= part * step[k]);
-        }
-        None
-    }
-
-    /// Places and forces of all members of what Newton's method comes to, if signs and lengths are those of the kinds.
-    fn equilibrium(&self, random: &mut ChaCha8Rng) -> Option<Vec<f64>> {
-        let places = 3 * self.free.len();
-        let mut start: Vec<f64> = (0..places).map(|_| random.random_range(-3.0..3.0)).collect();
-        start.extend(self.members.iter().map(|_| random.random_range(-20.0..20.0)));
-        let at = self.newton(start)?;
-        let fits = |(k, member): (usize, &Member)| {
-            let force = self.members.iter().position(|acting| *acting == k).map(|i| at[places + i]);
-            match (member.kind, force) {
-                (Kind::Bar, _) => true,
-                (Kind::Cable, Some(force)) => force > 0.0,
-                (Kind::Strut, Some(force)) => force < 0.0,
-                (Kind::Cable, None) => self.beyond(&at, k) < 0.0,
-                (Kind::Strut, None) => self.beyond(&at, k) > 0.0,
-            }
-        };
-        if !self.system.members().iter().enumerate().all(fits) {
-            return None;
-        }
-        let mut all = at[..places].to_vec();
-        all.resize(places + self.system.members().len(), 0.0);
-        for (member, force) in self.members.iter().zip(&at[places..]) {
-            all[places + member] = *force;
-        }
-        Some(all)
-    }
-}
-
 /// All that Newton's method finds, from so many points with each set of members that act.
 fn found(system: &System, random: &mut ChaCha8Rng, starts: usize) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = vec![];
@@ -440,7 +339,7 @@ fn found(system: &System, random: &mut ChaCha8Rng, starts: usize) -> Vec<Vec<f64
         }
         let acting = Acting::new(system, (0..all).filter(acts).collect());
         for _ in 0..starts {
-            let Some(at) = acting.equilibrium(random) else { continue };
+            let Some(at) = equilibrium(&acting, random) else { continue };
             let known = |other: &Vec<f64>| {
                 other.iter().zip(&at).all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + b.abs()))
             };

@@ -9,17 +9,18 @@ use samples::assert_frozen;
 use census::Settings;
 use census::net::SystemCensus;
 
-use crate::nets::{bridle, found_of, taken, the_sum_is_the_same, work};
+use crate::nets::{bridle, found_of, the_sum_is_the_same, work};
+use crate::support::taken;
 
-/// Three strands of so many bars, about as long as the bridle asks for, drawn at random.
-fn drawn(random: &mut ChaCha8Rng, bars: [usize; 3]) -> System {
+/// Strands of so many bars, about as long as the bridle asks for, drawn at random.
+pub(crate) fn drawn(random: &mut ChaCha8Rng, bars: &[usize]) -> System {
     let (mut anchors, mut lengths) = (vec![], vec![]);
-    for (k, bars) in bars.into_iter().enumerate() {
-        let part = (k as f64 + random.random_range(-0.3..0.3)) / 3.0;
+    for (k, strand) in bars.iter().enumerate() {
+        let part = (k as f64 + random.random_range(-0.3..0.3)) / bars.len() as f64;
         let angle = part * std::f64::consts::TAU;
         anchors.push([2.0 * angle.cos(), 2.0 * angle.sin(), random.random_range(-0.5..0.5)]);
         let total = random.random_range(2.3..3.5);
-        let parts: Vec<f64> = (0..bars).map(|_| random.random_range(0.7..1.3)).collect();
+        let parts: Vec<f64> = (0..*strand).map(|_| random.random_range(0.7..1.3)).collect();
         let whole: f64 = parts.iter().sum();
         lengths.push(parts.into_iter().map(|part| part * total / whole).collect::<Vec<f64>>());
     }
@@ -42,7 +43,7 @@ fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
     let shapes = [[3, 3, 3], [3, 2, 1], [4, 1, 1], [3, 1, 1], [3, 3, 2], [3, 3, 3]];
     let bridles = std::env::var("BRIDLES").map_or(1, |n| n.parse().expect("a number"));
     for (seed, bars) in shapes.into_iter().cycle().take(bridles).enumerate() {
-        let system = drawn(&mut random, bars);
+        let system = drawn(&mut random, &bars);
         let census = taken(&system);
         let net = census.nets().next().unwrap();
         let all = census.equilibria.len();
@@ -70,7 +71,7 @@ fn the_alternating_sum_does_not_depend_on_the_loads() {
 fn places_and_pulls_give_the_same_list() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     for bars in [[2, 2, 2], [2, 2, 1], [2, 1, 1]] {
-        let system = drawn(&mut random, bars);
+        let system = drawn(&mut random, &bars);
         let by_places = taken(&system);
         let by_pulls = SystemCensus::take(&system, &by_pulls()).unwrap();
         assert!(by_places.complete && by_pulls.complete, "{bars:?}");
@@ -88,7 +89,7 @@ fn work_of_small_bridles() {
     let mut random = ChaCha8Rng::seed_from_u64(21);
     let mut found = vec![];
     for bars in [[2, 1, 1], [2, 2, 1], [3, 1, 1], [3, 2, 1]] {
-        let system = drawn(&mut random, bars);
+        let system = drawn(&mut random, &bars);
         let census = SystemCensus::take(&system, &by_pulls()).unwrap();
         found.push((bars, work(&census)));
     }

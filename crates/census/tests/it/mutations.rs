@@ -18,10 +18,7 @@ fn problem(bars: usize, second_mass_kg: f64) -> Problem {
 }
 
 fn census(bars: usize) -> Census {
-    match Census::take(&problem(bars, 0.6), &Settings::default()) {
-        Ok(census) => census,
-        Err(error) => panic!("{error}"),
-    }
+    crate::support::census(&problem(bars, 0.6))
 }
 
 fn check(census: &Census) -> Result<(), CheckError> {

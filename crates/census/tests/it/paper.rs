@@ -1,7 +1,7 @@
 //! The paper's example against reference values that were established without this project:
 //! 40-digit root finding and a Groebner basis (kind = external).
 
-use census::{Census, Interval, Settings};
+use census::{Census, Interval};
 
 /// m g l of the example, J; also m g in N.
 const MGL: f64 = 9.80665;
@@ -30,10 +30,7 @@ const E1_MULTIPLIERS: [[&str; 2]; 4] = [
 const DIGITS: f64 = 8.0 * f64::EPSILON;
 
 fn census() -> Census {
-    match Census::take(&model::cases::paper(), &Settings::default()) {
-        Ok(census) => census,
-        Err(error) => panic!("{error}"),
-    }
+    crate::support::census(&model::cases::paper())
 }
 
 fn number(text: &str) -> f64 {

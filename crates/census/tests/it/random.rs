@@ -2,21 +2,17 @@
 
 use census::{Census, Settings};
 use model::{Anchors, Bar, Chain, Problem};
+use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::{General, Line, stream};
+
+use crate::support::census;
 
 /// A random chain in general position; every fifth one hangs between anchors on one vertical.
 fn random_problem(bars: usize, seed: u64) -> Problem {
     let line = if seed.is_multiple_of(5) { Line::Vertical } else { Line::Any };
     General::of_censuses(line).problem(&mut stream(seed, bars as u64), bars)
-}
-
-fn census(problem: &Problem) -> Census {
-    match Census::take(problem, &Settings::default()) {
-        Ok(census) => census,
-        Err(error) => panic!("{error}"),
-    }
 }
 
 #[test]
@@ -171,31 +167,28 @@ fn newton(problem: &Problem, mut angles: Vec<f64>) -> Option<Vec<f64>> {
     // The pull that fits the start best is not worth computing: hang half the weight on each end.
     let mut pull = [angles[0].sin() * carried, -0.5 * carried];
     for _ in 0..60 {
-        let mut matrix = vec![vec![0.0; n + 3]; n + 2];
+        let (mut matrix, mut misfit) = (DMatrix::zeros(n + 2, n + 2), DVector::zeros(n + 2));
         let mut gap = [-span[0], -span[1]];
-        let mut worst = 0.0_f64;
         for i in 0..n {
             let (sin, cos) = angles[i].sin_cos();
             let force = [pull[0], pull[1] + weights[i]];
-            matrix[i][i] = -force[0] * sin + force[1] * cos;
-            matrix[i][n] = cos;
-            matrix[i][n + 1] = sin;
-            matrix[i][n + 2] = -(force[0] * cos + force[1] * sin);
-            worst = worst.max(matrix[i][n + 2].abs());
+            matrix[(i, i)] = -force[0] * sin + force[1] * cos;
+            matrix[(i, n)] = cos;
+            matrix[(i, n + 1)] = sin;
+            misfit[i] = -(force[0] * cos + force[1] * sin);
             let length = bars[i].length_m();
-            matrix[n][i] = length * cos;
-            matrix[n + 1][i] = length * sin;
+            matrix[(n, i)] = length * cos;
+            matrix[(n + 1, i)] = length * sin;
             gap[0] += length * sin;
             gap[1] -= length * cos;
         }
-        matrix[n][n + 2] = -gap[0];
-        matrix[n + 1][n + 2] = -gap[1];
-        if worst.max(gap[0].abs()).max(gap[1].abs()) < 1e-12 {
+        (misfit[n], misfit[n + 1]) = (-gap[0], -gap[1]);
+        if misfit.iter().all(|x| x.abs() < 1e-12) {
             return Some(angles);
         }
-        let step = solve(matrix)?;
+        let step: DVector<f64> = matrix.lu().solve(&misfit)?;
         // Long steps are shortened: only where the method ends matters here.
-        let longest = step[..n].iter().fold(0.0_f64, |all, part| all.max(part.abs()));
+        let longest = step.rows(0, n).amax();
         let scale = if longest > 1.0 { 1.0 / longest } else { 1.0 };
         for (angle, part) in angles.iter_mut().zip(&step) {
             *angle += scale * part;
@@ -204,28 +197,6 @@ fn newton(problem: &Problem, mut angles: Vec<f64>) -> Option<Vec<f64>> {
         pull[1] += scale * step[n + 1];
     }
     None
-}
-
-/// Gaussian elimination with pivoting.
-fn solve(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let n = matrix.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|a, b| matrix[*a][k].abs().total_cmp(&matrix[*b][k].abs()))?;
-        matrix.swap(k, pivot);
-        if matrix[k][k].abs() < 1e-14 || matrix[k][k].is_nan() {
-            return None;
-        }
-        let row = matrix[k].clone();
-        for (i, other) in matrix.iter_mut().enumerate() {
-            if i != k {
-                let factor = other[k] / row[k];
-                for (entry, part) in other.iter_mut().zip(&row).skip(k) {
-                    *entry -= factor * part;
-                }
-            }
-        }
-    }
-    Some((0..n).map(|k| matrix[k][n] / matrix[k][k]).collect())
 }
 
 #[test]

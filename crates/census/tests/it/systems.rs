@@ -4,25 +4,10 @@ use model::system::{Joint, Kind, Member, PointLoad, Support, System};
 use model::{Anchors, Bar, Chain, NoCensus, Problem};
 use numerics::Interval;
 
-use census::boxes::prove;
 use census::net::{LoadedRow, SystemCensus};
 use census::{Census, ProvenEquilibrium, Settings};
 
-use crate::support::{G, light, system};
-
-fn taken(system: &System) -> SystemCensus {
-    let census = SystemCensus::take(system, &Settings::default()).unwrap();
-    for chain in census.chains() {
-        assert_eq!(chain.check, Ok(()));
-    }
-    // Each of the list is proved by the test that knows nothing of the search.
-    for equilibrium in census.to_model(system) {
-        let proof = prove(system, &equilibrium.joints_m, &equilibrium.axial_n).unwrap();
-        assert!(proof.beyond_m(&equilibrium.joints_m) < 1e-13 * system.total_length_m());
-        assert!(proof.turns >= equilibrium.stability.neutral);
-    }
-    census
-}
+use crate::support::{G, light, system, taken};
 
 /// The cases of chains without slack bars, as systems: the same list.
 #[test]

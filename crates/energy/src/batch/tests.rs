@@ -88,17 +88,7 @@ fn the_minima_are_those_of_the_scalar_minimiser() {
 
 #[test]
 fn a_seed_ends_the_same_whatever_its_neighbours() {
-    let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let problem = random_problem(&mut rng, 4);
-    let angles = random_angles(&mut rng, 4 * 200);
-    let together = solved(&problem, &angles);
-    for seed in 0..200 {
-        let alone = solved(&problem, &angles[4 * seed..4 * (seed + 1)]);
-        assert_eq!(alone.finish[0], together.finish[seed]);
-        assert_eq!(alone.iterations[0], together.iterations[seed]);
-        assert_eq!(alone.energy_j[0].to_bits(), together.energy_j[seed].to_bits());
-        assert_eq!(alone.residual[0].to_bits(), together.residual[seed].to_bits());
-    }
+    samples::assert_seeds_are_alone(|problem, angles, ends| *ends = solved(problem, angles));
 }
 
 #[test]

@@ -30,64 +30,21 @@ fn equal(n: usize, length: f64) -> Vec<(f64, f64, f64)> {
 }
 
 #[test]
-fn hard_shapes_with_few_and_many_bars() {
-    for n in [3, 4, 5, 10, 101] {
-        let taut = 0.999_999;
-        let ends: [(&str, Vector); 9] = [
-            ("level", [0.7, 0.0, 0.0]),
-            ("oblique", [0.3, -0.4, 0.5]),
-            ("taut", [taut, 0.0, 0.0]),
-            ("taut and steep", [0.36 * taut, 0.48 * taut, 0.8 * taut]),
-            ("slack", [0.0, 0.0, 0.0]),
-            ("nearly slack", [1e-6, 1e-6, 0.0]),
-            ("down", [0.0, 0.0, -0.61]),
-            ("up", [0.0, 0.0, 0.61]),
-            ("nearly down", [1e-7, 0.0, -0.61]),
-        ];
-        for (name, end) in ends {
-            check(&format!("{name}, {n} bars"), &problem(&equal(n, 1.0), end, 9.81));
-        }
+fn hard_shapes_of_all_kinds() {
+    for seed in 0..330 {
+        let (shape, problem) = samples::random_chain(seed);
+        check(&format!("{shape:?} {seed}"), &problem);
     }
 }
 
+/// All but one of the bars weightless: strings on either side of the weight are straight.
 #[test]
-fn any_length_any_mass_any_gravity() {
-    for scale in [1e-9, 1.0, 1e9] {
-        for mass in [1e-9, 1e9] {
-            for gravity in [1e-6, 1e6] {
-                let bars: Vec<_> =
-                    (0..7).map(|i| (scale * f64::from(1 + i % 3), mass, 0.3)).collect();
-                let end = [4.0 * scale, 0.0, -3.0 * scale];
-                check(&format!("{scale:e} {mass:e} {gravity:e}"), &problem(&bars, end, gravity));
-            }
-        }
-    }
-}
-
-#[test]
-fn massless_bars_and_six_orders_of_magnitude() {
-    let mut rng = rng(3);
-    for n in [2, 3, 8, 40, 200] {
-        let bars: Vec<_> = (0..n)
-            .map(|_| {
-                let l = 10.0_f64.powf(rng.random_range(-3.0..3.0));
-                let m = 10.0_f64.powf(rng.random_range(-3.0..3.0));
-                (l, m, rng.random_range(0.0..1.0))
-            })
-            .collect();
-        let total: f64 = bars.iter().map(|b| b.0).sum();
-        let longest = bars.iter().fold(0.0_f64, |m, b| m.max(b.0));
-        // Half way between the shortest and the longest span that closes.
-        let span = 0.5 * (total + (2.0 * longest - total).max(0.0));
-        let u = direction(&mut rng);
-        check(&format!("spread, {n} bars"), &problem(&bars, u.map(|x| span * x), 9.81));
-        // All but one of the bars weightless.
+fn one_weight_hangs_on_straight_strings() {
+    for n in [3, 8, 40, 200] {
         let light: Vec<_> =
             (0..n).map(|i| (1.0, if i == n / 3 { 5.0 } else { 0.0 }, 0.5)).collect();
         let end = [0.6 * n as f64, 0.0, 0.1 * n as f64];
-        let solution = check(&format!("one weight, {n} bars"), &problem(&light, end, 9.81));
-        // Strings on either side of the weight are straight.
-        let u = &solution.directions;
+        let u = check(&format!("{n} bars"), &problem(&light, end, 9.81)).directions;
         for i in 1..n / 3 {
             assert!(difference(u[i], u[0]) < 1e-9);
         }
@@ -161,7 +118,7 @@ fn the_reaction_is_the_derivative_of_the_least_energy_for_any_chain() {
         let longest = bars.iter().fold(0.0_f64, |m, b| m.max(b.0));
         let least = (2.0 * longest - total).max(0.0);
         let span = least + (total - least) * rng.random_range(0.2..0.9);
-        let u = direction(&mut rng);
+        let u = if case % 4 == 0 { [0.0, 0.0, -1.0] } else { direction(&mut rng) };
         let problem = problem(&bars, u.map(|x| span * x), 9.81);
         let solution = minimise(&problem, &settings).unwrap();
         let numeric = reaction_by_differences(&problem, &solution, &settings).unwrap();
@@ -242,14 +199,6 @@ fn bad_seeds_and_settings_are_refused_with_their_numbers() {
         Seed::angles(&chain, &[0.0, f64::NAN, 0.0]).unwrap_err(),
         Error::SeedAngle { .. }
     ));
-    for bad in [
-        Settings { gradient_tolerance: 0.0, ..settings },
-        Settings { gradient_tolerance: f64::NAN, ..settings },
-        Settings { closure_tolerance: 1.0, ..settings },
-        Settings { max_iterations: 0, ..settings },
-    ] {
-        assert!(matches!(minimise(&chain, &bad).unwrap_err(), Error::Setting { .. }));
-    }
     // Out of iterations is an error, whatever argmin calls it.
     let short = Settings { max_iterations: 1, ..settings };
     let upside_down = Seed::angles(&chain, &[3.0, 1.5, 0.5]).unwrap();

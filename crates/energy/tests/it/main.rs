@@ -1,7 +1,6 @@
 //! Tests of the crate from outside.
 
 mod chains;
-mod conditions;
 mod critical;
 mod little_force;
 mod net;

@@ -31,7 +31,7 @@ pub fn check(system: &System, solution: &Solution) {
 /// The same, to a part of the largest force and of each length, with some members slack or
 /// stretched.
 pub fn check_but(system: &System, solution: &Solution, slack: &[usize], rounding: f64) {
-    let found = &solution.equilibrium;
+    let (found, gravity) = (&solution.equilibrium, system.gravity_m_s2());
     assert_eq!(found.stability.index_in_space, 0);
     let mut joint_n: Vec<Vector> = system
         .joints()
@@ -39,7 +39,7 @@ pub fn check_but(system: &System, solution: &Solution, slack: &[usize], rounding
         .zip(&found.reactions_n)
         .map(|(joint, r)| {
             let f = joint.force_n;
-            [r[0] + f[0], r[1] + f[1], r[2] + f[2] - joint.mass_kg * G]
+            [r[0] + f[0], r[1] + f[1], r[2] + f[2] - joint.mass_kg * gravity]
         })
         .collect();
     let largest = found.axial_n.iter().fold(1.0, |most: f64, n| most.max(n.abs()));
@@ -50,9 +50,10 @@ pub fn check_but(system: &System, solution: &Solution, slack: &[usize], rounding
         let strain = member.stiffness_n.map_or(0.0, |stiffness| found.axial_n[e] / stiffness);
         let off = misfit - strain;
         assert!(slack.contains(&e) || off.abs() < rounding, "member {e}: {off:e}");
-        let weight = member.body.mass_kg() * G;
+        let weight = member.body.mass_kg() * gravity;
         let (start, end) = (found.start_forces_n[e], found.end_forces_n[e]);
-        for (k, external) in [0.0, 0.0, -weight].into_iter().enumerate() {
+        for (k, own) in [0.0, 0.0, -weight].into_iter().enumerate() {
+            let external = own + member.loads.iter().map(|load| load.force_n[k]).sum::<f64>();
             assert!((start[k] + end[k] + external).abs() < rounding * largest);
             joint_n[member.from][k] -= start[k];
             joint_n[member.to][k] -= end[k];

@@ -140,7 +140,7 @@ fn work_on_nets() {
 }
 
 /// A bridle, and places for its joints.
-fn seeded(stream: u64) -> (System, Vec<Vector>) {
+pub(crate) fn seeded(stream: u64) -> (System, Vec<Vector>) {
     let mut rng = ChaCha8Rng::seed_from_u64(stream);
     let system = bridle(&mut rng);
     let mut place = || std::array::from_fn(|_| rng.random_range(-1.5..1.5));
@@ -166,39 +166,6 @@ fn work_from_seeds() {
         [40, 40, 0, 916, 1298, 0],
     ];
     assert_frozen(&found, &expected);
-}
-
-/// Powers of two change no digit: places and misfits are four times as large, forces the same.
-#[test]
-fn four_times_as_long_is_the_same_in_every_digit() {
-    let settings = Settings::default();
-    let bits = |at: &[Vector], by: f64| -> Vec<[u64; 3]> {
-        at.iter().map(|at| at.map(|x| (by * x).to_bits())).collect()
-    };
-    let mut refused = 0;
-    for stream in 2000..2040 {
-        let (system, seed) = seeded(stream);
-        let large: Vec<Vector> = seed.iter().map(|at| at.map(|x| 4.0 * x)).collect();
-        let here = minimise_from(&system, &seed, &settings);
-        let there = minimise_from(&samples::scaled(&system, [4.0, 1.0, 1.0]), &large, &settings);
-        match (here, there) {
-            (Ok(here), Ok(there)) => {
-                let (here, there) = (here.equilibrium, there.equilibrium);
-                assert_eq!(bits(&here.joints_m, 4.0), bits(&there.joints_m, 1.0), "{stream}");
-                assert_eq!(bits(&here.reactions_n, 1.0), bits(&there.reactions_n, 1.0));
-                assert_eq!((4.0 * here.energy_j).to_bits(), there.energy_j.to_bits());
-            }
-            (
-                Err(Error::NotClosed { member, misfit_m }),
-                Err(Error::NotClosed { member: other, misfit_m: large_m }),
-            ) => {
-                assert_eq!((member, (4.0 * misfit_m).to_bits()), (other, large_m.to_bits()));
-                refused += 1;
-            }
-            (here, there) => panic!("{stream}: {here:?}, {there:?}"),
-        }
-    }
-    assert!(refused > 0);
 }
 
 /// All exhibits: from no guess or from the drawing, and from places a twentieth of a metre off.

@@ -2,9 +2,7 @@
 //! root finding, kind "external").
 
 use crate::support::{difference, random_seed, rng, unbalanced};
-use energy::{
-    Motion, Seed, Settings, minimise, minimise_from, reaction_by_differences, second_order,
-};
+use energy::{Motion, Seed, Settings, minimise, minimise_from, second_order};
 use model::{InPlane, InSpace, STANDARD_GRAVITY_M_S2 as MG, cases};
 
 /// E1: theta, alpha, beta, degrees from the descending vertical.
@@ -55,35 +53,6 @@ fn e1_without_a_guess_in_every_observable() {
     assert_eq!(found.evidence.nullity, 1);
     assert!(found.evidence.residual < 1e-14);
     assert!(found.evidence.condition > 1.0 && found.evidence.condition < 10.0);
-}
-
-#[test]
-fn the_cosine_of_theta_is_a_root_of_the_exact_sextic() {
-    let solution = minimise(&cases::paper(), &Settings::default()).unwrap();
-    let c = -solution.directions[0][2];
-    let sextic = [2048.0, -8192.0, 9472.0, 2080.0, -11_348.0, 7120.0, -1189.0];
-    let value = sextic.iter().fold(0.0, |sum, a| sum * c + a);
-    // The slope at the root is about 330, and the terms are of the size 1e4.
-    assert!(value.abs() < 1e-11, "{value:e}");
-    assert!((c - 0.941_500_734_898_234_9).abs() < 1e-15);
-}
-
-#[test]
-fn the_reaction_at_d_is_the_derivative_of_the_least_energy() {
-    let problem = cases::paper();
-    let settings = Settings::default();
-    let mut rng = rng(1);
-    // In any vertical plane: the seeds end where they like.
-    for _ in 0..5 {
-        let seed = random_seed(&problem, &mut rng);
-        let solution = minimise_from(&problem, &seed, &settings).unwrap();
-        let numeric = reaction_by_differences(&problem, &solution, &settings).unwrap();
-        let analytic = solution.equilibrium.reactions_n.end;
-        assert!(difference(numeric, analytic) / MG < 1e-10);
-        // lambda_11 and lambda_12, without any multiplier.
-        assert!((numeric[0].hypot(numeric[1]) / MG - E1_MULTIPLIERS[3][0]).abs() < 1e-10);
-        assert!((numeric[2] / MG - E1_MULTIPLIERS[3][1]).abs() < 1e-10);
-    }
 }
 
 #[test]

@@ -76,20 +76,6 @@ fn minima_at_corners_of_the_energy_are_found() {
     }
 }
 
-/// Three rings of one rope run together two by two: each span bears what the rings before it leave.
-#[test]
-fn corners_may_meet_in_one_place() {
-    let joints = samples::joints(&[[0.0; 3], [4.0, 0.0, 1.0]], &[1.0, 2.0, 3.0]);
-    let rope = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()).over(vec![2, 3, 4]);
-    let system = System::new("rings", 10.0, joints, vec![rope]).unwrap();
-    let found = minimise(&system, &Settings::default()).unwrap().equilibrium;
-    assert!(near(found.axial_n[0], 50.0));
-    let [first, second] = &found.evidence.jams[..] else { panic!("{:?}", found.evidence.jams) };
-    for (jam, span, wanted) in [(first, 1, [40.0, 0.0, -20.0]), (second, 2, [40.0, 0.0, 0.0])] {
-        assert!(jam.span == span && (0..3).all(|k| near(jam.pull_n[k], wanted[k])), "{jam:?}");
-    }
-}
-
 /// A cable that is slack where it is let go bears nothing there, and no force is a measure.
 #[test]
 fn what_begins_slack_falls_into_its_cable() {

@@ -111,46 +111,6 @@ fn every_seed_of_the_paper_is_accounted_for_and_listed() {
     assert!(low < 0.5 && 0.5 < high && high - low < 0.007, "{low} to {high}");
 }
 
-/// The same seeds, one by one, through the scalar solver: other ways, the same list.
-#[test]
-fn the_scalar_solver_reaches_the_same_equilibria() {
-    for problem in [model::cases::paper(), uneven(3)] {
-        let bars = problem.chain().bars().len();
-        let sweep = sweep_of(&problem, Settings::default()).unwrap();
-        assert!(sweep.members().complete());
-        let chunk = sweep.run_chunk(0..2000);
-        let mut batch = std::collections::BTreeSet::new();
-        for outcome in &chunk.of("lagrange").unwrap().outcome {
-            assert!(*outcome >= 0, "{outcome}");
-            batch.insert(*outcome);
-        }
-        let difference = problem.chain().anchors().difference_m();
-        let heading = difference[1].atan2(difference[0]);
-        let vertical = difference[0].hypot(difference[1]) <= 0.0;
-        let heading = if vertical { std::f64::consts::FRAC_PI_2 } else { heading };
-        let settings = lagrange::Settings::default();
-        let mut solver = lagrange::Solver::new(&problem, &settings).unwrap();
-        let mut scalar = std::collections::BTreeSet::new();
-        for phi in sweep.angles_rad(0..2000).chunks(bars) {
-            let found = solver.solve(&lagrange::Seed::planar_towards(heading, phi)).unwrap();
-            let found = found.solution().unwrap().equilibrium;
-            let lengths = problem.chain().bars().iter().map(Bar::length_m);
-            let u: Vec<[f64; 2]> = found
-                .joints_m
-                .windows(2)
-                .zip(lengths)
-                .map(|(joint, length)| {
-                    let d: [f64; 3] = std::array::from_fn(|k| (joint[1][k] - joint[0][k]) / length);
-                    [d[0] * heading.cos() + d[1] * heading.sin(), d[2]]
-                })
-                .collect();
-            // Every one is in the list of the census.
-            scalar.insert(sweep.members().identify(&u, found.energy_j).unwrap());
-        }
-        assert_eq!(batch, scalar);
-    }
-}
-
 #[test]
 fn longer_chains_are_identified_against_the_census() {
     for bars in [5, 6, 8] {

@@ -152,19 +152,9 @@ fn the_equilibria_reached_are_those_of_the_scalar_solver() {
 
 #[test]
 fn a_seed_ends_the_same_whatever_its_neighbours() {
-    let problem = model::cases::paper();
-    let batch = Batch::new(&problem, BatchSettings::default()).unwrap();
-    let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let angles: Vec<f64> = (0..3 * 300).map(|_| rng.random_range(0.0..TAU)).collect();
-    let (mut together, mut alone) = (Ends::default(), Ends::default());
-    batch.solve(&angles, &mut together);
-    for seed in 0..300 {
-        batch.solve(&angles[3 * seed..3 * (seed + 1)], &mut alone);
-        assert_eq!(alone.finish[0], together.finish[seed]);
-        assert_eq!(alone.iterations[0], together.iterations[seed]);
-        assert_eq!(alone.energy_j[0].to_bits(), together.energy_j[seed].to_bits());
-        assert_eq!(alone.residual[0].to_bits(), together.residual[seed].to_bits());
-    }
+    samples::assert_seeds_are_alone(|problem, angles, ends| {
+        Batch::new(problem, BatchSettings::default()).unwrap().solve(angles, ends);
+    });
 }
 
 #[test]
@@ -228,22 +218,4 @@ fn parallel_bars_are_no_obstacle() {
     let mut ends = Ends::default();
     batch.solve(&[[0.0; 3], [0.5; 3], [TAU / 2.0; 3]].concat(), &mut ends);
     assert_eq!(ends.finish, [Finish::Converged; 3]);
-}
-
-#[test]
-fn nothing_depends_on_the_units() {
-    let angles = [0.3, 0.7, -1.3, 2.8, 2.4, 4.0];
-    let solve = |length: f64, mass: f64, g: f64| {
-        let problem = samples::homogeneous(g, &[(length, mass); 3], [0.0, 0.0, -2.0 * length]);
-        let batch = Batch::new(&problem, BatchSettings::default()).unwrap();
-        let mut ends = Ends::default();
-        batch.solve(&angles, &mut ends);
-        ends.energy_j.iter().map(|v| v / (length * mass * g)).collect::<Vec<_>>()
-    };
-    let one = solve(1.0, 1.0, 1.0);
-    for other in [solve(1e-9, 1e-9, 1e3), solve(1e9, 1e12, 1e-6)] {
-        for (a, b) in one.iter().zip(&other) {
-            assert!((a - b).abs() < 1e-12);
-        }
-    }
 }

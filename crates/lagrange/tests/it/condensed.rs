@@ -8,9 +8,7 @@ use std::f64::consts::PI;
 use lagrange::Error;
 use lagrange::Seed;
 use lagrange::condensed::{Settings, Solution, solve};
-use model::{
-    Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Status, Vector,
-};
+use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem, Status, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -146,108 +144,15 @@ fn two_bars_over_near_anchors_in_whole_numbers() {
     }
 }
 
-/// Unlike bars: across the span, nearly along it, plumb, and about one vertical. Joint and forces
-/// from the same triangle with 60 digits (mpmath 1.3).
+/// Unlike bars, folded: Newton's laws, and digits known.
 #[test]
 fn unlike_bars_over_near_anchors() {
-    type Case = ([f64; 2], [f64; 2], Vector, Vector, [f64; 2]);
-    let part = |power: i32| 2.0_f64.powi(power);
-    let cases: [Case; 6] = [
-        (
-            [0.8, 0.8 + 3e-8],
-            [1.0, 2.5],
-            [-4e-8, 2e-8, 1e-8],
-            [0.339_109_066_053_495, -0.169_554_533_026_747_5, -0.704_454_612_910_163_3],
-            [191_532_234.974_949_78, -191_532_219.565_005_3],
-        ),
-        (
-            [1.7, 1.7 - 6e-9],
-            [0.5, 2.0],
-            [5e-9, 0.0, -7e-9],
-            [-0.302_115_207_560_715_4, 0.0, -1.672_939_449_400_529_2],
-            [612_619_495.230_439_4, -612_619_482.929_414_2],
-        ),
-        (
-            [2.0, 2.0 - part(-33)],
-            [2.0, 1.0],
-            [part(-35), 0.0, -part(-33)],
-            [1.455_191_522_857_861e-11, 0.0, -2.0],
-            [7.500_000_000_109_139, 7.499_999_999_890_861],
-        ),
-        (
-            [1.0, 1.0 + 4.999e-10],
-            [1.0, 1.0],
-            [-3e-10, 0.0, 4e-10],
-            [0.583_872_622_627_390_6, 0.0, -0.811_845_281_162_742_7],
-            [583_607_939_343.168_3, -583_607_939_335.049_8],
-        ),
-        (
-            [1.25, 1.25 + part(-20)],
-            [1.0, 3.0],
-            [part(-13), 0.0, part(-14)],
-            [0.551_252_090_918_395_9, 0.0, -1.121_882_851_396_747_4],
-            [-80_766.160_755_055_45, 80_784.111_362_164_74],
-        ),
-        (
-            [1.5, 1.5 + 3.0 * part(-30)],
-            [1.0, 1.0],
-            [0.0, 0.0, 5.0 * part(-30)],
-            [0.0, -1.200_000_001_117_587, -0.899_999_998_509_883_9],
-            [-3_221_225_472.0, 3_221_225_478.0],
-        ),
-    ];
-    for (lengths, masses, end_m, joint, axial) in cases {
-        let bar = |k: usize| Bar::homogeneous(lengths[k], masses[k]).unwrap();
-        let found = solved(vec![bar(0), bar(1)], 10.0, end_m);
-        near(found.equilibrium.joints_m[1], joint, 1e-15);
-        for (found, exact) in found.equilibrium.axial_n.iter().zip(axial) {
-            assert!((found / exact - 1.0).abs() < 1e-13, "{end_m:?}: {found} {exact}");
-        }
-        assert_eq!(found.equilibrium.stability.index_in_space, 0);
-        assert_eq!(found.equilibrium.stability.in_plane, InPlane::Minimum);
-        let upright = end_m[0].hypot(end_m[1]) <= 0.0;
-        assert_eq!(found.equilibrium.evidence.nullity, usize::from(upright));
-    }
-}
-
-/// The rope of the same length: closed form. Halving the bars must quarter the differences.
-#[test]
-fn many_equal_bars_approach_the_catenary_with_order_two() {
-    let (across, rise, length) = (1.0_f64, -0.2_f64, 1.5_f64);
-    // sinh x / x = sqrt(L^2 - rise^2)/across by bisection, independent of the solver's start.
-    let ratio = (length * length - rise * rise).sqrt() / across;
-    let (mut low, mut high) = (1e-3_f64, 10.0_f64);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle.sinh() / middle < ratio { low = middle } else { high = middle }
-    }
-    let c = across / (2.0 * low);
-    let middle = (rise / length).atanh();
-    let (from, to) = (middle - low, middle + low);
-    // Weight 1 in all: H = c/L, vertical pulls at the ends H sinh.
-    let h = c / length;
-    let start = [-h, 0.0, -h * from.sinh()];
-    let end = [h, 0.0, h * to.sinh()];
-    // V = -(integral of the depth): z = c cosh(x/c + from) - c cosh(from), ds = c cosh dt.
-    let integral = |t: f64| 0.5 * c * c * (t + t.sinh() * t.cosh());
-    let energy = (integral(to) - integral(from)) / length - c * from.cosh();
-    let mut last: Option<[f64; 3]> = None;
-    for n in [20, 40, 80, 160, 320, 640, 1280] {
-        let solution = solved(equal(n, length), 1.0, [across, 0.0, rise]);
-        let found = &solution.equilibrium;
-        let difference = |a: Vector, b: Vector| (a[0] - b[0]).hypot(a[2] - b[2]);
-        let off = [
-            difference(found.reactions_n.start, start),
-            difference(found.reactions_n.end, end),
-            (found.energy_j - energy).abs(),
-        ];
-        if let Some(last) = last {
-            for (coarse, fine) in last.into_iter().zip(off) {
-                let order = (coarse / fine).log2();
-                assert!((order - 2.0).abs() < 0.02, "n = {n}: order {order}, off by {fine:e}");
-            }
-        }
-        last = Some(off);
+    for pair in samples::unlike_pairs() {
+        let found = solve(&pair.problem, &Settings::default()).unwrap().equilibrium;
+        let judged = judge(&pair.problem, &found);
+        assert!(judged.within(1e-13) && judged.lowest, "{judged:?}");
+        pair.assert_holds(&found);
+        assert_eq!(found.stability.in_plane, InPlane::Minimum);
     }
 }
 
@@ -350,54 +255,6 @@ fn nearly_taut_chains_keep_their_digits() {
             "{exponent}: {pull} {expected}"
         );
         assert!(found.pull.passes() < 12, "{} passes", found.pull.passes());
-    }
-}
-
-/// Lengths, masses and gravity of any size only change units.
-#[test]
-fn units_change_nothing_but_units() {
-    let shape = |length: f64, mass: f64, gravity: f64| {
-        let bars =
-            [1.0, 0.3, 2.0, 0.7, 1.1].map(|l| Bar::homogeneous(l * length, l * mass).unwrap());
-        solved(bars.to_vec(), gravity, [2.0 * length, length, -0.5 * length]).equilibrium
-    };
-    let one = shape(1.0, 1.0, 1.0);
-    for (length, mass, gravity) in [
-        (1e-9, 1e6, STANDARD_GRAVITY_M_S2),
-        (1e9, 1e-6, 1e-12),
-        (1e-100, 1e100, 1e9),
-        (1e90, 1e-150, 1e-9),
-    ] {
-        let other = shape(length, mass, gravity);
-        for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
-            near(b.map(|x| x / length), *a, 1e-14);
-        }
-        for (a, b) in one.multipliers_n.iter().zip(&other.multipliers_n) {
-            near(b.map(|x| x / (mass * gravity)), *a, 1e-13);
-        }
-    }
-}
-
-/// At a million bars nothing has drifted.
-#[test]
-fn a_million_bars_close_and_balance() {
-    let mut rng = ChaCha8Rng::seed_from_u64(5);
-    for random in [false, true] {
-        let bars: Vec<Bar> = (0..1_000_000)
-            .map(|_| {
-                let x = if random { rng.random_range(0.2..1.8) } else { 1.0 };
-                Bar::homogeneous(1.5e-6 * x, x).unwrap()
-            })
-            .collect();
-        let problem = problem(bars, STANDARD_GRAVITY_M_S2, [1.0, 0.0, -0.2]);
-        let solution = solve(&problem, &Settings::default()).unwrap();
-        let found = judge(&problem, &solution.equilibrium);
-        assert!(found.within(1e-12) && found.lowest, "{found:?}");
-        // Forces of the ground carry the whole weight.
-        let reactions = &solution.equilibrium.reactions_n;
-        let weight = problem.chain().total_mass_kg() * STANDARD_GRAVITY_M_S2;
-        let sum = reactions.start[2] + reactions.end[2];
-        assert!((sum / weight - 1.0).abs() < 1e-15, "{sum} {weight}");
     }
 }
 

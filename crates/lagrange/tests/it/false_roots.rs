@@ -93,8 +93,6 @@ fn thirty_equations_hold_and_a_bar_is_not_in_balance() {
 fn random_seeds_meet_false_roots() {
     let kept = Settings { lock_margin: 0.0, relaxations: 0, ..Default::default() };
     let seeds = (0..2000).map(|index| spatial_seed(&mut stream(62, index), 3));
-    let survey = survey(&cases::paper(), seeds, &kept);
-    let part = survey.false_roots as f64 / survey.seeds as f64;
-    assert!((0.03..0.07).contains(&part), "{part}");
-    assert_eq!(survey.converged + survey.stagnated + survey.false_roots, survey.seeds);
+    let found = survey(&cases::paper(), seeds, &kept).false_roots;
+    assert!((60..140).contains(&found), "{found} of 2000");
 }

@@ -4,7 +4,6 @@
 
 mod common;
 mod condensed;
-mod condensed_full;
 mod condensed_processors;
 mod condensed_random;
 mod derivatives;

@@ -4,7 +4,7 @@ use lagrange::net::{Forces, Seed, Settings, Solution, solve, solve_from};
 use model::ForceRange;
 use model::system::{Joint, Kind, Support, System};
 
-use crate::net::{bar, cable, system};
+use crate::net::{bar, cable, close, hang, system};
 
 const EXACT: f64 = 1e-9;
 
@@ -99,6 +99,14 @@ fn fans() {
     let bars = ranges(&fan(Kind::Bar));
     assert_eq!(bars[..3], [ForceRange::Free; 3]);
     assert_eq!(bars[3], ForceRange::Unique);
+    // With axial forces a, b, a the weights 2 are `sqrt 2 a + b` and least `2 sqrt 2 a² + b²` gives `b = 2 a`.
+    let solution = hang(&fan(Kind::Bar));
+    assert_eq!(solution.forces, Forces::LeastNorm);
+    assert_eq!(solution.self_stresses.as_ref().map(Vec::len), Some(1));
+    let least = 2.0 / (2.0 + root);
+    for (axial, wanted) in solution.equilibrium.axial_n.iter().zip([least, 2.0 * least, least]) {
+        close(*axial, wanted);
+    }
 }
 
 /// Five cables in one plane to a weight: three self-stresses. The least force of each is zero, and

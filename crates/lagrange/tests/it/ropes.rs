@@ -92,26 +92,6 @@ fn what_is_stretched_between_anchors_bears_it() {
     near(found.reactions_n[0], [-found.axial_n[0], 0.0, 0.0]);
 }
 
-/// Where three joints run together each span bears its own part: 1 kg, 2 kg and 3 kg as rings of one rope, with
-/// the whole load in its lowest point.
-#[test]
-fn three_rings_run_together() {
-    let joints = samples::joints(&[[0.0; 3], [4.0, 0.0, 1.0]], &[1.0, 2.0, 3.0]);
-    let body = Bar::homogeneous(5.0, 0.0).unwrap();
-    let system =
-        System::new("rings", 10.0, joints, vec![Member::cable(0, 1, body).over(vec![2, 3, 4])]);
-    let found = solve(&system.unwrap(), &Settings::default()).unwrap().equilibrium;
-    close(found.axial_n[0], 50.0);
-    for joint in [2, 3, 4] {
-        near(found.joints_m[joint], [4.0 / 3.0, 0.0, -1.0]);
-    }
-    // P to Q bears what the first span and 10 N leave at P, 40 N level and 20 N up; Q to R 20 N more of it.
-    let pulls: Vec<_> = found.evidence.jams.iter().map(|jam| (jam.span, jam.pull_n)).collect();
-    assert_eq!([pulls[0].0, pulls[1].0], [1, 2]);
-    near(pulls[0].1, [40.0, 0.0, -20.0]);
-    near(pulls[1].1, [40.0, 0.0, 0.0]);
-}
-
 /// Two ropes on one way share as equally stiff ones, and derivatives of them are refused.
 #[test]
 fn ropes_side_by_side_are_a_family() {

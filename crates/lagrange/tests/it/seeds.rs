@@ -16,22 +16,26 @@ fn every_seed_of_the_example_converges_to_one_of_the_four() {
             let mut random = stream(51, index);
             if planar { planar_seed(&mut random, 3) } else { spatial_seed(&mut random, 3) }
         });
-        let survey = survey(&cases::paper(), seeds, &Settings::default());
-        assert_eq!((survey.seeds, survey.converged), (SEEDS, SEEDS), "lost {:?}", survey.lost);
-        assert_eq!(survey.iterations.iter().sum::<usize>(), SEEDS);
+        let mut survey = survey(&cases::paper(), seeds, &Settings::default());
+        assert_eq!(survey.ends.len(), SEEDS, "lost {:?}", survey.lost);
         // E1 and E2, each with its mirror image, and nothing else.
-        let energies: Vec<f64> = survey.groups.iter().map(|g| g.energy_j / MG + 6.0).collect();
-        assert_eq!(energies.len(), 2, "{energies:?}");
-        assert!((energies[0] - 2.335_468_651_999_305).abs() < 1e-12);
-        assert!((energies[1] - 3.664_531_348_000_695).abs() < 1e-12);
-        for group in &survey.groups {
-            let side = group.towards_y as f64 / group.count as f64;
+        let mut sides = [[0_usize; 2]; 2];
+        for (energy_j, towards_y) in survey.ends {
+            let energy = energy_j / MG + 6.0;
+            let found = [2.335_468_651_999_305, 3.664_531_348_000_695_f64]
+                .iter()
+                .position(|v| (energy - v).abs() < 1e-12);
+            sides[found.unwrap_or_else(|| panic!("{energy}"))][usize::from(towards_y)] += 1;
+        }
+        for [away, towards] in sides {
+            let side = towards as f64 / (away + towards) as f64;
             assert!((side - 0.5).abs() < 0.05, "mirror images at {side}");
         }
         // Frozen work, a band because sines differ by a unit in the last place between machines.
-        let median = survey.iterations_quantile(0.5);
+        survey.iterations.sort_unstable();
+        let median = survey.iterations[SEEDS / 2];
         assert!((9..=12).contains(&median), "median {median}");
-        assert!(survey.iterations_quantile(1.0) < 150);
+        assert!(survey.iterations[SEEDS - 1] < 150);
         let direct = survey.direct as f64 / SEEDS as f64;
         let expected = if planar { 0.965 } else { 0.984 };
         assert!((direct - expected).abs() < 0.01, "{direct} without relaxation");
@@ -46,7 +50,7 @@ fn every_seed_of_random_chains_converges() {
             let problem = problem(&mut random, bars, index % 4 == 0);
             let seeds: Vec<Seed> = (0..20).map(|_| spatial_seed(&mut random, bars)).collect();
             let survey = survey(&problem, seeds, &Settings::default());
-            assert_eq!(survey.converged, 20, "n = {bars}, chain {index}, {:?}", survey.lost);
+            assert_eq!(survey.ends.len(), 20, "n = {bars}, chain {index}, {:?}", survey.lost);
         }
     }
 }
@@ -82,16 +86,4 @@ fn seeds_that_do_not_fit_are_refused() {
         solve_from(&problem, &Seed::planar(&[0.0; 3]), &bad),
         Err(Error::Settings(_))
     ));
-    let out = survey(&problem, [Seed::planar(&[0.0])], &Settings::default());
-    assert_eq!((out.converged, out.rejected, out.lost), (0, 1, vec![0]));
-}
-
-/// A straight chain is the hardest seed: to first order no turn changes the distance of its ends.
-#[test]
-fn straight_seeds_converge() {
-    for phi in [[0.0; 3], [std::f64::consts::PI; 3], [0.0, 0.0, std::f64::consts::PI]] {
-        let found = solve_from(&cases::paper(), &Seed::planar(&phi), &Settings::default()).unwrap();
-        assert!(found.effort.relaxations > 0, "{:?}", found.effort);
-        assert_eq!(found.nullity, 4);
-    }
 }

@@ -257,7 +257,7 @@ fn work_of_batches() {
     assert_frozen(&found[..], &expected);
 }
 
-/// All bars in parallel, next to it, and many turns: where the pattern that turns bars comes in.
+/// All bars in parallel, folded back, next to it, and many turns: where the pattern that turns bars comes in.
 #[test]
 fn work_of_undefined_steps() {
     let problem = model::cases::paper();
@@ -270,17 +270,18 @@ fn work_of_undefined_steps() {
         Batch::new(&problem, BatchSettings::default()).unwrap().solve(&angles, &mut ends);
         let steps: u64 = ends.iterations.iter().map(|steps| u64::from(*steps)).sum();
         let mut row = Full::default();
-        for angles in angles.chunks(3).take(24) {
+        let folded = [0.0, off, 0.5 * TAU];
+        for angles in angles.chunks(3).take(24).chain([&folded[..]]) {
             let seed = Seed::planar(angles);
             add(&mut row, lagrange::solve_from(&problem, &seed, &Settings::default()));
         }
         found.push((number, steps, row));
     }
     let expected = [
-        (0, 802, [24, 24, 1258, 606, 10, 40, 0, 652, 18, 96, 24]),
-        (1, 650, [24, 24, 701, 59, 2, 28, 0, 642, 22, 96, 24]),
-        (2, 732, [24, 24, 875, 256, 22, 66, 0, 619, 2, 96, 24]),
-        (3, 712, [24, 24, 1144, 71, 8, 42, 0, 1073, 20, 96, 24]),
+        (0, 802, [25, 25, 1372, 701, 11, 40, 0, 671, 18, 100, 25]),
+        (1, 650, [25, 25, 790, 129, 3, 28, 0, 661, 22, 100, 25]),
+        (2, 732, [25, 25, 924, 285, 23, 66, 0, 639, 2, 100, 25]),
+        (3, 712, [25, 25, 1181, 89, 9, 42, 0, 1092, 20, 100, 25]),
     ];
     assert_frozen(&found[..], &expected);
 }

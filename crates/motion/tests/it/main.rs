@@ -27,5 +27,4 @@ mod second_opinion;
 mod slack;
 mod spinning;
 mod squeezer;
-mod taylor;
 mod unequal;

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System as Equations};
 
-use crate::common::{G, at_rest, closed, hanging, paper, run, string};
+use crate::common::{G, at_rest, closed, hanging, links, paper, run, string};
 
 /// Tolerance of the adaptive method, relative and absolute.
 const TIGHT: f64 = 1e-13;
@@ -173,6 +173,24 @@ fn an_open_chain_in_space_moves_as_the_adaptive_method_says() {
     let mut simulation = at_rest(&system, &at, Order::Eighth);
     let push = [[0.0; 3], [0.2, 0.5, 0.0], [0.0, -0.4, 0.1], [0.1, 0.3, 0.0], [0.0, 0.6, -0.2]];
     simulation.push(&push).unwrap();
+    let worst =
+        disagreement(&mut simulation, &Chain { bars, held: false, gravity_m_s2: G }, 3.0, 2e-3);
+    assert!(worst < 1e-10, "{worst:e}");
+}
+
+/// Two points of 1 kg on massless links of 1 m: bars with half of the first point at an end of each, the first of them
+/// with as much at the anchor, where it does not move.
+#[test]
+fn points_on_massless_links_move_as_the_adaptive_method_says() {
+    let dumbbell = |start_kg: f64, end_kg: f64| {
+        let mass = start_kg + end_kg;
+        let inertia = start_kg * end_kg / mass;
+        Bar::new(1.0, mass, end_kg / mass, [0.0, inertia, inertia]).unwrap()
+    };
+    let bars = vec![dumbbell(0.5, 0.5), dumbbell(0.5, 1.0)];
+    let at = string(&[1.0, 1.0], &[1.0, 1.5]);
+    let mut simulation = at_rest(&hanging(&links(2), &[1.0, 1.0]), &at, Order::Eighth);
+    simulation.push(&[[0.0; 3], [0.2, 0.5, 0.0], [0.0, -0.4, 0.1]]).unwrap();
     let worst =
         disagreement(&mut simulation, &Chain { bars, held: false, gravity_m_s2: G }, 3.0, 2e-3);
     assert!(worst < 1e-10, "{worst:e}");

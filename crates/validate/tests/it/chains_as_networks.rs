@@ -2,7 +2,7 @@
 //! digits of the solver of chains that shares its mechanics.
 
 use energy::net::minimise;
-use model::system::{System, SystemEquilibrium, SystemStability};
+use model::system::{System, SystemEquilibrium};
 use model::{Equilibrium, SolverName, cases};
 use validate::Tolerances;
 use validate::systems::compare;
@@ -20,40 +20,12 @@ const CONDITIONS: [(&str, f64); 2] = [("nearly-taut", 1e6), ("six-orders", 1e2)]
 /// Who has no answer for which chain as a network, and says so.
 const REFUSED: [(&str, SolverName); 1] = [("nearly-taut", SolverName::ENERGY)];
 
-/// An answer for a chain as one for its system.
-fn as_system(answer: &Equilibrium) -> SystemEquilibrium {
-    let bars = answer.axial_n.len();
-    let multipliers = &answer.multipliers_n;
-    // Of bar k+1 on bar k, but of the ground at the ends.
-    let minus = |force: [f64; 3]| force.map(|x| -x);
-    let start = |k: usize| if k == 0 { multipliers[0] } else { minus(multipliers[k]) };
-    let mut reactions_n = vec![[0.0; 3]; bars + 1];
-    reactions_n[0] = answer.reactions_n.start;
-    reactions_n[bars] = answer.reactions_n.end;
-    SystemEquilibrium {
-        solver: SolverName::new(format!("{} of chains", answer.solver)),
-        energy_j: answer.energy_j,
-        joints_m: answer.joints_m.clone(),
-        start_forces_n: (0..bars).map(start).collect(),
-        end_forces_n: multipliers[1..].to_vec(),
-        axial_n: answer.axial_n.clone(),
-        reactions_n,
-        stability: SystemStability {
-            in_space: answer.stability.in_space,
-            index_in_space: answer.stability.index_in_space,
-            index_in_plane: None,
-            neutral: 0,
-        },
-        evidence: answer.evidence.clone(),
-    }
-}
-
 fn check(name: &str, system: &System, chain: &Equilibrium, network: SystemEquilibrium) {
     let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let condition = CONDITIONS.iter().find(|(of, _)| *of == name).map_or(1.0, |(_, more)| *more);
     let (length_m, force_n) =
         (largest(chain.joints_m.as_flattened()), largest(chain.multipliers_n.as_flattened()));
-    let mut both = [as_system(chain), network];
+    let mut both = [system.as_row().unwrap().equilibrium(chain.clone()), network];
     // Chains that turn freely are turned onto each other there.
     let differ = compare(system, &mut both, &Tolerances::project());
     let (joints, forces) = (differ.joints_m / length_m, differ.forces_n / force_n);

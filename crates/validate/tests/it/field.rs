@@ -9,11 +9,18 @@ use validate::field::run_of_members::{end_forces, run_of_members};
 use validate::systems::ask;
 
 /// A sagging cable that stretches by some percent, a mooring line between level ends that
-/// hardly does, and a steep one.
-const CABLES: [ElasticCatenary; 3] = [
+/// hardly does, a steep one, and index 7 of MoorPy's own test, the hardest of its lines.
+const CABLES: [ElasticCatenary; 4] = [
     ElasticCatenary { x_m: 80.0, z_m: 30.0, length_m: 100.0, stiffness_n: 1e4, weight_n_m: 10.0 },
     ElasticCatenary { x_m: 90.0, z_m: 0.0, length_m: 100.0, stiffness_n: 1e8, weight_n_m: 800.0 },
     ElasticCatenary { x_m: 20.0, z_m: 60.0, length_m: 70.0, stiffness_n: 1e5, weight_n_m: 50.0 },
+    ElasticCatenary {
+        x_m: 246.224_209_400_329_47,
+        z_m: 263.557_663_308_431_64,
+        length_m: 360.635_662_623_969_27,
+        stiffness_n: 700e6,
+        weight_n_m: 3.08735,
+    },
 ];
 
 /// Errors of the three end forces by each solver, for a run of so many members.

@@ -19,7 +19,6 @@ mod first_tries;
 mod floor;
 mod frames;
 mod free_turns;
-mod gallery;
 mod independence;
 mod integer_chains;
 mod judged;

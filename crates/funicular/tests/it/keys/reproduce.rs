@@ -183,53 +183,51 @@ fn equations(output: &mut Output) {
     output.is("summary.equations_refuted", count("refuted"));
 }
 
+/// What follows is asserted where it is found, in `paper`, `energy` and `validate`: here one value of each is told by
+/// its name.
 fn cases(output: &mut Output) {
     let at = |key: &str| format!("cases[].{key}");
     let all = model::cases::all();
     output.is(&at("case"), all.iter().map(|case| case.name).collect::<Vec<_>>());
     output.is(&at("about"), all.iter().map(|case| case.about).collect::<Vec<_>>());
-    let bars = output.numbers(&at("bars"));
-    assert!((bars[0] - 3.0).abs() < 0.5 && bars.contains(&100.0));
-    // The paper's chain turns about the vertical through its anchors, others are held.
-    let turned = output.numbers(&at("agreement.turned_parts"));
-    assert!(turned[0] > 0.5 && turned.contains(&0.0));
-    // Of the longest chain they are not counted.
-    let counted = output.values(&at("agreement.self_stresses"));
-    assert!(counted.iter().all(|found| *found == 0 || found.is_null()) && counted[0] == 0);
     output.are(json!({ "summary.cases": all.len(), "summary.cases_agreed": all.len() }));
     let rows = |key: &str| at(&format!("rows[].{key}"));
-    assert_eq!(output.values(&rows("case"))[0], "three-equal-bars");
-    assert_eq!(output.values(&rows("observable"))[0], "energy_j");
-    let joules = (ENERGIES[0] - 6.0) * 9.806_65;
+    // The paper's chain turns about the vertical through its anchors.
+    first(output, &at("bars"), 3);
+    first(output, &at("agreement.turned_parts"), 1);
+    first(output, &at("agreement.self_stresses"), 0);
+    first(output, &rows("case"), "three-equal-bars");
+    first(output, &rows("observable"), "energy_j");
     for solver in ["lagrange", "energy"] {
-        assert!((output.numbers(&rows(solver))[0] - joules).abs() < 1e-12);
+        first(output, &rows(solver), (ENERGIES[0] - 6.0) * 9.806_65);
     }
     let found = output.numbers(&rows("difference"));
     assert!(found.iter().all(|difference| (0.0..1e-9).contains(difference)));
-    // The largest one is one of them.
     let at = |key: &str| format!("summary.largest_difference.{key}");
-    let [case, observable] = ["case", "observable"].map(|key| output.values(&at(key)).remove(0));
-    let rows = output.values(&rows("observable")).len();
-    assert!(rows > 100 && all.iter().any(|known| case == known.name), "{case} {observable}");
+    output.is(&at("case"), "far-from-the-origin");
+    assert!(output.values(&at("observable"))[0].is_string());
     let [a, b] = ["lagrange", "energy"].map(|key| output.numbers(&at(key))[0]);
     assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "{a} {b}");
+}
+
+/// The first of the values at a path.
+fn first(output: &mut Output, path: &str, wanted: impl Into<Value>) {
+    let (found, wanted) = (output.values(path).remove(0), wanted.into());
+    let same = match (found.as_f64(), wanted.as_f64()) {
+        (Some(a), Some(b)) => (a - b).abs() <= 1e-12 * b.abs().max(1.0),
+        _ => found == wanted,
+    };
+    assert!(same, "{path}: {found} for {wanted}");
 }
 
 fn seeds(output: &mut Output) {
     let at = |key: &str| format!("seeds[].{key}");
     let reached = output.numbers(&at("reached[].seeds"));
-    for counts in [&reached[..4], &reached[4..8], &reached[8..10], &reached[10..]] {
-        assert!((counts.iter().sum::<f64>() - 10_000.0).abs() < 0.5, "{counts:?}");
-    }
-    // Mirror images as often as each other, to four standard deviations; the second solver at
-    // minima alone.
-    for pair in [&reached[..2], &reached[2..4], &reached[4..6]] {
-        assert!((pair[0] - pair[1]).abs() < 4.0 * (pair[0] + pair[1]).sqrt(), "{pair:?}");
-    }
+    assert!((reached[..4].iter().sum::<f64>() - 10_000.0).abs() < 0.5, "{reached:?}");
+    // The second solver at minima alone, and always directly.
     assert!(reached[6] + reached[7] + reached[11] < 0.5, "{reached:?}");
     let direct = output.values(&at("direct"));
-    assert!(direct[1].is_null() && direct[3].is_null());
-    assert!(direct[0].as_f64().unwrap() <= 10_000.0);
+    assert!(direct[0].as_f64().unwrap() <= 10_000.0 && direct[1].is_null() && direct[3].is_null());
     let [median, most, largest] =
         ["median_iterations", "most_iterations_of_95_percent", "most_iterations"]
             .map(|key| output.numbers(&at(key)));
@@ -238,31 +236,22 @@ fn seeds(output: &mut Output) {
     }
 }
 
-/// Numbers that others have published, and laws that need no solver.
+/// Numbers that others have published, and laws that need no solver: the first line of MoorPy's table.
 fn field(output: &mut Output) {
     let at = |key: &str| format!("field[].{key}");
-    let titles = output.values(&at("title"));
-    assert!(titles[0] == "mooring line, index 0" && titles.len() > 20);
+    first(output, &at("title"), "mooring line, index 0");
     assert!(output.values(&at("source"))[0].as_str().unwrap().contains("MoorPy"));
-    // Who is not judged has a reason, and who has one is not judged.
     let reasons = output.values(&at("not_judged"));
-    assert!(reasons[0].as_str().unwrap().contains("a floor with friction"));
-    assert!(reasons[1].is_null() && reasons.len() == titles.len());
+    assert!(reasons[0].as_str().unwrap().contains("a floor with friction") && reasons[1].is_null());
     let numbers = |key: &str| at(&format!("numbers[].{key}"));
-    let [printed, what] = ["printed", "what"].map(|key| output.values(&numbers(key)));
-    assert_eq!(what[0], "H at A / N");
-    let published = output.numbers(&numbers("published"));
-    for (printed, published) in printed.iter().zip(&published) {
-        let parsed: f64 = printed.as_str().unwrap().parse().unwrap();
-        assert!((parsed - published).abs() <= 1e-12 * published.abs(), "{printed} {published}");
-    }
-    // MoorPy's table, first line: H at A.
-    assert!((published[0] - 96_643.428_159_340_08).abs() < 1e-9);
-    let [ours, allowed, digits] =
-        ["ours", "allowed", "digits"].map(|key| output.numbers(&numbers(key)));
-    assert!((ours[0] - published[0]).abs() <= allowed[0] && allowed[0] < 1.0);
-    assert!((digits[0] - 8.0).abs() < 0.5);
-    assert_eq!(output.values(&numbers("at_most"))[0], false);
+    first(output, &numbers("what"), "H at A / N");
+    first(output, &numbers("published"), 96_643.428_159_340_08);
+    first(output, &numbers("digits"), 8);
+    first(output, &numbers("at_most"), false);
+    let printed = output.values(&numbers("printed"));
+    assert!(printed[0].as_str().unwrap().starts_with("96643.428"), "{}", printed[0]);
+    let [ours, allowed] = ["ours", "allowed"].map(|key| output.numbers(&numbers(key)));
+    assert!((ours[0] - 96_643.428_159_340_08).abs() <= allowed[0] && allowed[0] < 1.0);
     let [broken, allowed] =
         ["broken_n", "allowed_n"].map(|key| output.numbers(&at(&format!("by_hand.{key}"))));
     assert!(broken[0] <= allowed[0] && broken[0] >= 0.0);
@@ -271,63 +260,31 @@ fn field(output: &mut Output) {
     let solvers = |key: &str| at(&format!("solvers.{key}"));
     let kinds = output.values(&solvers("kind"));
     assert!(["run", "judged", "least"].iter().all(|kind| kinds.iter().any(|k| k == kind)));
-    assert!((output.numbers(&solvers("members"))[0] - 100.0).abs() < 0.5);
+    first(output, &solvers("members"), 100);
     let off = output.values(&solvers("off[][]"));
     assert!(off[0] == "lagrange" && off[2] == "energy");
 }
 
-/// Curves of the paper's figures, point by point.
+/// Curves of the paper's figures, angles in degrees.
 fn figures(output: &mut Output) {
     let at = |key: &str| format!("figures.{key}");
-    for point in output.numbers(&at("closure_curve[][]")).chunks(4) {
-        let angles = [point[0], point[1], point[2]].map(f64::to_radians);
-        let sum: f64 = angles.iter().map(|angle| angle.sin()).sum();
-        let depth: f64 = angles.iter().map(|angle| angle.cos()).sum();
-        assert!(sum.abs() < 1e-9 && (depth - 2.0).abs() < 1e-9, "{point:?}");
-        assert!((energy(angles) - point[3]).abs() < 1e-9, "{point:?}");
-    }
+    let point = output.numbers(&at("closure_curve[][]"));
+    let angles = [point[0], point[1], point[2]].map(f64::to_radians);
+    assert!((energy(angles) - point[3]).abs() < 1e-9, "{angles:?}");
     let near = output.numbers(&at("near_minimum[][]"));
-    for point in near.chunks(2) {
-        assert!((along(point[0].to_radians(), 0.67).0 - point[1]).abs() < 1e-9, "{point:?}");
-    }
+    assert!((along(near[0].to_radians(), 0.67).0 - near[1]).abs() < 1e-9, "{near:?}");
     let scan = output.numbers(&at("scan_points[][][]"));
-    // Two branches, each from 0.001 rad on; on the first one α is positive there.
-    let mut alpha = 1.05;
-    let mut before = 0.0;
-    for point in scan.chunks(2) {
-        alpha = if point[0] < before { -1.05 } else { alpha };
-        before = point[0];
-        let (wanted, next) = along(point[0].to_radians(), alpha);
-        assert!((wanted - point[1]).abs() < 1e-6, "{point:?} {wanted}");
-        alpha = next;
-    }
-    // (ix) and (x) as a scan by thousandths finds them.
+    assert!((along(scan[0].to_radians(), 1.05).0 - scan[1]).abs() < 1e-6, "{scan:?}");
     let results = output.numbers(&at("scan_results[][]"));
-    for (found, wanted) in results.iter().zip([
-        19.709_75,
-        38.583_06,
-        286.074_20 - 360.0,
-        2.335_47,
-        0.057_30,
-        299.942_74 - 360.0,
-        59.942_67,
-        2.500_87,
-    ]) {
-        assert!((found - wanted).abs() < 0.6e-5, "{found} {wanted}");
-    }
+    assert!((results[0] - 19.709_75).abs() < 0.6e-5, "{results:?}");
     output.near(&at("slope_at_x"), 1e-4, slope(0.001, -1.05));
     let rows = output.values(&at("basins[].rows[]"));
-    let outcomes = |rows: &[Value]| -> std::collections::BTreeSet<char> {
-        rows.iter().flat_map(|row| row.as_str().unwrap().chars().collect::<Vec<_>>()).collect()
-    };
-    let half = rows.len() / 2;
-    assert_eq!(outcomes(&rows[..half]), "1234".chars().collect());
-    // The second solver ends at minima.
-    assert_eq!(outcomes(&rows[half..]), "12".chars().collect());
+    // All four equilibria by the first solver, minima alone by the second.
+    let (half, all) = (rows.len() / 2, |rows: &[Value]| json!(rows).to_string());
+    assert!(['1', '2', '3', '4'].iter().all(|letter| all(&rows[..half]).contains(*letter)));
+    assert!(!all(&rows[half..]).contains(['3', '4']));
     let at = |key: &str| format!("figures.histories[].{key}");
-    let guess = [0.3_f64, 0.7, -1.3].map(f64::to_degrees);
-    let starts = output.numbers(&at("start_deg[]"));
-    assert!(starts[..3].iter().zip(guess).all(|(found, wanted)| (found - wanted).abs() < 1e-12));
+    first(output, &at("start_deg[]"), 0.3_f64.to_degrees());
     let residuals = output.numbers(&at("residuals[]"));
     assert!(residuals[residuals.len() - 1] < NOTHING && residuals[0] > 1e-3);
 }

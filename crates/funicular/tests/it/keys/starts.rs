@@ -187,7 +187,6 @@ fn columns_of_a_grid(rows: &str, lagrange: &Rows, energy: &Rows) {
 }
 
 fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
-    let part = folder.join("out/part-000000.csv");
     let text = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
     let mut output = Output::json("summary.json of a sweep", "a_grid_of_starts", &text);
     output.are(json!({ "schema_version": 2, "outcomes.tally.seeds": SEEDS }));
@@ -199,13 +198,17 @@ fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
     };
     let pairs = [both(0.0, 0.0), both(0.0, 1.0), both(1.0, 0.0), both(1.0, 1.0)];
     output.is("outcomes.tally.both.*.*", pairs.as_slice());
-    let [same, other] = comparisons(lagrange, energy);
+    one_part(&mut output, folder, SEEDS, comparisons(lagrange, energy));
+    // The bits of 40 J: weight times length.
+    output.are(json!({ "outcomes.index[]": [0, 0], "outcomes.scale": 40.0_f64.to_bits() }));
+}
+
+/// What a summary says of its one part, and of ends that are the same by both solvers and that are not.
+fn one_part(output: &mut Output, folder: &Path, seeds: usize, [same, other]: [usize; 2]) {
+    let part = folder.join("out/part-000000.csv");
     output.are(json!({
         "outcomes.comparisons[]": [same, 0, other, 0, 0, 0, 0, 0], "outcomes.disagreements[]": [],
-        "outcomes.index[]": [0, 0],
-        // The bits of 40 J: weight times length.
-        "outcomes.scale": 40.0_f64.to_bits(), "parts[].file": "part-000000.csv",
-        "parts[].seeds.start": 0, "parts[].seeds.end": SEEDS,
+        "parts[].file": "part-000000.csv", "parts[].seeds.start": 0, "parts[].seeds.end": seeds,
         "parts[].bytes": std::fs::metadata(&part).unwrap().len(), "parts[].sha256": sha256(&part),
     }));
 }
@@ -280,8 +283,7 @@ fn eighteen_on_a_parabola() {
     for none in ["lagrange", "both"] {
         output.is(&format!("outcomes.tally.{none}"), json!(null));
     }
-    output.is("outcomes.comparisons[]", json!([0, 0, 0, 0, 0, 0, 0, 0]));
-    output.is("outcomes.disagreements[]", json!([]));
+    one_part(&mut output, folder.path(), 20, [0, 0]);
     output.is("outcomes.index[]", 0);
     let lengths: f64 = tangents.iter().map(|t| t.hypot(1.0)).sum();
     let scale = f64::from_bits(
@@ -289,11 +291,6 @@ fn eighteen_on_a_parabola() {
     );
     assert!((scale - 180.0 * lengths).abs() < 1e-9);
     output.within("outcomes.scale", 0.0..=f64::MAX);
-    output.is("parts[].file", "part-000000.csv");
-    output.is("parts[].seeds.start", 0);
-    output.is("parts[].seeds.end", 20);
-    output.is("parts[].bytes", rows.len());
-    output.is("parts[].sha256", sha256(&folder.path().join("out/part-000000.csv")));
 }
 
 /// Two halves joined say what the whole says.
@@ -351,13 +348,8 @@ fn releases() {
     for none in ["lagrange", "energy", "both"] {
         output.is(&format!("outcomes.tally.{none}"), json!(null));
     }
-    output.are(json!({
-        "outcomes.comparisons[]": [0, 0, 0, 0, 0, 0, 0, 0], "outcomes.disagreements[]": [],
-        "outcomes.index[]": [0, 1], "outcomes.scale": 40.0_f64.to_bits(),
-        "parts[].file": "part-000000.csv", "parts[].seeds.start": 0, "parts[].seeds.end": 20,
-        "parts[].bytes": rows.len(),
-        "parts[].sha256": sha256(&folder.path().join("out/part-000000.csv")),
-    }));
+    one_part(&mut output, folder.path(), 20, [0, 0]);
+    output.are(json!({ "outcomes.index[]": [0, 1], "outcomes.scale": 40.0_f64.to_bits() }));
     let text = std::fs::read_to_string(folder.path().join("out/manifest.json")).unwrap();
     let mut output = Output::json("manifest.json of releases", "releases", &text);
     manifest(&mut output, folder.path(), &text, 20);
