@@ -119,11 +119,8 @@ impl Animation {
         let kept = kept(&self.system, [1, self.stored.len()], |_| false);
         let kept: Vec<_> = kept.into_iter().map(|k| &self.stored[k]).collect();
         let frames = kept.iter().map(|at| Some((&at.joints_m[..], &at.axial_n[..])));
-        let values = |of: &dyn Fn(&Stored) -> f64| Some(Short::all(kept.iter().map(|at| of(at))));
-        let curve = |label: &str, of: &dyn Fn(&Stored) -> f64| Curve {
-            label: label.to_owned(),
-            y: values(of),
-            ..Curve::default()
+        let curve = |label: &str, of: &dyn Fn(&Stored) -> f64| {
+            Curve::up(label, kept.iter().map(|at| of(at)))
         };
         let floor_j = kept.iter().map(|at| at.potential_j).fold(f64::INFINITY, f64::min);
         let energies = vec![

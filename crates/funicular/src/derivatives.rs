@@ -118,13 +118,13 @@ fn by_name<S: Serializer>(list: &[(String, Vector)], serializer: S) -> Result<S:
 pub enum DerivativesError {
     /// Occurs when the text names a number without derivatives.
     #[error(
-        "there are no derivatives of `{0}`: there are some of `joints.NAME.x` (y, z), a coordinate of a joint that \
-         moves, and of `bars.K.axial_n`, the axial force of bar K, from 1"
+        "there are no derivatives of `{0}`: they exist for `joints.NAME.x` (y, z), a coordinate of a joint that \
+         moves, and for `bars.K.axial_n`, the axial force of bar K, from 1"
     )]
     NoNumber(String),
     /// Occurs when derivatives by the parameter of this text are not known.
     #[error(
-        "there are no derivatives by `{0}`: there are some by `length_m`, `mass_kg`, \
+        "there are no derivatives by `{0}`: they exist for `length_m`, `mass_kg`, \
          `stiffness_n` and `prestress_n` of one bar (of a rope no `mass_kg`), `mass_kg` and `force_n` of a joint, \
          `at_m` of an anchor"
     )]
@@ -198,10 +198,9 @@ impl DerivativesAnswer {
                 std::array::from_fn(|k| columns[by][k][anchors[of]][i])
             }),
         };
-        let all = 0..anchors.len();
-        Ok(all
-            .clone()
-            .flat_map(|of| all.clone().map(move |by| (of, by)))
+        let all = || 0..anchors.len();
+        Ok(all()
+            .flat_map(|of| all().map(move |by| (of, by)))
             .map(|(of, by)| pair(of, by))
             .collect())
     }
@@ -216,15 +215,16 @@ impl DerivativesAnswer {
         let found = &self.solution.equilibrium;
         let mut by_joints = vec![[0.0; 3]; self.system.joints().len()];
         let mut by_axial = vec![0.0; self.system.members().len()];
-        let (value, unit) = match self.number(of)? {
-            Of::Place(joint, axis) => {
+        let (value, unit) = match Observable::parse(of, &self.system)? {
+            Observable::Place(joint, axis) if !self.system.joints()[joint].support.is_fixed() => {
                 by_joints[joint][axis] = 1.0;
                 (found.joints_m[joint][axis], "m")
             }
-            Of::Axial(member) => {
+            Observable::Axial(member, 0) => {
                 by_axial[member] = 1.0;
                 (found.axial_n[member], "N")
             }
+            _ => return Err(DerivativesError::NoNumber(of.to_owned()).into()),
         };
         let gradient = self.pullback(&by_joints, &by_axial)?;
         Ok(NumberGradient { of: of.to_owned(), value, derivatives: self.listed(&gradient, unit) })
@@ -313,37 +313,31 @@ impl DerivativesAnswer {
     /// A parameter as the solver has it, and what its derivatives are multiplied by.
     fn parameter(&self, text: &str) -> Result<(Number, net::Parameter, f64), Error> {
         let number = self.checked(text)?;
-        let joint = |name: &str| self.system.joint(name);
         let acts = self.system.permanent_factor();
         let is_rope = |member: usize| self.system.members()[member].rope.is_some();
-        let (parameter, scale) = match &branches::resolved(&self.system, &number) {
-            Number::Bar(Which::One(bar), BarField::Length) => {
-                (Some(net::Parameter::Length { member: bar - 1 }), 1.0)
-            }
-            Number::Bar(Which::One(bar), BarField::Mass) if !is_rope(bar - 1) => {
-                (Some(net::Parameter::Mass { member: bar - 1 }), acts)
-            }
-            Number::Bar(Which::One(bar), BarField::Prestress) => {
-                (Some(net::Parameter::Prestress { member: bar - 1 }), 1.0)
-            }
-            Number::Bar(Which::One(bar), BarField::Stiffness) => {
-                (Some(net::Parameter::Stiffness { member: bar - 1 }), 1.0)
-            }
-            Number::Joint(name, JointField::Place(axis)) => {
-                let of = |joint| net::Parameter::Anchor { joint, axis: *axis };
-                (joint(name).map(of), 1.0)
-            }
-            Number::Joint(name, JointField::Force(axis)) => {
-                let of = |joint| net::Parameter::Force { joint, axis: *axis };
-                (joint(name).map(of), acts)
-            }
-            Number::Joint(name, JointField::Mass) => {
-                let of = |joint| net::Parameter::Force { joint, axis: 2 };
-                (joint(name).map(of), -acts * self.system.gravity_m_s2())
-            }
-            _ => (None, 1.0),
+        let of_bar = |member: usize, field| match field {
+            BarField::Length => Some((net::Parameter::Length { member }, 1.0)),
+            BarField::Mass if !is_rope(member) => Some((net::Parameter::Mass { member }, acts)),
+            BarField::Prestress => Some((net::Parameter::Prestress { member }, 1.0)),
+            BarField::Stiffness => Some((net::Parameter::Stiffness { member }, 1.0)),
+            _ => None,
         };
-        let parameter = parameter.ok_or_else(|| DerivativesError::NoParameter(text.to_owned()))?;
+        let weight = -acts * self.system.gravity_m_s2();
+        let of_joint = |joint: usize, field| match field {
+            JointField::Place(axis) => Some((net::Parameter::Anchor { joint, axis }, 1.0)),
+            JointField::Force(axis) => Some((net::Parameter::Force { joint, axis }, acts)),
+            JointField::Mass => Some((net::Parameter::Force { joint, axis: 2 }, weight)),
+            JointField::Share => None,
+        };
+        let found = match branches::resolved(&self.system, &number) {
+            Number::Bar(Which::One(bar), field) => of_bar(bar - 1, field),
+            Number::Joint(name, field) => {
+                self.system.joint(&name).and_then(|joint| of_joint(joint, field))
+            }
+            _ => None,
+        };
+        let none = || DerivativesError::NoParameter(text.to_owned());
+        let (parameter, scale) = found.ok_or_else(none)?;
         Ok((number, parameter, scale))
     }
 
@@ -353,23 +347,6 @@ impl DerivativesAnswer {
         branches::check(&self.system, &parameter).map_err(|error| without_value(error, path))?;
         Ok(parameter.number)
     }
-
-    /// The number of the equilibrium that a path names.
-    fn number(&self, text: &str) -> Result<Of, Error> {
-        match Observable::parse(text, &self.system)? {
-            Observable::Axial(member, 0) => Ok(Of::Axial(member)),
-            Observable::Place(joint, axis) if !self.system.joints()[joint].support.is_fixed() => {
-                Ok(Of::Place(joint, axis))
-            }
-            _ => Err(DerivativesError::NoNumber(text.to_owned()).into()),
-        }
-    }
-}
-
-/// A number of an equilibrium: by joint and axis, or by member.
-enum Of {
-    Place(usize, usize),
-    Axial(usize),
 }
 
 impl NumberGradient {

@@ -48,7 +48,7 @@ pub enum Error {
     #[error("{0} is for chains between two anchors")]
     ChainsOnly(&'static str),
     /// Occurs when so many answers, fewer than two, are to be compared.
-    #[error("two answers can be compared, {0} cannot")]
+    #[error("a comparison needs at least two answers, got {0}")]
     NothingToCompare(usize),
     /// Occurs when every solver that was asked gave up: the answer has no equilibrium, and says
     /// why.
@@ -119,7 +119,7 @@ pub enum Error {
     },
     /// Occurs when the joint of this name, whose start is to vary, is none that can move.
     #[cfg(feature = "sweep")]
-    #[error("{0:?} is no joint that can move")]
+    #[error("{0:?} is not a joint that can move")]
     BasinsJoint(String),
     /// Occurs when the starting angle of the bars that are no axis, in degrees, is infinite or not a number.
     #[cfg(feature = "sweep")]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use model::system::{System, SystemEquilibrium};
+use numerics::vector::norm;
 use rayon::prelude::*;
 use serde::Serialize;
 use validate::UseCensus;
@@ -208,10 +209,7 @@ impl Answered<'_> {
     /// What a support bears, or the floor under a joint.
     fn support(&self, joint: usize) -> Option<SupportEnvelope> {
         let (held, has_floor) = (&self.system.joints()[joint], self.system.floor_m().is_some());
-        let most_n = self.largest(|_, found| {
-            let [x, y, z] = found.reactions_n[joint];
-            Some(x.hypot(y).hypot(z))
-        })?;
+        let most_n = self.largest(|_, found| Some(norm(found.reactions_n[joint])))?;
         let is_support = held.support.at_m().is_some() || has_floor && most_n.value > 0.0;
         is_support.then(|| SupportEnvelope { joint: held.name.to_string(), most_n })
     }

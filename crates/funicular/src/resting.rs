@@ -2,6 +2,7 @@
 
 use model::Vector;
 use model::system::System;
+use numerics::vector::{minus, norm, worse};
 
 /// Positions nearer to each other than this, in total lengths, are one: what is left of a motion
 /// when it counts as rest, with room for soft equilibria.
@@ -58,12 +59,8 @@ impl Resting {
                 }
             }
         }
-        let off = turned.iter().zip(there).map(|(a, b)| {
-            let square: f64 = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum();
-            square.sqrt()
-        });
+        let off = turned.iter().zip(there).map(|(a, b)| norm(minus(*a, *b)));
         // NaN is kept: it is no distance within which anything is the same.
-        let worse = |most: f64, off: f64| if most.is_nan() || off <= most { most } else { off };
         off.fold(0.0, worse) / self.total_length_m
     }
 }

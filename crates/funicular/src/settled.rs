@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use model::system::{Refusal, System, SystemEquilibrium};
 use model::{Rung, Vector};
+use numerics::vector::{minus, norm};
 use serde::Serialize;
 use validate::systems::SystemFailure;
 
@@ -122,10 +123,7 @@ impl Settled {
         let (system, first) = (answer.system(), answer.equilibria().first()?);
         let extremes = Extremes::of(system, first)?;
         let before_m = if before_m.is_empty() { &first.joints_m } else { before_m };
-        let moved = first.joints_m.iter().zip(before_m).map(|(a, b)| {
-            let [x, y, z] = [0, 1, 2].map(|k| a[k] - b[k]);
-            x.hypot(y).hypot(z)
-        });
+        let moved = first.joints_m.iter().zip(before_m).map(|(a, b)| norm(minus(*a, *b)));
         // Of joints that move as far, but for rounding, the first.
         let (moves, moves_m) = moved
             .enumerate()

@@ -39,40 +39,26 @@ pub enum SolversError {
 pub fn solvers(problem: &Problem) -> Result<Solvers, SolversError> {
     let lagrange = lagrange::batch::Batch::new(problem, lagrange::batch::BatchSettings::default())?;
     let energy = energy::batch::Batch::new(problem, energy::batch::BatchSettings::default())?;
-    Ok(Solvers::new(vec![Arc::new(Lagrange(lagrange)), Arc::new(Energy(energy))]))
+    let lagrange = Named("lagrange", Finds::Equilibria, lagrange, lagrange::batch::Batch::solve);
+    let energy = Named("energy", Finds::Minima, energy, energy::batch::Batch::minimise);
+    Ok(Solvers::new(vec![Arc::new(lagrange), Arc::new(energy)]))
 }
 
+/// A solver by its name, what it looks for, and how it is asked.
 #[derive(Debug)]
-struct Lagrange(lagrange::batch::Batch);
+struct Named<B>(&'static str, Finds, B, fn(&B, &[f64], &mut Ends));
 
-impl BatchSolver for Lagrange {
+impl<B: std::fmt::Debug + Send + Sync> BatchSolver for Named<B> {
     fn name(&self) -> &'static str {
-        "lagrange"
+        self.0
     }
 
     fn finds(&self) -> Finds {
-        Finds::Equilibria
+        self.1
     }
 
     fn solve(&self, starts_rad: &[f64], ends: &mut Ends) {
-        self.0.solve(starts_rad, ends);
-    }
-}
-
-#[derive(Debug)]
-struct Energy(energy::batch::Batch);
-
-impl BatchSolver for Energy {
-    fn name(&self) -> &'static str {
-        "energy"
-    }
-
-    fn finds(&self) -> Finds {
-        Finds::Minima
-    }
-
-    fn solve(&self, starts_rad: &[f64], ends: &mut Ends) {
-        self.0.minimise(starts_rad, ends);
+        (self.3)(&self.2, starts_rad, ends);
     }
 }
 

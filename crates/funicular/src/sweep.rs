@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use model::Problem as ChainProblem;
 use model::budget::Budget;
+use serde::Serialize;
 use sweep::{
     Axis, Manifest, Member, Run, RunSettings, SCHEMA_VERSION, Settings, Shard, Source, Summary,
     SystemText,
@@ -17,6 +18,7 @@ use crate::error::Error;
 use crate::followed::{Follow, Followed};
 use crate::problem::Problem;
 use crate::starts::{FromPlaces, solvers};
+use crate::text::tables::word;
 use crate::threads::{self, MOST_THREADS};
 
 /// Starts after which whoever watches is told: a fraction of a second.
@@ -52,8 +54,9 @@ pub struct Sweep {
     format: Format,
 }
 
-/// How starts are spread over the angles of the bars.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// How starts are spread over the angles of the bars; in the manifest of a folder by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum Spread {
     /// At random, every angle by itself.
@@ -65,19 +68,9 @@ pub enum Spread {
     Grid,
 }
 
-impl Spread {
-    /// As the manifest of a folder names it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Sobol => "sobol",
-            Self::Grid => "grid",
-        }
-    }
-}
-
-/// The form of the rows on disk.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// The form of the rows on disk; in the manifest of a folder by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 #[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum Format {
     /// Apache Parquet: small, with units.
@@ -85,16 +78,6 @@ pub enum Format {
     Parquet,
     /// Comma-separated values.
     Csv,
-}
-
-impl Format {
-    /// As the manifest of a folder names it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Parquet => "parquet",
-            Self::Csv => "csv",
-        }
-    }
 }
 
 impl Sweep {
@@ -199,7 +182,7 @@ impl Sweep {
         let sweep = sweep::Sweep::new(chain, settings, self.asked(chain)?)?;
         let of = SweptBy {
             system: SystemText::from(&*problem.system()),
-            source: self.spread.name(),
+            source: word(&self.spread),
             solvers: sweep.solvers().names().map(str::to_owned).collect(),
             angles: if self.angles { chain.chain().bars().len() } else { 0 },
             list: sweep.members().list(),
@@ -267,13 +250,13 @@ impl Sweep {
             system: of.system,
             seeds: self.seeds,
             seed_number: self.number,
-            source: of.source.to_owned(),
+            source: of.source,
             solvers: of.solvers,
             release: None,
             angles: (1..=of.angles).map(|bar| format!("theta_{bar}_rad")).collect(),
             equilibria: of.list.to_vec(),
             equilibria_complete: of.complete,
-            format: self.format.name().to_owned(),
+            format: word(&self.format),
             part_seeds: 0,
             shard: Shard::WHOLE,
             range: 0..0,
@@ -285,7 +268,7 @@ impl Sweep {
 /// What differs between starts over angles and starts in space.
 pub(crate) struct SweptBy<'a> {
     system: SystemText,
-    source: &'static str,
+    source: String,
     solvers: Vec<String>,
     /// Columns of starting values.
     angles: usize,
@@ -295,11 +278,8 @@ pub(crate) struct SweptBy<'a> {
 
 impl<'a> SweptBy<'a> {
     /// Of starts that are places of joints.
-    pub(crate) fn places<F: Follow>(
-        starts: &'a Followed<F>,
-        source: &'static str,
-        complete: bool,
-    ) -> Self {
+    pub(crate) fn places<F: Follow>(starts: &'a Followed<F>, source: &str, complete: bool) -> Self {
+        let source = source.to_owned();
         let (system, solvers, list) = (starts.text(), starts.names(), starts.list());
         Self { system, source, solvers, angles: 0, list, complete }
     }

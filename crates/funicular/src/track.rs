@@ -59,6 +59,13 @@ pub(crate) struct Curve {
     pub stable: Option<Vec<bool>>,
 }
 
+impl Curve {
+    /// Of what the track is over.
+    pub fn up(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { label: label.to_owned(), y: Some(Short::all(values)), ..Self::default() }
+    }
+}
+
 /// A number as short as it is; what is not finite is null.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Short(f64);

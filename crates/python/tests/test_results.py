@@ -87,7 +87,7 @@ def test_starts_of_a_system_are_places_of_its_joints():
     assert (b.outcome("energy") == 0).all() and len(b.equilibria) == 1
     assert lamp.basins(size=2, joint="lamp", plane="yz").labels[0] == "start of joint lamp: y / m"
     assert sum(lamp.sweep(20).counts("energy").values()) == 20
-    with pytest.raises(fn.Error, match="no joint that can move"):
+    with pytest.raises(fn.Error, match="not a joint that can move"):
         lamp.basins(size=2, joint="A")
     with pytest.raises(fn.Error, match="chains between two anchors"):
         lamp.sweep(20, spread="sobol")

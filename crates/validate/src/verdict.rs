@@ -4,10 +4,11 @@ use model::Disagreement;
 use serde::{Serialize, Serializer};
 
 /// Whether answers are one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// All differences are within their budgets, and all answers in balance.
+    #[default]
     Agreed,
     /// Something is not.
     Disagreed,

@@ -8,13 +8,15 @@ use model::system::System;
 use serde::Serialize;
 
 use super::answer::{CensusAnswer, Each, Found, Item};
+use crate::text::census::pattern;
 
 /// What is listed of each equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "program", derive(clap::ValueEnum))]
 pub enum List {
-    /// Signs, pull, energy and indices: everything else follows from the signs and the pull.
+    /// Signs, pull, energy and indices of each equilibrium, in a line
     Signs,
-    /// Everything.
+    /// Everything of each equilibrium
     Full,
 }
 
@@ -138,36 +140,28 @@ impl LargeCensusAnswer {
     pub fn expected_bytes(&self, list: List) -> f64 {
         /// As many as speak for all.
         const SAMPLE: usize = 16;
-        let (bytes, sample) = match list {
+        let (all, text) = match list {
             List::Signs => {
                 let sample: Vec<Line> = self.lines().take(SAMPLE).collect();
-                (serde_json::to_string(&sample).map_or(0, |text| text.len()), sample.len())
+                (self.proven.len(), serde_json::to_string(&sample))
             }
             List::Full => {
                 let sample: Vec<_> = self.items().take(SAMPLE).collect();
-                (serde_json::to_string_pretty(&sample).map_or(0, |text| text.len()), sample.len())
+                (self.proven.count_in_plane(), serde_json::to_string_pretty(&sample))
             }
         };
-        let all = match list {
-            List::Signs => self.proven.len(),
-            List::Full => self.proven.count_in_plane(),
-        };
-        bytes as f64 * all as f64 / sample.max(1) as f64
+        let bytes = text.map_or(0, |text| text.len());
+        bytes as f64 * all as f64 / all.clamp(1, SAMPLE) as f64
     }
 }
 
 impl Line {
     fn of(proven: &CompactCensus, number: usize) -> Self {
         let whole = proven.equilibrium(number);
-        let letter = |sign: &i8| match sign {
-            1 => 'T',
-            -1 => 'C',
-            _ => '.',
-        };
         Self {
             number: number + 1,
             energy_j: whole.energy_j.mid(),
-            pattern: whole.signs.iter().map(letter).collect(),
+            pattern: pattern(&whole.signs),
             pull_n: whole.pull_n,
             index_in_plane: whole.index_in_plane,
             index_in_space: whole.index_in_space(),

@@ -99,7 +99,7 @@ fn chain(
     let number: i64 = name.parse().map_err(|_| format!("a chain has no joint {name:?}"))?;
     if let Some(at_m) = at_m {
         let anchors = file.get_mut("anchors").and_then(Item::as_table_like_mut);
-        let anchors = anchors.ok_or("anchors is no table")?;
+        let anchors = anchors.ok_or("anchors is not a table")?;
         put(anchors, if number == 0 { "start_m" } else { "end_m" }, Some(place(at_m)));
     }
     match mass_kg {
@@ -136,7 +136,7 @@ fn append(file: &mut DocumentMut, key: &str, keys: Vec<(&str, Value)>) -> Result
             list.push(keys.into_iter().map(|(key, new)| (key, value(new))).collect::<Table>());
         }
         Item::Value(Value::Array(list)) => list.push(keys.into_iter().collect::<InlineTable>()),
-        _ => return Err(format!("{key} is no list")),
+        _ => return Err(format!("{key} is not a list")),
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ mod change;
 use energy::net::{Settings, minimise, minimise_near};
 use model::system::{Joint, Member, System};
 use model::{Bar, Vector};
+use numerics::vector::norm;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -202,10 +203,7 @@ impl Held {
         let longest = joints.iter().map(|joint| joint.name.text().len()).max().unwrap_or(0);
         joints.push(Joint::anchor("h".repeat(longest + 1), self.at_m));
         let length_m = PART * system.total_length_m();
-        let forces_n = system.joints().iter().map(|joint| {
-            let [x, y, z] = joint.force_n;
-            x.hypot(y).hypot(z)
-        });
+        let forces_n = system.joints().iter().map(|joint| norm(joint.force_n));
         let weight_n = system.total_mass_kg() * system.gravity_m_s2() + forces_n.sum::<f64>();
         let weight_n = if weight_n > 0.0 { weight_n } else { 1.0 };
         let body = Bar::homogeneous(length_m, 0.0).map_err(|error| said(&error))?;

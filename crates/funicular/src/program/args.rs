@@ -101,9 +101,9 @@ pub enum Command {
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
-    /// Known are bars, cables and struts between joints without friction, rigid or with a
+    /// Supported are bars, cables and struts between joints without friction, rigid or with a
     /// stiffness, in space, at rest under their weight, masses at joints and constant forces, above
-    /// a flat floor without friction; not known are friction, other contact, bending and damping. A
+    /// a flat floor without friction; not supported are friction, other contact, bending and damping. A
     /// file is a chain between two anchors, or joints by name with members between them
     /// (`funicular cases footbridge` prints one).
     ///

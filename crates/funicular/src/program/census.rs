@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use census::net::{LoadedRow, bridle_seconds};
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
+use funicular::census::List;
 use funicular::picture::Seen;
 use funicular::{CensusAnswer, Error};
 use model::NoCensus;
@@ -57,7 +58,7 @@ pub struct Census {
     /// in a line (all else follows from signs and pull), or everything. If not given, everything if
     /// that is at most 100 MB of JSON
     #[arg(long, value_name = "WHAT", value_enum)]
-    pub list: Option<list::What>,
+    pub list: Option<List>,
     /// Refuse, before the census of a chain of more than 12 bars, lists that would probably be larger
     #[arg(long, value_name = "SIZE", value_parser = memory::parse, default_value = "4GB")]
     pub max_output: u64,
@@ -97,7 +98,7 @@ pub fn run(arguments: &Census) -> Result<Exit> {
         tell_time("the census", estimate.seconds);
         progress.say(&cost(estimate));
     }
-    if long.is_some() || (row.is_some() && arguments.list == Some(list::What::Signs)) {
+    if long.is_some() || (row.is_some() && arguments.list == Some(List::Signs)) {
         return list::of_many(arguments, settings, &problem, progress);
     }
     let answer = funicular::Census::new()
@@ -149,50 +150,38 @@ fn how_far(now: census::Progress) -> String {
 
 /// Why there is no census, and how to go on.
 fn refuse(error: Error) -> Failure {
-    if let Error::SystemCensus(NoCensus::Motions { motions, .. }, _) = error {
-        let help = if motions <= Settings::MAX_MOTIONS {
-            format!(
-                "--max-motions {motions} tries it all the same. A net of three motions takes seconds, each motion more \
-                 many times as long; what is not decided when the budget is spent is told. `funicular solve` finds \
-                 equilibria of nets of any size"
-            )
-        } else {
+    const MOST: usize = Settings::MAX_BARS;
+    let bridle = |bars| rough_time(bridle_seconds(bars));
+    let help = match error {
+        Error::SystemCensus(NoCensus::Motions { motions, .. }, _) if motions <= Settings::MAX_MOTIONS => format!(
+            "--max-motions {motions} tries it all the same. A net of three motions takes seconds, each motion more \
+             many times as long; what is undecided when the budget is spent is reported. `funicular solve` finds \
+             equilibria of nets of any size"
+        ),
+        Error::SystemCensus(NoCensus::Motions { .. }, _) => {
             "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()
-        };
-        return Failure::bad_input(Diagnostic::from(error).with_help(help));
-    }
-    if let Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) = error {
-        let time = rough_time(bridle_seconds(bars));
-        let help = if bars <= Settings::MAX_BARS {
-            format!(
-                "--max-bars {bars} takes it all the same, in about {time} of a processor (good to a factor of ten: the \
-                 cost doubles with each bar, and is higher where all strands are long)"
-            )
-        } else {
-            format!(
-                "no census goes beyond {} bars, and this one would take about {time} of a processor. `funicular solve` \
-                 finds equilibria of nets of any size; nobody knows how many there are",
-                Settings::MAX_BARS
-            )
-        };
-        return Failure::bad_input(Diagnostic::from(error).with_help(help));
-    }
-    let Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) = error else {
-        return error.into();
-    };
-    let help = if bars <= Settings::MAX_BARS {
-        format!(
+        }
+        Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) if bars <= MOST => format!(
+            "--max-bars {bars} takes it all the same, in about {} of a processor (good to a factor of ten: the \
+             cost doubles with each bar, and is higher where all strands are long)",
+            bridle(bars)
+        ),
+        Error::SystemCensus(NoCensus::Bridle { bars, .. }, _) => format!(
+            "no census goes beyond {MOST} bars, and this one would take about {} of a processor. `funicular solve` \
+             finds equilibria of nets of any size; nobody knows how many there are",
+            bridle(bars)
+        ),
+        Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) if bars <= MOST => format!(
             "--max-bars {bars} takes it all the same, in about {} of one processor (the search is good to a \
              factor of two, from a sample of the patterns; a busy machine takes several times that)",
             rough_time(estimate_s)
-        )
-    } else {
-        format!(
-            "no census goes beyond {} bars, --max-bars or not: the cost doubles with each bar, and this one would \
+        ),
+        Error::Census(CensusError::TooManyBars { estimate_s, .. }) => format!(
+            "no census goes beyond {MOST} bars, --max-bars or not: the cost doubles with each bar, and this one would \
              take about {}. `funicular solve` finds the hanging equilibrium of a chain of any length",
-            Settings::MAX_BARS,
             rough_time(estimate_s)
-        )
+        ),
+        _ => return error.into(),
     };
     Failure::bad_input(Diagnostic::from(error).with_help(help))
 }

@@ -8,17 +8,19 @@ use validate::systems::SystemFailure;
 use crate::diagnostics::Diagnostic;
 
 /// A way to end, with its exit code (0 agreed, 1 a check failed, 2 bad input, 3 undecided).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+///
+/// From the best to the worst.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     /// Done, and every check agreed.
     #[default]
     Done,
-    /// A check failed: the solvers disagree, a claim came out otherwise than expected.
-    CheckFailed,
-    /// Bad input or usage.
-    BadInput,
     /// Not converged, or not decided.
     Undecided,
+    /// Bad input or usage.
+    BadInput,
+    /// A check failed: the solvers disagree, a claim came out otherwise than expected.
+    CheckFailed,
     /// Interrupted by Ctrl-C or SIGTERM.
     Interrupted,
 }
@@ -47,14 +49,7 @@ impl Exit {
     /// Of two ways to end the worse: a failed check before bad input, and that before what is
     /// undecided.
     pub fn worse(self, other: Self) -> Self {
-        let rank = |exit| match exit {
-            Self::Done => 0,
-            Self::Undecided => 1,
-            Self::BadInput => 2,
-            Self::CheckFailed => 3,
-            Self::Interrupted => 4,
-        };
-        if rank(other) > rank(self) { other } else { self }
+        self.max(other)
     }
 }
 

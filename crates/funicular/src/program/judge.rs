@@ -38,7 +38,7 @@ pub struct Judge {
     #[arg(long, value_name = "FILE")]
     pub edges: Option<PathBuf>,
     /// The answer: JSON of `solve --json`, CSV (joint,x_m,y_m,z_m; anchors may be left out) or VTU, -
-    /// for standard input. Judged are places, `axial_n` and, but in VTU, reactions; what follows from them is not read.
+    /// for standard input. Places, `axial_n` and (except in VTU) reactions are judged; what follows from them is not read.
     /// Nets of force densities have one in their file
     #[arg(long, value_name = "FILE")]
     pub answer: Option<PathBuf>,

@@ -43,6 +43,7 @@ use clap::CommandFactory;
 use funicular::text::markdown::page;
 use funicular::text::{printable, tables};
 use model::budget::limit_work;
+use model::system_file::limit_memory;
 
 use crate::args::{Cli, Command};
 use crate::exit::Exit;
@@ -52,10 +53,8 @@ fn main() -> std::process::ExitCode {
         Ok(cli) => cli,
         Err(exit) => return exit.into(),
     };
-    memory::install(cli.max_memory);
-    if let Some(numbers) = cli.max_work {
-        limit_work(numbers);
-    }
+    cli.max_memory.into_iter().for_each(limit_memory);
+    cli.max_work.into_iter().for_each(limit_work);
     let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),

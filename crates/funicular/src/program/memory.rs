@@ -2,8 +2,6 @@
 
 use std::num::NonZeroU64;
 
-use model::system_file::limit_memory;
-
 use crate::sweep::count;
 
 /// Units of `--max-memory`, bytes.
@@ -23,13 +21,6 @@ pub fn parse(text: &str) -> Result<u64, String> {
 /// What `--max-work` takes: a whole number, with or without an exponent.
 pub fn work(text: &str) -> Result<NonZeroU64, String> {
     count(text).map(|number| NonZeroU64::new(number).unwrap_or(NonZeroU64::MIN))
-}
-
-/// Hold the program to so much.
-pub fn install(bytes: Option<u64>) {
-    if let Some(bytes) = bytes {
-        limit_memory(bytes);
-    }
 }
 
 #[cfg(test)]

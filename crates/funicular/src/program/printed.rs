@@ -19,7 +19,7 @@ pub struct Printed {
     /// them are comments); json is --json
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t, conflicts_with = "json")]
     pub format: Format,
-    /// Units of tables and of what `solve` says below them, not of other sentences, JSON and files: `kN,mm`. Known are
+    /// Units of tables and of what `solve` says below them, not of other sentences, JSON and files: `kN,mm`. There are
     /// N, kN, MN, kgf, lbf; m, mm, cm, km, ft, in; J, kJ, MJ; kg, g, t, lb
     #[arg(long, value_name = "UNITS", value_delimiter = ',', value_parser = unit)]
     pub units: Vec<Unit>,

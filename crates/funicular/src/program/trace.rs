@@ -63,7 +63,7 @@ Located are limit points (the load turns), branch points, cables and struts that
 that meet the floor; with --branches the paths that branch off are followed. --of names what is shown, as in `funicular study`: joints.P.z, bars.3.axial_n
 
 All equilibria of a chain (a row of rigid bars between two anchors, under upright loads), over values (any number
-of the system file that leaves it one, a list or a range with points):
+of the system file that keeps it a chain, a list or a range with points):
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
   --vary gravity_m_s2=1.62,9.80665          --vary 'bars.*.length_m=0.5..2:31'
   --vary joints.lamp.mass_kg=1..5:9         --vary loads=0.5,1

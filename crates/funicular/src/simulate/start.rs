@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use model::Vector;
 use model::system::{Kind, Support, System};
+use numerics::vector::{minus, norm};
 
 use super::error::{ROUGH, SimulateError};
 use crate::equilibria;
@@ -89,17 +90,13 @@ fn pulled_shut(system: &System, given_m: &[Vector]) -> Result<Vec<Vector>, Error
     let moved = at.iter().zip(given_m).zip(system.joints());
     // Places of supports are those of the file, whatever is given.
     let moved = moved.filter(|(_, joint)| !joint.support.is_fixed());
-    let moved = moved.map(|((a, b), joint)| (distance(*a, *b) / system.total_length_m(), joint));
+    let moved = moved.map(|((a, b), joint)| (norm(minus(*a, *b)) / system.total_length_m(), joint));
     match moved.max_by(|a, b| a.0.total_cmp(&b.0)) {
         Some((off, joint)) if off.is_nan() || off > ROUGH => {
             Err(SimulateError::Apart { joint: joint.name.to_string(), off }.into())
         }
         _ => Ok(at),
     }
-}
-
-fn distance(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Places of the joints with the members at these angles from the descending vertical, one member
@@ -143,7 +140,7 @@ fn at_angles(system: &System, angles_deg: &[f64]) -> Result<Vec<Vector>, Simulat
     let at: Vec<Vector> = at.into_iter().flatten().collect();
     for (k, (member, along)) in members.iter().zip(&along).enumerate() {
         let ends = plus(at[member.from], 1.0, *along);
-        let off = distance(ends, at[member.to]) / system.total_length_m();
+        let off = norm(minus(ends, at[member.to])) / system.total_length_m();
         let is_rigid = member.kind == Kind::Bar && member.stiffness_n.is_none();
         if is_rigid && off > ROUGH {
             let joint = joints[member.to].name.to_string();

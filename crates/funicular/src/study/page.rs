@@ -72,11 +72,7 @@ fn charts(over: &str, points: &[&StudyPoint]) -> Vec<Chart> {
         let value = |at: &&StudyPoint| at.shape.as_ref().ok().and_then(value).unwrap_or(f64::NAN);
         let values: Vec<f64> = points.iter().map(value).collect();
         let known = values.iter().any(|x| x.is_finite());
-        known.then(|| Curve {
-            label: label.to_owned(),
-            y: Some(Short::all(values)),
-            ..Curve::default()
-        })
+        known.then(|| Curve::up(label, values))
     };
     let forces = [
         curve("largest tension / N", &|shape| shape.extremes.tension_n.map(|(_, force)| force)),

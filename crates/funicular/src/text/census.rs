@@ -178,7 +178,7 @@ fn energies(answer: &CensusAnswer) -> String {
 }
 
 /// `TTC`; bars without force are dots.
-pub(super) fn pattern(signs: &[i8]) -> String {
+pub(crate) fn pattern(signs: &[i8]) -> String {
     let letter = |sign: &i8| match sign {
         1 => 'T',
         -1 => 'C',

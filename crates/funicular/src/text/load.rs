@@ -143,20 +143,14 @@ pub(crate) fn happens(event: &LoadEvent) -> String {
         Kind::Limit => "limit point".to_owned(),
         Kind::Branch => "branch point".to_owned(),
         Kind::Kink => {
-            let mut all = vec![];
-            if !event.slack.is_empty() {
-                all.push(format!("{} slack", bars(&event.slack)));
-            }
-            if !event.taut.is_empty() {
-                all.push(format!("{} taut", bars(&event.taut)));
-            }
-            if !event.lands.is_empty() {
-                all.push(format!("{} on the floor", listed(&event.lands)));
-            }
-            if !event.leaves.is_empty() {
-                all.push(format!("{} off the floor", listed(&event.leaves)));
-            }
-            all.join(", ")
+            let of_bars = [(&event.slack, "slack"), (&event.taut, "taut")];
+            let of_bars = of_bars.into_iter().filter(|(all, _)| !all.is_empty());
+            let joints = [(&event.lands, "on"), (&event.leaves, "off")];
+            let joints = joints.into_iter().filter(|(all, _)| !all.is_empty());
+            let joints =
+                joints.map(|(all, where_to)| format!("{} {where_to} the floor", listed(all)));
+            let all = of_bars.map(|(all, how)| format!("{} {how}", bars(all))).chain(joints);
+            all.collect::<Vec<_>>().join(", ")
         }
     }
 }

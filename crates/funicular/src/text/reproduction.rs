@@ -79,7 +79,7 @@ fn equilibria(r: &Reproduction) -> String {
     }
     numbers_from(&mut table, 1);
     format!(
-        "{table}\n(index: in how many directions the energy falls, in the plane and in space; of 0 it is stable. \
+        "{table}\n(index: in how many directions the energy falls, in the plane and in space; with 0 it is stable. \
          proved: the highest rung of evidence)"
     )
 }

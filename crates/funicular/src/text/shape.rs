@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use model::{AxialForce, ForceRange, Vector};
+use numerics::vector::norm;
 
 use super::printed::{numbers, quantity};
 use super::tables::{Table, numbers_from, short, table, wrapped};
@@ -195,13 +196,13 @@ impl Shape<'_> {
         let mut shown: Vec<_> = self.reactions_n.iter().collect();
         let hidden = shown.len() > PRINTED;
         if hidden {
-            shown.sort_by(|(_, a), (_, b)| size(*b).total_cmp(&size(*a)));
+            shown.sort_by(|(_, a), (_, b)| norm(*b).total_cmp(&norm(*a)));
             shown.truncate(EXTREMES);
         }
         for (joint, force) in shown {
             let mut row = vec![(self.name)(*joint)];
             row.extend(force.map(|x| forces.short(x)));
-            row.push(forces.short(size(*force)));
+            row.push(forces.short(norm(*force)));
             table.add_row(row);
         }
         numbers_from(&mut table, 1);
@@ -283,8 +284,4 @@ pub fn percent(part: f64) -> String {
 /// A table under its title.
 fn titled(title: &str, table: &Table) -> String {
     format!("{}\n{table}\n\n", wrapped(title, 0))
-}
-
-fn size(force: Vector) -> f64 {
-    force[0].hypot(force[1]).hypot(force[2])
 }

@@ -57,7 +57,7 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     let listed = summary.equilibria(manifest).count();
     if let Some(release) = &manifest.release {
         let said = format!(
-            "let go at rest, followed for at most {} s in steps of {} s; damping {} 1/s, friction {} N m s",
+            "released at rest, followed for at most {} s in steps of {} s; damping {} 1/s, friction {} N m s",
             short(release.time_s),
             short(release.step_s),
             short(release.damping_1_s),

@@ -145,22 +145,17 @@ fn what_is_proved(
 }
 
 fn event_described(system: &System, family: &Family<'_>, event: &Event<Side>) -> LoadEvent {
-    let bars = |active: bool| {
-        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
-        let bar = |side: &(Side, bool)| match side.0 {
-            Side::Member(member) => Some(member + 1),
-            Side::Joint(_) => None,
-        };
-        sides.filter_map(bar).collect()
+    let sides = |active: bool| event.sides.iter().filter(move |(_, now)| *now == active);
+    let bar = |(side, _): &(Side, bool)| match side {
+        Side::Member(member) => Some(member + 1),
+        Side::Joint(_) => None,
     };
-    let joints = |active: bool| {
-        let sides = event.sides.iter().filter(move |(_, now)| *now == active);
-        let joint = |side: &(Side, bool)| match side.0 {
-            Side::Joint(joint) => Some(system.joints()[joint].name.to_string()),
-            Side::Member(_) => None,
-        };
-        sides.filter_map(joint).collect()
+    let bars = |active| sides(active).filter_map(bar).collect();
+    let joint = |(side, _): &(Side, bool)| match side {
+        Side::Joint(joint) => Some(system.joints()[*joint].name.to_string()),
+        Side::Member(_) => None,
     };
+    let joints = |active| sides(active).filter_map(joint).collect();
     let places = event.mode.get(..3 * system.joints().len()).unwrap_or_default();
     LoadEvent {
         kind: event.kind,

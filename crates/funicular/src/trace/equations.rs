@@ -6,6 +6,7 @@ use lagrange::net::{Equations, Side};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
+use numerics::vector::{minus, norm};
 use validate::systems::Near;
 
 use super::enclosed::loads_alone;
@@ -168,10 +169,9 @@ impl<'a> Family<'a> {
 pub(crate) fn shortest_span(system: &System, joints_m: &[Vector]) -> Option<(f64, [usize; 2])> {
     let ropes = system.members().iter().filter(|member| !member.via().is_empty());
     let parts = ropes.flat_map(|rope| {
-        rope.spans().map(|[a, b]| {
-            let squares = joints_m[a].iter().zip(&joints_m[b]).map(|(a, b)| (a - b).powi(2));
-            (squares.sum::<f64>().sqrt() / rope.body.length_m(), [a, b])
-        })
+        let part =
+            move |a: usize, b: usize| norm(minus(joints_m[a], joints_m[b])) / rope.body.length_m();
+        rope.spans().map(move |[a, b]| (part(a, b), [a, b]))
     });
     parts.min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -289,20 +289,14 @@ pub(super) fn trace(
     for Followed { mut family, linear_buckling, everywhere, paths: found } in all {
         let earlier = paths.len();
         for one in found {
-            let path = described(&mut family, variation, &of, &one)?;
+            let mut path = described(&mut family, variation, &of, &one)?;
             let main = one.parent.is_none();
             let at = |of: Parent| BranchesFrom { path: earlier + of.path, event: of.event };
-            let joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };
-            let linear_buckling = linear_buckling.filter(|_| main);
-            let branches_from = one.parent.map(at);
-            let equilibria_at_every_load = everywhere.filter(|_| main);
-            paths.push(LoadPath {
-                branches_from,
-                joins,
-                linear_buckling,
-                equilibria_at_every_load,
-                ..path
-            });
+            path.joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };
+            path.branches_from = one.parent.map(at);
+            path.linear_buckling = linear_buckling.filter(|_| main);
+            path.equilibria_at_every_load = everywhere.filter(|_| main);
+            paths.push(path);
         }
     }
     let numbers = variation.numbers();

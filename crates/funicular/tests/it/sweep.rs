@@ -386,5 +386,5 @@ fn basins_of_a_system_are_over_the_place_of_a_joint() {
         &["start of joint top: x / m", "start of joint top: z / m", "1: -706.0788 J, minimum"],
     );
     let refused = funicular(&["basins", "--case", "tripod", "--joint", "A", "--out", path]);
-    fails(&refused, 2, "no joint that can move");
+    fails(&refused, 2, "not a joint that can move");
 }

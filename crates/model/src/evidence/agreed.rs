@@ -206,7 +206,7 @@ pub enum Quantity {
 }
 
 /// A place in a system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
     /// A member, counted from 1.
@@ -214,6 +214,7 @@ pub enum Place {
     /// A joint, counted from 0; in JSON from 1, as members are.
     Joint(#[serde(with = "from_one")] usize),
     /// The system as a whole.
+    #[default]
     Whole,
 }
 

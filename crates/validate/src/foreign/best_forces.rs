@@ -1,6 +1,6 @@
 //! The forces that leave the joints of given positions least out of balance.
 
-use model::system::{Kind, System};
+use model::system::{Kind, Member, System};
 use model::{Jam, Vector};
 use serde::Serialize;
 
@@ -48,6 +48,23 @@ pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64
     kind.borne(stiffness_n * ((distance_m - length_m) / length_m))
 }
 
+/// The least and the largest force of a member by its law at lengths that the bounds allow, N: none where it is slack, that of
+/// its elongation where it is elastic.
+pub(super) fn limits_n(member: &Member, joints_m: &[Vector], bounds: &Bounds) -> [f64; 2] {
+    let (distance_m, length_m) = (spans::length_m(member, joints_m), member.body.length_m());
+    let reach_m = bounds.distance_m(member);
+    match (member.stiffness_n, member.kind) {
+        (Some(stiffness_n), kind) => {
+            [-reach_m, reach_m].map(|off_m| law_n(kind, stiffness_n, length_m, distance_m + off_m))
+        }
+        (None, Kind::Bar) => [f64::NEG_INFINITY, f64::INFINITY],
+        (None, Kind::Cable) if distance_m < length_m - reach_m => [0.0; 2],
+        (None, Kind::Strut) if distance_m > length_m + reach_m => [0.0; 2],
+        (None, Kind::Cable) => [0.0, f64::INFINITY],
+        (None, Kind::Strut) => [f64::NEG_INFINITY, 0.0],
+    }
+}
+
 /// A span whose joints meet: member, number of the span in it, and the columns of its pull.
 type MetSpan = (usize, usize, [Column; 3]);
 
@@ -85,24 +102,7 @@ pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> Bes
         .members()
         .iter()
         .map(|member| {
-            let (distance_m, length_m) =
-                (spans::length_m(member, joints_m), member.body.length_m());
-            let reach_m = bounds.distance_m(member);
-            let slack = match member.kind {
-                Kind::Bar => false,
-                Kind::Cable => distance_m < length_m - reach_m,
-                Kind::Strut => distance_m > length_m + reach_m,
-            };
-            let (lower, upper) = match (member.stiffness_n, member.kind) {
-                (Some(stiffness_n), kind) => (
-                    law_n(kind, stiffness_n, length_m, distance_m - reach_m),
-                    law_n(kind, stiffness_n, length_m, distance_m + reach_m),
-                ),
-                _ if slack => (0.0, 0.0),
-                (None, Kind::Bar) => (f64::NEG_INFINITY, f64::INFINITY),
-                (None, Kind::Cable) => (0.0, f64::INFINITY),
-                (None, Kind::Strut) => (f64::NEG_INFINITY, 0.0),
-            };
+            let [lower, upper] = limits_n(member, joints_m, bounds);
             let long = member.spans().filter(|span| !bounds.meet(member, *span, joints_m));
             let gradient = spans::gradient(long, joints_m).into_iter();
             let pulls = gradient.map(|(joint, longer)| (joint, times(-1.0, longer))).collect();

@@ -38,11 +38,12 @@ pub struct NearestEquilibrium {
 }
 
 /// What both solvers say about the surroundings of an answer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Nearest {
     /// One for each solver that found one, the nearest first.
     pub equilibria: Vec<NearestEquilibrium>,
     /// Why the others found none.
+    #[serde(serialize_with = "reasons")]
     pub failures: Vec<SystemFailure>,
     /// Whether no solver found its way from the answer's positions, and they began without a guess.
     pub without_guess: bool,
@@ -190,30 +191,15 @@ fn about<S: Serializer>(equilibrium: &SystemEquilibrium, serializer: S) -> Resul
     Keys { solver, index_in_space: stability.index_in_space, evidence }.serialize(serializer)
 }
 
-impl Serialize for Nearest {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Keys<'a> {
-            equilibria: &'a [NearestEquilibrium],
-            failures: Vec<Failure>,
-            without_guess: bool,
-        }
-        #[derive(Serialize)]
-        struct Failure {
-            solver: SolverName,
-            because: String,
-        }
-        let failure = |failure: &SystemFailure| Failure {
-            solver: failure.solver(),
-            because: failure.to_string(),
-        };
-        Keys {
-            equilibria: &self.equilibria,
-            failures: self.failures.iter().map(failure).collect(),
-            without_guess: self.without_guess,
-        }
-        .serialize(serializer)
+/// Solvers without an answer, each with its reason in words.
+fn reasons<S: Serializer>(failures: &[SystemFailure], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Failure {
+        solver: SolverName,
+        because: String,
     }
+    let one = |of: &SystemFailure| Failure { solver: of.solver(), because: of.to_string() };
+    serializer.collect_seq(failures.iter().map(one))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Jam, Place, Vector};
 use serde::Serialize;
 
-use super::best_forces::{BestForces, law_n};
+use super::best_forces::{BestForces, law_n, limits_n};
 use super::bounds::Bounds;
 use super::given::ForeignAnswer;
 use crate::systems::spans;
@@ -182,8 +182,8 @@ impl Held<'_> {
                     ([0.0; 3], at_most_n.map_or(force.abs(), |_| 0.0))
                 } else {
                     let pull = times(*force, spans::unit([a, b], joints_m));
-                    let most_n =
-                        at_most_n.map_or(force.abs(), |n| n.min(most_n(member, joints_m, bounds)));
+                    let [a_n, b_n] = limits_n(member, joints_m, bounds).map(f64::abs);
+                    let most_n = at_most_n.map_or(force.abs(), |n| n.min(a_n.max(b_n)));
                     (pull, most_n * bounds.turn(distance_m))
                 };
                 let explained = bounds.force_n + open_n;
@@ -346,22 +346,6 @@ fn law(
     if slack_m > reach_m && wrong_n <= bounds.force_n {
         let law = Law::Slack { force_n, length_m, distance_m };
         found.note(place, law, force_n.abs(), bounds.force_n);
-    }
-}
-
-/// What a member may bear by its law at lengths that the bounds allow: nothing where it is slack, what its elongation tells
-/// where it is elastic.
-fn most_n(member: &Member, joints_m: &[Vector], bounds: &Bounds) -> f64 {
-    let (length_m, distance_m) = (member.body.length_m(), spans::length_m(member, joints_m));
-    let reach_m = bounds.distance_m(member);
-    match (member.stiffness_n, member.kind) {
-        (Some(stiffness_n), kind) => {
-            let borne_n = |off_m: f64| law_n(kind, stiffness_n, length_m, distance_m + off_m).abs();
-            borne_n(-reach_m).max(borne_n(reach_m))
-        }
-        (None, Kind::Cable) if distance_m < length_m - reach_m => 0.0,
-        (None, Kind::Strut) if distance_m > length_m + reach_m => 0.0,
-        _ => f64::INFINITY,
     }
 }
 

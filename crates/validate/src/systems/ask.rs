@@ -531,9 +531,7 @@ fn judged(
                 Some(failure) => {
                     judge_without(system, answer, failure.solver(), NoAnswer::Refused);
                 }
-                None => {
-                    judge_alone(system, answer);
-                }
+                None => judge_alone(system, answer),
             }
             None
         }

@@ -14,6 +14,7 @@
 
 use model::system::{Joint, Member, Support, System};
 
+use super::spans::connected;
 use super::verticals::firsts;
 
 /// Level distance of supports on one vertical over the length of all members.
@@ -250,17 +251,7 @@ impl Bodies {
             if seen[*start] {
                 continue;
             }
-            seen[*start] = true;
-            let (mut part, mut next) = (vec![*start], 0);
-            while let Some(joint) = part.get(next) {
-                next += 1;
-                for other in &self.neighbours[*joint] {
-                    if !seen[*other] {
-                        seen[*other] = true;
-                        part.push(*other);
-                    }
-                }
-            }
+            let part = connected(*start, &mut seen, |joint| self.neighbours[joint].iter().copied());
             if part.iter().all(|joint| !self.fixed[*joint]) {
                 parts.push(part);
             }

@@ -23,7 +23,7 @@ use numerics::vector::{minus, norm, worse};
 
 /// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
 /// differences of any two.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct SystemAgreement {
     /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn
     /// freely about a vertical, through an anchor or another joint, are turned onto each other
@@ -165,18 +165,16 @@ fn convention(system: &System, solver: &SolverName) -> ForceChoice {
 }
 
 /// Judge one answer that has no second to compare with.
-pub fn judge_alone(system: &System, answer: &mut SystemEquilibrium) -> SystemStatics {
+pub fn judge_alone(system: &System, answer: &mut SystemEquilibrium) {
     let (tolerances, alone) = (Tolerances::project(), std::slice::from_ref(&*answer));
     let found = Judgement::new(system, alone, &tolerances).run(alone).agreement;
-    let statics = judge(system, answer);
-    let excesses = found.disagreement.excesses;
+    let (statics, excesses) = (found.statics[0].largest(), found.disagreement.excesses);
     answer.evidence.ladder.agreed = Status::Open(if excesses.is_empty() {
-        Reason::OneSolverOnly { solver: answer.solver.clone(), statics: statics.largest() }
+        Reason::OneSolverOnly { solver: answer.solver.clone(), statics }
     } else {
         Reason::JudgeRefuses { excesses }
     });
     certify_rung(system, answer);
-    statics
 }
 
 /// Judge one answer where another solver was asked and has none.
@@ -185,15 +183,14 @@ pub fn judge_without(
     answer: &mut SystemEquilibrium,
     other: SolverName,
     because: NoAnswer,
-) -> SystemStatics {
-    let judged = judge_alone(system, answer);
+) {
+    judge_alone(system, answer);
     // What the judge refuses stays refused.
     if let Some(Reason::OneSolverOnly { statics, .. }) = answer.evidence.ladder.agreed.reason() {
         let (solver, statics) = (other, *statics);
         let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
         answer.evidence.ladder.agreed = Status::Open(reason);
     }
-    judged
 }
 
 /// The rungs above `agreed`.
@@ -250,19 +247,7 @@ impl<'a> Judgement<'a> {
             family: None,
             shape_only: false,
             forces_found: ForcesFound::default(),
-            agreement: SystemAgreement {
-                joints_m: 0.0,
-                forces_n: 0.0,
-                energy_j: 0.0,
-                free_joints: 0,
-                turned_parts: 0,
-                sliding_parts: 0,
-                undetermined: vec![],
-                self_stresses: None,
-                statics: Vec::new(),
-                verdict: Verdict::Agreed,
-                disagreement: Disagreement::default(),
-            },
+            agreement: SystemAgreement::default(),
         }
     }
 

@@ -11,7 +11,7 @@ use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::largest_force_n;
 use super::floor::{push_n, sliding};
-use super::spans::{gradient, length_m};
+use super::spans::{connected, gradient, length_m};
 use nalgebra::DMatrix;
 use numerics::vector::{dot, norm};
 
@@ -155,19 +155,11 @@ fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec
         if seen[start] {
             continue;
         }
-        seen[start] = true;
-        let (mut part, mut next) = (vec![start], 0);
-        while let Some(&joint) = part.get(next) {
-            next += 1;
-            for &k in &members_of[joint] {
-                for end in system.members()[k].path() {
-                    if marked[end] && !std::mem::replace(&mut seen[end], true) {
-                        part.push(end);
-                    }
-                }
-            }
-        }
-        parts.push(part);
+        let beside = |joint: usize| {
+            let ends = members_of[joint].iter().flat_map(|k| system.members()[*k].path());
+            ends.filter(|end| marked[*end])
+        };
+        parts.push(connected(start, &mut seen, beside));
     }
     parts
 }

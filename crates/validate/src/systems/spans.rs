@@ -18,6 +18,23 @@ pub(crate) fn unit([a, b]: [usize; 2], joints_m: &[Vector]) -> Vector {
     if long_m <= 0.0 { [0.0; 3] } else { times(1.0 / long_m, along) }
 }
 
+/// A joint and all that its neighbours lead to, as far as nothing is seen yet.
+pub(super) fn connected<I: IntoIterator<Item = usize>>(
+    start: usize,
+    seen: &mut [bool],
+    neighbours: impl Fn(usize) -> I,
+) -> Vec<usize> {
+    seen[start] = true;
+    let (mut part, mut next) = (vec![start], 0);
+    while let Some(&joint) = part.get(next) {
+        next += 1;
+        part.extend(
+            neighbours(joint).into_iter().filter(|k| !std::mem::replace(&mut seen[*k], true)),
+        );
+    }
+    part
+}
+
 /// The derivatives of the length of these spans by the places of their joints, each joint once. A span
 /// whose joints meet adds nothing.
 pub(crate) fn gradient(

@@ -39,7 +39,7 @@ use numerics::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 ///
 /// Where lengths overdetermine the shape, what no other shape would remove of a misfit may be as large
 /// as [`Member::within_m`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct SystemStatics {
     /// Largest distance of a supported joint from its support, in units of the size of the system.
     pub support: f64,
@@ -70,19 +70,6 @@ pub struct SystemStatics {
 const IDLE: f64 = 1e-2;
 
 impl SystemStatics {
-    /// Nothing is violated.
-    const NOTHING: Self = Self {
-        support: 0.0,
-        length: 0.0,
-        law: 0.0,
-        force: 0.0,
-        moment: 0.0,
-        joint: 0.0,
-        balance: 0.0,
-        derived: 0.0,
-        worst: Place::Whole,
-    };
-
     /// The largest violation; NaN if any number of the answer is not finite or missing.
     pub fn largest(&self) -> f64 {
         let Self { support, length, law, force, moment, joint, balance, derived, .. } = *self;
@@ -114,7 +101,7 @@ impl SystemStatics {
 /// Arrays that do not fit the system, and numbers that are not finite, give NaN, which passes no
 /// tolerance.
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
-    let mut found = SystemStatics::NOTHING;
+    let mut found = SystemStatics::default();
     let (joints, members) = (system.joints().len(), system.members().len());
     let fits = [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
         && [answer.start_forces_n.len(), answer.end_forces_n.len(), answer.axial_n.len()]
@@ -150,7 +137,7 @@ pub fn judge_chain(problem: &Problem, found: &Equilibrium) -> SystemStatics {
         && found.multipliers_n.len() == joints
         && found.axial_n.len() + 1 == joints;
     if !fits {
-        return SystemStatics { balance: f64::NAN, ..SystemStatics::NOTHING };
+        return SystemStatics { balance: f64::NAN, ..SystemStatics::default() };
     }
     let answer = Row::from(problem).equilibrium(found.clone());
     judge(&System::from(problem.chain()), &answer)

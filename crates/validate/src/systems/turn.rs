@@ -71,23 +71,17 @@ pub(crate) fn turned_onto<'a>(
     if bodies.all.len() == 1 {
         return as_it_is;
     }
-    let turned = turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
     let untouched = judge(system, second).largest();
-    let sound = |answer: &SystemEquilibrium| {
-        let largest = judge(system, answer).largest();
-        largest <= budget || largest <= untouched
+    let sound = |bodies: &Bodies| {
+        let turned = turned(system, second, bodies, &turns(bodies, first, second, left_out));
+        let largest = judge(system, &turned).largest();
+        let is_sound = largest <= budget || largest <= untouched;
+        is_sound.then(|| (Cow::Owned(turned), moving(bodies, system, second)))
     };
-    if sound(&turned) {
-        return (Cow::Owned(turned), moving(&bodies, system, second));
-    }
-    if before == bodies.all.len() || before == 1 {
-        return as_it_is;
-    }
+    let hinges = before != bodies.all.len() && before != 1;
     // What hangs on single joints, without what hinges on several.
-    let bodies = Bodies::new(system, holds);
-    let turned = self::turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
-    let parts = moving(&bodies, system, second);
-    if sound(&turned) { (Cow::Owned(turned), parts) } else { as_it_is }
+    let without = || sound(&Bodies::new(system, holds));
+    sound(&bodies).or_else(|| if hinges { without() } else { None }).unwrap_or(as_it_is)
 }
 
 /// How many bodies a turn moves, none of which lies on its vertical, and how many move in the level.

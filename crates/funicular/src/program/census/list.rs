@@ -1,7 +1,6 @@
 //! What is listed of many equilibria.
 
 use census::{Estimate, Settings};
-use clap::ValueEnum;
 use funicular::LargeCensusAnswer;
 use funicular::census::List;
 
@@ -20,24 +19,6 @@ const UNASKED: f64 = 1e8;
 const FULL_BYTES: f64 = 1_600.0;
 const LINE_BYTES: f64 = 230.0;
 
-/// `--list`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum What {
-    /// Signs, pull, energy and indices of each equilibrium, in a line
-    Signs,
-    /// Everything of each equilibrium
-    Full,
-}
-
-impl What {
-    fn list(self) -> List {
-        match self {
-            Self::Signs => List::Signs,
-            Self::Full => List::Full,
-        }
-    }
-}
-
 /// Refuse what would fill a disk.
 pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<()> {
     if !arguments.printed.is_json() && arguments.csv.is_none() {
@@ -46,7 +27,7 @@ pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<()>
     let [signs, full] =
         [LINE_BYTES + bars as f64, FULL_BYTES * bars as f64].map(|each| each * estimate.equilibria);
     let most = arguments.max_output as f64;
-    let bytes = if arguments.list == Some(What::Full) { full } else { signs };
+    let bytes = if arguments.list == Some(List::Full) { full } else { signs };
     if bytes <= most {
         return Ok(());
     }
@@ -116,8 +97,8 @@ pub fn of_many(
 
 /// What is listed: what is asked for, else everything that is not too large.
 fn listed(arguments: &Census, answer: &LargeCensusAnswer) -> List {
-    if let Some(what) = arguments.list {
-        return what.list();
+    if let Some(list) = arguments.list {
+        return list;
     }
     let full = answer.expected_bytes(List::Full);
     if full <= UNASKED {

@@ -110,7 +110,7 @@ fn head(bytes: &[u8]) -> Result<Option<Head>, Answer> {
     }
     let length = match of("content-length")? {
         Some(text) => {
-            text.parse().map_err(|_| Answer::refusal(400, "a length that is no number"))?
+            text.parse().map_err(|_| Answer::refusal(400, "the content-length is not a number"))?
         }
         None => 0,
     };

@@ -77,7 +77,7 @@ fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, lists: Lists) -> (
     };
     let origin = Origin::Line(line.number);
     let (text, exit) = match &line.text {
-        Err(reason) => (Unanswered::because(reason).line(origin), Exit::BadInput),
+        Err(reason) => (Unanswered::because(reason).text(origin, false), Exit::BadInput),
         Ok(text) => match Problem::parse(text, "line")
             .and_then(drawn)
             .and_then(|problem| solve.run_here(&problem))
@@ -87,7 +87,7 @@ fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, lists: Lists) -> (
                 (object::answer(origin, &answer, lists, false), exit)
             }
             Err(error) => {
-                let text = Unanswered::of(&error).line(origin);
+                let text = Unanswered::of(&error).text(origin, false);
                 (text, Failure::from(error).exit())
             }
         },

@@ -70,14 +70,9 @@ impl Unanswered {
         }
     }
 
-    /// As a line of JSON.
-    pub fn line(self, origin: Origin<'_>) -> serde_json::Result<String> {
-        text(&Placed { origin, content: self }, false)
-    }
-
-    /// For people.
-    pub fn pretty(self, origin: Origin<'_>) -> serde_json::Result<String> {
-        text(&Placed { origin, content: self }, true)
+    /// As JSON, in one line or for people.
+    pub fn text(self, origin: Origin<'_>, pretty: bool) -> serde_json::Result<String> {
+        text(&Placed { origin, content: self }, pretty)
     }
 }
 

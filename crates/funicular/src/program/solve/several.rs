@@ -25,13 +25,13 @@ struct Said {
 
 /// Run the command for several files.
 pub fn run(arguments: &super::Solve) -> Result<Exit> {
-    let alone =
-        [("--without", arguments.without.is_some()), ("--tolerances", arguments.tolerances)];
+    let alone = [
+        ("--without", arguments.without.is_some()),
+        ("--tolerances", arguments.tolerances),
+        ("--load-case each", arguments.each_case()),
+    ];
     if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given) {
         return Err(Failure::bad_input(format!("{option} takes one system at a time")));
-    }
-    if arguments.each_case() {
-        return Err(Failure::bad_input("--load-case each takes one system at a time"));
     }
     if let Some(option) = arguments.file_for_one() {
         return Err(Failure::bad_input(format!("{option} writes one file, for one system")));
@@ -88,7 +88,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     let exit = failure.exit();
     if arguments.printed.is_json() {
         // Words and no number: they have a place in JSON.
-        let text = Unanswered::by(&failure).pretty(origin).unwrap_or_default();
+        let text = Unanswered::by(&failure).text(origin, true).unwrap_or_default();
         return Said { text, failure: None, exit };
     }
     Said { text: heading(&name), failure: Some(failure), exit }

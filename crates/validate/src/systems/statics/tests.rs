@@ -173,7 +173,7 @@ const UNITS: Units = Units {
 };
 
 fn judging<'a>(system: &'a System, answer: &'a SystemEquilibrium, units: Units) -> Judging<'a> {
-    Judging { system, answer, units, found: SystemStatics::NOTHING }
+    Judging { system, answer, units, found: SystemStatics::default() }
 }
 
 fn close(found: f64, wanted: f64) {
@@ -421,7 +421,7 @@ fn units_are_the_largest_numbers_of_an_answer() {
 /// The larger of two stays, with its place; what is none stays whatever comes.
 #[test]
 fn the_largest_violation_is_kept_with_its_place() {
-    let mut found = SystemStatics::NOTHING;
+    let mut found = SystemStatics::default();
     found.note(|s| &mut s.force, 0.5, Place::Joint(1));
     found.note(|s| &mut s.joint, 0.25, Place::Joint(2));
     found.note(|s| &mut s.force, 0.25, Place::Joint(3));

@@ -2,6 +2,7 @@
 
 use model::system::{System, SystemEquilibrium};
 
+use super::super::certificate::largest_force_n;
 use super::super::free::free_joints;
 use super::super::scale::{MOST_ROUNDING, Scale};
 use super::super::spans::span_forces;
@@ -62,8 +63,7 @@ pub(in crate::systems) fn rounding_m(system: &System, answer: &SystemEquilibrium
 
 impl Units {
     pub(super) fn new(system: &System, answer: &SystemEquilibrium, scale: Scale) -> Self {
-        let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
-        let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
+        let largest_n = largest_force_n(answer);
         let mut meet_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
         for (k, member) in system.members().iter().enumerate() {
             for (joints, forces) in span_forces(member, k, answer) {
