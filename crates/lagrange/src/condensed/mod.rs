@@ -28,9 +28,8 @@
 //! tension the pull is the minimum of a convex function (`newton`, from the catenary; for many bars
 //! first over a coarser chain of their moments, `loads`); with one compressed it is the only root
 //! of its kind (`compression`). Both have a nested search in reserve that cannot fail, but where
-//! strands hang side by side. Nearly
-//! straight chains are balanced along their line (`axis`). What comes out is the global minimum of
-//! the energy, for every chain that [`model::Problem`] accepts.
+//! strands hang side by side. Nearly straight chains are balanced along their line (`axis`). What
+//! comes out is the global minimum of the energy, for every chain that [`model::Problem`] accepts.
 //!
 //! From the pull one more pass makes all joints and all $3(n+1)$ multipliers
 //! (module `reconstruction`).
