@@ -74,7 +74,7 @@ fn angles(r: &Reproduction) -> Table {
     let rows = r.equilibria.iter().map(|p| {
         let difference = p.energy_deg.map(|energy| {
             let of = energy.iter().zip(p.lagrange_deg).map(|(e, l)| (e - l).abs());
-            of.fold(0.0, |most: f64, d| if d <= most { most } else { d })
+            of.fold(0.0, |most: f64, d| if most.is_nan() || d <= most { most } else { d })
         });
         let [theta, alpha, beta] = p.lagrange_deg.map(|angle| Number::decimals(angle, 9).into());
         let or_none = |difference: Option<f64>| match difference {
