@@ -43,6 +43,7 @@ struct Node {
 }
 
 /// What a deck has said so far.
+#[derive(Default)]
 struct Deck<'a> {
     file: &'a str,
     variables: Variables,
@@ -65,19 +66,7 @@ struct Deck<'a> {
 /// # Errors
 /// [`FormatError`](crate::FormatError) with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_opensees(text: &str, file: &str) -> Result<ForeignSystem> {
-    let mut deck = Deck {
-        file,
-        variables: Variables::new(),
-        dimensions: 0,
-        nodes: vec![],
-        numbers: HashMap::new(),
-        materials: HashMap::new(),
-        series: HashMap::new(),
-        members: vec![],
-        skipped: BTreeSet::new(),
-        linear: false,
-        budget: Budget::default(),
-    };
+    let mut deck = Deck { file, ..Deck::default() };
     let mut script = Script::new(file, text.strip_prefix('\u{feff}').unwrap_or(text), 1);
     while let Some(command) = script.next(&mut deck.variables)? {
         deck.read(&Words { file, command: &command })?;
