@@ -37,7 +37,7 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, census: &Census) -> Vec<Block<'a>>
         text(
             "Five rungs: a solver has converged; both solvers agree and Newton's laws hold for every bar; interval \
              arithmetic proves that exactly one equilibrium is there; a census proves that there is no other; a \
-             certificate proves that no configuration has less energy. A rung that was not reached is said so.",
+             certificate proves that no configuration has less energy. A rung that was not reached is marked as such.",
         ),
         Block::Table(ladder(r)),
     ]

@@ -34,7 +34,7 @@ pub(super) struct Cell<'a, const N: usize> {
     pub(super) spans: Vec<Vec<Vector>>,
     /// What each span pulls with by a unit of the unknown of its link.
     pub(super) along: Vec<Vec<Vector>>,
-    /// Tensions of links that are told by the places; nothing of the others.
+    /// Tensions of links that follow from the places; `None` for the others.
     pub(super) known: Vec<Option<Interval>>,
 }
 

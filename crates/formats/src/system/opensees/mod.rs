@@ -2,7 +2,7 @@
 //!
 //! A truss is an elastic bar of EA, as long as its nodes are apart; nothing weighs, as in OpenSees, where loads alone act:
 //! masses are held up by forces of their weights, so that they only swing. In a deck of two dimensions Y is up. Numbers
-//! are N, m and kg, since a deck has no units. Loads on nodes that are held are told and are not in the reactions. Loads
+//! are N, m and kg, since a deck has no units. Loads on nodes that are held are noted and are not in the reactions. Loads
 //! act by the factors of their series at the time 1. The linear `truss` is read as the `corotTruss`, whose balance
 //! is that of the displaced shape.
 //!
