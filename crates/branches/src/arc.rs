@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::curve::{Curve, CurveEnd, Turn};
+use crate::curve::{Curve, CurveEnd};
 use crate::equations::{RESIDUAL, residual};
 use crate::event::EventKind;
 use crate::locate::{crossing_on_chord, on_chord};
@@ -45,7 +45,7 @@ pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
     };
     let points: Vec<ArcPoint> = curve.points.iter().map(|p| point(&p.y)).collect();
     let turns: Vec<usize> = (0..points.len()).filter(|k| curve.points[*k].turn.is_some()).collect();
-    let kinds = curve.points.iter().filter_map(|point| point.turn.map(turn_kind)).collect();
+    let kinds = curve.points.iter().filter_map(|point| point.turn).collect();
     let mut sure = turns.iter().all(|k| left(path, &points[*k].y) <= RESIDUAL);
     let mut bounds = vec![0];
     bounds.extend(&turns);
@@ -100,15 +100,6 @@ fn drop_roundings(points: &mut Vec<ArcPoint>) {
         k += 1;
         tip || point.happens.is_some() || (low..=high).contains(&position(point))
     });
-}
-
-fn turn_kind(turn: Turn) -> EventKind {
-    match turn {
-        Turn::Fold => EventKind::Fold,
-        Turn::Straight => EventKind::Straight,
-        // The two sides are mirror images: another branch, which is symmetric, passes between them.
-        Turn::Crossing => EventKind::BranchPoint,
-    }
 }
 
 /// The points of an arc with those in between at which an index or a sign changes, in their order; `sure` becomes

@@ -1,6 +1,7 @@
 use nalgebra::DVector;
 
 use crate::equations::{RESIDUAL, Tangent, correct, position_axis, residual, tangent};
+use crate::event::EventKind;
 use crate::locate::on_chord;
 use crate::observables::is_straight;
 use crate::path::Path;
@@ -63,7 +64,7 @@ pub(crate) struct Border {
 #[derive(Debug, Clone)]
 pub(crate) struct CurvePoint {
     pub(crate) y: DVector<f64>,
-    pub(crate) turn: Option<Turn>,
+    pub(crate) turn: Option<EventKind>,
 }
 
 /// What is at the end of a curve, or of one of its arcs.
@@ -88,17 +89,6 @@ pub(crate) struct Curve {
     pub(crate) ends: [CurveEnd; 2],
 }
 
-/// How a curve turns back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Turn {
-    /// By itself.
-    Fold,
-    /// Where the chain is straight.
-    Straight,
-    /// Where another curve crosses.
-    Crossing,
-}
-
 /// Where a curve left the interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Exit {
@@ -117,7 +107,7 @@ struct Here {
 /// A step along a curve: where it ends, and where it turns on the way.
 struct Step {
     end: Here,
-    turn: Option<(DVector<f64>, Turn)>,
+    turn: Option<(DVector<f64>, EventKind)>,
     crosses: bool,
 }
 
@@ -216,9 +206,10 @@ fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -
             return None;
         }
         let turn = match (straight, crosses) {
-            (true, _) => Turn::Straight,
-            (_, true) => Turn::Crossing,
-            _ => Turn::Fold,
+            (true, _) => EventKind::Straight,
+            // The two sides are mirror images: another branch, which is symmetric, passes between them.
+            (_, true) => EventKind::BranchPoint,
+            _ => EventKind::Fold,
         };
         Some((y, turn))
     } else {

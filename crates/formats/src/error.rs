@@ -29,10 +29,10 @@ pub enum Wrong {
     #[error("the file is empty")]
     Empty,
     /// Occurs when the text is no JSON: what the parser says.
-    #[error("this is no JSON: {0}")]
+    #[error("this is not JSON: {0}")]
     Json(String),
     /// Occurs when the text is no XML: what the parser says.
-    #[error("this is no XML: {0}")]
+    #[error("this is not XML: {0}")]
     Xml(String),
     /// Occurs when a part that is needed is not there.
     #[error("there is no {0}")]

@@ -6,7 +6,7 @@ use crate::Problem;
 use crate::system::System;
 use crate::system_file::{Described, parse};
 
-/// A named case.
+/// A named case: a chain, or a system of joints and members.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Case {
     /// Its name, the stem of its file.
@@ -18,10 +18,10 @@ pub struct Case {
 }
 
 impl Case {
-    /// The problem of this case.
+    /// The problem of a chain.
     ///
     /// # Panics
-    /// Never: a test reads every case of the registry.
+    /// Where the case is no chain; nowhere else, a test reads all of them.
     pub fn problem(&self) -> Problem {
         match parse(self.text, self.name) {
             Ok(Described::Chain(problem)) => problem,
@@ -29,24 +29,11 @@ impl Case {
             Err(error) => panic!("case of the registry: {error}"),
         }
     }
-}
 
-/// A named system of the gallery: joints by name, members of all kinds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Exhibit {
-    /// Its name, the stem of its file.
-    pub name: &'static str,
-    /// What it is, in a line.
-    pub about: &'static str,
-    /// Its system file.
-    pub text: &'static str,
-}
-
-impl Exhibit {
-    /// The system.
+    /// The system of joints and members.
     ///
     /// # Panics
-    /// Never: a test reads all of the gallery.
+    /// Where the case is a chain; nowhere else, a test reads all of them.
     pub fn system(&self) -> System {
         match parse(self.text, self.name) {
             Ok(Described::System(system)) => system,
@@ -56,9 +43,12 @@ impl Exhibit {
     }
 }
 
+/// A system of joints and members.
+pub type Exhibit = Case;
+
 macro_rules! registry {
-    ($kind:ident, $($name:literal: $about:literal,)*) => {
-        &[$($kind {
+    ($($name:literal: $about:literal,)*) => {
+        &[$(Case {
             name: $name,
             about: $about,
             text: include_str!(concat!("../data/cases/", $name, ".toml")),
@@ -67,7 +57,6 @@ macro_rules! registry {
 }
 
 const REGISTRY: &[Case] = registry! {
-    Case,
     "three-equal-bars": "the example of the paper",
     "three-equal-bars-on-the-moon": "the same in other units",
     "three-equal-bars-oblique": "its bars between anchors not on one vertical",
@@ -88,8 +77,7 @@ const REGISTRY: &[Case] = registry! {
     "far-from-the-origin": "anchors 1e6 m from the origin",
 };
 
-const GALLERY: &[Exhibit] = registry! {
-    Exhibit,
+const GALLERY: &[Case] = registry! {
     "lamp": "a lamp on two cables: the triangle 3, 4, 5",
     "bridle": "three heavy strands hold a load",
     "mobile": "a tree of beams that hang level by the lever rule",
@@ -101,16 +89,14 @@ const GALLERY: &[Exhibit] = registry! {
     "four-bar-linkage": "two cranks and a coupler with a load",
 };
 
-const TENSEGRITIES: &[Exhibit] = registry! {
-    Exhibit,
+const TENSEGRITIES: &[Case] = registry! {
     "x-cross": "four cables around two crossed struts",
     "prism": "three struts, nine cables: the simplex, twisted by 150°",
     "expandable-octahedron": "six struts, twenty-four cables",
     "simplex-tower": "two prisms, one on the other",
 };
 
-const DRAWN: &[Exhibit] = registry! {
-    Exhibit,
+const DRAWN: &[Case] = registry! {
     "warren-truss": "a planar truss as it is drawn: the method of joints",
     "pratt-truss": "a planar truss with both diagonals, of rigid bars",
     "lattice-tower": "an X-braced tower of elastic bars in the wind",
@@ -118,40 +104,39 @@ const DRAWN: &[Exhibit] = registry! {
     "geiger-dome": "a prestressed cable dome",
 };
 
-const ROPES: &[Exhibit] = registry! {
-    Exhibit,
+const ROPES: &[Case] = registry! {
     "ring-on-a-rope": "a lantern by a ring on one rope: both spans lean alike",
     "tackle": "one elastic rope over a block and two pulleys: a third each",
 };
 
 /// Ropes that run over rings and pulleys.
-pub fn ropes() -> &'static [Exhibit] {
+pub fn ropes() -> &'static [Case] {
     ROPES
 }
 
 /// Structures that stand where they are drawn: trusses, a tower, domes.
-pub fn drawn() -> &'static [Exhibit] {
+pub fn drawn() -> &'static [Case] {
     DRAWN
 }
 
 /// Every system of joints and members with a name: [`systems`], [`drawn`] and [`ropes`].
-pub fn exhibits() -> impl Iterator<Item = &'static Exhibit> {
+pub fn exhibits() -> impl Iterator<Item = &'static Case> {
     systems().chain(DRAWN).chain(ROPES)
 }
 
 /// Tensegrities that no load holds up: cables of a given prestress around rigid struts, each with
 /// the stress that is known of it in a closed form.
-pub fn tensegrities() -> &'static [Exhibit] {
+pub fn tensegrities() -> &'static [Case] {
     TENSEGRITIES
 }
 
 /// The gallery: systems of joints and members, each with what is known of it in a closed form.
-pub fn gallery() -> &'static [Exhibit] {
+pub fn gallery() -> &'static [Case] {
     GALLERY
 }
 
 /// All systems that hang or hold themselves: the gallery and the tensegrities.
-pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
+pub fn systems() -> impl Iterator<Item = &'static Case> {
     GALLERY.iter().chain(TENSEGRITIES)
 }
 
@@ -162,7 +147,7 @@ pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
 /// let tripod = model::cases::exhibit("tripod").unwrap().system();
 /// assert_eq!((tripod.joints().len(), tripod.members().len()), (4, 3));
 /// ```
-pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
+pub fn exhibit(name: &str) -> Option<&'static Case> {
     exhibits().find(|exhibit| exhibit.name == name)
 }
 

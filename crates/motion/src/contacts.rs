@@ -75,7 +75,7 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    /// None of a system without gaps.
+    /// `None` for a system without gaps.
     pub(crate) fn of(system: &System) -> Option<Self> {
         let members = system.members().iter().enumerate();
         let members = members

@@ -92,7 +92,7 @@ impl Stepper {
         })
     }
 
-    /// What came of it where no step was asked for.
+    /// The error of something that was no step.
     pub(crate) fn told<T>(&self, done: Result<T, Failure>) -> Result<T> {
         done.map_err(|failure| at_the_beginning(&self.mechanism, failure))
     }

@@ -380,14 +380,6 @@ impl Simulation {
         Snapshot::new(self, &solved.0, &solved.1, &damping)
     }
 
-    pub(crate) fn damping_1_s(&self) -> f64 {
-        self.settings.damping_1_s
-    }
-
-    pub(crate) fn state(&self) -> &State {
-        &self.state
-    }
-
     /// Moments of time by member at the present time, N m.
     pub(crate) fn moments_of_time(&self) -> Vec<Vector> {
         let mut found = vec![[0.0; 3]; self.mechanism().given()[1]];
@@ -409,7 +401,9 @@ impl Simulation {
 
 pub(crate) fn at_the_beginning(mechanism: &Mechanism, failure: Failure) -> MotionError {
     match failure {
-        Failure::Singular(failed) => singular(mechanism, failed),
+        Failure::Singular(failed) => {
+            MotionError::Redundant { joint: mechanism.name(failed.slot), pivot: failed.pivot }
+        }
         Failure::NotMet { corrections, off } => {
             MotionError::NotClosed { iterations: corrections, off }
         }
@@ -419,8 +413,4 @@ pub(crate) fn at_the_beginning(mechanism: &Mechanism, failure: Failure) -> Motio
             to: mechanism.name(span.b),
         }),
     }
-}
-
-fn singular(mechanism: &Mechanism, failed: crate::saddle::Singular) -> MotionError {
-    MotionError::Redundant { joint: mechanism.name(failed.slot), pivot: failed.pivot }
 }

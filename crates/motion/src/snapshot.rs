@@ -59,7 +59,7 @@ impl Snapshot {
         let mechanism = simulation.mechanism();
         let system = mechanism.system();
         let members = system.members();
-        let state = simulation.state();
+        let state = &simulation.state;
         let mut axial_n = vec![0.0; members.len()];
         let mut start_forces_n = vec![[0.0; 3]; members.len()];
         let mut end_forces_n = vec![[0.0; 3]; members.len()];
@@ -156,7 +156,8 @@ impl Snapshot {
             rates_off,
             laws: Laws::default(),
         };
-        found.laws = laws::judge(system, &found, simulation.damping_1_s(), &of_time, &moments);
+        found.laws =
+            laws::judge(system, &found, simulation.settings.damping_1_s, &of_time, &moments);
         found
     }
 
@@ -168,7 +169,7 @@ impl Snapshot {
 
 /// Axial force over length of each span, N/m.
 fn densities(simulation: &Simulation, multipliers: &[f64]) -> Vec<f64> {
-    let (mechanism, state) = (simulation.mechanism(), simulation.state());
+    let (mechanism, state) = (simulation.mechanism(), &simulation.state);
     let mut found = Vec::with_capacity(mechanism.spans.len());
     let span_m = |span: &Link| norm(state.between(span.a, span.b));
     for (bar, rho) in mechanism.bars.iter().zip(multipliers) {

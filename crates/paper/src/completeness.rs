@@ -128,7 +128,7 @@ impl Completeness {
                 let stayed = visit.ended.number == visit.number && visit.same_stability;
                 if stayed { visit.ended.beyond } else { f64::NAN }
             });
-            judged.fold(0.0, |most: f64, off| if off.is_nan() { off } else { most.max(off) })
+            judged.fold(0.0, |most: f64, off| if most.is_nan() || off <= most { most } else { off })
         });
         Self {
             complete: census.complete,

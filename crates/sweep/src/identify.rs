@@ -21,7 +21,7 @@ pub const JOINT_TOLERANCE: f64 = 1e-6;
 pub(crate) const ENERGY_TOLERANCE: f64 = 1e-9;
 
 /// Where an entry of the list comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// Proved by the census.
@@ -30,11 +30,12 @@ pub enum Origin {
     /// it.
     Family,
     /// Reached by a seed, where the census is not complete.
+    #[default]
     Discovered,
 }
 
 /// One entry of the list.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Member {
     /// Where it comes from.
     pub origin: Origin,
@@ -283,9 +284,8 @@ fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
         energy_j: equilibrium.energy_j.mid(),
         angles_rad: equilibrium.angles_rad.iter().map(|angle| Some(sign * angle.mid())).collect(),
         index_in_plane: Some(equilibrium.index_in_plane),
-        index_in_space: None,
         mirrored,
-        joints_m: None,
+        ..Member::default()
     }
 }
 
@@ -295,9 +295,7 @@ fn family(slack: &SlackFamily, problem: &Problem) -> Member {
         energy_j: slack.energy_j.mid(),
         angles_rad: slack.angles_rad(problem),
         index_in_plane: Some(slack.index_in_plane),
-        index_in_space: None,
-        mirrored: false,
-        joints_m: None,
+        ..Member::default()
     }
 }
 
@@ -328,9 +326,7 @@ mod tests {
                 energy_j: (mgl - 6.0) * model::STANDARD_GRAVITY_M_S2,
                 angles_rad: angles.map(|angle| Some(angle.to_radians())).into(),
                 index_in_plane: Some(0),
-                index_in_space: None,
-                mirrored: false,
-                joints_m: None,
+                ..Member::default()
             })
             .collect();
         let lookup = Lookup::new(&model::cases::paper(), &list);

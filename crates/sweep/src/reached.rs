@@ -122,9 +122,7 @@ impl Reached {
             energy_j,
             angles_rad: u.iter().map(|u| Some(u[0].atan2(-u[1]))).collect(),
             index_in_plane: index,
-            index_in_space: None,
-            mirrored: false,
-            joints_m: None,
+            ..Member::default()
         };
         self.number_or(u, energy_j, index, &member)
     }

@@ -35,7 +35,7 @@ pub struct Row {
 }
 
 /// What became of one case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct CaseResult {
     /// Name of the case.
     pub case: String,
@@ -75,11 +75,7 @@ fn run(case: &Case) -> CaseResult {
         case: case.name.to_owned(),
         about: case.about.to_owned(),
         bars: chain.bars().len(),
-        agreement: None,
-        scaled: None,
-        rung: None,
-        failure: None,
-        rows: Vec::new(),
+        ..CaseResult::default()
     };
     let system = System::from(chain);
     let answer = ask_with(&system, &question(), &|_| {});

@@ -54,14 +54,6 @@ enum Passed<E> {
     End(End<E>),
 }
 
-/// Across what a guess is corrected.
-#[derive(Clone, Copy)]
-enum Across {
-    Tangent,
-    /// At this value of the parameter.
-    Parameter,
-}
-
 pub(super) struct Walk<'a, Q: Equations> {
     pub(super) space: Space<'a, Q>,
     settings: Settings,
@@ -234,28 +226,25 @@ impl<'a, Q: Equations> Walk<'a, Q> {
         if inside.to_bits() != guess.1.to_bits() {
             let part = (inside - here.t) / (guess.1 - here.t);
             let guess = &here.y + &here.tangent.y * (long * part);
-            let end = self.corrected(here, (&guess, inside), Across::Parameter, long * part)?;
+            let row = Row::parameter(guess.len());
+            let end = self.corrected(here, (&guess, inside), Some(&row), long * part)?;
             return Ok(end.map(|end| (end, true)));
         }
-        let next = self.corrected(here, (&guess.0, guess.1), Across::Tangent, long)?;
+        let next = self.corrected(here, (&guess.0, guess.1), None, long)?;
         let inside = self.settings.range[0]..=self.settings.range[1];
         Ok(next.filter(|next| inside.contains(&next.t)).map(|next| (next, false)))
     }
 
-    /// A guess corrected, with what is there; nothing where it is moved too far.
+    /// A guess corrected across the tangent, or across this row, with what is there; nothing where it is moved too far.
     fn corrected(
         &mut self,
         here: &Here,
         guess: (&DVector<f64>, f64),
-        across: Across,
+        across: Option<&Row>,
         long: f64,
     ) -> Result<Option<Here>, Q::Error> {
         let along = self.space.metric.along(&here.tangent);
-        let parameter = Row::parameter(guess.0.len());
-        let row = match across {
-            Across::Tangent => &along,
-            Across::Parameter => &parameter,
-        };
+        let row = across.unwrap_or(&along);
         let Ok(found) = correct(self.space.equations, guess, row)? else { return Ok(None) };
         let moved = self.space.metric.norm(&(&found.0 - guess.0), found.1 - guess.1);
         if moved > (CORRECTION * long).max(ROUNDING) {

@@ -50,7 +50,7 @@ pub fn check(system: &System, parameter: &Parameter) -> Result<()> {
         }
         Number::Anchor(..) if ends(system).is_some() => Ok(()),
         Number::Anchor(..) => {
-            let what = "the system is no chain between two anchors";
+            let what = "the system is not a chain between two anchors";
             Err(of_path(parameter, what, "its supports are `joints.NAME.at_m`"))
         }
         Number::Joint(name, field) => {

@@ -432,7 +432,7 @@ impl Parts<'_> {
                 }
                 Ok(Bars::Row(word.trim_matches('"').to_owned()))
             }
-            _ => Err(self.wrong(span, format!("`{word}` is no bar"), ALLOWED)),
+            _ => Err(self.wrong(span, format!("`{word}` is not a bar"), ALLOWED)),
         }
     }
 }

@@ -87,7 +87,7 @@ fn counts(text: &str, all: Range<usize>) -> Result<Vec<f64>> {
     const COUNTS: &str =
         "counts are whole numbers from 1: a list, `2,5,10`, or all of a range, `2..10`";
     let wrong = |span: Range<usize>| {
-        let what = format!("`{}` is no count", text[span.clone()].trim());
+        let what = format!("`{}` is not a count", text[span.clone()].trim());
         ParameterError::new(text, span, what, COUNTS)
     };
     let one = |span: Range<usize>| {
@@ -183,7 +183,7 @@ fn points(text: &str, span: Range<usize>) -> Result<usize> {
         _ => Err(ParameterError::new(
             text,
             span,
-            format!("`{word}` is no number of points"),
+            format!("`{word}` is not a number of points"),
             format!("a whole number from 2 to {MAX_POINTS} is allowed"),
         )),
     }

@@ -86,8 +86,13 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("anchors.end_m.4=1", 15, "unknown component `4`", "x, y, z"),
         ("anchors.end_m=1", 14, "a part of it is missing", "x, y, z"),
         ("anchors.middle_m.x=1", 9, "unknown key `middle_m`", "start_m, end_m"),
-        ("bars.0.mass_kg=1", 6, "`0` is no bar", "from 1"),
-        ("bars.two.mass_kg=1", 6, "`two` is no bar", "a range 1-20, a row FROM-TO.*, or * for all"),
+        ("bars.0.mass_kg=1", 6, "`0` is not a bar", "from 1"),
+        (
+            "bars.two.mass_kg=1",
+            6,
+            "`two` is not a bar",
+            "a range 1-20, a row FROM-TO.*, or * for all",
+        ),
         ("bars.2.mass_kg.x=1", 16, "has no parts", "bars.2.mass_kg="),
         ("=1", 1, "unknown key ``", "loads, lengths, gravity_m_s2, floor_m, anchors, joints, bars"),
         ("gravity_m_s2", 13, "`=` and the values are missing", "0.1,1,10"),
@@ -96,8 +101,8 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("gravity_m_s2=1,x", 16, "`x` is not a number", "list"),
         ("gravity_m_s2=inf", 14, "`inf` is not finite", "list"),
         ("gravity_m_s2=1e999", 14, "`1e999` is not finite", "list"),
-        ("gravity_m_s2=1..2:1", 19, "`1` is no number of points", "from 2 to 1000000"),
-        ("gravity_m_s2=1..2:1e9", 19, "`1e9` is no number of points", "from 2"),
+        ("gravity_m_s2=1..2:1", 19, "`1` is not a number of points", "from 2 to 1000000"),
+        ("gravity_m_s2=1..2:1e9", 19, "`1e9` is not a number of points", "from 2"),
         ("gravity_m_s2=..2:5", 14, "a number is missing", "range"),
     ] {
         let error = text.parse::<Parameter>().unwrap_err();

@@ -360,7 +360,7 @@ fn anchors_are_those_of_a_chain() {
         Variation::new(system.clone(), &[vary], Combine::Product).map_err(|error| error.what)
     };
     let refused = of(&read(FILE), "anchors.end_m.x=1").unwrap_err();
-    assert_eq!(refused, "the system is no chain between two anchors");
+    assert_eq!(refused, "the system is not a chain between two anchors");
     let chain = System::from(model::cases::paper().chain());
     assert!(of(&chain, "anchors.end_m.x=1").is_ok());
 }

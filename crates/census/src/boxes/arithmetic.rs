@@ -141,12 +141,12 @@ pub(crate) fn factors(vectors: &[Vector], of: Vector) -> Option<Vec<Interval>> {
     }
 }
 
-/// Three numbers that are exact as they stand.
 /// A vector along an axis.
 pub(crate) fn upon(axis: usize, part: Interval) -> Vector {
     std::array::from_fn(|k| if k == axis { part } else { Interval::ZERO })
 }
 
+/// Three numbers that are exact as they stand.
 pub(crate) fn points(a: model::Vector) -> Vector {
     a.map(Interval::point)
 }

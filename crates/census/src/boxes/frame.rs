@@ -29,11 +29,7 @@ fn power_of_two(x: f64) -> f64 {
 impl Frame {
     /// Units for a system with these axial forces.
     pub(crate) fn new(system: &System, axial_n: &[f64]) -> Self {
-        let forces = system.joints().iter().map(|joint| joint.force_n);
-        let forces =
-            forces.chain(system.members().iter().flat_map(|m| m.loads.iter().map(|l| l.force_n)));
-        let loads_n = model::sum(forces.map(|[x, y, z]| x.hypot(y).hypot(z)))
-            + system.total_mass_kg() * system.gravity_m_s2();
+        let loads_n = system.total_load_n();
         let largest_n = axial_n.iter().fold(loads_n, |most, axial| most.max(axial.abs()));
         Self {
             length_m: power_of_two(system.total_length_m()),

@@ -1,4 +1,4 @@
-use model::system::{Joint, Kind, Support, System};
+use model::system::{Kind, System};
 use model::{NoBox, Vector as Point};
 use numerics::Interval;
 
@@ -119,14 +119,8 @@ impl Posed {
 
 /// Coordinates of joints and forces.
 fn unknowns(system: &System, activities: &[Activity], held: &[bool]) -> usize {
-    let coordinates = |(joint, held): (&Joint, &bool)| match joint.support {
-        _ if *held => 0,
-        Support::Free => 3,
-        Support::Plane { .. } => 2,
-        Support::Line { .. } => 1,
-        Support::Fixed { .. } => 0,
-    };
-    let coordinates: usize = system.joints().iter().zip(held).map(coordinates).sum();
+    let moving = system.joints().iter().zip(held).filter(|(_, held)| !**held);
+    let coordinates: usize = moving.map(|(joint, _)| joint.support.motions().len()).sum();
     coordinates + activities.iter().filter(|activity| **activity == Activity::Acts).count()
 }
 

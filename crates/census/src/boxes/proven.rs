@@ -1,5 +1,6 @@
 use model::system::{Kind, Member, System};
 use numerics::Interval;
+use numerics::vector::worse;
 
 use super::activity::Activity;
 use super::arithmetic::{Vector, minus, norm, plus, sum, times};
@@ -91,13 +92,13 @@ impl SystemBox {
     /// How far outside of the box the joints of an answer lie, m; NaN where it is not finite.
     pub fn beyond_m(&self, joints_m: &[model::Vector]) -> f64 {
         let places = self.joints_m.iter().flatten().zip(joints_m.iter().flatten());
-        worst(places.map(|(enclosure, x)| beyond(*enclosure, *x)))
+        places.map(|(enclosure, x)| beyond(*enclosure, *x)).fold(0.0, worse)
     }
 
     /// How far outside of the box the axial forces of an answer lie, N; NaN where it is not finite.
     pub fn beyond_n(&self, axial_n: &[f64]) -> f64 {
         let forces = self.axial_n.iter().zip(axial_n);
-        worst(forces.map(|(enclosure, x)| beyond(*enclosure, *x)))
+        forces.map(|(enclosure, x)| beyond(*enclosure, *x)).fold(0.0, worse)
     }
 }
 
@@ -135,11 +136,6 @@ pub(super) fn spring_n(
 
 fn beyond(enclosure: Interval, x: f64) -> f64 {
     if x.is_nan() { f64::NAN } else { (enclosure.lo() - x).max(x - enclosure.hi()).max(0.0) }
-}
-
-/// The largest; NaN is the worst of all.
-fn worst(distances: impl Iterator<Item = f64>) -> f64 {
-    distances.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
 }
 
 #[cfg(test)]

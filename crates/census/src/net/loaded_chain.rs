@@ -1,7 +1,7 @@
 //! A chain between two anchors with weights at its joints: the census of a chain of bars.
 //!
 //! What hangs at a joint adds to the weight $c_i$ that all further bars carry, and to nothing else;
-//! the search is the one for chains. Bars bear their own weight; where one is told against the
+//! the search is the one for chains. Bars bear their own weight; where one is given against the
 //! direction of the chain and its centre would be rounded, its weight is handed over at the joints
 //! like that of all else, to twice the usual precision.
 

@@ -139,7 +139,7 @@ pub struct ChainCensus {
     pub check: Result<(), String>,
     /// Whether the check shows that something is wrong; else what failed is a proof, which shows nothing.
     pub refuted: bool,
-    /// Whether every bar bears its own weight. Where a bar is told against the direction of the chain and its
+    /// Whether every bar bears its own weight. Where a bar is given against the direction of the chain and its
     /// centre would be rounded, its weight is at the joints, and energy and pull are without what the anchors
     /// bear of it.
     pub whole: bool,

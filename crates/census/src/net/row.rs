@@ -1,4 +1,4 @@
-//! A system that is one row of bars, of which more equilibria are listed than are good to hold in memory.
+//! A system that is one row of bars, with more equilibria than should be held in memory.
 
 use model::system::System;
 

@@ -15,7 +15,9 @@ pub(super) fn weights_kg(
     let mut weights = Weights { system, kg: vec![None; system.joints().len()] };
     for joint in joints {
         let own = &system.joints()[*joint];
-        weights.add_mass(*joint, own.mass_kg, DoubleDouble::point(1.0));
+        if own.mass_kg > 0.0 {
+            weights.add(*joint, DoubleDouble::point(own.mass_kg));
+        }
         weights.add_force(*joint, own.force_n, DoubleDouble::point(1.0))?;
     }
     let (mut wanted, mut bears) =
@@ -76,12 +78,6 @@ struct Weights<'a> {
 impl Weights<'_> {
     fn add(&mut self, joint: usize, weight_kg: DoubleDouble) {
         self.kg[joint] = Some(self.kg[joint].map_or(weight_kg, |before| before + weight_kg));
-    }
-
-    fn add_mass(&mut self, joint: usize, mass_kg: f64, share: DoubleDouble) {
-        if mass_kg > 0.0 {
-            self.add(joint, DoubleDouble::point(mass_kg) * share);
-        }
     }
 
     fn add_force(&mut self, joint: usize, [x, y, z]: Vector, share: DoubleDouble) -> Result<()> {

@@ -199,7 +199,7 @@ fn raster(node: Node<'_, '_>, [x, y]: [f32; 2]) -> Result<Piece, String> {
     let within = rectangle([of("x")? + x, of("y")? + y], [of("width")?, of("height")?])?;
     let coded = node.attribute("href").and_then(|href| href.strip_prefix("data:image/png;base64,"));
     let file = BASE64_STANDARD.decode(coded.unwrap_or_default()).map_err(|error| error.to_string());
-    let pixels = Pixels::read(&file?).ok_or("a raster that is none of this crate")?;
+    let pixels = Pixels::read(&file?).ok_or("a raster that this crate did not write")?;
     Ok(Piece::Raster { within, pixels })
 }
 

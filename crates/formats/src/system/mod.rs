@@ -79,13 +79,8 @@ impl Source {
             "obj" => Self::Obj,
             "map" => Self::Map,
             "tcl" => Self::OpenSees,
-            "dat" | "txt" if sections() => {
-                if map() {
-                    Self::Map
-                } else {
-                    Self::MoorDyn
-                }
-            }
+            "dat" | "txt" if sections() && map() => Self::Map,
+            "dat" | "txt" if sections() => Self::MoorDyn,
             "json" if compas() => Self::Compas,
             _ => return None,
         })

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use numerics::vector::{minus, norm};
+
 use crate::error::{At, Result};
 use crate::sheet::{Row, Sheet};
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
@@ -100,7 +102,7 @@ fn edge(
     let (from, to, density_n_m) = (end("from")?, end("to")?, row.number("q_n_m")?);
     if with_force {
         let [a, b] = [nodes[from].at_m, nodes[to].at_m];
-        let length_m = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
+        let length_m = norm(minus(b, a));
         let (given, follows) = (row.number("force_n")?, density_n_m * length_m);
         if (given - follows).abs() > DIGITS * given.abs().max(follows.abs()) {
             return Err(row.at().no_system(format!(

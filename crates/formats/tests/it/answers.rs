@@ -105,7 +105,7 @@ fn json_of_systems_and_of_chains() {
 #[test]
 fn bad_json_is_told() {
     for (text, says) in [
-        ("{", "file:1: this is no JSON: EOF while parsing an object at line 1 column 1"),
+        ("{", "file:1: this is not JSON: EOF while parsing an object at line 1 column 1"),
         ("[1]", "file: the text must be a JSON object, found \"[1]\""),
         ("{\"equilibria\": []}", "file: there is no equilibrium"),
         ("{\"equilibria\": 1}", "file: equilibria must be a list, found \"1\""),
@@ -187,11 +187,11 @@ fn bad_grids_are_told() {
     ] {
         assert_eq!(wrong(&text), says);
     }
-    assert!(wrong("<VTKFile>").contains("this is no XML"));
+    assert!(wrong("<VTKFile>").contains("this is not XML"));
     let binary = vtu(POINTS, &lines, "").replacen("format=\"ascii\"", "format=\"binary\"", 1);
     let error: FormatError = parse(&binary, "file").unwrap_err();
     assert_eq!(error.to_string(), "file:5: DataArray of format \"binary\" is not understood");
     // Entities that grow without end are refused before they grow.
     let bomb = "<!DOCTYPE a [<!ENTITY b \"bbbb\">]><VTKFile>&b;</VTKFile>";
-    assert!(wrong(bomb).contains("this is no XML"));
+    assert!(wrong(bomb).contains("this is not XML"));
 }

@@ -51,5 +51,5 @@ fn a_mesh_has_the_edges_of_its_faces_once() {
 #[test]
 fn what_is_not_understood_is_named() {
     refused("compas", NETWORK, |text| parse_compas(text, "x"));
-    assert!(parse_compas("", "x").unwrap_err().to_string().contains("this is no JSON"));
+    assert!(parse_compas("", "x").unwrap_err().to_string().contains("this is not JSON"));
 }

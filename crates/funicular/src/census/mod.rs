@@ -113,7 +113,7 @@ impl Census {
         })?
     }
 
-    /// Take the census of a row of bars between two anchors with more equilibria than are good to hold in memory: of
+    /// Take the census of a row of bars between two anchors with more equilibria than should be held in memory: of
     /// each only its signs, its pull and its index are kept, and the rest is made when it is written. The
     /// first so many are made at once.
     ///

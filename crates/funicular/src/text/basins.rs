@@ -21,7 +21,7 @@ impl fmt::Display for BasinsAnswer {
             if unlisted > 0 {
                 writeln!(
                     f,
-                    "{solver}: {unlisted} of {starts} starts reached one that is in no list"
+                    "{solver}: {unlisted} of {starts} starts reached an equilibrium that is not listed"
                 )?;
             }
         }

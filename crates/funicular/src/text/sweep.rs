@@ -129,7 +129,7 @@ pub fn outcome(manifest: &Manifest, code: i16) -> String {
         (Failure::IterationLimit, ["iteration limit", "not at rest in time"]),
         (Failure::Stalled, ["stalled", "no step possible"]),
         (Failure::NonFinite, ["a number overflowed"; 2]),
-        (Failure::Unlisted, ["in no list", "at rest elsewhere"]),
+        (Failure::Unlisted, ["not listed", "at rest elsewhere"]),
     ];
     let released = usize::from(manifest.release.is_some());
     let failure = failures.into_iter().find(|(failure, _)| *failure as i16 == code);
@@ -214,6 +214,6 @@ fn words(comparison: Comparison) -> &'static str {
         Comparison::Failed => "one or both did not converge",
         Comparison::EnergyAtNoMinimum => "energy at no minimum",
         Comparison::EnergiesDiffer => "the same equilibrium with different energies",
-        Comparison::NotListed => "one or both in no list",
+        Comparison::NotListed => "one or both not listed",
     }
 }

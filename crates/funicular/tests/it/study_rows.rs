@@ -38,8 +38,8 @@ fn a_count_is_that_of_the_file() {
     let cells: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
     assert_eq!(cells, [cells[0]; 3], "{csv}");
     for (vary, wanted) in [
-        ("bars.1.count=0", "`0` is no count"),
-        ("bars.1.count=2..1", "`2..1` is no count"),
+        ("bars.1.count=0", "`0` is not a count"),
+        ("bars.1.count=2..1", "`2..1` is not a count"),
         ("bars.*.count=2", "these bars are of several rows"),
         ("bars.1.count=4000000000", "a whole number from 1 to"),
     ] {

@@ -51,7 +51,7 @@ pub enum NoCensus {
     #[error("no census: its settings are out of range")]
     Settings,
     /// The system is refused as an equilibrium problem.
-    #[error("no census: the system is no equilibrium problem")]
+    #[error("no census: the system is not an equilibrium problem")]
     Refused,
     /// The joints of a net with several closures have more independent motions than are searched.
     #[error(
@@ -132,7 +132,7 @@ pub enum NoCensus {
         joint: usize,
     },
     /// There is a floor, which no census knows.
-    #[error("no census knows a floor")]
+    #[error("no census: systems with a floor are not handled")]
     Floor,
     /// A joint slides on a line, or in a plane and is no part of a chain or tree there.
     #[error(
@@ -145,7 +145,7 @@ pub enum NoCensus {
     },
     /// Of cables and ropes alone an equilibrium that is verified is the only one; none is verified.
     #[error(
-        "no census: of cables and ropes alone an equilibrium that is verified is the only one, and none is"
+        "no census: of cables and ropes alone a verified equilibrium is the only one, and none is verified"
     )]
     Cables,
     /// Where cables, struts or ropes are slack nothing holds a joint that no load acts on: it may be anywhere.

@@ -114,7 +114,7 @@ pub enum NoBox {
     },
     /// Occurs when an inextensible member connects two anchors and is not proved to be slack: no
     /// joint tells its force.
-    #[error("{NO_BOX}: member {member} connects two anchors, and nothing tells its force")]
+    #[error("{NO_BOX}: member {member} connects two anchors, and nothing determines its force")]
     BetweenAnchors {
         /// The member, from 1.
         member: usize,

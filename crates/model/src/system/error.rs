@@ -96,7 +96,7 @@ pub enum SystemError {
         /// Name of the joint.
         joint: String,
     },
-    /// Occurs when a rope over rings or pulleys is none that is modelled here.
+    /// Occurs when a rope over rings or pulleys cannot be modelled here.
     #[error("{fault}")]
     Rope {
         /// Number of the member, from 1.

@@ -19,8 +19,8 @@ pub struct Joint {
     properties: Arc<JointProperties>,
 }
 
-/// What a [`Joint`] is but for its name.
-#[derive(Debug, Clone, PartialEq)]
+/// What a [`Joint`] is but for its name; as [`Default`], of one that is free and without load.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointProperties {
     /// What holds it.
     pub support: Support,
@@ -56,15 +56,7 @@ impl DerefMut for Joint {
 }
 
 /// Those of a joint that is free and without load.
-static FREE: LazyLock<Arc<JointProperties>> = LazyLock::new(|| {
-    Arc::new(JointProperties {
-        support: Support::Free,
-        mass_kg: 0.0,
-        force_n: [0.0; 3],
-        near_m: None,
-        tolerances: None,
-    })
-});
+static FREE: LazyLock<Arc<JointProperties>> = LazyLock::new(Arc::default);
 
 /// What leans by less than this part of its length is level or upright.
 const LEVEL: f64 = 1e-12;
@@ -74,9 +66,10 @@ const UP: Vector = AXES[2];
 const AXES: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Support {
     /// Nothing but the members that meet in it.
+    #[default]
     Free,
     /// An anchor: it cannot move.
     Fixed {

@@ -30,7 +30,7 @@ pub struct RunTogether {
     pub to: String,
 }
 
-/// Why a rope is none that is modelled here.
+/// Why a rope cannot be modelled here.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RopeFault {
@@ -149,7 +149,7 @@ impl System {
     }
 }
 
-/// Refuse a rope that is none.
+/// Refuse what is not a valid rope.
 pub(super) fn check(number: usize, member: &Member, joints: &[Joint]) -> Result<(), SystemError> {
     match member.rope_fault(joints) {
         Some(fault) => Err(SystemError::Rope { member: number, fault }),

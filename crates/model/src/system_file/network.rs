@@ -231,7 +231,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Refuse a rope that is none, with the key that is wrong.
+    /// Refuse what is not a valid rope, with the key that is wrong.
     fn rope(&self, read: &Member, member: usize) -> Result<(), (&'static str, Kind)> {
         let fault = read.rope_fault(&self.joints);
         let wrong = |f: RopeFault| (f.key(), Kind::System(SystemError::Rope { member, fault: f }));

@@ -18,7 +18,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              solvers, and where there is one against a law that anyone can check by hand. **Confirmed**: what is computed here, to the \
              tolerance of the source. **Corrected**: off by more, the right number stands beside it. **Refuted**: it breaks the law. \
              Forces of a line are those on its ends; a line as a run of members tends to the closed form with the square of \
-             their number, and what it is off by is told in units of the largest of them.",
+             their number, and what it is off by is given in units of the largest of them.",
         ),
         Block::Table(Table::new(
             "What was judged.",

@@ -37,7 +37,7 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, census: &Census) -> Vec<Block<'a>>
         text(
             "Five rungs: a solver has converged; both solvers agree and Newton's laws hold for every bar; interval \
              arithmetic proves that exactly one equilibrium is there; a census proves that there is no other; a \
-             certificate proves that no configuration has less energy. A rung that was not reached is said so.",
+             certificate proves that no configuration has less energy. A rung that was not reached is marked as such.",
         ),
         Block::Table(ladder(r)),
     ]
@@ -74,7 +74,7 @@ fn angles(r: &Reproduction) -> Table {
     let rows = r.equilibria.iter().map(|p| {
         let difference = p.energy_deg.map(|energy| {
             let of = energy.iter().zip(p.lagrange_deg).map(|(e, l)| (e - l).abs());
-            of.fold(0.0, |most: f64, d| if d <= most { most } else { d })
+            of.fold(0.0, |most: f64, d| if most.is_nan() || d <= most { most } else { d })
         });
         let [theta, alpha, beta] = p.lagrange_deg.map(|angle| Number::decimals(angle, 9).into());
         let or_none = |difference: Option<f64>| match difference {

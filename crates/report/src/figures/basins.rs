@@ -22,7 +22,7 @@ pub fn basins(r: &Reproduction) -> Figure {
         panels: r.figures.basins.iter().map(panel).collect(),
         caption: "Which start leads where: the first two bars start at the angles θ and α, the third one hanging straight down. \
                   Such a chain does not close; both solvers close it on the way. energy, on the right, only goes downhill and \
-                  ends in one of the two minima, dark E1 or light E1′. lagrange, on the left, knows no downhill: it also ends \
+                  ends in one of the two minima, dark E1 or light E1′. lagrange, on the left, has no notion of downhill: it also ends \
                   at the maxima E2 and E2′, and its basins have the ragged borders of Newton's method. A mirror image starts at \
                   −θ, −α: each picture turned by 180 degrees is the same with E1 for E1′ and E2 for E2′."
             .to_owned(),

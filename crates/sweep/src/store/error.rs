@@ -52,7 +52,7 @@ pub enum StoreError {
     #[error("{}: it is not there", path.display())]
     NoPart { path: PathBuf },
     /// Occurs when a pipe, a device or a folder stands where a file of the sweep should.
-    #[error("{} is no regular file", path.display())]
+    #[error("{} is not a regular file", path.display())]
     NotRegular { path: PathBuf },
     /// Occurs when a sweep has more seeds than its summary can list parts of.
     #[error(
@@ -66,7 +66,7 @@ pub enum StoreError {
     #[error("{of} shards do not make shard {wanted}: their number must be a multiple of {}", wanted.of)]
     Uneven { of: u64, wanted: Shard },
     /// Occurs when a shard is no part of the one to be made.
-    #[error("{} is shard {found}, which is no part of shard {wanted}", path.display())]
+    #[error("{} is shard {found}, which is not part of shard {wanted}", path.display())]
     Outside { path: PathBuf, found: Shard, wanted: Shard },
     /// Occurs when a shard is given twice.
     #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]

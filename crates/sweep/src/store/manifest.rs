@@ -191,8 +191,9 @@ impl Manifest {
         let problem = match described.map_err(|error| unusable(error.to_string()))? {
             Described::Chain(problem) => problem,
             Described::System(system) => {
-                let row =
-                    system.as_row().ok_or_else(|| unusable("system.text is no row".to_owned()))?;
+                let row = system
+                    .as_row()
+                    .ok_or_else(|| unusable("system.text is not a row".to_owned()))?;
                 row.problem().clone()
             }
         };

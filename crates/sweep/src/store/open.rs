@@ -213,7 +213,7 @@ impl Parts<'_> {
         {
             Ok(list)
         } else {
-            let reason = "it is no list of this chain".to_owned();
+            let reason = "it is not a list of this chain".to_owned();
             Err(StoreError::Description { path, reason })
         }
     }

@@ -124,7 +124,7 @@ pub fn write(
                     chunk
                 }
             };
-            // Bugs of the solvers' side, told instead of written.
+            // Bugs of the solvers' side, reported instead of written.
             if !fits(&chunk, &range, manifest) {
                 return Err(StoreError::part(path, "a run of seeds came back incomplete"));
             }

@@ -11,7 +11,7 @@
 use std::collections::BTreeMap;
 
 use matrices::dense::Kernels;
-use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
+use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, System, SystemEquilibrium};
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
@@ -66,12 +66,7 @@ impl Family {
     /// any direction.
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
         let named = answer.evidence.self_stresses.as_ref().map(|named| &named.basis[..]);
-        let motions_of = |joint: &Joint| match joint.support {
-            Support::Free => 3,
-            Support::Plane { .. } => 2,
-            Support::Line { .. } => 1,
-            Support::Fixed { .. } => 0,
-        };
+        let motions_of = |joint: &Joint| joint.support.motions().len();
         let is_large = || system.joints().iter().map(motions_of).sum::<usize>() > 2 * COUNTED;
         if named.is_none() && is_large() {
             return None;

@@ -68,16 +68,8 @@ fn rows_are_written_as_columns() {
         energy: -0.25,
         difference: 1.25,
     };
-    let result = CaseResult {
-        case: "c".to_owned(),
-        about: String::new(),
-        bars: 3,
-        agreement: None,
-        scaled: None,
-        rung: None,
-        failure: None,
-        rows: vec![row],
-    };
+    let result =
+        CaseResult { case: "c".to_owned(), bars: 3, rows: vec![row], ..CaseResult::default() };
     assert_eq!(
         csv(&[result]),
         "case,observable,lagrange,energy,difference\nc,energy_j,1e0,-2.5e-1,1.25e0\n"

@@ -60,7 +60,7 @@ pub(super) struct Over<'a> {
 }
 
 impl Over<'_> {
-    /// 1 where a member is slack when it is shorter than its length, -1 where it is when it is longer; 0 never.
+    /// 1 where a member is slack when it is shorter than its length, -1 where it is when it is longer; 0 if it is never slack.
     fn side(&self, member: usize) -> Interval {
         match self.system.members()[member].kind {
             Kind::Bar => Interval::ZERO,

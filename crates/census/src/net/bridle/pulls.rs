@@ -122,21 +122,17 @@ pub(super) fn reaching(
         let mut rest = vec![];
         let mut left: Option<[Interval; 2]> = None;
         for open in sums.open(&patterns) {
-            if area(&open.left) < GOOD_CONTRACTION * area(&cell.at) {
-                let part = Cell { face: cell.face, at: open.left };
-                waiting.push(Pulls { cell: part, patterns: vec![open.pattern] });
-                continue;
-            }
-            if open.promising {
+            let part = Cell { face: cell.face, at: open.left };
+            let own = |pattern| Pulls { cell: part, patterns: vec![pattern] };
+            if part.area() < GOOD_CONTRACTION * cell.area() {
+                waiting.push(own(open.pattern));
+            } else if open.promising {
                 // As narrow as the box makes it.
-                alone.push(Pulls {
-                    cell: Cell { face: cell.face, at: open.left },
-                    patterns: vec![open.pattern],
-                });
-                continue;
+                alone.push(own(open.pattern));
+            } else {
+                rest.push(open.pattern);
+                left = Some(left.map_or(open.left, |all| hull(all, open.left)));
             }
-            rest.push(open.pattern);
-            left = Some(left.map_or(open.left, |all| hull(all, open.left)));
         }
         let Some(at) = left else { continue };
         let cell = Cell { face: cell.face, at };
@@ -184,10 +180,6 @@ fn both(strand: &Strand, span: &Span, one: &Pulls, other: &Pulls) -> Option<Cell
     let sums = PatternSums::of(&strand.length, &strand.weight, span.way, &cell)?;
     let [open] = sums.open(&one.patterns)[..] else { return None };
     open.promising.then_some(Cell { face: cell.face, at: open.left })
-}
-
-fn area(at: &[Interval; 2]) -> f64 {
-    at[0].width() * at[1].width()
 }
 
 #[cfg(test)]
@@ -258,9 +250,11 @@ mod tests {
                 is(own_h, h) && is(own_v, v)
             };
             assert!(found.iter().filter(own).any(holds), "{found:?}");
-            assert!(found.iter().all(|pulls| area(&pulls.cell.at) < 1e-3), "{found:?}");
+            assert!(found.iter().all(|pulls| pulls.cell.area() < 1e-3), "{found:?}");
         }
-        assert!((area(&[Interval::new(1.0, 3.0), Interval::new(0.0, 0.25)]) - 0.5).abs() < 1e-15);
+        let cell =
+            Cell { face: Face::Near, at: [Interval::new(1.0, 3.0), Interval::new(0.0, 0.25)] };
+        assert!((cell.area() - 0.5).abs() < 1e-15);
     }
 
     /// About the pull of the test before: cells of another pattern, on another face, or apart are

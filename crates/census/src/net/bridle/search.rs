@@ -85,9 +85,6 @@ fn of_task(bridle: &Bridle, known: &[Found], task: &Task) -> Outcome {
         return outcome;
     }
     let choices = balanced(bridle.load, &held);
-    if choices.is_empty() {
-        return outcome;
-    }
     let mut stays: Vec<Vec<usize>> = vec![];
     if choices.len() > MOST_CHOICES {
         stays = choices;
@@ -96,24 +93,22 @@ fn of_task(bridle: &Bridle, known: &[Found], task: &Task) -> Outcome {
             of_choice(bridle, known, &task.at, &lists, choice, &mut stays, &mut outcome);
         }
     }
-    if !stays.is_empty() {
-        if stays.len() <= FEW_CHOICES {
-            stays.retain(|stay| {
-                let mut lists = chosen(&lists, std::slice::from_ref(stay));
-                match narrowed(bridle, &task.at, &lists) {
-                    Some(cells) => {
-                        for (list, cell) in lists.iter_mut().zip(cells) {
-                            list[0].cell = cell;
-                        }
-                        !cut_pulls(&task.at, width, &lists, &mut outcome)
+    if stays.len() <= FEW_CHOICES {
+        stays.retain(|stay| {
+            let mut lists = chosen(&lists, std::slice::from_ref(stay));
+            match narrowed(bridle, &task.at, &lists) {
+                Some(cells) => {
+                    for (list, cell) in lists.iter_mut().zip(cells) {
+                        list[0].cell = cell;
                     }
-                    None => false,
+                    !cut_pulls(&task.at, width, &lists, &mut outcome)
                 }
-            });
-        }
-        if !stays.is_empty() {
-            cut(&task.at, chosen(&lists, &stays), &mut outcome);
-        }
+                None => false,
+            }
+        });
+    }
+    if !stays.is_empty() {
+        cut(&task.at, chosen(&lists, &stays), &mut outcome);
     }
     outcome
 }

@@ -18,7 +18,7 @@ use super::jet::Jets;
 use super::layout::{End, Layout};
 use super::reach::span;
 use super::swing::{Swung, added};
-use crate::boxes::arithmetic::{self, Vector, difference, plus, squared, sum, times, unit};
+use crate::boxes::arithmetic::{self, Vector, difference, plus, squared, sum, times, unit, upon};
 use crate::run::closure::signed;
 
 /// Which way each swinging joint lies: a bit is set where σ = −1.
@@ -34,7 +34,7 @@ pub(super) struct Cell<'a, const N: usize> {
     pub(super) spans: Vec<Vec<Vector>>,
     /// What each span pulls with by a unit of the unknown of its link.
     pub(super) along: Vec<Vec<Vector>>,
-    /// Tensions of links that are told by the places; nothing of the others.
+    /// Tensions of links that follow from the places; `None` for the others.
     pub(super) known: Vec<Option<Interval>>,
 }
 
@@ -153,11 +153,6 @@ impl<'a, const N: usize> Cell<'a, N> {
     }
 
     fn slope_of_link(&self, slope: &mut Dense, number: usize, force: Interval) {
-        const AXES: [Vector; 3] = [
-            [Interval::ONE, Interval::ZERO, Interval::ZERO],
-            [Interval::ZERO, Interval::ONE, Interval::ZERO],
-            [Interval::ZERO, Interval::ZERO, Interval::ONE],
-        ];
         let (link, dim) = (&self.layout.links[number], self.layout.dim);
         let extra = self.layout.coordinates() + number;
         let spans = link.ends.iter().zip(&self.spans[number]).zip(&self.along[number]);
@@ -170,7 +165,7 @@ impl<'a, const N: usize> Cell<'a, N> {
                     if link.hanging.is_none() {
                         add(slope, (extra, row + k), -*part);
                     }
-                    let turned = direction.turned(force, AXES[k]);
+                    let turned = direction.turned(force, upon(k, Interval::ONE));
                     if let Some(other) = self.rows(*there) {
                         add_to_column(slope, (row, other + k), &turned[..dim]);
                     }

@@ -21,6 +21,7 @@
 
 use numerics::Interval;
 
+use super::morse::alternating_sum;
 use crate::run::closure::bar::size;
 use crate::run::plane::system::System;
 
@@ -41,11 +42,7 @@ pub enum TopologyError {
     /// Occurs when some bars and perhaps the span are together exactly as long as the others, or so
     /// nearly that rounding hides the difference: a straight position exists, and the configuration
     /// space is no manifold there.
-    #[error(
-        "sides {} are together as long as the others: a straight position exists, and the \
-         configuration space is no manifold there",
-        sides.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
-    )]
+    #[error("{}", model::Reason::StraightPosition { sides: sides.clone() })]
     Straight {
         /// Numbers of the sides, from 1; n + 1 is the line between the anchors.
         sides: Vec<usize>,
@@ -99,12 +96,8 @@ impl Topology {
     }
 
     fn from_betti(betti: Vec<u64>) -> Self {
-        let euler = betti
-            .iter()
-            .zip([1, -1].into_iter().cycle())
-            .map(|(b, sign)| sign * i64::try_from(*b).unwrap_or(i64::MAX))
-            .sum();
-        Self { betti, euler }
+        let count: Vec<_> = betti.iter().map(|b| i64::try_from(*b).unwrap_or(i64::MAX)).collect();
+        Self { euler: alternating_sum(&count), betti }
     }
 
     /// The product with a circle.

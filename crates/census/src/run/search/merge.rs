@@ -16,18 +16,8 @@ pub(crate) fn merge(system: &System, mut zeros: Zeros) -> (Zeros, Zeros) {
     let mut unclear: Zeros = vec![];
     for (pattern, zero) in zeros {
         let known = once.iter().rev().take_while(|(other, _)| *other == pattern);
-        let mut nearest = Relation::Different;
-        for (_, other) in known {
-            match relation(system, other, &zero) {
-                Relation::Same => {
-                    nearest = Relation::Same;
-                    break;
-                }
-                Relation::Unclear => nearest = Relation::Unclear,
-                Relation::Different => {}
-            }
-        }
-        match nearest {
+        let nearest = known.map(|(_, other)| relation(system, other, &zero)).max();
+        match nearest.unwrap_or(Relation::Different) {
             Relation::Same => {}
             Relation::Unclear => unclear.push((pattern, zero)),
             Relation::Different => once.push((pattern, zero)),
@@ -36,11 +26,12 @@ pub(crate) fn merge(system: &System, mut zeros: Zeros) -> (Zeros, Zeros) {
     (once, unclear)
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// From the farthest to the nearest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Relation {
-    Same,
     Different,
     Unclear,
+    Same,
 }
 
 /// Both zeros belong to the same pattern.

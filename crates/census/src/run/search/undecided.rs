@@ -84,14 +84,8 @@ pub(crate) fn gather(mut tasks: Vec<Task>) -> Vec<Task> {
         for task in tasks {
             #[expect(clippy::cast_possible_truncation, reason = "coordinates lie in [-2, 2]")]
             let square = task.cell.middle().map(|x| (x * GRID / 2.0).floor() as i64);
-            match squares.entry((task.cell.face, square)) {
-                std::collections::btree_map::Entry::Vacant(entry) => {
-                    entry.insert(task);
-                }
-                std::collections::btree_map::Entry::Occupied(mut entry) => {
-                    unite(entry.get_mut(), &task);
-                }
-            }
+            let known = squares.entry((task.cell.face, square));
+            known.and_modify(|all| unite(all, &task)).or_insert(task);
         }
         tasks = squares.into_values().collect();
     }

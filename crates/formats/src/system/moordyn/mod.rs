@@ -165,7 +165,7 @@ fn line_types(sections: &Sections<'_>, options: &Options) -> Result<HashMap<Stri
         let (diameter_m, mass_kg_m) = (row.positive("diameter")?, row.number("mass")?);
         let stiffness = row.text("EA")?;
         if stiffness.parse::<f64>().is_err() {
-            let what = format!("the stiffness {stiffness:?}, which is no constant,");
+            let what = format!("the stiffness {stiffness:?}, which is not a constant,");
             return Err(row.at().out_of_scope(what));
         }
         if let Some(bending) = row.optional("EI")?.filter(|bending| bending.abs() > 0.0) {

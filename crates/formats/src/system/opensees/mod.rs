@@ -2,7 +2,7 @@
 //!
 //! A truss is an elastic bar of EA, as long as its nodes are apart; nothing weighs, as in OpenSees, where loads alone act:
 //! masses are held up by forces of their weights, so that they only swing. In a deck of two dimensions Y is up. Numbers
-//! are N, m and kg, since a deck has no units. Loads on nodes that are held are told and are not in the reactions. Loads
+//! are N, m and kg, since a deck has no units. Loads on nodes that are held are noted and are not in the reactions. Loads
 //! act by the factors of their series at the time 1. The linear `truss` is read as the `corotTruss`, whose balance
 //! is that of the displaced shape.
 //!
@@ -43,6 +43,7 @@ struct Node {
 }
 
 /// What a deck has said so far.
+#[derive(Default)]
 struct Deck<'a> {
     file: &'a str,
     variables: Variables,
@@ -65,19 +66,7 @@ struct Deck<'a> {
 /// # Errors
 /// [`FormatError`](crate::FormatError) with the line and the part that is wrong, not understood, or out of scope.
 pub fn parse_opensees(text: &str, file: &str) -> Result<ForeignSystem> {
-    let mut deck = Deck {
-        file,
-        variables: Variables::new(),
-        dimensions: 0,
-        nodes: vec![],
-        numbers: HashMap::new(),
-        materials: HashMap::new(),
-        series: HashMap::new(),
-        members: vec![],
-        skipped: BTreeSet::new(),
-        linear: false,
-        budget: Budget::default(),
-    };
+    let mut deck = Deck { file, ..Deck::default() };
     let mut script = Script::new(file, text.strip_prefix('\u{feff}').unwrap_or(text), 1);
     while let Some(command) = script.next(&mut deck.variables)? {
         deck.read(&Words { file, command: &command })?;

@@ -1,7 +1,7 @@
 //! Self-stresses of four bars that meet, by hand.
 
 use model::Bar;
-use model::system::{Joint, Member};
+use model::system::{Joint, Member, Support};
 use numerics::vector::{cross, minus, norm};
 
 use super::super::tests::lamp;
