@@ -58,8 +58,7 @@ impl Snapshot {
     ) -> Self {
         let mechanism = simulation.mechanism();
         let system = mechanism.system();
-        let members = system.members();
-        let state = &simulation.state;
+        let (members, state) = (system.members(), &simulation.state);
         let mut axial_n = vec![0.0; members.len()];
         let mut start_forces_n = vec![[0.0; 3]; members.len()];
         let mut end_forces_n = vec![[0.0; 3]; members.len()];
@@ -156,8 +155,8 @@ impl Snapshot {
             rates_off,
             laws: Laws::default(),
         };
-        found.laws =
-            laws::judge(system, &found, simulation.settings.damping_1_s, &of_time, &moments);
+        let damping_1_s = simulation.settings.damping_1_s;
+        found.laws = laws::judge(system, &found, damping_1_s, &of_time, &moments);
         found
     }
 
