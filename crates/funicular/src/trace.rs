@@ -1,9 +1,9 @@
 //! All equilibria of a chain over a parameter, and load paths of any system.
 
 mod confirm;
-mod description;
+pub(crate) mod description;
 mod enclosed;
-pub(crate) mod equations;
+mod equations;
 mod everywhere;
 mod figure;
 pub(crate) mod load;

@@ -7,7 +7,7 @@ use model::system::System;
 use crate::error::Error;
 use crate::net::component::check_held;
 use crate::net::factor::Factor;
-use crate::net::frame::Frame;
+use crate::net::frame::{Frame, Rod};
 use crate::net::interior::{ITERATIONS, Interior, relaxable};
 use crate::net::jam::at_corners;
 use crate::net::limit::Limit;
@@ -29,6 +29,9 @@ const RESTARTS: usize = 4;
 /// dozen: as many starts as make this number of free coordinates together, and at most so many.
 const COORDINATES: usize = 900;
 const MOST_RESTARTS: usize = 100;
+
+/// Steps from places given in which elastic members keep their own stiffness, as a descent into the nearest minimum does.
+const OWN_STEPS: u64 = 200;
 
 /// A shape so many times as far from the origin is elsewhere.
 const FAR: f64 = 1e3;
@@ -202,14 +205,24 @@ pub fn minimise_from(
 fn from_seed(system: &System, seed_m: &[Vector], settings: &Settings) -> Result<Solution, Error> {
     within(system, settings, |frame, settings| {
         let start = seeded(frame, seed_m)?;
-        let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let (pace, none) = (Pace { own: true, ..Pace::default() }, Effort::default());
-        let mut found = descend(frame, factor, start.clone(), pace, settings, none);
+        let factor = || Factor::new(&frame.spots, &frame.rods, &frame.meter);
+        let none = Effort::default();
+        let own = || {
+            let max_iterations = settings.max_iterations.min(OWN_STEPS);
+            let few = Settings { max_iterations, ..*settings };
+            let pace = Pace { own: true, ..Pace::default() };
+            descend(frame, factor().ok()?, start.clone(), pace, &few, none).ok()
+        };
+        let elastic = frame.rods.iter().any(Rod::elastic);
+        let mut found = match elastic.then(own).flatten() {
+            Some(found) => Ok(found),
+            // Stiffnesses of different orders lead down a narrow valley, and springs that soften them past it.
+            None => descend(frame, factor()?, start.clone(), Pace::default(), settings, none),
+        };
         if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < RELAXED {
             // The loads have crushed it, which its lengths would not allow.
-            let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
             let pace = Pace { near: RELAXED, ..Pace::default() };
-            let near = descend(frame, factor, start, pace, settings, none);
+            let near = descend(frame, factor()?, start, pace, settings, none);
             found = better(frame, near, found);
         }
         found

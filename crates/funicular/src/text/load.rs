@@ -8,7 +8,7 @@ use model::system::Name;
 use super::printable::Printable;
 use super::tables::{numbers_from, outwards, short, significant, table, wrapped};
 use crate::csv::Numbers;
-use crate::trace::equations::shortest_span;
+use crate::trace::description::shortest_span;
 use crate::trace::load::{BranchesFrom, Kind, LoadEnd, LoadEvent, LoadPath, LoadPaths, LoadPoint};
 use crate::trace::{Confirmed, PathProved};
 use validate::Tolerances;
@@ -296,8 +296,9 @@ fn ends(found: &LoadPaths, path: &LoadPath) -> String {
 /// The joints of a rope that run together at the end of a path, the one that moves first.
 fn at_pulley<'a>(found: &'a LoadPaths, path: &LoadPath) -> [&'a Name; 2] {
     let joints = found.system().joints();
-    let last = path.points.last().map_or(&[][..], |point| &point.joints_m);
-    let (_, mut span) = shortest_span(found.system(), last).unwrap_or_default();
+    let [first, last] = [path.points.first(), path.points.last()]
+        .map(|point| point.map_or(&[][..], |point| &point.joints_m));
+    let (_, mut span) = shortest_span(found.system(), first, last).unwrap_or_default();
     span.sort_by_key(|joint| joints[*joint].support.is_fixed());
     span.map(|joint| &joints[joint].name)
 }

@@ -1,9 +1,11 @@
 //! Paths that are followed, as load paths: what is shown, what happens, what is proved and confirmed.
 
 use branches::Variation;
-use branches::load::{End, Event, Kind, LoadPath as FollowedPath};
+use branches::load::{End, Event, Kind, LoadPath as FollowedPath, Point};
 use lagrange::net::Side;
-use model::system::{System, SystemEquilibrium};
+use model::Vector;
+use model::system::{Member, System, SystemEquilibrium};
+use numerics::vector::{minus, norm};
 use rayon::prelude::*;
 
 use super::confirm::confirm;
@@ -48,14 +50,52 @@ pub(super) fn most_moved<'a: 'b, 'b>(
     Some(format!("joints.{name}.{}", ["x", "y", "z"][axis]))
 }
 
+/// A span of a rope that is shorter than this, in units of what it was where the path began, is at its end.
+const NO_SPAN: f64 = 1e-3;
+
+/// The span of a rope that has become shortest between two shapes, in units of what it was, and its joints.
+pub(crate) fn shortest_span(
+    system: &System,
+    from_m: &[Vector],
+    to_m: &[Vector],
+) -> Option<(f64, [usize; 2])> {
+    let ropes = system.members().iter().filter(|member| !member.via().is_empty());
+    let parts = ropes.flat_map(Member::spans).map(|[a, b]| {
+        let [before, after] = [from_m, to_m].map(|at| norm(minus(at[a], at[b])));
+        (after / before, [a, b])
+    });
+    parts.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Whether a path is lost where two joints of a rope run together. Of its points there only the first is kept: the others come
+/// ever nearer, and their spans have directions to fewer digits than balance is judged by.
+fn jams(system: &System, path: &mut FollowedPath<Family<'_>>) -> bool {
+    if !matches!(path.end, End::Lost | End::MaxPoints | End::Numbers(_)) {
+        return false;
+    }
+    let Some(first) = path.points.first() else { return false };
+    let is_there = |point: &&Point<Kept>| {
+        let [from_m, to_m] = [first, *point].map(|at| &at.record.equilibrium.joints_m);
+        shortest_span(system, from_m, to_m).is_some_and(|(part, _)| part < NO_SPAN)
+    };
+    let there = path.points.iter().rev().take_while(is_there).count();
+    let kept = path.points.len() + 1 - there;
+    // Other paths may begin in events.
+    if there > 1 && path.events.iter().all(|event| event.point < kept) {
+        path.points.truncate(kept);
+    }
+    there > 0
+}
+
 /// A path as it is described.
 pub(super) fn described(
     family: &mut Family<'_>,
     variation: &Variation,
     of: &[Observable],
-    found: &FollowedPath<Family<'_>>,
+    found: &mut FollowedPath<Family<'_>>,
 ) -> Result<LoadPath, LoadError> {
     let system = variation.base();
+    let jams = jams(system, found);
     let points = found.points.iter().map(|point| {
         let Kept { values, equilibrium } = &point.record;
         let shown = |one: &Observable| one.of(system, equilibrium);
@@ -96,13 +136,13 @@ pub(super) fn described(
         }
     }
     let end = match &found.end {
+        _ if jams => LoadEnd::Jams,
         End::Range => LoadEnd::Range,
         End::MaxPoints => LoadEnd::MaxPoints,
         End::Joins(_) => LoadEnd::Joins,
         End::Lost => LoadEnd::Lost,
         End::Open => LoadEnd::Open,
         End::Unbounded => LoadEnd::Unbounded,
-        End::Numbers(LoadError::Jams) => LoadEnd::Jams,
         End::Numbers(_) => LoadEnd::Numbers,
     };
     let (branches_from, joins, linear_buckling) = (None, None, None);

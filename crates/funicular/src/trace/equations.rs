@@ -6,7 +6,6 @@ use lagrange::net::{Equations, Side};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::DVector;
-use numerics::vector::{minus, norm};
 use validate::systems::Near;
 
 use super::enclosed::loads_alone;
@@ -18,9 +17,6 @@ const AHEAD: f64 = 1e-3;
 
 /// Step of the difference for how supports move.
 const GIVEN: f64 = 1e-3;
-
-/// A span of a rope that is shorter than this, in units of the rope, has a direction to fewer digits than balance is judged by.
-const NO_SPAN: f64 = 1e-4;
 
 /// A factor is good for unknowns that differ by rounding.
 const SAME: f64 = 1e-13;
@@ -165,17 +161,6 @@ impl<'a> Family<'a> {
     }
 }
 
-/// The shortest of all spans of ropes, in units of its rope, and its joints.
-pub(crate) fn shortest_span(system: &System, joints_m: &[Vector]) -> Option<(f64, [usize; 2])> {
-    let ropes = system.members().iter().filter(|member| !member.via().is_empty());
-    let parts = ropes.flat_map(|rope| {
-        let part =
-            move |a: usize, b: usize| norm(minus(joints_m[a], joints_m[b])) / rope.body.length_m();
-        rope.spans().map(move |[a, b]| (part(a, b), [a, b]))
-    });
-    parts.min_by(|a, b| a.0.total_cmp(&b.0))
-}
-
 /// A point of a path as it is kept.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Kept {
@@ -256,10 +241,6 @@ impl load::Equations for Family<'_> {
         self.set(t)?;
         let system = self.system(t)?;
         let equilibrium = self.equations.solution(&system, y.as_slice(), index).equilibrium;
-        let short = shortest_span(&system, &equilibrium.joints_m);
-        if short.is_some_and(|(part, _)| part < NO_SPAN) {
-            return Err(LoadError::Jams);
-        }
         Ok(Kept { values: self.values(t), equilibrium })
     }
 }

@@ -288,8 +288,8 @@ pub(super) fn trace(
     let mut paths: Vec<LoadPath> = Vec::new();
     for Followed { mut family, linear_buckling, everywhere, paths: found } in all {
         let earlier = paths.len();
-        for one in found {
-            let mut path = described(&mut family, variation, &of, &one)?;
+        for mut one in found {
+            let mut path = described(&mut family, variation, &of, &mut one)?;
             let main = one.parent.is_none();
             let at = |of: Parent| BranchesFrom { path: earlier + of.path, event: of.event };
             path.joins = if let End::Joins(of) = one.end { Some(at(of)) } else { None };

@@ -128,7 +128,7 @@ fn a_path_ends_where_a_ring_comes_to_its_pulley() {
     let found = Trace::new().vary("joints.B.at_m.z=1..4").unwrap().run(&ring("")).unwrap();
     let path = &found.load_paths().unwrap().paths()[0];
     let last = path.points.last().unwrap().values[0];
-    assert!(path.end == LoadEnd::Jams && (last - 3.0).abs() < 2e-3, "{found}");
+    assert!(path.end == LoadEnd::Jams && (last - 3.0).abs() < 5e-3, "{found}");
     assert!(found.checks_agree() && !found.checks_decided(), "{found}");
     assert!(
         found.to_string().contains("the path ends where P comes to A along its rope"),
@@ -153,10 +153,23 @@ fn a_path_ends_where_a_weight_comes_to_its_pulley() {
         let found = Trace::new().vary(vary).unwrap().run(&problem).unwrap();
         let path = &found.load_paths().unwrap().paths()[0];
         let last = path.points.last().unwrap().values[0];
-        assert!(path.end == LoadEnd::Jams && (last - at).abs() < 2e-3, "{found}");
+        assert!(path.end == LoadEnd::Jams && (last - at).abs() < 5e-3, "{found}");
         assert!(
             found.checks_agree() && found.to_string().contains("where W comes to B"),
             "{found}"
         );
+    }
+}
+
+/// A rope of 100 m over two sheaves 8 mm apart: a span that is short from the start is no end. 60 kg hang from it.
+#[test]
+fn a_rope_over_twin_sheaves_goes_on() {
+    let file = "[joints]\np = { at_m = [0, 0, 60] }\nq = { at_m = [0.008, 0, 60] }\nfloor = { at_m = [0, 0, 0] }\n\
+                load = { near_m = [0, 0, 20], mass_kg = 50 }\ncw = { near_m = [0.008, 0, 0.008], mass_kg = 60 }\n\
+                [[bars]]\nfrom = \"load\"\nvia = [\"p\", \"q\"]\nto = \"cw\"\nkind = \"cable\"\nlength_m = 100\n\
+                [[bars]]\nfrom = \"load\"\nto = \"floor\"\nlength_m = 19\nstiffness_n = 2000\nmass_kg = 0\n";
+    let path = path_of(&Problem::parse(file, "twin.toml").unwrap(), "loads=1..2");
+    for point in &path.points {
+        near(point.axial_n[0], 60.0 * 9.80665 * point.values[0]);
     }
 }
