@@ -52,7 +52,7 @@ fn what_is_refused_everywhere_leaves_files_alone() {
         (&["--case", "lamp", "--vary", "joints.lamp.at_m.x=1"], "joint `lamp` is free"),
         (&["--case", "lamp", "--vary", "joints.A.mass_kg=1"], "joint `A` is an anchor"),
         (&["--case", "lamp", "--vary", "joints.B.at_m.x=8,9"], "no value of the parameters"),
-        (&["--case", "bridle", "--vary", "anchors.end_m.x=1"], "no chain between two anchors"),
+        (&["--case", "bridle", "--vary", "anchors.end_m.x=1"], "not a chain between two anchors"),
         (&["two.toml", "--vary", "joints.3.mass_kg=1"], "joints: 0, 1, 2"),
     ];
     refused(&folder, &["study"], &table);
