@@ -21,11 +21,11 @@ impl Case {
     /// The problem of a chain.
     ///
     /// # Panics
-    /// Where the case is no chain; nowhere else, a test reads all of them.
+    /// Where the case is not a chain, and nowhere else: a test reads all of them.
     pub fn problem(&self) -> Problem {
         match parse(self.text, self.name) {
             Ok(Described::Chain(problem)) => problem,
-            Ok(Described::System(_)) => panic!("{} of the registry is no chain", self.name),
+            Ok(Described::System(_)) => panic!("{} of the registry is not a chain", self.name),
             Err(error) => panic!("case of the registry: {error}"),
         }
     }
@@ -33,7 +33,7 @@ impl Case {
     /// The system of joints and members.
     ///
     /// # Panics
-    /// Where the case is a chain; nowhere else, a test reads all of them.
+    /// Where the case is a chain, and nowhere else: a test reads all of them.
     pub fn system(&self) -> System {
         match parse(self.text, self.name) {
             Ok(Described::System(system)) => system,
@@ -42,9 +42,6 @@ impl Case {
         }
     }
 }
-
-/// A system of joints and members.
-pub type Exhibit = Case;
 
 macro_rules! registry {
     ($($name:literal: $about:literal,)*) => {

@@ -5,7 +5,7 @@
 //! the formula that stands beside it, and from no solver.
 
 use model::STANDARD_GRAVITY_M_S2 as G;
-use model::cases::{Exhibit, exhibits};
+use model::cases::{Case, exhibits};
 use model::system::{System, SystemEquilibrium};
 
 use crate::question::Solvers;
@@ -30,7 +30,7 @@ pub struct ClosedForm {
 #[derive(Debug, Clone)]
 pub struct Piece {
     /// The system file with its name.
-    pub exhibit: &'static Exhibit,
+    pub exhibit: &'static Case,
     /// The system.
     pub system: System,
     /// What both solvers and the judges say.
@@ -52,7 +52,7 @@ pub struct Piece {
 /// }
 /// ```
 pub fn solve() -> Vec<Piece> {
-    let one = |exhibit: &'static Exhibit| {
+    let one = |exhibit: &'static Case| {
         let system = exhibit.system();
         let answer = ask(&system, Solvers::Both, &|_| {});
         Some(Piece { exhibit, system, answer, closed_form: closed_form(exhibit.name)? })

@@ -18,7 +18,7 @@ const SEED_CORRECTIONS: usize = 25;
 const PERTURBATIONS: u32 = 8;
 const PERTURBATION: f64 = 0.01;
 /// Where one lane is.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Lane {
     /// Its seed; `usize::MAX` when there is none left.
     pub(crate) seed: usize,
@@ -65,18 +65,7 @@ pub(crate) enum Next {
 impl Lane {
     /// At the start of a seed.
     pub(crate) fn new(seed: usize) -> Self {
-        Self {
-            seed,
-            trials: 0,
-            corrections: 0,
-            halvings: 0,
-            perturbations: 0,
-            settling: 0,
-            part: 0.0,
-            value: f64::INFINITY,
-            fall: 0.0,
-            slope: f64::INFINITY,
-        }
+        Self { seed, value: f64::INFINITY, slope: f64::INFINITY, ..Self::default() }
     }
 
     /// After a measurement of the trial.

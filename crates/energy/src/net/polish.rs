@@ -36,7 +36,8 @@ pub(super) const STIFFER: f64 = 1e-3;
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
 
-/// The same over what curvatures are unsure by.
+/// The same over what curvatures are unsure by, as springs strain or forces are off by that part: several members meet in a
+/// joint, and each adds to it.
 const UNSURE: f64 = 10.0;
 
 /// The same with elastic members, of which what a turn leaves of their lengths is a force.

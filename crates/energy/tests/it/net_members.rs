@@ -189,3 +189,26 @@ fn members_that_just_reach_the_floor_share_with_it() {
         }
     }
 }
+
+/// Two bars of 1.2 m and 1 kN over feet 2 m apart, with 10 N at P that slides upright: the energy rises from both sides to a
+/// saddle just above the level, so that each start comes down to the minimum on its own side.
+#[test]
+fn starts_end_in_the_minimum_below_them() {
+    let rail = Support::Line { at_m: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    let joints = vec![
+        Joint::anchor("A", [-1.0, 0.0, 0.0]),
+        Joint::anchor("B", [1.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0).held_by(rail),
+    ];
+    let members = [0, 1].map(|foot| weightless(foot, 2, 1.2, Kind::Bar).with_stiffness(1e3));
+    let system = System::new("two bars", G, joints, members.to_vec()).unwrap();
+    for start_m in [-0.9, -0.5, -0.2, 0.2, 0.5, 0.9] {
+        let places_m = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, start_m]];
+        let found = minimise_from(&system, &places_m, &Settings::default()).unwrap().equilibrium;
+        let z = found.joints_m[2][2];
+        assert!(z * start_m > 0.0 && z.abs() > 0.5, "{start_m}: {z}");
+        // What both bars bear up, by their law.
+        let length = z.hypot(1.0);
+        close(2.0 * 1e3 * (1.0 - length / 1.2) * z / length, 10.0);
+    }
+}

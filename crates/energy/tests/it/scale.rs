@@ -3,7 +3,7 @@
 use energy::batch::{Batch, BatchSettings};
 use energy::net::{self, Critical, Error, Settings, critical, minimise};
 use energy::{Motion, minimise_from};
-use model::cases::Exhibit;
+use model::cases::Case;
 use model::system::{Kind, System};
 use model::{Evidence, Problem, Vector};
 use rand::SeedableRng;
@@ -37,7 +37,7 @@ fn mixed(system: &System) -> System {
 
 /// Random ones, those of the gallery, with ropes, and a frame whose lengths do not fit; and bridles with places to begin.
 fn systems() -> Vec<(System, Option<Vec<Vector>>)> {
-    let mut all: Vec<System> = model::cases::systems().map(Exhibit::system).collect();
+    let mut all: Vec<System> = model::cases::systems().map(Case::system).collect();
     all.extend(samples::ropes().into_iter().map(|sample| sample.system));
     all.push(samples::legs([1e-3, 2e-3, 3e-3, 4e-3]));
     for seed in 0..8_u32 {

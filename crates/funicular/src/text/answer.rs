@@ -242,32 +242,31 @@ fn question(solution: &SolveAnswer) -> String {
     wrapped(&format!("{found}{lower}.{way}"), 0) + "\n" + &again(solution.asked_again())
 }
 
+/// What rounding moves, as a part of the shortest member at a joint.
+const UNMOVED: f64 = 1e-12;
+/// A joint that has moved by more than this part of the shortest member there is far from where it was drawn.
+const FAR: f64 = 0.25;
+
 /// How a structure that falls out of the plane in which it is drawn is kept there.
 fn of_a_plane(system: &System, found: &SystemEquilibrium) -> String {
-    let near_m = system.drawing().filter(|_| found.stability.index_in_space > 0);
+    /// What is out of a plane by no more than this part of the length of all members is drawn in it.
+    const FLAT: f64 = 1e-9;
+    let falls = found.stability.index_in_space > 0;
     let is_free = system.joints().iter().any(|joint| joint.support == Support::Free);
-    let lies = |axis: &usize| {
-        let places = || near_m.iter().flatten().chain(&found.joints_m);
-        places().all(|at| {
-            (at[*axis] - found.joints_m[0][*axis]).abs() <= FLAT * system.total_length_m()
-        })
+    let drawing_m = system.drawing().filter(|_| falls && is_free).unwrap_or_default();
+    let first_m = found.joints_m[0];
+    let lies = |axis: usize| {
+        let mut places = drawing_m.iter().chain(&found.joints_m);
+        places.all(|at| (at[axis] - first_m[axis]).abs() <= FLAT * system.total_length_m())
     };
-    let across = [1, 0].into_iter().find(|axis| near_m.is_some() && is_free && lies(axis));
-    across.map_or_else(String::new, |axis| {
-        let plane = if axis == 1 { "xz" } else { "yz" };
+    let plane = [("xz", 1), ("yz", 0)].into_iter().find(|(_, axis)| lies(*axis));
+    plane.filter(|_| !drawing_m.is_empty()).map_or_else(String::new, |(plane, _)| {
         let sentence = format!(
             "All joints are drawn in one plane, and nothing holds them in it: plane = \"{plane}\" in the file does."
         );
         wrapped(&sentence, 0) + "\n"
     })
 }
-
-/// What rounding moves, as a part of the shortest member at a joint.
-const UNMOVED: f64 = 1e-12;
-/// What is out of a plane by no more than this part of the length of all members is drawn in it.
-const FLAT: f64 = 1e-9;
-/// A joint that has moved by more than this part of the shortest member there is far from where it was drawn.
-const FAR: f64 = 0.25;
 
 /// What is said of the forces besides the rungs, with a mark and of what.
 fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {

@@ -245,3 +245,17 @@ fn counts_begin_at_one() {
     assert!(svg.iter().any(|svg| svg.contains(">1: ")), "the legend");
     assert!(!svg.iter().any(|svg| svg.contains(">0: ")), "the legend");
 }
+
+/// A planar truss that is drawn in space falls over, and the answer says how it is kept in its plane.
+#[test]
+fn what_falls_out_of_its_plane_has_a_hint() {
+    let truss = stdout(&funicular(&["cases", "warren-truss"]));
+    let solved = |text: &str| {
+        let folder = holding([("truss.toml", text)]);
+        stdout(&ran(&folder, &["solve", "truss.toml", "--census", "never", "--summary"]))
+    };
+    let hint = "plane = \"xz\"";
+    assert!(!solved(&truss).contains(hint));
+    let in_space = solved(&truss.replace(hint, ""));
+    assert!(in_space.contains("unstable") && in_space.contains(hint), "{in_space}");
+}

@@ -5,7 +5,7 @@ use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed;
 use lagrange::net::{self, Solution};
 use lagrange::{Settings, solve, solve_from};
-use model::cases::Exhibit;
+use model::cases::Case;
 use model::system::{Kind, System};
 use model::{Problem, Vector};
 use samples::scaled_chain;
@@ -117,7 +117,7 @@ fn systems_scale_without_rounding() {
     let random =
         (3000..3024).enumerate().map(|(k, seed)| random(seed, &kinds[..=k % 3], k % 2 == 0));
     let mut systems: Vec<System> = random.collect();
-    systems.extend(model::cases::systems().map(Exhibit::system));
+    systems.extend(model::cases::systems().map(Case::system));
     systems.extend(samples::ropes().into_iter().map(|sample| sample.system));
     systems.push(samples::legs([1e-3, 2e-3, 3e-3, 4e-3]));
     let mut answers = 0;

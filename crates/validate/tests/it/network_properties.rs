@@ -1,7 +1,7 @@
 //! What must not matter to a system of mixed members, and what elastic ones tend to.
 
 use model::Bar;
-use model::cases::Exhibit;
+use model::cases::Case;
 use model::system::{Member, PointLoad, System, SystemEquilibrium};
 use validate::Solvers;
 use validate::systems::ask;
@@ -117,7 +117,7 @@ fn answers_of_ropes_scale_without_rounding() {
 
 #[test]
 fn answers_of_the_gallery_scale_without_rounding() {
-    assert_scaled(model::cases::systems().map(Exhibit::system));
+    assert_scaled(model::cases::systems().map(Case::system));
 }
 
 fn assert_scaled(systems: impl Iterator<Item = System>) {
