@@ -19,12 +19,13 @@ use super::decided::{Decided, SHARP};
 use super::framework::{Framework, Lying, Node, across};
 use super::residual::Residual;
 use super::second_order::{SecondOrder, self_stresses};
+use super::seed::Seed;
 use super::settings::Settings;
 use super::solution::{Found, NO_FORCE, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{CLOSURE_ROUNDING, ZERO};
+use crate::thresholds::{CLOSURE_ROUNDING, LOOSE, MISDRAWN, ZERO};
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.
@@ -198,12 +199,29 @@ pub(super) fn raised(node: &Node, place: &Vector3<f64>, floor: f64) -> Vector3<f
     lift(node).map_or(*place, |free| place + free * ((floor - place.z) / free.norm_squared()))
 }
 
-/// Which joints lie below the floor or on it, m.
-pub(super) fn below(system: &System, framework: &Framework, joints_m: &[[f64; 3]]) -> Vec<bool> {
-    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-    let depth_m = rounding_m(joints_m, floor_m);
-    let joints = joints_m.iter().zip(&framework.nodes);
-    joints.map(|(at_m, node)| at_m[2] <= floor_m + depth_m && lift(node).is_some()).collect()
+/// Which joints of a drawing lie below the floor or on it: a drawing is as close to the floor as it is to the lengths of the
+/// members. At rest it is close to rounding.
+pub(super) fn below(system: &System, framework: &Framework, seed: &Seed) -> Vec<bool> {
+    let Some(floor) = framework.floor(system) else { return vec![false; framework.nodes.len()] };
+    let places: Vec<Vector3<f64>> =
+        seed.joints_m.iter().map(|at_m| framework.units.place(*at_m)).collect();
+    let span = |span: usize| framework.links[span].span(&places).norm();
+    let misfit = |k: usize| (framework.whole(k, span) / framework.links[k].length - 1.0).abs();
+    let misfits = (0..framework.members()).map(misfit).filter(|part| *part <= LOOSE);
+    let misdrawn = if seed.at_rest { 0.0 } else { misfits.fold(MISDRAWN, f64::max) };
+    let mut shortest = vec![f64::INFINITY; places.len()];
+    for (k, link) in framework.links.iter().enumerate() {
+        for joint in [link.from, link.to] {
+            shortest[joint] = span(k).min(shortest[joint]);
+        }
+    }
+    let floor_m = system.floor_m().unwrap_or_default();
+    let least = rounding_m(&seed.joints_m, floor_m) / framework.units.length_m;
+    let joints = framework.nodes.iter().zip(&places).zip(shortest);
+    let lies = joints.map(|((node, place), shortest)| {
+        place.z <= floor + least.max(misdrawn * shortest) && lift(node).is_some()
+    });
+    lies.collect()
 }
 
 /// The joints that lie on the floor in the next round.

@@ -24,17 +24,12 @@ use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 use crate::error::Error;
-use crate::thresholds::{GIVEN, ZERO};
+use crate::thresholds::{GIVEN, LOOSE, MISDRAWN, ZERO};
 
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
-/// by more is slack. Stiff are those that the mean load stretches by no more.
-const MISDRAWN: f64 = 1e-3;
-/// Cables and struts that miss their lengths by more than this part are loose.
-const LOOSE: f64 = 0.1;
 
 /// How something is solved, and since when.
 #[derive(Clone, Copy)]
@@ -194,7 +189,7 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     let framework = Framework::new(system).within(settings.max_work);
     let work = framework.work.clone();
     check_loaded(&framework)?;
-    let lies = below(system, &framework, &seed.joints_m);
+    let lies = below(system, &framework, seed);
     let solution = from_seed(system, framework, lies, seed, task);
     decided(system, work.judged(solution)?)
 }

@@ -152,8 +152,8 @@ impl Bodies {
         walk
     }
 
-    /// A body for the ground, one for whatever hangs on one node alone, and one for whatever stands on level planes or
-    /// guides of one direction alone.
+    /// A body for the ground, one for whatever hangs on one node alone, and one for whatever stands on the floor, on level
+    /// planes or guides of one direction alone.
     fn divide(&mut self, node: &[usize], walk: &Walk, all: &[Joint]) {
         let joints = node.len();
         let mut slides = vec![None; joints];
@@ -184,9 +184,12 @@ impl Bodies {
                 let depth = self.all[body[parent]].depth + 1;
                 body[*v] = self.all.len();
                 self.all.push(Body { pivot: Some(walk.door[*v]), slides: Slides::Not, depth });
-            } else if let Some(slides) = slides[*v].filter(|slides| {
-                parent == *v && *slides != Slides::Not && (*slides != Slides::Anywhere || !held[*v])
-            }) {
+                continue;
+            }
+            // Without a support it stands on the floor.
+            let slides = slides[*v].unwrap_or(Slides::Anywhere);
+            let moves = slides != Slides::Not && (slides != Slides::Anywhere || !held[*v]);
+            if parent == *v && moves {
                 body[*v] = self.all.len();
                 self.all.push(Body { pivot: None, slides, depth: 0 });
             }

@@ -515,26 +515,32 @@ fn a_step_ladder_stands_on_the_floor_alone() {
 }
 
 /// A tripod in space that nothing but the floor holds: feet on a circle of 1.5 m, 2 m high, under 60 kg; each leg bears a third of
-/// it along 2.5 m, and each tie a third of what the legs push outwards by the angle of 30 degrees.
+/// it along 2.5 m, and each tie a third of what the legs push outwards by the angle of 30 degrees. Drawn beside its lengths and
+/// with its feet above and below the floor it is the same, somewhere on the floor.
 #[test]
 fn a_tripod_stands_on_the_floor_alone() {
-    let mut joints = vec![Joint::free("top").with_mass(60.0).near([0.0, 0.0, 2.0])];
-    let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
-    let mut members = vec![];
-    for k in 0..3 {
-        let (sin, cos) = (f64::from(k) * TAU / 3.0).sin_cos();
-        joints.push(Joint::free(format!("foot {k}")).near([1.5 * cos, 1.5 * sin, 0.0]));
-        members.push(Member::bar(0, joints.len() - 1, bar(2.5)));
-    }
-    for ends in [[1, 2], [2, 3], [3, 1]] {
-        members.push(Member::bar(ends[0], ends[1], bar(1.5 * 3.0_f64.sqrt())));
-    }
-    let system = System::new("tripod", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
-    for e in agreed(&system) {
-        for foot in 0..3 {
-            close(e.reactions_n[foot + 1][2], 200.0);
-            close(e.axial_n[foot], -250.0);
-            close(e.axial_n[foot + 3], 150.0 / 3.0_f64.sqrt());
+    for off_m in [0.0, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 3e-2] {
+        let near = |at_m: Vector, by: Vector| [0, 1, 2].map(|k| at_m[k] + off_m * by[k]);
+        let top = Joint::free("top").with_mass(60.0);
+        let mut joints = vec![top.near(near([0.0, 0.0, 2.0], [0.3, -0.8, 0.5]))];
+        let bar = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let mut members = vec![];
+        for (k, by) in [[0.7, -0.2, 0.9], [-0.6, 0.4, 0.6], [0.1, 1.0, -0.8]].iter().enumerate() {
+            let (sin, cos) = (k as f64 * TAU / 3.0).sin_cos();
+            let at_m = near([1.5 * cos, 1.5 * sin, 0.0], *by);
+            joints.push(Joint::free(format!("foot {k}")).near(at_m));
+            members.push(Member::bar(0, joints.len() - 1, bar(2.5)));
+        }
+        for ends in [[1, 2], [2, 3], [3, 1]] {
+            members.push(Member::bar(ends[0], ends[1], bar(1.5 * 3.0_f64.sqrt())));
+        }
+        let system = System::new("tripod", 10.0, joints, members).unwrap().with_floor(0.0).unwrap();
+        for e in agreed(&system) {
+            for foot in 0..3 {
+                close(e.reactions_n[foot + 1][2], 200.0);
+                close(e.axial_n[foot], -250.0);
+                close(e.axial_n[foot + 3], 150.0 / 3.0_f64.sqrt());
+            }
         }
     }
 }
