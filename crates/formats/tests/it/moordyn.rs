@@ -103,6 +103,32 @@ fn version_one_has_its_columns_in_another_order() {
     assert_eq!(parse_moordyn(&text, "x").unwrap().system, parse_moordyn(FILE, "x").unwrap().system);
 }
 
+/// Decks of OpenFAST say how many rows each table has.
+#[test]
+fn numbers_of_rows_stand_in_front_of_tables() {
+    let counted = |types: usize| {
+        let mut text = String::new();
+        for line in FILE.lines() {
+            text += line;
+            text += match line {
+                _ if line.contains("LINE TYPES") => {
+                    &format!("\n{types} NTypes - number of types\n")
+                }
+                _ if line.contains("POINT PROPERTIES") => "\n3   NConnects - with anchors\n",
+                _ => "\n",
+            };
+        }
+        text
+    };
+    let types = |count| parse_moordyn(&counted(count), "x");
+    assert_eq!(types(2).unwrap().system, parse_moordyn(FILE, "x").unwrap().system);
+    let error = types(3).unwrap_err().to_string();
+    assert!(
+        error.ends_with("the number in front of the table must be that of its rows, found \"3\""),
+        "{error}"
+    );
+}
+
 #[test]
 fn what_is_no_statics_of_lines_or_no_table_is_told_with_its_line() {
     let parse = |text: &str| parse_moordyn(text, "x");

@@ -259,6 +259,9 @@ pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
     } else {
         format!("below {}", short(safety_wanted))
     };
+    if utilisation.is_infinite() {
+        return format!("Weakest: member from {from} to {to}, whose force has no bound.");
+    }
     format!(
         "Weakest: member from {from} to {to}, at {} of its strength: safety {}, {wanted}.",
         percent(utilisation),

@@ -212,7 +212,7 @@ fn point(row: &Row<'_>, bodies: &HashMap<String, Vector>, options: &Options) -> 
     for force in ["fx", "fy", "fz"] {
         if row.optional(force)?.is_some_and(|force| force.abs() > 0.0) {
             // Manual and sample files disagree whether it is in N or kN.
-            let what = format!("the force {force} on point {name}, whose unit is not said,");
+            let what = format!("the force {force} on point {name}, in N or kN by version,");
             return Err(row.at().unknown(what));
         }
     }

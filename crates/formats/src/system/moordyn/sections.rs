@@ -154,7 +154,21 @@ impl<'a> Table<'a> {
     /// The rows under the names and units of the columns. `known` has for each column that is read
     /// the names that it goes by; those without a name are known and have no bearing on statics.
     pub(super) fn rows(&self, known: &[(&'static str, &[&str])]) -> Result<Vec<Row<'a>>> {
-        let Some((line, names)) = self.lines.first() else {
+        // Decks of OpenFAST begin a table with the number of its rows: `2  NTypes  - number of line types`.
+        let mut lines = self.lines.as_slice();
+        let first = |text: &'a str| text.split_whitespace().next()?.parse::<usize>().ok();
+        if let Some(((line, text), rest)) = lines.split_first()
+            && let Some(count) = first(text)
+        {
+            lines = rest;
+            if count != rest.len().saturating_sub(HEAD) {
+                let what = "the number in front of the table".to_owned();
+                let wanted = "that of its rows";
+                let wrong = Wrong::Value { what, wanted, found: count.to_string() };
+                return Err(At::line(self.file, *line).error(wrong));
+            }
+        }
+        let Some((line, names)) = lines.first() else {
             return Err(
                 At::line(self.file, self.heading).missing("line with the names of the columns")
             );
@@ -176,8 +190,8 @@ impl<'a> Table<'a> {
             }
         }
         let wanted = names.len() - usize::from(columns.get(FLAGS) == Some(&(names.len() - 1)));
-        let units = self.lines.get(1).map_or("", |(_, units)| *units);
-        let rows = self.lines.iter().skip(HEAD).map(|(line, text)| {
+        let units = lines.get(1).map_or("", |(_, units)| *units);
+        let rows = lines.iter().skip(HEAD).map(|(line, text)| {
             let words: Vec<_> = text.split_whitespace().collect();
             if words.len() < wanted {
                 let wrong = Wrong::Count { wanted, found: words.len() };
