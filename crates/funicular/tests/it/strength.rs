@@ -343,9 +343,10 @@ fn forces_that_are_found_and_open_are_counted_at_their_worst() {
     let folder = holding([("places.csv", "joint,x_m,y_m,z_m\nP,0,0,-4\n")]);
     let forces = "from,to,axial_n\nA,P,75\nM,P,180\nB,P,75\n";
     std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
-    for (kind, found, given) in
-        [("cable", "at 75 % of its strength", "at 45 %"), ("bar", "whose force has no bound", "at 45 %")]
-    {
+    for (kind, found, given) in [
+        ("cable", "at 75 % of its strength", "at 45 %"),
+        ("bar", "whose force has no bound", "at 45 %"),
+    ] {
         std::fs::write(folder.path().join("three.toml"), three(kind)).unwrap();
         let judge = ["judge", "three.toml", "--answer", "places.csv"];
         let (code, text, _) = run(&folder, &judge);
