@@ -107,18 +107,12 @@ fn version_one_has_its_columns_in_another_order() {
 #[test]
 fn numbers_of_rows_stand_in_front_of_tables() {
     let counted = |types: usize| {
-        let mut text = String::new();
-        for line in FILE.lines() {
-            text += line;
-            text += match line {
-                _ if line.contains("LINE TYPES") => {
-                    &format!("\n{types} NTypes - number of types\n")
-                }
-                _ if line.contains("POINT PROPERTIES") => "\n3   NConnects - with anchors\n",
-                _ => "\n",
-            };
-        }
-        text
+        let after = |line: &str| match line {
+            _ if line.contains("LINE TYPES") => format!("\n{types} NTypes - number of types\n"),
+            _ if line.contains("POINT PROPERTIES") => "\n3   NConnects - with anchors\n".to_owned(),
+            _ => "\n".to_owned(),
+        };
+        FILE.lines().map(|line| line.to_owned() + &after(line)).collect::<String>()
     };
     let types = |count| parse_moordyn(&counted(count), "x");
     assert_eq!(types(2).unwrap().system, parse_moordyn(FILE, "x").unwrap().system);
