@@ -74,9 +74,10 @@ pub(crate) const MOST_STEPS: usize = 100;
 /// A step is halved at most so many times.
 pub(crate) const HALVINGS: usize = 30;
 
-/// Members of a drawing that miss their lengths by more than this part are loose.
-pub(crate) const LOOSE: f64 = 0.1;
-
-/// A shape whose stiff members miss their lengths by more than this part is closed first, and a cable that is shorter
-/// by more is slack. Stiff are those that the mean load stretches by no more.
+/// A drawing is rounded to three digits: stiff members that miss their lengths by more than this part are closed first, a cable that
+/// is shorter by more is slack, and a joint lies on the floor within this part of its shortest member. Stiff are those that the
+/// mean load stretches by no more.
 pub(crate) const MISDRAWN: f64 = 1e-3;
+
+/// What misses its length in a drawing by more than this part is not rounded but loose.
+pub(crate) const LOOSE: f64 = 0.1;

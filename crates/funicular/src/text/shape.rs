@@ -259,14 +259,13 @@ pub fn weakest_of(weakest: &Weakest, [from, to]: &[String; 2]) -> String {
     } else {
         format!("below {}", short(safety_wanted))
     };
-    if utilisation.is_infinite() {
-        return format!("Weakest: member from {from} to {to}, whose force has no bound.");
-    }
-    format!(
-        "Weakest: member from {from} to {to}, at {} of its strength: safety {}, {wanted}.",
-        percent(utilisation),
-        three_digits(safety),
-    )
+    let used = if utilisation.is_finite() {
+        format!("at {} of its strength", percent(utilisation))
+    } else {
+        "whose force has no bound".to_owned()
+    };
+    let safety = three_digits(safety);
+    format!("Weakest: member from {from} to {to}, {used}: safety {safety}, {wanted}.")
 }
 
 /// A safety in three digits, rounded down: 1.9999 is below 2.

@@ -202,7 +202,9 @@ pub(super) fn raised(node: &Node, place: &Vector3<f64>, floor: f64) -> Vector3<f
 /// Which joints of a drawing lie below the floor or on it: a drawing is as close to the floor as it is to the lengths of the
 /// members. At rest it is close to rounding.
 pub(super) fn below(system: &System, framework: &Framework, seed: &Seed) -> Vec<bool> {
-    let Some(floor) = framework.floor(system) else { return vec![false; framework.nodes.len()] };
+    let (Some(floor), Some(floor_m)) = (framework.floor(system), system.floor_m()) else {
+        return vec![false; framework.nodes.len()];
+    };
     let places: Vec<Vector3<f64>> =
         seed.joints_m.iter().map(|at_m| framework.units.place(*at_m)).collect();
     let span = |span: usize| framework.links[span].span(&places).norm();
@@ -215,7 +217,6 @@ pub(super) fn below(system: &System, framework: &Framework, seed: &Seed) -> Vec<
             shortest[joint] = span(k).min(shortest[joint]);
         }
     }
-    let floor_m = system.floor_m().unwrap_or_default();
     let least = rounding_m(&seed.joints_m, floor_m) / framework.units.length_m;
     let joints = framework.nodes.iter().zip(&places).zip(shortest);
     let lies = joints.map(|((node, place), shortest)| {

@@ -26,40 +26,33 @@ pub(super) enum Slides {
     Not,
     /// Along level guides of one direction.
     Along([f64; 2]),
-    /// Anywhere, on level planes alone.
+    /// Anywhere, on the floor or on level planes alone.
     Anywhere,
 }
 
 impl Slides {
-    /// What a support leaves, if there is one.
-    fn on(support: &Support) -> Option<Self> {
-        Some(match support {
-            Support::Free => return None,
+    /// What a support leaves; without one the floor is level.
+    fn on(support: &Support) -> Self {
+        match support {
             Support::Line { direction: [x, y, z], .. } if z.abs() <= ONE_VERTICAL * x.hypot(*y) => {
                 Self::Along([x / x.hypot(*y), y / x.hypot(*y)])
             }
-            Support::Plane { normal: [x, y, _], .. } if x.hypot(*y) <= ONE_VERTICAL => {
-                Self::Anywhere
-            }
-            Support::Plane { normal: [x, y, _], .. } => {
+            Support::Fixed { .. } | Support::Line { .. } => Self::Not,
+            Support::Plane { normal: [x, y, _], .. } if x.hypot(*y) > ONE_VERTICAL => {
                 Self::Along([-y / x.hypot(*y), x / x.hypot(*y)])
             }
-            Support::Fixed { .. } | Support::Line { .. } => Self::Not,
-        })
+            Support::Free | Support::Plane { .. } => Self::Anywhere,
+        }
     }
 
-    /// What two leave together, each of which may be none.
-    fn both(one: Option<Self>, other: Option<Self>) -> Option<Self> {
+    /// What two leave together.
+    fn both(one: Self, other: Self) -> Self {
         match (one, other) {
-            (None | Some(Self::Anywhere), Some(slides))
-            | (Some(slides), None | Some(Self::Anywhere)) => Some(slides),
-            (Some(Self::Along([x, y])), Some(Self::Along([u, v])))
-                if (x * v - y * u).abs() <= ONE_VERTICAL =>
-            {
+            (Self::Anywhere, slides) | (slides, Self::Anywhere) => slides,
+            (Self::Along([x, y]), Self::Along([u, v])) if (x * v - y * u).abs() <= ONE_VERTICAL => {
                 one
             }
-            (None, None) => None,
-            _ => Some(Self::Not),
+            _ => Self::Not,
         }
     }
 }
@@ -156,7 +149,7 @@ impl Bodies {
     /// planes or guides of one direction alone.
     fn divide(&mut self, node: &[usize], walk: &Walk, all: &[Joint]) {
         let joints = node.len();
-        let mut slides = vec![None; joints];
+        let mut slides = vec![Slides::Anywhere; joints];
         let mut low = walk.rank.clone();
         let mut held = vec![false; joints];
         for joint in 0..joints {
@@ -186,8 +179,7 @@ impl Bodies {
                 self.all.push(Body { pivot: Some(walk.door[*v]), slides: Slides::Not, depth });
                 continue;
             }
-            // Without a support it stands on the floor.
-            let slides = slides[*v].unwrap_or(Slides::Anywhere);
+            let slides = slides[*v];
             let moves = slides != Slides::Not && (slides != Slides::Anywhere || !held[*v]);
             if parent == *v && moves {
                 body[*v] = self.all.len();

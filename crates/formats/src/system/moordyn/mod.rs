@@ -1,4 +1,4 @@
-//! MoorDyn input files, versions 1 and 2, also with the numbers of rows that OpenFAST has: the statics of lines between points in still water.
+//! MoorDyn input files, versions 1 and 2: the statics of lines between points in still water.
 //!
 //! A line becomes a run of as many elastic cables as the file has segments for it, with its weight
 //! in water at the middle of each; a line lighter than water is pulled up there. Points that are
