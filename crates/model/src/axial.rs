@@ -1,7 +1,7 @@
 //! The axial force along a member that bears weight: not the same at both ends.
 
-use crate::Vector;
 use crate::system::{Kind, System, SystemEquilibrium};
+use crate::{Anchors, Vector};
 
 /// The axial force of a member at its ends and its extremes along the member, N, tension positive.
 ///
@@ -86,8 +86,8 @@ impl SystemEquilibrium {
     /// The axial force along every member.
     ///
     /// Spread loads, and the weight of a member whose centre is in its middle, put its extremes at other loads and ends; the
-    /// weight of another one counts as acting at its centre. A cable that is slack and a strut that is loose bear nothing along them:
-    /// each joint carries its part of their weight.
+    /// weight of another one counts as acting at its centre. What [is idle](Self::is_idle) bears nothing along it:
+    /// each joint carries its part of its weight.
     pub fn axial_forces(&self, system: &System) -> Vec<AxialForce> {
         (0..system.members().len()).map(|member| self.axial_force(system, member)).collect()
     }
@@ -97,13 +97,33 @@ impl SystemEquilibrium {
     /// # Panics
     /// If the answer is not one of the system.
     pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {
-        let member = &system.members()[k];
-        let is_idle = member.kind != Kind::Bar && self.axial_n[k].abs() <= 0.0;
-        if is_idle || member.rope.is_some() {
+        if self.is_idle(system, k) || system.members()[k].rope.is_some() {
             // One tension from end to end, or none.
             return AxialForce::along(Default::default(), Default::default(), self.axial_n[k], []);
         }
         self.loaded_force(system, k)
+    }
+
+    /// Whether a cable is slack or a strut is loose: without force and away from its length, not just taut or just tight. What
+    /// is just taut bears its weight as what is taut does: which of the two it is, is rounding, and this is the safe side.
+    ///
+    /// # Panics
+    /// If the answer is not one of the system.
+    pub fn is_idle(&self, system: &System, k: usize) -> bool {
+        /// A member whose length is off by less than this part of it has it.
+        const JUST: f64 = 1e-10;
+        let member = &system.members()[k];
+        let span_m = |[a, b]: [usize; 2]| {
+            let [start_m, end_m] = [self.joints_m[a], self.joints_m[b]];
+            Anchors { start_m, end_m }.span_m()
+        };
+        let longer = || member.spans().map(span_m).sum::<f64>() / member.body.length_m() - 1.0;
+        self.axial_n[k].abs() <= 0.0
+            && match member.kind {
+                Kind::Bar => false,
+                Kind::Cable => longer() < -JUST,
+                Kind::Strut => longer() > JUST,
+            }
     }
 
     /// The same of a member that is no rope, with its own loads, taut or not.

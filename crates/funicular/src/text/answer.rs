@@ -3,8 +3,8 @@
 use std::fmt::{self, Write as _};
 
 use model::number::Number;
-use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Anchors, Evidence, Rung, SolverName, Vector};
+use model::system::{Kind, Support, System, SystemEquilibrium};
+use model::{Evidence, Rung, SolverName};
 
 use super::printable::Printable;
 use super::printed::quantity;
@@ -381,7 +381,7 @@ fn shape(system: &System, e: &SystemEquilibrium, tables: Option<bool>) -> String
         extremes: Extremes::of(system, e),
         axial: e.axial_forces(system),
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
-        idle: &|bar| idle(&system.members()[bar], &e.joints_m),
+        idle: &|bar| idle(system.members()[bar].kind, e.is_idle(system, bar)),
         used: &|bar| e.utilisation(system, bar),
         weakest: Weakest::of(system, e),
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
@@ -392,19 +392,12 @@ fn shape(system: &System, e: &SystemEquilibrium, tables: Option<bool>) -> String
 
 /// What a member without force does: a cable or a strut may be away from its length, or have it and
 /// bear nothing, which decides nothing about either.
-fn idle(member: &Member, joints_m: &[Vector]) -> &'static str {
-    /// A member whose length is off by less than this part of it has it.
-    const JUST: f64 = 1e-10;
-    let span_m = |[a, b]: [usize; 2]| {
-        let [start_m, end_m] = [joints_m[a], joints_m[b]];
-        Anchors { start_m, end_m }.span_m()
-    };
-    let longer = member.spans().map(span_m).sum::<f64>() / member.body.length_m() - 1.0;
-    match member.kind {
-        Kind::Cable if longer < -JUST => "slack",
-        Kind::Cable => "just taut",
-        Kind::Strut if longer > JUST => "loose",
-        Kind::Strut => "just tight",
-        Kind::Bar => "no force",
+fn idle(kind: Kind, is_idle: bool) -> &'static str {
+    match (kind, is_idle) {
+        (Kind::Bar, _) => "no force",
+        (Kind::Cable, true) => "slack",
+        (Kind::Cable, false) => "just taut",
+        (Kind::Strut, true) => "loose",
+        (Kind::Strut, false) => "just tight",
     }
 }
