@@ -111,12 +111,12 @@ impl Source {
     /// # Errors
     /// [`FormatError`](crate::FormatError) with the part that is wrong, missing or not understood, and its line where there is one.
     pub fn parse(self, text: &str, file: &str) -> Result<ForeignSystem> {
-        match self {
-            Self::Dxf => parse_dxf(text, file),
-            Self::Obj => parse_obj(text, file),
-            Self::MoorDyn => parse_moordyn(text, file),
-            Self::Map => parse_map(text, file),
-            Self::OpenSees => parse_opensees(text, file),
+        let mut read = match self {
+            Self::Dxf => parse_dxf(text, file)?,
+            Self::Obj => parse_obj(text, file)?,
+            Self::MoorDyn => parse_moordyn(text, file)?,
+            Self::Map => parse_map(text, file)?,
+            Self::OpenSees => parse_opensees(text, file)?,
             Self::Compas => {
                 let net = parse_compas(text, file)?;
                 let places_m = net.places_m();
@@ -125,9 +125,16 @@ impl Source {
                 let note = "each edge is an elastic member that carries its force density times its length at the places \
                             of the file";
                 let notes = std::iter::once(note.to_owned()).chain(net.held_loads()).collect();
-                Ok(ForeignSystem { system, notes, floor_m: None })
+                ForeignSystem { system, notes, floor_m: None }
             }
+        };
+        let (system, unused) = read.system.without_unused();
+        if !unused.is_empty() {
+            read.system = system;
+            let names = unused.join(", ");
+            read.notes.push(format!("supports that no member meets are left out: {names}"));
         }
+        Ok(read)
     }
 }
 

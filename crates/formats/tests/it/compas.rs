@@ -36,6 +36,18 @@ fn loads_on_supports_are_told_with_their_sum() {
     assert!(read.notes.iter().any(|note| note == says), "{:?}", read.notes);
 }
 
+/// As the corners of a grid, which the net does not reach: no equilibrium problem would have them.
+#[test]
+fn supports_that_no_member_meets_are_left_out_and_named() {
+    let text =
+        NETWORK.replace(r#""1": {"x": 3,"#, r#""7": {"x": 9, "is_support": true}, "1": {"x": 3,"#);
+    let read = Source::Compas.parse(&text, "x").unwrap();
+    let names: Vec<_> = read.system.joints().iter().map(|joint| joint.name.to_string()).collect();
+    assert_eq!(names, ["0", "1", "10"]);
+    assert_eq!(read.notes.last().unwrap(), "supports that no member meets are left out: 7");
+    assert!(read.above_floor("x").is_ok());
+}
+
 #[test]
 fn a_mesh_has_the_edges_of_its_faces_once() {
     let mesh = r#"{"dtype": "compas.datastructures/Mesh", "data": {

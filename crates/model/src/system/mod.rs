@@ -187,12 +187,29 @@ impl System {
         };
         let is_left = |k: &usize| lost.path().all(|joint| joint != *k) || of_use(*k);
         let kept: Vec<usize> = (0..self.joints.len()).filter(is_left).collect();
+        (self.of_joints(members, &kept), kept)
+    }
+
+    /// The same system without the fixed joints that no member meets, which bear nothing, and their names.
+    #[must_use]
+    pub fn without_unused(&self) -> (Self, Vec<String>) {
+        let mut unused: Vec<bool> =
+            self.joints.iter().map(|joint| joint.support.is_fixed()).collect();
+        self.members.iter().flat_map(Member::path).for_each(|joint| unused[joint] = false);
+        let kept: Vec<usize> = (0..unused.len()).filter(|k| !unused[*k]).collect();
+        let names = self.joints.iter().zip(unused).filter(|(_, is_unused)| *is_unused);
+        let names = names.map(|(joint, _)| joint.name.to_string()).collect();
+        (self.of_joints(self.members.clone(), &kept), names)
+    }
+
+    /// The system of these members and of the joints kept, which are all that they meet.
+    fn of_joints(&self, members: Vec<Member>, kept: &[usize]) -> Self {
         // Those that stay keep their order.
         let number = |joint: usize| kept.partition_point(|k| *k < joint);
         let members = members.into_iter().map(|member| member.renumbered(number)).collect();
         let joints = kept.iter().map(|k| self.joints[*k].clone()).collect();
         let left = Self::unchecked(self.name.clone(), self.gravity_m_s2, joints, members);
-        (Self { floor_m: self.floor_m, ..left }, kept)
+        Self { floor_m: self.floor_m, ..left }
     }
 
     /// Height of the floor below which no joint gets, m; nothing where there is none.

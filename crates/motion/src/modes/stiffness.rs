@@ -211,9 +211,10 @@ impl<'a> Stiffness<'a> {
         rows
     }
 
-    /// `yᵀ K y` of displacements in the coordinates of a sector, N/m times m², and the sum of the
-    /// absolute values of the members' parts: member by member, so that the parts of a long system,
-    /// which nearly cancel in the matrix, keep their digits.
+    /// `yᵀ K y` of displacements in the coordinates of a sector, of inertia 1, and what it is rounding of: the sum of the
+    /// absolute values of the members' parts, at least [`unit`](Self::unit), since where nothing but rounding
+    /// resists the parts are rounding too. Member by member, so that the parts of a long system, which nearly cancel in
+    /// the matrix, keep their digits.
     pub(super) fn energy(&self, sector: &Sector, y: &[f64]) -> [f64; 2] {
         let (moving, axes) = (self.mechanism.moving, &sector.axes);
         let at = |slot: usize, k: usize| {
@@ -238,7 +239,7 @@ impl<'a> Stiffness<'a> {
             sum += part;
             made_of += part.abs();
         }
-        [sum, made_of]
+        [sum, made_of.max(self.unit())]
     }
 
     /// What `ω²` are of the order of, 1/s²: the forces over the whole mass and the whole length, as

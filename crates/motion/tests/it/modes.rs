@@ -342,3 +342,18 @@ fn braces_keep_a_panel_flat_to_second_order() {
     assert!(matches!(upright, Err(MotionError::Singular)), "{upright:?}");
     assert!(folded([0.0, 0.0, -2.0], [0.0, 0.0, -1.0], [1.0, 1.0]).unwrap().modes.is_empty());
 }
+
+/// A weight on a level support, held by a rope whose force is the rounding of zero: nothing resists, and no frequency of
+/// 1e-8 Hz is told.
+#[test]
+fn what_rounding_alone_resists_is_neutral() {
+    let level = Support::Plane { at_m: [0.0, 0.0, -3.0], normal: [0.0, 0.0, 1.0] };
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").held_by(level).with_mass(4.0)];
+    let body = Bar::homogeneous(3.0, 0.0).unwrap();
+    let rope = Member::cable(0, 1, body).with_stiffness(1e4);
+    let system = System::new("a weight at rest", 10.0, joints, vec![rope]).unwrap();
+    let at = [[0.0; 3], [0.0, 0.0, -3.0 - 1e-15]];
+    let found = motion::modes(&system, &at, None).unwrap();
+    let all: Vec<_> = found.modes.iter().map(|mode| mode.what).collect();
+    assert_eq!(all, [What::Neutral; 2], "{:?}", found.modes);
+}
